@@ -1,0 +1,52 @@
+"""Everything this project raises on purpose.
+
+One family, so that a caller can write ``except NinjaGameError`` and mean "the input or the request was bad, and the
+message says how to mend it". Anything else that escapes is a bug of ours.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+class NinjaGameError(Exception):
+    """The root of all errors that this package raises on purpose."""
+
+
+@dataclass
+class FormatError(NinjaGameError):
+    """Text that cannot be read: where, what was found, what was expected, how to mend it.
+
+    ``line`` and ``column`` count from 1; 0 means "not known" and is left out of the message.
+    """
+
+    what: str
+    file: str = ""
+    line: int = 0
+    column: int = 0
+    found: str = ""
+    expected: str = ""
+    hint: str = ""
+
+    def __str__(self) -> str:
+        place = ":".join(str(part) for part in (self.file, self.line, self.column) if part)
+        text = f"{place}: {self.what}" if place else self.what
+        if self.found:
+            text += f"; found {self.found}"
+        if self.expected:
+            text += f"; expected {self.expected}"
+        if self.hint:
+            text += f"; {self.hint}"
+        return text
+
+
+class LevelError(FormatError):
+    """A level (in-game string, level file or ASCII level) that cannot be loaded."""
+
+
+class DemoError(FormatError):
+    """A demo (a recording's inputs, 4-bit or legacy) that cannot be read."""
+
+
+class ReplayError(FormatError):
+    """A replay text of ours that cannot be read, or does not fit its level."""

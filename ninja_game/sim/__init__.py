@@ -1,0 +1,1 @@
+"""The deterministic world: no pygame, no clock, no I/O, no randomness."""

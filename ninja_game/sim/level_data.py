@@ -1,0 +1,52 @@
+"""What a level is before it is a world: 713 tile ids and the object records, in order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+COLUMNS = 31
+ROWS = 23
+TILES = COLUMNS * ROWS
+
+GOLD, BOUNCE_BLOCK, LAUNCH_PAD, TURRET, FLOOR_GUARD, NINJA, DRONE = range(7)
+ONE_WAY, THWUMP, DOOR, LAUNCHER, EXIT, MINE = range(7, 13)
+
+KIND_NAMES = (
+    "gold", "bounce block", "launch pad", "gauss turret", "floor guard", "ninja", "drone",
+    "one-way platform", "thwump", "door", "homing launcher", "exit", "mine",
+)  # fmt: skip
+"""Name of each object type number, spec objects.md §5."""
+
+VALUE_COUNTS = (2, 2, 4, 2, 3, 2, 6, 3, 3, 9, 2, 4, 2)
+"""How many values a record of each type needs; any other number makes an inert object (objects.md §2.1)."""
+
+
+class Record(NamedTuple):
+    """One object record of a level string (objects.md §5).
+
+    ``kind`` is the type number 0…12, or -1 for a record that creates nothing (unknown type, empty); ``values`` are
+    float64 as read by Flash's number rule (px, flags, cells), NaN where the text was no number. ``text`` is kept only
+    for what cannot be rebuilt from kind and values (kind -1), so that such a level can be written back.
+    """
+
+    kind: int
+    values: tuple[float, ...]
+    text: str = ""
+
+
+@dataclass(frozen=True)
+class LevelData:
+    """A level's tiles and object records.
+
+    ``tiles``: 713 ids, column by column, 31 columns of 23 rows, top to bottom (world.md §2.3). 0…33 are the shapes;
+    above 33 is an odd half tile, below 0 a tile that is never solid (both occur only in malformed levels).
+    ``records``: in creation order; the order matters (ids, update order, list order).
+    """
+
+    tiles: tuple[int, ...] = field(default=(0,) * TILES)
+    records: tuple[Record, ...] = ()
+
+    def tile(self, column: int, row: int) -> int:
+        """Tile id at interior cell ``column`` 1…31, ``row`` 1…23 (indices of the full 33 x 25 grid)."""
+        return self.tiles[(column - 1) * ROWS + (row - 1)]
