@@ -1,0 +1,105 @@
+"""`ninja-game`: the list of commands, and what every error becomes.
+
+Commands are loaded when they are named and import what they need when they run, so that `--help` comes at once.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from typing import Any, NoReturn
+
+import click
+
+from ninja_game import __version__
+from ninja_game.errors import NinjaGameError
+
+COMMANDS = {
+    "completion": "Set up completion of commands and options in your shell.",
+}
+"""Each command with its first line of help; module ``ninja_game.cli.NAME`` holds it as ``command``."""
+
+BAD_INPUT = 2
+"""Exit code for input that cannot be read and for wrong usage."""
+
+INTERRUPTED = 130
+"""Exit code after Ctrl-C, as shells have it."""
+
+BROKEN_PIPE = 141
+"""Exit code when whoever read our output has gone, as shells have it."""
+
+
+class Commands(click.Group):
+    """A group that imports a command when it is asked for, and turns every expected error into one line and a code."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """All commands, in the order of the table."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The command of that name, None if there is none."""
+        if cmd_name not in COMMANDS:
+            return None
+        command = import_module(f"ninja_game.cli.{cmd_name}").command
+        assert isinstance(command, click.Command)  # noqa: S101 - for the type checker
+        return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """The table of commands, without importing them."""
+        with formatter.section("Commands"):
+            formatter.write_dl(list(COMMANDS.items()))
+
+    def main(self, args: Sequence[str] | None = None, *more: Any, **named: Any) -> NoReturn:
+        """Run, then leave with an exit code; errors that are the caller's end as a line on stderr."""
+        named["standalone_mode"] = False
+        try:
+            code = super().main(args, *more, **named)
+            sys.stdout.flush()
+        except click.exceptions.NoArgsIsHelpError as error:
+            click.echo(error.format_message(), err=True)
+            code = BAD_INPUT
+        except click.UsageError as error:
+            hint = f"\nTry '{error.ctx.command_path} --help'." if error.ctx else ""
+            code = complain(error.format_message() + hint)
+        except click.ClickException as error:
+            code = complain(error.format_message())
+        except NinjaGameError as error:
+            code = complain(str(error))
+        except BrokenPipeError:
+            # What Python flushes at exit must not fail again.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            code = BROKEN_PIPE
+        except OSError as error:
+            code = complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+        except (click.Abort, KeyboardInterrupt):
+            complain("interrupted")
+            code = INTERRUPTED
+        sys.exit(code)
+
+
+def complain(message: str) -> int:
+    """Exit code 2, after the message on stderr."""
+    click.echo(f"ninja-game: {message}", err=True)
+    return BAD_INPUT
+
+
+@click.command(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(__version__, prog_name="ninja-game", message="%(prog)s %(version)s")
+def cli() -> None:
+    """Play N-style levels, and verify, trace, convert and measure them.
+
+    \b
+    Examples:
+      ninja-game info levels/
+      ninja-game convert level.nlevel level.txt
+    """
+
+
+def main() -> NoReturn:
+    """The program `ninja-game`."""
+    for stream in (sys.stdout, sys.stderr):
+        # Names of levels may hold what the terminal's encoding has not.
+        getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")
+    cli.main(prog_name="ninja-game")

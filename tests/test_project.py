@@ -1,0 +1,82 @@
+"""The project keeps its own promises: the README's commands exist, versions agree, files stay short."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+import ninja_game
+from ninja_game.cli.main import COMMANDS, cli
+
+ROOT = Path(__file__).resolve().parent.parent
+LONGEST_FILE = 300
+"""Lines; the house style wants 50 to 250."""
+
+
+def commands_in(text: str, program: str) -> list[list[str]]:
+    """The words after ``program`` on every line of ``text``'s code that starts with it."""
+    lines = re.findall(rf"^ *(?:\$ )?{re.escape(program)} +([^#\n]+)", text, re.MULTILINE)
+    inline = re.findall(rf"`{re.escape(program)} +([^`]+)`", text)
+    return [shlex.split(line) for line in lines + inline]
+
+
+def test_readme_names_only_commands_that_exist() -> None:
+    readme = (ROOT / "README.md").read_text("utf-8")
+    named = [words[0] for words in commands_in(readme, "ninja-game")]
+    assert named
+    assert set(named) <= set(COMMANDS)
+    overview = subprocess.run(
+        [sys.executable, ROOT / "tools/dev.py", "--help"], capture_output=True, text=True, check=True
+    )
+    known = set(re.findall(r"^  (\w+)  +\S", overview.stdout, re.MULTILINE))
+    tools = {words[0] for words in commands_in(readme, "python3 tools/dev.py")}
+    assert {"play", "test"} <= tools <= known
+
+
+def test_readme_links_lead_somewhere() -> None:
+    for page in [ROOT / "README.md", *ROOT.glob("docs/*.md")]:
+        for target in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", page.read_text("utf-8")):
+            assert (page.parent / target).exists(), f"{page.name} links to {target}"
+
+
+def test_changelog_knows_the_version() -> None:
+    changelog = (ROOT / "CHANGELOG.md").read_text("utf-8")
+    released = re.findall(r"^## \[(\d+\.\d+\.\d+)\]", changelog, re.MULTILINE)
+    assert "## [Unreleased]" in changelog
+    # Before the first release the version is the one that will be.
+    assert not released or released[0] == ninja_game.__version__
+
+
+def test_version_option_prints_the_version() -> None:
+    result = CliRunner().invoke(cli, ["--version"])
+    assert result.output == f"ninja-game {ninja_game.__version__}\n"
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_has_help_with_an_example(name: str) -> None:
+    result = CliRunner().invoke(cli, [name, "--help"], prog_name="ninja-game")
+    assert result.exit_code == 0
+    assert "Example" in result.output
+    assert f"ninja-game {name}" in result.output.split("Example")[1]
+    assert COMMANDS[name] in " ".join(result.output.split())
+
+
+@pytest.mark.parametrize("folder", ["ninja_game", "tests", "tools"])
+def test_files_stay_short(folder: str) -> None:
+    lengths = {
+        path.relative_to(ROOT): len(path.read_text("utf-8").splitlines()) for path in (ROOT / folder).rglob("*.py")
+    }
+    too_long = {str(path): length for path, length in lengths.items() if length > LONGEST_FILE}
+    assert not too_long
+
+
+def test_old_pythons_are_told_what_is_needed() -> None:
+    source = (ROOT / "tools/dev.py").read_text("utf-8")
+    # The check stands before anything that a Python of those days could trip over when it runs.
+    assert source.index("sys.version_info < (3, 11)") < source.index("from ")
