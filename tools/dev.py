@@ -129,7 +129,7 @@ def check(rest: Sequence[str] = ()) -> int:
         "lint": ["ruff", "check", *(["--fix"] if fix else []), *sources],
         "format": ["ruff", "format", *([] if fix else ["--check"]), *sources],
         "types": ["mypy"],
-        "import contract": ["lint-imports", "--no-cache"],
+        "import contract": ["lint-imports", "--no-cache", "--no-logo"],
     }
     failed = []
     for name, (program, *words) in steps.items():

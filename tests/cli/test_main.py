@@ -1,0 +1,95 @@
+"""The program as a whole: exit codes, one-line errors, no traceback, a quick `--help`."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import click
+import pytest
+from click.testing import CliRunner
+
+from ninja_game.cli.completion import STARTUP_FILES
+from ninja_game.cli.main import COMMANDS, cli
+from ninja_game.errors import LevelError
+
+
+def ninja_game(*words: str | Path) -> subprocess.CompletedProcess[str]:
+    """The program as a user starts it."""
+    command = [sys.executable, "-m", "ninja_game", *map(str, words)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def failing(monkeypatch: pytest.MonkeyPatch, error: BaseException) -> tuple[int, str]:
+    """Exit code and stderr of the program when a command raises ``error``."""
+
+    @click.command()
+    def command() -> None:
+        raise error
+
+    monkeypatch.setattr(type(cli), "get_command", lambda *_: command)
+    result = CliRunner().invoke(cli, ["any"])
+    assert result.stdout == ""
+    return result.exit_code, result.stderr
+
+
+def test_help_lists_every_command() -> None:
+    result = ninja_game("--help")
+    assert result.returncode == 0
+    assert all(f"\n  {name} " in result.stdout for name in COMMANDS)
+
+
+def test_help_imports_nothing_heavy() -> None:
+    code = (
+        "import atexit, sys; atexit.register(lambda: print(*sys.modules)); from ninja_game.__main__ import main; main()"
+    )
+    loaded = set(subprocess.check_output([sys.executable, "-c", code, "--help"], text=True).split())
+    assert "click" in loaded
+    assert loaded.isdisjoint({"numpy", "numba", "pygame", "rich"})
+
+
+def test_no_command_shows_help_and_is_wrong_usage() -> None:
+    result = ninja_game()
+    assert (result.returncode, result.stdout) == (2, "")
+    assert result.stderr.startswith("Usage: ninja-game")
+
+
+def test_unknown_command_is_wrong_usage() -> None:
+    result = ninja_game("fly")
+    assert (result.returncode, result.stdout) == (2, "")
+    assert result.stderr == "ninja-game: No such command 'fly'.\nTry 'ninja-game --help'.\n"
+
+
+def test_bad_input_names_the_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    error = LevelError("unknown tile", file="a.txt", line=7, column=3, found="'?'")
+    assert failing(monkeypatch, error) == (2, "ninja-game: a.txt:7:3: unknown tile; found '?'\n")
+
+
+def test_missing_file_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    error = FileNotFoundError(2, "No such file or directory", "gone.txt")
+    assert failing(monkeypatch, error) == (2, "ninja-game: gone.txt: No such file or directory\n")
+
+
+def test_interrupt_ends_quietly(monkeypatch: pytest.MonkeyPatch) -> None:
+    code, text = failing(monkeypatch, KeyboardInterrupt())
+    assert (code, text.strip()) == (130, "ninja-game: interrupted")
+
+
+def test_reader_that_leaves_early_is_no_error() -> None:
+    command = f"{sys.executable} -m ninja_game completion bash | true; echo ${{PIPESTATUS[0]}}"
+    result = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+    assert result.stderr == ""
+    assert result.stdout.strip() in ("0", "141")
+
+
+@pytest.mark.parametrize("shell", STARTUP_FILES)
+def test_completion_prints_a_script_for(shell: str) -> None:
+    script = CliRunner().invoke(cli, ["completion", shell], prog_name="ninja-game")
+    assert script.exit_code == 0
+    assert "_NINJA_GAME_COMPLETE" in script.stdout
+
+
+def test_completion_without_a_shell_tells_what_to_do() -> None:
+    result = CliRunner().invoke(cli, ["completion"])
+    assert all(line in result.stdout for _, line in STARTUP_FILES.values())
