@@ -1,0 +1,1 @@
+"""What is above one world: runs that are verified, traced and compared."""
