@@ -1,0 +1,100 @@
+"""Death and win, and what every thing does about it: the idle event (objects.md §4).
+
+All reactions stand here in one table, not in the kinds' files: dying needs every kind's reaction and the kinds need
+dying, which would be a circle of imports.
+"""
+
+from __future__ import annotations
+
+from .events import CHAINGUN_OFF, DIED, LASER_OFF, WON, emit
+from .grid import unfile
+from .level_data import DOOR, DRONE, EXIT, FLOOR_GUARD, GOLD, LAUNCHER, TURRET
+from .memory import fast
+from .schedule import end_think, end_update
+from .schema import Drone, World
+from .states import (
+    CELEBRATING,
+    DEAD,
+    DRONE_FIRING,
+    DRONE_POST_FIRE,
+    GUARD_IDLE,
+    LAUNCHER_IDLE,
+    OUTCOME_DEAD,
+    OUTCOME_EXIT,
+    TURRET_WAITING,
+    WEAPON_LASER,
+    leave_state,
+)
+
+
+@fast
+def kill(w: World, kind: int, fx: float, fy: float, cx: float, cy: float) -> None:
+    """Kill the ninja if it is alive: kill type, impulse (fx, fy) and contact point (cx, cy) px for its corpse."""
+    n = w.ninja
+    if n.state == DEAD:
+        return
+    leave_state(w)
+    n.state = DEAD
+    w.deaths += 1
+    if w.outcome == 0:
+        w.outcome = OUTCOME_DEAD
+    emit(w, DIED, kind, cx, cy, fx, fy)
+    idle_event(w)
+
+
+@fast
+def win(w: World) -> None:
+    """The exit contact: the ninja celebrates, also one that died earlier in this contact pass (objects.md §3)."""
+    n = w.ninja
+    leave_state(w)
+    n.state = CELEBRATING
+    n.celebrated_in_air = n.in_air
+    w.won += 1
+    if w.outcome == 0:
+        w.outcome = OUTCOME_EXIT
+    emit(w, WON, 0, n.x, n.y, 0.0, 0.0)
+    idle_event(w)
+
+
+@fast
+def idle_event(w: World) -> None:
+    """Every thing reacts to a death or a win, highest id first.
+
+    Bounce blocks, pads, one-ways and mines do nothing. What lasts is one flag, ``idled``: thwumps at rest stay there,
+    launchers and drones think no more, seekers do not chase, and the ninja's contact pass is off.
+    """
+    w.idled = 1
+    w.contacts_off = 1
+    for slot in range(w.ids, 0, -1):
+        o = w.things[slot]
+        kind = o.kind
+        if kind == GOLD:
+            if not o.spent:
+                unfile(w, o)
+        elif kind == EXIT:
+            if o.spent:
+                unfile(w, o)
+        elif kind == DOOR:
+            unfile(w, o)
+        elif kind == LAUNCHER:
+            if o.routine == LAUNCHER_IDLE:
+                end_think(w, o, slot)
+        elif kind == TURRET:
+            end_update(w, o, slot)
+            o.think = TURRET_WAITING
+            end_think(w, o, slot)
+        elif kind == FLOOR_GUARD:
+            o.routine = GUARD_IDLE
+            end_update(w, o, slot)
+        elif kind == DRONE:
+            o.chasing = 0
+            if o.routine == DRONE_FIRING:
+                stop_firing(w, o, slot)
+
+
+@fast
+def stop_firing(w: World, o: Drone, slot: int) -> None:
+    """A weapon drone's beam or burst ends; it cools down before it moves on."""
+    o.routine = DRONE_POST_FIRE
+    o.counter = 0
+    emit(w, LASER_OFF if o.weapon == WEAPON_LASER else CHAINGUN_OFF, slot, o.x, o.y, 0.0, 0.0)

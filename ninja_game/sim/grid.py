@@ -1,0 +1,79 @@
+"""Cells, lookup, and the loose grid: each thing sits in the list of one cell (world.md §1, objects.md §2.2)."""
+
+from __future__ import annotations
+
+from .memory import fast
+from .rules import CELL, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
+from .schema import Thing, World
+
+
+@fast
+def cell_at(x: float, y: float) -> int:
+    """Grid index of the cell that holds a point; 0 outside the world and for NaN. Lines belong right of / below."""
+    if 0.0 <= x < WORLD_WIDTH and 0.0 <= y < WORLD_HEIGHT:
+        return int(y / CELL) * STRIDE + int(x / CELL) + (STRIDE + 1)
+    return 0
+
+
+@fast
+def cell_index(column: float, row: float) -> int:
+    """Grid index of cell (column, row) of the full grid; 0 if there is none, e.g. for fractions."""
+    if 0.0 <= column <= 32.0 and 0.0 <= row <= 24.0:
+        i = int(column)
+        j = int(row)
+        if i == column and j == row:
+            return j * STRIDE + i + (STRIDE + 1)
+    return 0
+
+
+@fast
+def link(w: World, o: Thing, slot: int, cell: int) -> None:
+    """Insert at the head of a cell's list (newest first)."""
+    o.cell = cell
+    if cell:
+        head = w.heads[cell]
+        o.prev = 0
+        o.next = head
+        if head:
+            w.things[head].prev = slot
+        w.heads[cell] = slot
+
+
+@fast
+def unlink(w: World, o: Thing) -> None:
+    """Take out of the cell's list. The thing's own next link is cleared: a walk standing on it ends there (O 3)."""
+    if o.cell:
+        if o.prev:
+            w.things[o.prev].next = o.next
+        else:
+            w.heads[o.cell] = o.next
+        if o.next:
+            w.things[o.next].prev = o.prev
+    o.next = 0
+    o.prev = 0
+
+
+@fast
+def file(w: World, o: Thing, slot: int) -> None:
+    """File under the cell of the thing's position and mark it as filed."""
+    link(w, o, slot, cell_at(o.x, o.y))
+    o.filed = 1
+
+
+@fast
+def unfile(w: World, o: Thing) -> None:
+    """Take a filed thing out of the grid for good; nothing for one that is not filed."""
+    if o.filed:
+        unlink(w, o)
+        o.filed = 0
+
+
+@fast
+def refile(w: World, o: Thing, slot: int) -> int:
+    """Re-register a thing that moved; 1 if its cell changed. In the same cell it keeps its place in the list."""
+    cell = cell_at(o.x, o.y)
+    if cell == o.cell:
+        return 0
+    unlink(w, o)
+    link(w, o, slot, cell)
+    return 1

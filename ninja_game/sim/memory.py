@@ -1,0 +1,90 @@
+"""One annotated schema, two memories.
+
+The state of the world is described once, by annotated classes (``schema.py``). This module turns such a class into the
+*plain* memory: a Python class with slots, every field zero at first. ``layout.py`` turns the same class into the
+*compiled* memory: a NumPy record. The rules are ordinary functions that never know which of the two they hold.
+
+``@fast`` only registers a rule. ``compiled.py`` makes a compiled twin of everything registered; plain play imports
+neither Numba nor NumPy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated, Any, NamedTuple, TypeVar, get_args, get_origin, get_type_hints
+
+f8 = Annotated[float, "f8"]
+i4 = Annotated[int, "i4"]
+i2 = Annotated[int, "i2"]
+u1 = Annotated[int, "u1"]
+
+C = TypeVar("C")
+F = TypeVar("F", bound=Callable[..., Any])
+
+REGISTERED: list[Callable[..., Any]] = []
+"""Every function marked ``@fast``, in import order."""
+
+
+def fast(function: F) -> F:
+    """Register a rule for compilation and give it back unchanged."""
+    REGISTERED.append(function)
+    return function
+
+
+class Field(NamedTuple):
+    """One field of a struct: a scalar code (``"f8"``) or a struct class, and its length (0: not an array)."""
+
+    name: str
+    type: str | type
+    length: int
+
+
+def fields_of(cls: type) -> list[Field]:
+    """The fields that a struct declares or inherits, bases first, in the order of declaration."""
+    found: dict[str, Field] = {}
+    for base in reversed(cls.__mro__[:-1]):
+        hints = get_type_hints(base, include_extras=True)
+        for name in base.__dict__.get("__annotations__", {}):
+            found.setdefault(name, _field(name, hints[name]))
+    return list(found.values())
+
+
+def _field(name: str, hint: Any) -> Field:
+    """Read one annotation: ``f8``, ``Struct`` or ``Annotated[list[element], length]``."""
+    length = 0
+    if get_origin(hint) is Annotated and get_origin(get_args(hint)[0]) is list:
+        array, length = get_args(hint)
+        hint = get_args(array)[0]
+    if get_origin(hint) is Annotated:
+        return Field(name, get_args(hint)[1], length)
+    return Field(name, hint, length)
+
+
+def struct(cls: type[C]) -> type[C]:
+    """Give an annotated class slots and a constructor without arguments that makes everything zero.
+
+    An array of structs that ends a struct starts with one element only, the "nobody" at index 0; the loader appends
+    what a level needs.
+    """
+    fields = fields_of(cls)
+    lines = ["def __init__(self):"]
+    names: dict[str, Any] = {}
+    for name, kind, length in fields:
+        if isinstance(kind, type):
+            names[kind.__name__] = kind
+            count = 1 if name == fields[-1].name else length
+            value = f"[{kind.__name__}() for _ in range({count})]" if length else f"{kind.__name__}()"
+        else:
+            value = "0.0" if kind == "f8" else "0"
+            value = f"[{value}] * {length}" if length else value
+        lines.append(f"    self.{name} = {value}")
+    exec("\n".join(lines), names)  # noqa: S102 - generated from the schema above, not from input
+    body = {
+        "__slots__": tuple(field.name for field in fields),
+        "__init__": names["__init__"],
+        "__module__": cls.__module__,
+        "__doc__": cls.__doc__,
+        "__qualname__": cls.__qualname__,
+        "FIELDS": fields,
+    }
+    return type(cls)(cls.__name__, cls.__bases__, body)

@@ -1,0 +1,67 @@
+"""Bounce block (objects.md §8.3). Tested where its anchor is filed, wherever it has been pushed."""
+
+from __future__ import annotations
+
+from ..contacts import push
+from ..events import BLOCK_WOKEN, emit
+from ..memory import fast
+from ..rules import BLOCK_DRAG, BLOCK_HALF, BLOCK_SHARE, BLOCK_SLEEP, BLOCK_SPRING, RADIUS
+from ..schedule import end_think, end_update, start_think, start_update
+from ..schema import BounceBlock, World
+
+
+@fast
+def touch_block(w: World, o: BounceBlock, slot: int) -> None:
+    """Box contact: four fifths of the overlap move the block, one fifth the ninja. The block's old place stays, so
+    that its displacement is velocity in the next update."""
+    n = w.ninja
+    dy = n.y - o.y
+    overlap_y = BLOCK_HALF + RADIUS - abs(dy)
+    if not 0.0 < overlap_y:
+        return
+    dx = n.x - o.x
+    overlap_x = BLOCK_HALF + RADIUS - abs(dx)
+    if not 0.0 < overlap_x:
+        return
+    if overlap_y < overlap_x:
+        sign = -1.0 if dy < 0.0 else 1.0
+        depth = sign * overlap_y
+        o.y = o.y - BLOCK_SHARE * depth
+        push(n, 0.0, 0.2 * depth, 0.0, sign)
+    else:
+        sign = -1.0 if dx < 0.0 else 1.0
+        depth = sign * overlap_x
+        o.x = o.x - BLOCK_SHARE * depth
+        push(n, 0.2 * depth, 0.0, sign, 0.0)
+    o.counter = 0
+    if not o.updating:
+        start_update(w, o, slot)
+        start_think(w, o, slot)
+        emit(w, BLOCK_WOKEN, slot, o.x, o.y, 0.0, 0.0)
+
+
+@fast
+def update_block(o: BounceBlock) -> None:
+    """Verlet step with drag, then the spring towards the anchor."""
+    vx = o.x - o.old_x
+    vy = o.y - o.old_y
+    o.old_x = o.x
+    o.old_y = o.y
+    o.x = o.x + BLOCK_DRAG * vx
+    o.y = o.y + BLOCK_DRAG * vy
+    ex = o.anchor_x - o.x
+    ey = o.anchor_y - o.y
+    if 0.0 < ex * ex + ey * ey:
+        o.x = o.x + ex * BLOCK_SPRING
+        o.y = o.y + ey * BLOCK_SPRING
+    o.counter += 1
+
+
+@fast
+def think_block(w: World, o: BounceBlock, slot: int) -> None:
+    """Fall asleep after a second without contact, where it is: it is not re-centred."""
+    if o.counter > BLOCK_SLEEP:
+        end_update(w, o, slot)
+        end_think(w, o, slot)
+        o.old_x = o.x
+        o.old_y = o.y

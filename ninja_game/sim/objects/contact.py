@@ -1,0 +1,82 @@
+"""The ninja's collision query: the lists of nine cells, and what touching each kind does (objects.md §3)."""
+
+from __future__ import annotations
+
+from ..level_data import (
+    BOUNCE_BLOCK,
+    DOOR,
+    DRONE,
+    EXIT,
+    FLOOR_GUARD,
+    GOLD,
+    LAUNCH_PAD,
+    LAUNCHER,
+    MINE,
+    ONE_WAY,
+    THWUMP,
+)
+from ..memory import fast
+from ..rules import STRIDE
+from ..schema import SWITCH, World
+from .bounce_block import touch_block
+from .door import touch_door
+from .drone_weapons import touch_drone
+from .exit import touch_exit, touch_switch
+from .floor_guard import touch_guard
+from .gold import touch_gold
+from .launch_pad import touch_pad
+from .launcher import touch_rocket
+from .mine import touch_mine
+from .one_way import touch_one_way
+from .thwump import touch_thwump
+
+NINE_CELLS = [0, STRIDE, STRIDE + 1, STRIDE - 1, -1, -STRIDE - 1, 1, -STRIDE + 1, -STRIDE]
+"""Own, below, below right, below left, left, above left, right, above right, above."""
+
+
+@fast
+def touch_things(w: World) -> None:
+    """Test the ninja against everything filed in the nine cells about its registered cell.
+
+    The link to the next thing is read after the contact: one that unfiles itself ends the walk of its list (quirk).
+    """
+    centre = w.ninja.cell
+    if centre == 0:
+        return
+    heads = w.heads
+    for step in NINE_CELLS:
+        slot = heads[centre + step]
+        while slot:
+            touch(w, slot)
+            slot = w.things[slot].next
+
+
+@fast
+def touch(w: World, slot: int) -> None:
+    """The contact of one thing, by kind."""
+    o = w.things[slot]
+    kind = o.kind
+    if kind == GOLD:
+        touch_gold(w, o, slot)
+    elif kind == MINE:
+        touch_mine(w, o, slot)
+    elif kind == DRONE:
+        touch_drone(w, o)
+    elif kind == DOOR:
+        touch_door(w, o, slot)
+    elif kind == ONE_WAY:
+        touch_one_way(w, o)
+    elif kind == LAUNCH_PAD:
+        touch_pad(w, o, slot)
+    elif kind == FLOOR_GUARD:
+        touch_guard(w, o)
+    elif kind == THWUMP:
+        touch_thwump(w, o)
+    elif kind == BOUNCE_BLOCK:
+        touch_block(w, o, slot)
+    elif kind == LAUNCHER:
+        touch_rocket(w, o, slot)
+    elif kind == SWITCH:
+        touch_switch(w, o)
+    elif kind == EXIT:
+        touch_exit(w, o)

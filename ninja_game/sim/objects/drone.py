@@ -1,0 +1,141 @@
+"""Drones: how all of them move (objects.md §8.13-§8.17). Their weapons are in drone_weapons.py."""
+
+from __future__ import annotations
+
+from ..events import CHASE_STARTED, emit
+from ..grid import refile
+from ..memory import fast
+from ..rules import CELL, OFF
+from ..schema import Drone, World
+from ..states import (
+    ALTERNATING,
+    MOVEMENT_BELOW,
+    NO_DIRECTION,
+    NO_NUMBER,
+    PSEUDO_RANDOM,
+    SURFACE_CCW,
+    SURFACE_CW,
+    WANDER_CCW,
+    WANDER_CW,
+)
+from ..tiles import CENTRE_X, CENTRE_Y, COLUMN, ROW, STEP
+
+UNIT_X = [1.0, 0.0, -1.0, 0.0]
+UNIT_Y = [0.0, 1.0, 0.0, -1.0]
+
+ROTATIONS = [1, 0, 3, 2, 3, 0, 1, 2, 0, 1, 3, 2, 0, 3, 1, 2]
+"""Order in which directions are tried, four for each movement 0-3."""
+LIST_A, LIST_B = WANDER_CW, WANDER_CCW
+
+
+@fast
+def move_drone(w: World, o: Drone, slot: int) -> None:
+    """One step towards the goal; a tick of arrival chooses the next goal and does not move."""
+    o.clock += 1
+    dx = o.goal_x - o.x
+    dy = o.goal_y - o.y
+    if dx * dx + dy * dy < o.speed * o.speed:
+        o.x = o.goal_x
+        o.y = o.goal_y
+        if chase(w, o):
+            if not o.chasing:
+                emit(w, CHASE_STARTED, slot, o.x, o.y, 0.0, 0.0)
+            o.chasing = 1
+        else:
+            turn(w, o)
+            o.chasing = 0
+    elif 0 <= o.direction <= 3:
+        step = o.speed * 2.0 if o.chasing else o.speed
+        o.x = o.x + UNIT_X[o.direction] * step
+        o.y = o.y + UNIT_Y[o.direction] * step
+    refile(w, o, slot)
+
+
+@fast
+def turn(w: World, o: Drone) -> None:
+    """Choose the next direction by the movement's list. Without an open side the drone is stuck for good (quirk)."""
+    movement = o.movement
+    old = o.direction
+    new = NO_DIRECTION
+    if SURFACE_CW <= movement <= WANDER_CCW:
+        new = first_open(w, o, movement)
+    elif movement == ALTERNATING:
+        new = first_open(w, o, LIST_B if o.toggle else LIST_A)
+        if new != old:
+            o.toggle = 1 - o.toggle
+    elif movement == PSEUDO_RANDOM:
+        odd = o.clock % 2
+        new = first_open(w, o, LIST_B if odd else LIST_A)
+        if new != old:
+            o.clock = 0 if odd else 1
+    # Once "none", a direction is never assigned again: only the goal moves (objects.md §8.15).
+    if old != NO_DIRECTION:
+        o.direction = new
+
+
+@fast
+def first_open(w: World, o: Drone, movement: int) -> int:
+    """The first direction of a list whose side of the registered cell is off; sets the goal. Else "none"."""
+    if o.direction == NO_NUMBER or o.cell == 0:
+        return NO_DIRECTION
+    direction = 0 if o.direction == NO_DIRECTION else o.direction
+    for k in range(4 * movement, 4 * movement + 4):
+        candidate = direction + ROTATIONS[k]
+        if candidate >= 0:
+            candidate = candidate % 4
+        elif -candidate % 4 == 0:
+            candidate = 0  # the remainder has the sign of the dividend: of the negative ones only this is a direction
+        if candidate >= 0 and w.edges[4 * o.cell + candidate] == OFF:
+            neighbour = o.cell + STEP[candidate]
+            o.goal_x = CENTRE_X[neighbour]
+            o.goal_y = CENTRE_Y[neighbour]
+            return candidate
+    return NO_DIRECTION
+
+
+@fast
+def chase(w: World, o: Drone) -> bool:
+    """Seekers: run in a straight line past a ninja on the same row or column to the first blocked edge (§8.16)."""
+    if not o.seeker:
+        return False
+    if w.idled:
+        o.grab = 0
+        return False
+    if o.grab:
+        if o.direction != NO_DIRECTION:
+            o.direction = o.grab - 1
+        o.grab = 0
+        return False
+    n = w.ninja
+    column = COLUMN[o.cell]
+    row = ROW[o.cell]
+    if COLUMN[n.cell] == column:
+        distance = abs(ROW[n.cell] - row)
+        direction = 3 if n.y < o.y else 1
+    elif ROW[n.cell] == row:
+        distance = abs(COLUMN[n.cell] - column)
+        direction = 2 if n.x < o.x else 0
+    else:
+        return False
+    if o.direction == direction ^ 2:
+        return False
+    steps = 0
+    cell = o.cell
+    while cell != 0 and w.edges[4 * cell + direction] == OFF:
+        cell += STEP[direction]
+        steps += 1
+    if steps < distance:
+        return False
+    if direction % 2 == 0:
+        o.goal_x = CENTRE_X[o.cell] + UNIT_X[direction] * (steps * CELL)
+    else:
+        o.goal_y = CENTRE_Y[o.cell] + UNIT_Y[direction] * (steps * CELL)
+    if o.direction != NO_DIRECTION:
+        o.direction = direction
+    if o.movement == SURFACE_CW:
+        o.grab = (direction + 3) % 4 + 1
+    elif o.movement == SURFACE_CCW:
+        o.grab = (direction + 1) % 4 + 1
+    elif o.movement == MOVEMENT_BELOW:
+        return False
+    return True

@@ -1,0 +1,182 @@
+"""What drones do to the ninja: zap contact, laser beam, chaingun burst (objects.md §8.17-§8.19)."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from ..death import kill, stop_firing
+from ..events import CHAINGUN_CHARGING, CHAINGUN_ON, CHAINGUN_SHOT, LASER_CHARGING, LASER_ON, emit
+from ..memory import fast
+from ..rays import ray_tiles, sees
+from ..rules import (
+    CHAINGUN_COOL,
+    CHAINGUN_PAUSE,
+    CHAINGUN_PREPARE,
+    DRONE_RADIUS,
+    LASER_BEAM,
+    LASER_COOL,
+    LASER_PREPARE,
+    RADIUS,
+)
+from ..schedule import end_think, start_think
+from ..schema import Drone, Level, World
+from ..states import (
+    BULLET,
+    DRONE_FIRING,
+    DRONE_MOVE,
+    DRONE_POST_FIRE,
+    DRONE_PRE_FIRE,
+    LASER,
+    WEAPON_LASER,
+    WEAPON_ZAP,
+)
+from .drone import move_drone
+from .floor_guard import zap
+
+
+@fast
+def touch_drone(w: World, o: Drone) -> None:
+    """Zap drones are lethal to touch; the others are armed, but not solid."""
+    if o.weapon == WEAPON_ZAP:
+        zap(w, o.x - w.ninja.x, o.y - w.ninja.y, DRONE_RADIUS)
+
+
+@fast
+def think_drone(level: Level, w: World, o: Drone, slot: int) -> None:
+    """A weapon drone that sees the ninja stops and prepares to fire."""
+    if w.idled:
+        return
+    n = w.ninja
+    hit, hit_x, hit_y = sees(level, w, o.x, o.y, n.x, n.y)
+    if not hit:
+        return
+    end_think(w, o, slot)
+    o.counter = 0
+    o.routine = DRONE_PRE_FIRE
+    if o.weapon == WEAPON_LASER:
+        emit(w, LASER_CHARGING, slot, o.x, o.y, 0.0, 0.0)
+        aim_beam(level, w, o, slot, hit_x, hit_y)
+    else:
+        emit(w, CHAINGUN_CHARGING, slot, o.x, o.y, 0.0, 0.0)
+
+
+@fast
+def update_drone(level: Level, w: World, o: Drone, slot: int) -> None:
+    """Move, or go on with the weapon's routine."""
+    routine = o.routine
+    if routine == DRONE_MOVE:
+        move_drone(w, o, slot)
+    elif routine == DRONE_POST_FIRE:
+        o.counter += 1
+        if o.counter >= (LASER_COOL if o.weapon == WEAPON_LASER else CHAINGUN_COOL):
+            start_think(w, o, slot)
+            o.routine = DRONE_MOVE
+    elif o.weapon == WEAPON_LASER:
+        if routine == DRONE_PRE_FIRE:
+            prepare_beam(w, o, slot)
+        else:
+            burn(w, o, slot)
+    elif routine == DRONE_PRE_FIRE:
+        o.counter += 1
+        if o.counter >= CHAINGUN_PREPARE:
+            open_fire(w, o, slot)
+    else:
+        shoot(level, w, o, slot)
+
+
+@fast
+def aim_beam(level: Level, w: World, o: Drone, slot: int, hit_x: float, hit_y: float) -> None:
+    """Fix the beam when the ninja is sighted: a door that closes later does not shorten it."""
+    stopped, end_x, end_y = ray_tiles(level, w, o.x, o.y, hit_x, hit_y)
+    if stopped:
+        o.end_x = end_x
+        o.end_y = end_y
+    o.beam_x = o.end_x - o.x
+    o.beam_y = o.end_y - o.y
+    o.beam_length = sqrt(o.beam_x * o.beam_x + o.beam_y * o.beam_y)
+    if o.beam_length == 0.0:
+        stop_firing(w, o, slot)
+
+
+@fast
+def prepare_beam(w: World, o: Drone, slot: int) -> None:
+    """The warning time."""
+    o.counter += 1
+    if o.counter >= LASER_PREPARE:
+        o.timer = 0
+        o.routine = DRONE_FIRING
+        emit(w, LASER_ON, slot, o.x, o.y, o.beam_x, o.beam_y)
+
+
+@fast
+def burn(w: World, o: Drone, slot: int) -> None:
+    """The beam kills what its segment touches."""
+    n = w.ninja
+    wx = n.x - o.x
+    wy = n.y - o.y
+    t = (wx * o.beam_x + wy * o.beam_y) / (o.beam_length * o.beam_length)
+    if t < 0.0:
+        zx = o.x
+        zy = o.y
+    elif t < 1.0:
+        zx = o.x + t * o.beam_x
+        zy = o.y + t * o.beam_y
+    else:
+        zx = o.end_x
+        zy = o.end_y
+    dx = zx - n.x
+    dy = zy - n.y
+    if sqrt(dx * dx + dy * dy) < RADIUS:
+        stop_firing(w, o, slot)
+        kill(w, LASER, 6.0 * (o.beam_x / o.beam_length), 6.0 * (o.beam_y / o.beam_length), zx, zy)
+        return
+    o.timer += 1
+    if o.timer >= LASER_BEAM:
+        stop_firing(w, o, slot)
+
+
+@fast
+def open_fire(w: World, o: Drone, slot: int) -> None:
+    """Fix direction, sweep and length of the burst; it sweeps towards the side to which the ninja was moving."""
+    n = w.ninja
+    o.timer = 0
+    o.last_shot = 4 + w.tick % 5
+    o.spread = 0.1 + 0.1 * (1 + w.tick % 3)
+    o.shot = 0
+    o.routine = DRONE_FIRING
+    dx = n.x - o.x
+    dy = n.y - o.y
+    length = sqrt(dx * dx + dy * dy)
+    if length == 0.0:
+        stop_firing(w, o, slot)
+        return
+    o.aim_x = dx / length
+    o.aim_y = dy / length
+    if (n.x - n.px) * (-o.aim_y) + (n.y - n.py) * o.aim_x < 0.0:
+        o.sweep_x = o.aim_y
+        o.sweep_y = -o.aim_x
+    else:
+        o.sweep_x = -o.aim_y
+        o.sweep_y = o.aim_x
+    emit(w, CHAINGUN_ON, slot, o.x, o.y, o.aim_x, o.aim_y)
+
+
+@fast
+def shoot(level: Level, w: World, o: Drone, slot: int) -> None:
+    """A shot every sixth tick."""
+    o.timer += 1
+    if o.timer < CHAINGUN_PAUSE:
+        return
+    o.timer = 0
+    if o.last_shot < o.shot:
+        stop_firing(w, o, slot)
+        return
+    s = (o.shot / o.last_shot - 0.5) * o.spread
+    gx = o.aim_x + s * o.sweep_x
+    gy = o.aim_y + s * o.sweep_y
+    hit, hit_x, hit_y = sees(level, w, o.x, o.y, o.x + gx, o.y + gy)
+    emit(w, CHAINGUN_SHOT, slot, o.x, o.y, gx, gy)
+    if hit:
+        stop_firing(w, o, slot)
+        kill(w, BULLET, gx * 5.0, gy * 5.0, hit_x, hit_y)
+    o.shot += 1

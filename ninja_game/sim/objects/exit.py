@@ -1,0 +1,37 @@
+"""Exit and its switch (objects.md §8.1)."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from ..death import win
+from ..events import EXIT_OPENED, emit
+from ..grid import file
+from ..memory import fast
+from ..rules import EXIT_RADIUS, RADIUS, SWITCH_RADIUS
+from ..schema import Exit, Switch, World
+
+
+@fast
+def touch_switch(w: World, o: Switch) -> None:
+    """Open and file the exit. The switch itself is never unfiled: it stays in its list, inert (objects.md §2.2)."""
+    door = w.things[o.partner]
+    if door.spent:
+        return
+    n = w.ninja
+    dx = o.x - n.x
+    dy = o.y - n.y
+    if sqrt(dx * dx + dy * dy) < SWITCH_RADIUS + RADIUS:
+        door.spent = 1
+        file(w, door, o.partner)
+        emit(w, EXIT_OPENED, o.partner, o.x, o.y, 0.0, 0.0)
+
+
+@fast
+def touch_exit(w: World, o: Exit) -> None:
+    """The open exit (a closed one is in no list): the level is passed."""
+    n = w.ninja
+    dx = o.x - n.x
+    dy = o.y - n.y
+    if sqrt(dx * dx + dy * dy) < EXIT_RADIUS + RADIUS:
+        win(w)

@@ -1,0 +1,62 @@
+"""Floor guard (objects.md §8.10): runs to the end of its corridor when the ninja is on its row."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from ..death import kill
+from ..events import GUARD_STARTED, emit
+from ..grid import refile
+from ..memory import fast
+from ..rules import GUARD_RADIUS, GUARD_SPEED, RADIUS
+from ..schema import FloorGuard, World
+from ..states import ELECTRIC, GUARD_CHASE, GUARD_IDLE
+from ..tiles import COLUMN, ROW
+
+
+@fast
+def update_guard(w: World, o: FloorGuard, slot: int) -> None:
+    """Idle: look along the row, start from the next tick on. Chase: always run to the corridor's end."""
+    if o.routine == GUARD_CHASE:
+        chase_to_end(w, o, slot)
+        return
+    cell = w.ninja.cell
+    if ROW[cell] != ROW[o.cell]:
+        return
+    column = COLUMN[cell]
+    if o.low <= column <= o.high and column != COLUMN[o.cell]:
+        o.facing = -1.0 if column < COLUMN[o.cell] else 1.0
+        o.routine = GUARD_CHASE
+        emit(w, GUARD_STARTED, slot, o.x, o.y, o.facing, 0.0)
+
+
+@fast
+def chase_to_end(w: World, o: FloorGuard, slot: int) -> None:
+    """One step. A guard outside its corridor by more than a step never stops: it runs through walls (quirk)."""
+    goal = o.low_x if o.facing < 0.0 else o.high_x
+    if abs(goal - o.x) < GUARD_SPEED:
+        o.x = goal
+        o.routine = GUARD_IDLE
+    else:
+        o.x = o.x + o.facing * GUARD_SPEED
+    refile(w, o, slot)
+
+
+@fast
+def touch_guard(w: World, o: FloorGuard) -> None:
+    """Disc contact, active or not: lethal."""
+    zap(w, o.x - w.ninja.x, o.y - w.ninja.y, GUARD_RADIUS)
+
+
+@fast
+def zap(w: World, dx: float, dy: float, radius: float) -> None:
+    """The electric disc of guards and zap drones: kill if the ninja is nearer than the sum of the radii."""
+    n = w.ninja
+    length = sqrt(dx * dx + dy * dy)
+    if length < radius + RADIUS:
+        a = 0.0
+        b = 0.0
+        if length > 0.0:
+            a = dx / length
+            b = dy / length
+        kill(w, ELECTRIC, (-a) * 10.0, (-b) * 10.0, n.x + RADIUS * a, n.y + RADIUS * b)

@@ -1,0 +1,24 @@
+"""Gold (objects.md §8.2)."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from ..events import GOLD_TAKEN, emit
+from ..grid import unfile
+from ..memory import fast
+from ..rules import GOLD_RADIUS, RADIUS
+from ..schema import Gold, World
+
+
+@fast
+def touch_gold(w: World, o: Gold, slot: int) -> None:
+    """Disc contact: collected, and gone from the grid."""
+    n = w.ninja
+    dx = o.x - n.x
+    dy = o.y - n.y
+    if sqrt(dx * dx + dy * dy) < GOLD_RADIUS + RADIUS:
+        o.spent = 1
+        w.gold += 1
+        unfile(w, o)
+        emit(w, GOLD_TAKEN, slot, o.x, o.y, 0.0, 0.0)

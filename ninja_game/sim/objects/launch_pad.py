@@ -1,0 +1,39 @@
+"""Launch pad (objects.md §8.4) and what a launch does to the ninja (ninja.md §10)."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from ..events import LAUNCHED, emit
+from ..memory import fast
+from ..rules import PAD_RADIUS, PAD_STRENGTH, RADIUS
+from ..schema import LaunchPad, World
+from ..states import FALLING, enter_state
+
+
+@fast
+def touch_pad(w: World, o: LaunchPad, slot: int) -> None:
+    """Disc contact, and the ninja's point facing the pad on or behind the pad's plane. No cooldown."""
+    n = w.ninja
+    dx = o.x - n.x
+    dy = o.y - n.y
+    if sqrt(dx * dx + dy * dy) < PAD_RADIUS + RADIUS:
+        u = o.x - (n.x - o.face_x * RADIUS)
+        v = o.y - (n.y - o.face_y * RADIUS)
+        if 0.0 <= u * o.face_x + v * o.face_y:
+            m = 1.0
+            if o.face_y < 0.0:
+                m = 1.0 + abs(o.face_y)
+            launch(w, slot, o.face_x * PAD_STRENGTH, o.face_y * PAD_STRENGTH * m)
+
+
+@fast
+def launch(w: World, slot: int, lx: float, ly: float) -> None:
+    """Replace the ninja's velocity. Leaves whatever state it was in: also the dead come back to life (quirk, O 3)."""
+    n = w.ninja
+    n.px = n.x
+    n.py = n.y
+    n.x = n.x + lx
+    n.y = n.y + ly
+    enter_state(w, FALLING)
+    emit(w, LAUNCHED, slot, n.px, n.py, lx, ly)

@@ -1,0 +1,139 @@
+"""Homing launcher and its rocket (objects.md §8.11). The launcher itself has no contact; only a rocket in flight has."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from ..arithmetic import div
+from ..death import kill
+from ..events import ROCKET_EXPLODED, ROCKET_LAUNCHED, emit
+from ..grid import file, refile, unfile
+from ..memory import fast
+from ..rays import sees, solid_at
+from ..rules import (
+    OFF,
+    RADIUS,
+    ROCKET_ACCELERATION,
+    ROCKET_GROWTH,
+    ROCKET_PREPARE,
+    ROCKET_SPEED,
+    ROCKET_TURN,
+    SOLID,
+)
+from ..schedule import end_think, end_update, start_think, start_update
+from ..schema import Launcher, Level, World
+from ..states import EXPLOSIVE, LAUNCHER_FLIGHT, LAUNCHER_IDLE, LAUNCHER_PREPARE
+from ..tiles import STEP
+
+
+@fast
+def think_launcher(level: Level, w: World, o: Launcher, slot: int) -> None:
+    """Prepare a rocket when the ninja is in sight."""
+    n = w.ninja
+    if sees(level, w, o.base_x, o.base_y, n.x, n.y)[0]:
+        end_think(w, o, slot)
+        start_update(w, o, slot)
+        o.counter = 0
+        o.routine = LAUNCHER_PREPARE
+
+
+@fast
+def update_launcher(level: Level, w: World, o: Launcher, slot: int) -> None:
+    """Count down to the launch, then fly."""
+    if o.routine == LAUNCHER_PREPARE:
+        o.counter += 1
+        if o.counter >= ROCKET_PREPARE:
+            fire_rocket(w, o, slot)
+    elif o.routine == LAUNCHER_FLIGHT:
+        fly(level, w, o, slot)
+
+
+@fast
+def fire_rocket(w: World, o: Launcher, slot: int) -> None:
+    """The rocket appears at the base, heading for the ninja; it does not move in this tick."""
+    n = w.ninja
+    o.acceleration = ROCKET_ACCELERATION
+    o.speed = 0.0
+    o.x = o.base_x
+    o.y = o.base_y
+    file(w, o, slot)
+    o.routine = LAUNCHER_FLIGHT
+    dx = n.x - o.base_x
+    dy = n.y - o.base_y
+    length = sqrt(dx * dx + dy * dy)
+    if length != 0.0:
+        o.heading_x = dx / length
+        o.heading_y = dy / length
+    emit(w, ROCKET_LAUNCHED, slot, o.x, o.y, o.heading_x, o.heading_y)
+
+
+@fast
+def fly(level: Level, w: World, o: Launcher, slot: int) -> None:
+    """Accelerate, move, explode in a tile or on a solid edge, and turn towards where the ninja will be."""
+    if o.speed < ROCKET_SPEED:
+        o.acceleration = o.acceleration * ROCKET_GROWTH
+        o.speed = o.speed + o.acceleration
+    else:
+        o.speed = ROCKET_SPEED
+    o.x = o.x + o.speed * o.heading_x
+    o.y = o.y + o.speed * o.heading_y
+    if solid_at(level, o.x, o.y):
+        explode(w, o, slot)
+        return
+    old = o.cell
+    if refile(w, o, slot) and edge_between(w, old, o.cell) == SOLID:
+        explode(w, o, slot)
+        return
+    steer(w, o)
+
+
+@fast
+def edge_between(w: World, old: int, new: int) -> int:
+    """The old cell's own edge towards a direct neighbour; off for anything farther, and where there is no cell."""
+    if old != 0 and new != 0:
+        for side in range(4):
+            if old + STEP[side] == new:
+                return w.edges[4 * old + side]
+    return OFF
+
+
+@fast
+def steer(w: World, o: Launcher) -> None:
+    """Turn the heading. There is no test for a distance of 0: heading and place then become NaN for ever (quirk)."""
+    n = w.ninja
+    dx = 2.0 * n.x - n.px - (o.x + o.speed * o.heading_x)
+    dy = 2.0 * n.y - n.py - (o.y + o.speed * o.heading_y)
+    length = sqrt(dx * dx + dy * dy)
+    dx = div(dx, length)
+    dy = div(dy, length)
+    q = (-o.heading_y) * dx + o.heading_x * dy
+    hx = o.heading_x + q * (-o.heading_y) * ROCKET_TURN
+    hy = o.heading_y + q * o.heading_x * ROCKET_TURN
+    length = sqrt(hx * hx + hy * hy)
+    if length != 0.0:
+        hx = hx / length
+        hy = hy / length
+    o.heading_x = hx
+    o.heading_y = hy
+
+
+@fast
+def touch_rocket(w: World, o: Launcher, slot: int) -> None:
+    """The rocket's tip inside the ninja: kill, then explode."""
+    n = w.ninja
+    dx = n.x - o.x
+    dy = n.y - o.y
+    if sqrt(dx * dx + dy * dy) < RADIUS:
+        kill(w, EXPLOSIVE, dx, dy, o.x, o.y)
+        explode(w, o, slot)
+
+
+@fast
+def explode(w: World, o: Launcher, slot: int) -> None:
+    """The rocket is gone; the launcher thinks again, unless the ninja has died or won."""
+    end_update(w, o, slot)
+    unfile(w, o)
+    o.routine = LAUNCHER_IDLE
+    if not w.idled:
+        start_think(w, o, slot)
+    emit(w, ROCKET_EXPLODED, slot, o.x, o.y, 0.0, 0.0)

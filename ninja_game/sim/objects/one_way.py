@@ -1,0 +1,30 @@
+"""One-way platform (objects.md §8.5)."""
+
+from __future__ import annotations
+
+from ..contacts import push
+from ..memory import fast
+from ..rules import ONE_WAY_HALF, RADIUS
+from ..schema import OneWay, World
+
+
+@fast
+def touch_one_way(w: World, o: OneWay) -> None:
+    """Hold the ninja if it comes from the facing side and was on or outside the face in the last tick."""
+    n = w.ninja
+    if not 0.0 < ONE_WAY_HALF + RADIUS - abs(n.y - o.y):
+        return
+    if not 0.0 < ONE_WAY_HALF + RADIUS - abs(n.x - o.x):
+        return
+    if o.face_x == 0.0:
+        face = o.face_y
+        if (n.y - n.py) * face <= 0.0:
+            gap = n.py - face * RADIUS - (o.y + face * ONE_WAY_HALF)
+            if 0.0 <= gap * face:
+                push(n, 0.0, o.y + face * ONE_WAY_HALF - (n.y - face * RADIUS), 0.0, face)
+    else:
+        face = o.face_x
+        if (n.x - n.px) * face <= 0.0:
+            gap = n.px - face * RADIUS - (o.x + face * ONE_WAY_HALF)
+            if 0.0 <= gap * face:
+                push(n, o.x + face * ONE_WAY_HALF - (n.x - face * RADIUS), 0.0, face, 0.0)

@@ -1,0 +1,88 @@
+"""Thwump (objects.md §8.8): falls when the ninja is in front of it, lethal on its leading face at all times."""
+
+from __future__ import annotations
+
+from ..contacts import push
+from ..death import kill
+from ..events import THWUMP_FELL, THWUMP_LANDED, emit
+from ..grid import refile
+from ..memory import fast
+from ..rules import RADIUS, THWUMP_FALL, THWUMP_HALF, THWUMP_RISE, THWUMP_SIGHT
+from ..schema import Thwump, World
+from ..states import ELECTRIC, THWUMP_MOVE, THWUMP_REST
+from ..tiles import COLUMN, ROW
+
+
+@fast
+def update_thwump(w: World, o: Thwump, slot: int) -> None:
+    """At rest: look for the ninja. Otherwise fall to the goal, then rise to the anchor, without a pause."""
+    if o.routine == THWUMP_MOVE:
+        move_thwump(w, o, slot)
+    elif not w.idled:
+        n = w.ninja
+        if o.face_x == 0.0:
+            triggered = abs(o.x - n.x) < THWUMP_SIGHT and o.low <= ROW[n.cell] <= o.high
+        else:
+            triggered = abs(o.y - n.y) < THWUMP_SIGHT and o.low <= COLUMN[n.cell] <= o.high
+        if triggered:
+            o.speed = THWUMP_FALL
+            o.sign = 1.0
+            o.goal_x = o.fall_x
+            o.goal_y = o.fall_y
+            o.routine = THWUMP_MOVE
+            emit(w, THWUMP_FELL, slot, o.x, o.y, o.face_x, o.face_y)
+
+
+@fast
+def move_thwump(w: World, o: Thwump, slot: int) -> None:
+    """One step; the tick that snaps to the goal does not also move."""
+    dx = o.goal_x - o.x
+    dy = o.goal_y - o.y
+    if dx * dx + dy * dy < o.speed * o.speed:
+        o.x = o.goal_x
+        o.y = o.goal_y
+        if o.sign > 0.0:
+            o.speed = THWUMP_RISE
+            o.sign = -1.0
+            o.goal_x = o.anchor_x
+            o.goal_y = o.anchor_y
+            emit(w, THWUMP_LANDED, slot, o.x, o.y, o.face_x, o.face_y)
+        else:
+            o.routine = THWUMP_REST
+    else:
+        o.x = o.x + o.sign * o.face_x * o.speed
+        o.y = o.y + o.sign * o.face_y * o.speed
+    refile(w, o, slot)
+
+
+@fast
+def touch_thwump(w: World, o: Thwump) -> None:
+    """Box contact: the leading face kills, the others push."""
+    n = w.ninja
+    dy = n.y - o.y
+    overlap_y = THWUMP_HALF + RADIUS - abs(dy)
+    if not 0.0 < overlap_y:
+        return
+    dx = n.x - o.x
+    overlap_x = THWUMP_HALF + RADIUS - abs(dx)
+    if not 0.0 < overlap_x:
+        return
+    if overlap_y < overlap_x:
+        if dy < 0.0:
+            if o.face_y < 0.0:
+                kill(w, ELECTRIC, 0.0, -8.0, n.x, n.y - 0.5 * RADIUS)
+            else:
+                push(n, 0.0, -overlap_y, 0.0, -1.0)
+        elif o.face_y > 0.0:
+            kill(w, ELECTRIC, 0.0, 6.0, n.x, n.y + 0.5 * RADIUS)
+        else:
+            push(n, 0.0, overlap_y, 0.0, 1.0)
+    elif dx < 0.0:
+        if o.face_x < 0.0:
+            kill(w, ELECTRIC, -8.0, -4.0, n.x - 0.5 * RADIUS, n.y)
+        else:
+            push(n, -overlap_x, 0.0, -1.0, 0.0)
+    elif o.face_x > 0.0:
+        kill(w, ELECTRIC, 8.0, -4.0, n.x + 0.5 * RADIUS, n.y)
+    else:
+        push(n, overlap_x, 0.0, 1.0, 0.0)

@@ -1,0 +1,139 @@
+"""Gauss turret (objects.md §8.12): its crosshair follows the ninja, then it fires once through it."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from ..death import kill
+from ..events import TURRET_FIRED, TURRET_LOCKED, emit
+from ..memory import fast
+from ..rays import sees
+from ..rules import (
+    AIM_FAR,
+    AIM_FAR_SQUARED,
+    AIM_MID,
+    AIM_MID_SQUARED,
+    AIM_NEAR,
+    AIM_NEAR_SQUARED,
+    TURRET_DELAY,
+    TURRET_SHOT,
+)
+from ..schedule import end_think, end_update, start_think, start_update
+from ..schema import Level, Turret, World
+from ..states import (
+    HARD_BULLET,
+    TURRET_POST_FIRE,
+    TURRET_PRE_FIRE,
+    TURRET_TARGET,
+    TURRET_TARGETING,
+    TURRET_WAITING,
+)
+
+
+@fast
+def sees_ninja(level: Level, w: World, o: Turret) -> bool:
+    """Is the way from the turret to the ninja free?"""
+    return sees(level, w, o.x, o.y, w.ninja.x, w.ninja.y)[0]
+
+
+@fast
+def think_turret(level: Level, w: World, o: Turret, slot: int) -> None:
+    """Waiting: start targeting what is seen. Targeting: stop when it is out of sight."""
+    seen = sees_ninja(level, w, o)
+    if o.think == TURRET_WAITING:
+        if seen:
+            o.aim_factor = AIM_FAR
+            o.aim_x = o.x
+            o.aim_y = o.y
+            keep_targeting(w, o, slot)
+    elif not seen:
+        stop_targeting(w, o, slot)
+
+
+@fast
+def keep_targeting(w: World, o: Turret, slot: int) -> None:
+    """(Re)start the count to the shot; aim point and factor carry on."""
+    o.shot_counter = TURRET_SHOT
+    o.routine = TURRET_TARGET
+    o.think = TURRET_TARGETING
+    start_update(w, o, slot)
+
+
+@fast
+def stop_targeting(w: World, o: Turret, slot: int) -> None:
+    """Wait for the ninja to come in sight."""
+    end_update(w, o, slot)
+    o.think = TURRET_WAITING
+
+
+@fast
+def update_turret(level: Level, w: World, o: Turret, slot: int) -> None:
+    """Target, then stand still before the shot, then after it."""
+    if o.routine == TURRET_TARGET:
+        target(w, o, slot)
+    elif o.routine == TURRET_PRE_FIRE:
+        o.counter += 1
+        if o.counter >= TURRET_DELAY:
+            if sees_ninja(level, w, o):
+                fire(level, w, o, slot)
+            end_shot(w, o, slot)
+    elif o.routine == TURRET_POST_FIRE:
+        o.counter += 1
+        if o.counter >= TURRET_DELAY:
+            if sees_ninja(level, w, o):
+                keep_targeting(w, o, slot)
+            else:
+                stop_targeting(w, o, slot)
+
+
+@fast
+def target(w: World, o: Turret, slot: int) -> None:
+    """Move the crosshair towards where the ninja will be; near it the shot comes sooner."""
+    n = w.ninja
+    ex = o.aim_x - (2.0 * n.x - n.px)
+    ey = o.aim_y - (2.0 * n.y - n.py)
+    o.aim_x = o.aim_x - o.aim_factor * ex
+    o.aim_y = o.aim_y - o.aim_factor * ey
+    distance = ex * ex + ey * ey
+    if AIM_FAR_SQUARED < distance:
+        o.aim_factor = AIM_FAR
+        return
+    if distance < AIM_NEAR_SQUARED:
+        o.shot_counter -= 2.0 + w.tick % 4
+    elif distance < AIM_MID_SQUARED:
+        o.aim_factor = AIM_NEAR
+        o.shot_counter -= 1.0 + w.tick % 2
+    else:
+        o.aim_factor = AIM_MID
+        o.shot_counter -= 0.5
+    if o.shot_counter < 0.0:
+        end_think(w, o, slot)
+        o.counter = 0
+        o.routine = TURRET_PRE_FIRE
+        emit(w, TURRET_LOCKED, slot, o.aim_x, o.aim_y, 0.0, 0.0)
+
+
+@fast
+def fire(level: Level, w: World, o: Turret, slot: int) -> None:
+    """Shoot through the crosshair: kills if that ray meets the ninja before any tile."""
+    hit, hit_x, hit_y = sees(level, w, o.x, o.y, o.aim_x, o.aim_y)
+    emit(w, TURRET_FIRED, slot, o.x, o.y, o.aim_x - o.x, o.aim_y - o.y)
+    if hit:
+        dx = o.aim_x - o.x
+        dy = o.aim_y - o.y
+        length = sqrt(dx * dx + dy * dy)
+        a = 1.0
+        b = 0.0
+        if length != 0.0:
+            a = dx / length
+            b = dy / length
+        kill(w, HARD_BULLET, a * 8.0, b * 8.0, hit_x, hit_y)
+
+
+@fast
+def end_shot(w: World, o: Turret, slot: int) -> None:
+    """Think again and cool down. Runs also when the shot killed and the turret was idled during it (objects.md §4.1)."""
+    start_think(w, o, slot)
+    o.think = TURRET_TARGETING
+    o.counter = 0
+    o.routine = TURRET_POST_FIRE

@@ -1,0 +1,68 @@
+"""Who acts when: the update set (newest first) and the thinker ring (one every fourth tick) (objects.md §2.3-§2.4)."""
+
+from __future__ import annotations
+
+from .memory import fast
+from .schema import Thing, World
+
+
+@fast
+def start_update(w: World, o: Thing, slot: int) -> None:
+    """Make a thing the newest member of the update set, if it is not in it."""
+    if o.updating:
+        return
+    o.updating = 1
+    o.newer = 0
+    o.older = w.newest
+    if w.newest:
+        w.things[w.newest].newer = slot
+    w.newest = slot
+
+
+@fast
+def end_update(w: World, o: Thing, slot: int) -> None:
+    """Take a thing out of the update set. The pass keeps its place in ``w.cursor``; a removal moves it along."""
+    if not o.updating:
+        return
+    o.updating = 0
+    if w.cursor == slot:
+        w.cursor = o.older
+    if o.newer:
+        w.things[o.newer].older = o.older
+    else:
+        w.newest = o.older
+    if o.older:
+        w.things[o.older].newer = o.newer
+
+
+@fast
+def start_think(w: World, o: Thing, slot: int) -> None:
+    """Insert a thing right before the cursor of the thinker ring and move the cursor onto it: it thinks next."""
+    if o.thinking:
+        return
+    o.thinking = 1
+    if w.thinker:
+        successor = w.things[w.thinker]
+        o.ring_prev = successor.ring_prev
+        o.ring_next = w.thinker
+        w.things[o.ring_prev].ring_next = slot
+        successor.ring_prev = slot
+    else:
+        o.ring_prev = slot
+        o.ring_next = slot
+    w.thinker = slot
+
+
+@fast
+def end_think(w: World, o: Thing, slot: int) -> None:
+    """Take a thing out of the thinker ring; if the cursor was on it, the cursor goes to its successor."""
+    if not o.thinking:
+        return
+    o.thinking = 0
+    if o.ring_next == slot:
+        w.thinker = 0
+    else:
+        w.things[o.ring_prev].ring_next = o.ring_next
+        w.things[o.ring_next].ring_prev = o.ring_prev
+        if w.thinker == slot:
+            w.thinker = o.ring_next

@@ -1,0 +1,53 @@
+"""State and routine numbers: what the ninja and the things are doing. They are part of traces and save-states."""
+
+from __future__ import annotations
+
+from .memory import fast
+from .rules import DRAG, GRAVITY
+from .schema import World
+
+# The ninja (ninja.md §2; the order matters: 0-2 are ground states, 3-5 air states).
+STANDING, RUNNING, SKIDDING, JUMPING, FALLING, SLIDING, DEAD, CELEBRATING = range(8)
+STATE_NAMES = ("standing", "running", "skidding", "jumping", "falling", "sliding", "dead", "celebrating")
+
+# How a run ended: the first exit contact or death.
+OUTCOME_RUNNING, OUTCOME_EXIT, OUTCOME_DEAD = 0, 1, 2
+OUTCOME_NAMES = ("running", "exit", "dead")
+
+# Kill types (objects.md §9; the chaingun's bullet and the crushed have numbers of ours).
+ELECTRIC, EXPLOSIVE, WEAK_BULLET, HARD_BULLET, FALL, LASER, BULLET, CRUSHED = range(8)
+KILL_NAMES = ("electric", "explosive", "weak bullet", "hard bullet", "fall", "laser", "bullet", "crushed")
+
+# Routines of the things; 0 is always the one a thing starts with.
+THWUMP_REST, THWUMP_MOVE = 0, 1
+GUARD_IDLE, GUARD_CHASE = 0, 1
+TURRET_TARGET, TURRET_PRE_FIRE, TURRET_POST_FIRE = 1, 2, 3
+TURRET_WAITING, TURRET_TARGETING = 0, 1
+DRONE_MOVE, DRONE_PRE_FIRE, DRONE_FIRING, DRONE_POST_FIRE = 0, 1, 2, 3
+LAUNCHER_IDLE, LAUNCHER_PREPARE, LAUNCHER_FLIGHT = 0, 1, 2
+
+# Sorts of doors, weapons and movements of drones.
+AUTOMATIC, LOCKED, TRAP = 0, 1, 2
+WEAPON_ZAP, WEAPON_LASER, WEAPON_CHAINGUN, WEAPON_UNKNOWN = 0, 1, 2, 3
+SURFACE_CW, SURFACE_CCW, WANDER_CW, WANDER_CCW, ALTERNATING, PSEUDO_RANDOM = range(6)
+MOVEMENT_BELOW, MOVEMENT_BEYOND = -1, 6
+"""A malformed movement number below 2 / not below 2; they behave differently in a chase (objects.md §8.16)."""
+NO_DIRECTION, NO_NUMBER = -100, -101
+"""A drone's direction "none", and a direction parameter that is no whole number (objects.md §8.15)."""
+
+
+@fast
+def leave_state(w: World) -> None:
+    """Leave the ninja's present state (ninja.md §7.3). Every transition does, also one into the same state."""
+    n = w.ninja
+    if n.state == JUMPING:
+        n.gravity = GRAVITY
+    elif n.state == CELEBRATING:
+        n.drag = DRAG
+
+
+@fast
+def enter_state(w: World, state: int) -> None:
+    """Leave the present state and enter another that only has a number."""
+    leave_state(w)
+    w.ninja.state = state

@@ -1,0 +1,78 @@
+"""One tick of the whole world (objects.md §2.5, game.md §1.2)."""
+
+from __future__ import annotations
+
+from .level_data import BOUNCE_BLOCK, DOOR, DRONE, FLOOR_GUARD, LAUNCHER, THWUMP, TURRET
+from .memory import fast
+from .ninja import tick_ninja
+from .objects.bounce_block import think_block, update_block
+from .objects.door import update_door
+from .objects.drone_weapons import think_drone, update_drone
+from .objects.floor_guard import update_guard
+from .objects.launcher import think_launcher, update_launcher
+from .objects.thwump import update_thwump
+from .objects.turret import think_turret, update_turret
+from .schema import Level, World
+from .states import DEAD
+
+
+@fast
+def step(level: Level, w: World, frame: int) -> None:
+    """Advance the world by one tick. ``frame``: 1 left + 2 right + 4 jump held + 8 jump triggered in this tick."""
+    w.event_count = 0
+    # 1. All things in the update set, the most recently started first.
+    if w.newest:
+        update_things(level, w)
+    # 2. At most one of those that think: one every fourth tick.
+    if w.thinker:
+        if w.think_counter > 2:
+            w.think_counter = 0
+            think(level, w, w.thinker)
+            if w.thinker:
+                w.thinker = w.things[w.thinker].ring_next
+        else:
+            w.think_counter += 1
+    # 3. The ninja, which asks the nine cells for things and the touched cells for tiles.
+    if w.ninja.state != DEAD:
+        tick_ninja(level, w, frame)
+    w.tick += 1
+
+
+@fast
+def update_things(level: Level, w: World) -> None:
+    """The update pass. The cursor lives in the world, so that a thing ended meanwhile can move it along."""
+    slot = w.newest
+    while slot:
+        o = w.things[slot]
+        w.cursor = o.older
+        kind = o.kind
+        if kind == DRONE:
+            update_drone(level, w, o, slot)
+        elif kind == THWUMP:
+            update_thwump(w, o, slot)
+        elif kind == FLOOR_GUARD:
+            update_guard(w, o, slot)
+        elif kind == TURRET:
+            update_turret(level, w, o, slot)
+        elif kind == LAUNCHER:
+            update_launcher(level, w, o, slot)
+        elif kind == BOUNCE_BLOCK:
+            update_block(o)
+        elif kind == DOOR:
+            update_door(w, o, slot)
+        slot = w.cursor
+
+
+@fast
+def think(level: Level, w: World, slot: int) -> None:
+    """The think of one thing, by kind."""
+    o = w.things[slot]
+    kind = o.kind
+    if kind == DRONE:
+        think_drone(level, w, o, slot)
+    elif kind == TURRET:
+        think_turret(level, w, o, slot)
+    elif kind == LAUNCHER:
+        think_launcher(level, w, o, slot)
+    elif kind == BOUNCE_BLOCK:
+        think_block(w, o, slot)
