@@ -1,0 +1,83 @@
+"""A level as a picture in the terminal: 62 x 23 characters, tiles by quarter blocks, objects by the legend's signs."""
+
+from __future__ import annotations
+
+from itertools import groupby
+from operator import itemgetter
+
+from rich.text import Text
+
+from ninja_game.formats.ascii_legend import symbol_chars
+from ninja_game.sim.level_data import (
+    BOUNCE_BLOCK,
+    COLUMNS,
+    DOOR,
+    DRONE,
+    EXIT,
+    FLOOR_GUARD,
+    GOLD,
+    LAUNCH_PAD,
+    LAUNCHER,
+    MINE,
+    NINJA,
+    ONE_WAY,
+    ROWS,
+    THWUMP,
+    TURRET,
+    LevelData,
+)
+from ninja_game.sim.loader import grid_tiles
+from ninja_game.sim.rays import solid_at
+from ninja_game.sim.rules import CELL
+from ninja_game.sim.schema import Level
+
+COLOURS = {
+    GOLD: "bright_yellow",
+    BOUNCE_BLOCK: "cyan",
+    LAUNCH_PAD: "bright_cyan",
+    TURRET: "bright_red",
+    FLOOR_GUARD: "bright_magenta",
+    NINJA: "bold bright_green",
+    DRONE: "bright_magenta",
+    ONE_WAY: "cyan",
+    THWUMP: "bright_magenta",
+    DOOR: "bright_blue",
+    LAUNCHER: "bright_red",
+    EXIT: "bold bright_green",
+    MINE: "bright_red",
+}
+"""Terminal colour of each kind: red and magenta kill, cyan moves you, green is where you begin and end."""
+
+# Index: 1 upper left + 2 upper right + 4 lower left + 8 lower right.
+QUARTERS = " ▘▝▀▖▌▞▛▗▚▐▜▄▙▟█"
+
+
+def level_picture(level: LevelData) -> Text:
+    """The level, two characters a cell, with a border line around it."""
+    tiles = Level()
+    tiles.tiles = grid_tiles(level)
+    columns, rows = 2 * COLUMNS, ROWS
+    signs = [[(_block(tiles, column, row), "grey62") for column in range(columns)] for row in range(rows)]
+    for record in level.records:
+        for char, x, y in symbol_chars(record):
+            # A character is half a cell wide; a cell's centre belongs to its left one.
+            if CELL <= x <= CELL * (COLUMNS + 1) and CELL <= y <= CELL * (ROWS + 1):
+                column = min(max(round((x - CELL) / 12.0) - 1, 0), columns - 1)
+                row = min(int((y - CELL) / CELL), rows - 1)
+                signs[row][column] = (char, COLOURS[record.kind])
+    text = Text(no_wrap=True)
+    text.append("▗" + "▄" * columns + "▖\n", "grey62")
+    for line in signs:
+        text.append("▐", "grey62")
+        for style, run in groupby(line, key=itemgetter(1)):
+            text.append("".join(char for char, _ in run), style)
+        text.append("▌\n", "grey62")
+    text.append("▝" + "▀" * columns + "▘", "grey62")
+    return text
+
+
+def _block(tiles: Level, column: int, row: int) -> str:
+    """The quarter block for half a cell: each quarter is solid if the middle of it is."""
+    x, y = CELL + 12.0 * column, CELL + CELL * row
+    quarters = ((3.0, 6.0), (9.0, 6.0), (3.0, 18.0), (9.0, 18.0))
+    return QUARTERS[sum(1 << k for k, (dx, dy) in enumerate(quarters) if solid_at(tiles, x + dx, y + dy))]
