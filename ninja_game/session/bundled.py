@@ -1,16 +1,18 @@
-"""The levels that come with the game, in a checkout as in an installed package."""
+"""The levels and replays that come with the game, in a checkout as in an installed package."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent.parent
+CHECKOUT = {"levels": "levels", "assets": "assets", "replays": "tests/replays"}
+"""Where a checkout has what an installed package has in its folder ``data``."""
 
 
 def data_folder(name: str) -> Path:
-    """The folder ``levels`` or ``assets``: beside the package in a checkout, inside it when installed from a wheel."""
+    """The folder of the bundled ``levels``, ``replays`` or ``assets``."""
     inside = PACKAGE / "data" / name
-    return inside if inside.is_dir() else PACKAGE.parent / name
+    return inside if inside.is_dir() else PACKAGE.parent / CHECKOUT[name]
 
 
 def bundled_levels() -> list[Path]:
@@ -20,3 +22,8 @@ def bundled_levels() -> list[Path]:
     True
     """
     return sorted(data_folder("levels").glob("*.txt"))
+
+
+def bundled_replays() -> list[Path]:
+    """The files of the replays that pass the game's own levels, in the levels' order."""
+    return sorted(data_folder("replays").glob("*.replay.txt"))
