@@ -114,7 +114,7 @@ def think_on_ground(w: World, n: Ninja) -> None:
         return
     speed = abs(vx * (-n.floor_y) + vy * floor_x)
     if state == RUNNING:
-        if direction * (vx * speed) <= 0.0:
+        if not 0.0 < direction * (vx * speed):
             enter_state(w, SKIDDING)
         elif direction * floor_x < 0.0:
             run_uphill(n, vx, vy, a)

@@ -262,19 +262,19 @@ def create_door(w: World, o: Door, slot: int, p: Sequence[float]) -> None:
     if cell_2:
         o.stored_2 = w.edges[4 * cell_2 + side_2]
         o.edge_2 = 4 * cell_2 + (LEFT if p[2] == 0.0 else UP)
-    o.sort = AUTOMATIC
+    o.mechanism = AUTOMATIC
     if is_set(p[6]):
-        o.sort = LOCKED
+        o.mechanism = LOCKED
     elif is_set(p[3]):
-        o.sort = TRAP
-    if o.sort == AUTOMATIC:
+        o.mechanism = TRAP
+    if o.mechanism == AUTOMATIC:
         o.x = 0.0
         o.y = 0.0
         if cell_1:
             o.x = CENTRE_X[cell_1] + (0.0 if p[2] == 1.0 else HALF)
             o.y = CENTRE_Y[cell_1] + (HALF if p[2] == 1.0 else 0.0)
     file(w, o, slot)
-    write_edges(w, o, o.sort != TRAP)
+    write_edges(w, o, o.mechanism != TRAP)
 
 
 @fast

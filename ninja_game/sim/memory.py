@@ -41,6 +41,8 @@ class Field(NamedTuple):
 
 def fields_of(cls: type) -> list[Field]:
     """The fields that a struct declares or inherits, bases first, in the order of declaration."""
+    if "FIELDS" in cls.__dict__:
+        return list(cls.__dict__["FIELDS"])
     found: dict[str, Field] = {}
     for base in reversed(cls.__mro__[:-1]):
         hints = get_type_hints(base, include_extras=True)

@@ -160,7 +160,7 @@ class Door(Header):
     """Two edge states of one shared side (indices into ``World.edges``, 0: missing) and what they were when it was made."""
 
     __slots__ = ()
-    sort: i4
+    mechanism: i4
     spent: i4
     edge_1: i4
     edge_2: i4

@@ -51,7 +51,7 @@ def status_of(w: World, slot: int) -> int:
     if kind == DOOR:
         first = w.edges[o.edge_1] if o.edge_1 else 9
         second = w.edges[o.edge_2] if o.edge_2 else 9
-        counter = o.counter if o.sort == AUTOMATIC else 0
+        counter = o.counter if o.mechanism == AUTOMATIC else 0
         return 100 * counter + 10 * int(first) + int(second)
     if kind == THWUMP:
         if o.routine == THWUMP_REST:

@@ -28,17 +28,17 @@ def touch_door(w: World, o: Door, slot: int) -> None:
     n = w.ninja
     dx = o.x - n.x
     dy = o.y - n.y
-    radius = AUTOMATIC_DOOR_RADIUS if o.sort == AUTOMATIC else DOOR_SWITCH_RADIUS
+    radius = AUTOMATIC_DOOR_RADIUS if o.mechanism == AUTOMATIC else DOOR_SWITCH_RADIUS
     if not sqrt(dx * dx + dy * dy) < radius + RADIUS:
         return
     o.counter = 0
-    if o.sort == AUTOMATIC:
+    if o.mechanism == AUTOMATIC:
         if not o.spent:
             o.spent = 1
             write_edges(w, o, False)
             start_update(w, o, slot)
             emit(w, DOOR_OPENED, slot, o.x, o.y, 0.0, 0.0)
-    elif o.sort == LOCKED:
+    elif o.mechanism == LOCKED:
         if not o.spent:
             o.spent = 1
             write_edges(w, o, False)

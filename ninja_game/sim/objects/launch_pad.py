@@ -20,7 +20,8 @@ def touch_pad(w: World, o: LaunchPad, slot: int) -> None:
     if sqrt(dx * dx + dy * dy) < PAD_RADIUS + RADIUS:
         u = o.x - (n.x - o.face_x * RADIUS)
         v = o.y - (n.y - o.face_y * RADIUS)
-        if 0.0 <= u * o.face_x + v * o.face_y:
+        # Written so that a NaN in the normal launches too, as in the original.
+        if not u * o.face_x + v * o.face_y < 0.0:
             m = 1.0
             if o.face_y < 0.0:
                 m = 1.0 + abs(o.face_y)
