@@ -41,7 +41,7 @@ def write_object_lines(records: Sequence[Record]) -> list[str]:
 
 def _readable(record: Record) -> tuple[str, str, str]:
     """Keyword, place and further words of a record's line; ``raw`` if no form gives it back to the last bit."""
-    keyword, place, words = _best_form(record)
+    keyword, place, words = best_form(record)
     if keyword:
         listed = read_object_line(f"{keyword} {place} {words}")
         if len(listed) == 1 and isinstance(listed[0], Listed) and same_record(listed[0].record, record):
@@ -55,7 +55,7 @@ def _word(vocabulary: Mapping[str, float], value: float) -> str:
     return next((word for word, number in vocabulary.items() if number == value), "")
 
 
-def _best_form(record: Record) -> tuple[str, str, str]:
+def best_form(record: Record) -> tuple[str, str, str]:
     """The form that fits a record's kind; keyword '' if none does. Not yet sure to give it back exactly."""
     kind, values = record.kind, record.values
     if not 0 <= kind < len(VALUE_COUNTS) or len(values) != VALUE_COUNTS[kind] or record.text:
