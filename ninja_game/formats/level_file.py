@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from urllib.parse import unquote
 
 from ninja_game.errors import LevelError
+from ninja_game.formats.level_string import tidy_level_string
 from ninja_game.sim.level_data import TILES
 
 MARKER = "&userdata="
@@ -38,7 +39,7 @@ _OBJECTS_PIECE = re.compile(r"[0-9.,^!\-Na]+")
 class LevelRecord:
     """One record of a level file or replay text.
 
-    ``level``: the in-game string without white space, '' if the record leaves it out; ``demo``: the demo text, '' if
+    ``level``: the in-game string, wrapped lines joined, '' if the record leaves it out; ``demo``: the demo text, '' if
     there is none; ``note``: what stands where a demo would and is none; ``number`` counts the records from 0; ``line``
     (from 1): where the record starts.
     """
@@ -51,6 +52,11 @@ class LevelRecord:
     number: int = 0
     line: int = 0
     note: str = ""
+
+
+def is_demo(text: str) -> bool:
+    """Whether a text without white space is a demo, not free text."""
+    return bool(_DEMO.fullmatch(text) or _LEGACY_DEMO.fullmatch(text))
 
 
 def read_level_file(text: str, *, file: str = "") -> list[LevelRecord]:
@@ -137,14 +143,11 @@ def _find_demo(fields: list[str]) -> tuple[int, str]:
             continue
         closed = place < len(fields) - 1
         text = "".join(fields[place].split()) if closed else _wrapped_demo(fields[place])
-        if place == 4:
-            found = _DEMO.fullmatch(text) or (closed and _LEGACY_DEMO.fullmatch(text))
-        elif place == 3:
-            found = _SHORT_DEMO.fullmatch(text)
-        else:
-            bare = not fields[0].strip() and not fields[1].strip() and "|" not in "".join(fields[3:])
-            found = bare and _SHORT_DEMO.fullmatch(text)
-        if found:
+        short = _SHORT_DEMO.fullmatch(text) is not None
+        bare = not fields[0].strip() and not fields[1].strip() and "|" not in "".join(fields[3:])
+        # Free text such as AWESOME could pass for a legacy demo.
+        whole = is_demo(text) and (closed or not text.startswith("A"))
+        if whole if place == 4 else short and (place == 3 or bare):
             return place, text
     return 0, ""
 
@@ -165,9 +168,9 @@ def _level_text(text: str, *, closed: bool) -> str:
     Without a closing ``#`` free text may follow: there the level ends at the first white space (game.md §5.4), unless
     tiles are missing yet or what follows can only be the rest of its objects.
     """
-    first, *others = text.split() or [""]
     if closed:
-        return "".join((first, *others))
+        return tidy_level_string(text)
+    first, *others = text.split() or [""]
     for piece in others:
         in_tiles = len(first) < TILES and "|" not in first
         in_objects = _OBJECTS_PIECE.fullmatch(piece) and (first[-1] in "|!^," or any(char in piece for char in "!^,"))
@@ -203,8 +206,8 @@ def _check_record(record: LevelRecord, number: int, *, userdata: bool) -> None:
             raise LevelError(f"the {field} of record {number} does not fit", found=MARKER)
     if not record.level and not record.demo:
         raise LevelError(f"record {number} has no level string", expected=SHAPE)
-    if "".join(record.level.split()) != record.level:
+    if tidy_level_string(record.level) != record.level:
         raise LevelError(f"the level of record {number} holds white space, which a level file cannot keep")
-    if record.demo and not (_DEMO.fullmatch(record.demo) or _LEGACY_DEMO.fullmatch(record.demo)):
+    if record.demo and not is_demo(record.demo):
         found = repr(record.demo[:40])
         raise LevelError(f"the demo of record {number} is none", found=found, expected="length:word|word|…")

@@ -15,6 +15,8 @@ MISSING_TILE = -1
 
 _NO_TILE = frozenset([ord("|"), *range(0xD800, 0xE000)])  # the separator; halves of surrogate pairs
 
+_LINE_BREAK = re.compile(r"[\r\n]+")
+
 _KINDS = len(KIND_NAMES)
 _PLAIN_TILES = re.compile(r"[0-Q]{713}")
 _TILE_OF_CHAR = bytes(max(code - 48, 0) for code in range(256))
@@ -48,8 +50,13 @@ def parse_level_string(text: str, *, file: str = "", line: int = 0) -> LevelData
 
 
 def tidy_level_string(text: str) -> str:
-    """The text without white space: what a tolerant importer makes of wrapped lines (game.md §5.6)."""
-    return "".join(text.split())
+    """The text without what wrapped lines have put into it, as a tolerant importer makes it (game.md §5.6).
+
+    All white space among the tiles goes, and line breaks with the blanks around them among the objects. Other blanks
+    stay there: before a number they are harmless, behind one the game reads NaN, and so do we.
+    """
+    tiles, bar, objects = text.partition("|")
+    return "".join(tiles.split()) + bar + "".join(line.strip() for line in _LINE_BREAK.split(objects))
 
 
 def _parse_tiles(text: str) -> tuple[int, ...]:

@@ -1,0 +1,137 @@
+"""Levels with what their file says about them, from a text of any format: it is told from the text, not from a name."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from ninja_game.errors import LevelError, ReplayError
+from ninja_game.formats.ascii_level import is_ascii_level, parse_ascii_level
+from ninja_game.formats.level_file import MARKER, LevelRecord, read_level_file
+from ninja_game.formats.level_string import level_digest, parse_level_string, tidy_level_string
+from ninja_game.formats.replay import Replay, is_replay, parse_replay
+from ninja_game.formats.text_file import read_text
+from ninja_game.sim.level_data import TILES, LevelData
+
+# What the object half of an in-game string is made of, odd numbers included.
+_OBJECTS = re.compile(r"[0-9.,^!+\-xeENa \t]+")
+
+
+@dataclass(frozen=True)
+class NamedLevel:
+    """A level with what its file says about it.
+
+    ``form``: "ascii", "string", "file" or "replay", the format it was found in; ``record`` (from 0) and ``line`` (from
+    1): where in ``file``.
+    """
+
+    name: str
+    author: str
+    comment: str
+    level: LevelData
+    file: str
+    record: int = 0
+    line: int = 1
+    form: str = "file"
+
+    @property
+    def ascii(self) -> bool:
+        """Whether the file is one of our readable ones."""
+        return self.form == "ascii"
+
+    @cached_property
+    def warnings(self) -> list[str]:
+        """What is legal but odd in the level."""
+        from ninja_game.formats.level_warnings import level_warnings
+
+        return level_warnings(self.level)
+
+
+def parse_levels(text: str, *, file: str = "") -> list[NamedLevel]:
+    """All levels in a text of any format. Raises LevelError or ReplayError."""
+    if is_replay(text):
+        replay = parse_replay(text, file=file)
+        return [NamedLevel(replay.name, "", "", level_of_replay(replay, file), file, form="replay")]
+    if is_ascii_level(text):
+        read = parse_ascii_level(text, file=file)
+        return [NamedLevel(read.name or Path(file).stem, read.author, read.comment, read.level, file, form="ascii")]
+    if is_level_file(text):
+        levels = [_named(record, file) for record in read_level_file(text, file=file) if record.level]
+        if not levels:
+            raise LevelError("recordings without their levels", file, hint="give the level file")
+        return levels
+    return [
+        NamedLevel(
+            Path(file).stem, "", "", parse_level_string(string, file=file, line=line), file, number, line, "string"
+        )
+        for number, (line, string) in enumerate(_level_strings(text, file))
+    ]
+
+
+def _named(record: LevelRecord, file: str) -> NamedLevel:
+    """A level file's record with its level read."""
+    level = parse_level_string(record.level, file=file, line=record.line)
+    return NamedLevel(record.name, record.author, record.comment, level, file, record.number, record.line)
+
+
+def is_level_file(text: str) -> bool:
+    """Whether a text is a level file or replay text of N."""
+    return MARKER in text or ("#" in text and ("$" in text or text.lstrip().startswith("#")))
+
+
+def _level_strings(text: str, file: str) -> Iterator[tuple[int, str]]:
+    """Line and text of the in-game strings in a text: one a line, or one wrapped over all lines."""
+    lines = [(number, line) for number, line in enumerate(text.split("\n"), 1) if line.strip()]
+    if len(lines) > 1 and not all(len(line.partition("|")[0]) >= TILES for _, line in lines):
+        lines = [(lines[0][0], tidy_level_string(text))]
+    for number, line in lines:
+        tiles, bar, objects = line.partition("|")
+        if not bar or not (len(tiles) >= TILES or _OBJECTS.fullmatch(objects)):
+            raise LevelError(
+                "not a level in any format that is known here",
+                file,
+                number,
+                found=repr(line[:40]),
+                expected="an ASCII level, a level file of N or an in-game string",
+                hint="docs/level-format.md shows how to write a level",
+            )
+        yield number, line
+    if not lines:
+        raise LevelError("an empty file", file, expected="a level")
+
+
+def level_of_replay(replay: Replay, file: str, level: LevelData | None = None) -> LevelData:
+    """The level that a replay was recorded on: its own, the one its path leads to, or else the given one.
+
+    Raises ReplayError if there is none, or if it is not the one that was recorded.
+    """
+    if replay.level is not None:
+        return replay.level
+    source = "the given level"
+    if replay.level_path:
+        path = Path(file).parent / replay.level_path
+        source = str(path)
+        if path.is_file():
+            level = _level_at(path, replay.level_record, file)
+    if level is None:
+        hint = "give the level, or record the replay with its level inside"
+        found = replay.level_path or f"level-digest {replay.level_digest[:12]}…"
+        raise ReplayError("the replay's level is not here", file, found=found, hint=hint)
+    if replay.level_digest and level_digest(level) != replay.level_digest:
+        hint = "the level was changed after the recording"
+        raise ReplayError("not the level of this replay", file, found=source, expected=replay.level_digest, hint=hint)
+    return level
+
+
+def _level_at(path: Path, record: int, file: str) -> LevelData:
+    """One level of a level file that a replay names."""
+    text = read_text(path)
+    if is_replay(text):
+        raise ReplayError("a replay as the level of a replay", file, found=str(path), expected="a level file")
+    for level in parse_levels(text, file=str(path)):
+        if level.record == record:
+            return level.level
+    raise ReplayError("the replay's level is not in its file", file, found=str(path), expected=f"a record {record}")

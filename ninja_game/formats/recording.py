@@ -1,0 +1,99 @@
+"""Recordings, inputs with the level they were made on, from a text of any format."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ninja_game.errors import DemoError, ReplayError
+from ninja_game.formats.ascii_level import is_ascii_level
+from ninja_game.formats.demo import Demo, parse_demo
+from ninja_game.formats.level_file import LevelRecord, is_demo, read_level_file
+from ninja_game.formats.level_string import parse_level_string
+from ninja_game.formats.named_level import is_level_file, level_of_replay
+from ninja_game.formats.replay import Replay, is_replay, parse_replay
+from ninja_game.sim.level_data import LevelData
+
+
+@dataclass(frozen=True)
+class Recording:
+    """Inputs together with the level they were recorded on.
+
+    ``replay``: the whole replay if it is one of ours, else None; ``record`` (from 0) and ``line`` (from 1): where in
+    ``file``.
+    """
+
+    name: str
+    author: str
+    comment: str
+    level: LevelData
+    demo: Demo
+    file: str
+    record: int = 0
+    line: int = 1
+    replay: Replay | None = field(default=None, repr=False)
+
+    @property
+    def ticks(self) -> int:
+        """How many ticks to run it at most: those of our replay; N + 1 for a demo of length N."""
+        return self.replay.ticks if self.replay else self.demo.end + 1
+
+    def inputs(self, ticks: int) -> bytes:
+        """The input of each of the first ``ticks`` ticks."""
+        return self.replay.inputs_of(ticks) if self.replay else self.demo.inputs(ticks)
+
+
+def parse_replays(text: str, *, file: str = "", level: LevelData | None = None) -> list[Recording]:
+    """All recordings in a text of any format. Raises ReplayError, DemoError or LevelError."""
+    if is_replay(text):
+        replay = parse_replay(text, file=file)
+        demo = Demo(replay.inputs, float(len(replay.inputs)))
+        found = level_of_replay(replay, file, level)
+        return [Recording(replay.name or Path(file).stem, replay.author, "", found, demo, file, replay=replay)]
+    if not is_ascii_level(text) and is_level_file(text):
+        return _read_recordings(read_level_file(text, file=file), file, level)
+    if is_demo("".join(text.split())):
+        record = LevelRecord(Path(file).stem, "", "", "", "".join(text.split()), line=1)
+        return _read_recordings([record], file, level)
+    raise ReplayError(
+        "no recording",
+        file,
+        1,
+        found=repr(text[:40]),
+        expected="a replay of ours or $name#author#comment#level#demo#",
+    )
+
+
+def _read_recordings(records: Iterable[LevelRecord], file: str, level: LevelData | None) -> list[Recording]:
+    """The recordings in the records of a text; a level that several share is read once."""
+    known: dict[str, LevelData] = {}
+    recordings = []
+    for record in records:
+        if not record.demo:
+            raise ReplayError(
+                f"record {record.number} has no demo",
+                file,
+                record.line,
+                found=repr(record.note[:40]) if record.note else "",
+                expected="$name#author#comment#level#demo#",
+            )
+        if record.level not in known:
+            known[record.level] = _level_of_record(record, file, level)
+        try:
+            demo = parse_demo(record.demo)
+        except DemoError as error:
+            error.file, error.line = file, record.line
+            raise
+        words = (record.name, record.author, record.comment)
+        recordings.append(Recording(*words, known[record.level], demo, file, record.number, record.line))
+    return recordings
+
+
+def _level_of_record(record: LevelRecord, file: str, level: LevelData | None) -> LevelData:
+    """A record's own level, else the given one."""
+    if record.level:
+        return parse_level_string(record.level, file=file, line=record.line)
+    if level is None:
+        raise ReplayError(f"record {record.number} leaves its level out", file, record.line, hint="give the level")
+    return level

@@ -1,0 +1,105 @@
+"""The ``key: value`` lines and sections of a replay text, read strictly (`docs/replay-format.md`)."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Sequence
+from difflib import get_close_matches
+
+from ninja_game.errors import ReplayError
+
+REQUIRED = ("rules", "body", "final-tick", "outcome", "gold", "inputs")
+SECTIONS = ("inputs", "level-data")
+KEYS = (*REQUIRED, "name", "author", "level", "level-record", "level-digest", "digest", "level-data")
+
+COUNT_LIMIT = 10**9
+
+_HEADER_LINE = re.compile(r"([a-z-]+):(.*)", re.DOTALL)
+_DIGEST = re.compile(r"[0-9a-f]{64}")
+_COUNT = re.compile(r"0|[1-9][0-9]{0,8}")
+
+Line = tuple[int, str]
+"""A line with its number, from 1."""
+
+
+class Headers:
+    """The ``key: value`` lines and the sections of a replay, with their places for messages."""
+
+    def __init__(self, lines: Sequence[Line], file: str) -> None:
+        self.file = file
+        self.lines: dict[str, list[Line]] = {}
+        key = ""
+        for number, line in lines:
+            if line[0] in " \t":
+                if key not in SECTIONS:
+                    hint = "indented lines belong below 'inputs:' or 'level-data:'"
+                    raise ReplayError("an indented line", file, number, 1, repr(line.strip()[:40]), "key: value", hint)
+                self.lines[key].append((number, line))
+                continue
+            match = _HEADER_LINE.fullmatch(line)
+            if match is None:
+                raise ReplayError("not a header line", file, number, 1, repr(line[:40]), "key: value")
+            key = match[1]
+            if key not in KEYS:
+                near = get_close_matches(key, KEYS, 1)
+                hint = f"did you mean '{near[0]}'?" if near else ""
+                raise ReplayError("an unknown header", file, number, 1, repr(key[:40]), ", ".join(KEYS), hint)
+            if key in self.lines:
+                raise ReplayError("a header given twice", file, number, 1, repr(key), hint="keep one of them")
+            # The value keeps its column, so that messages can name it.
+            self.lines[key] = [(number, " " * match.start(2) + match[2])]
+        missing = [repr(key) for key in REQUIRED if key not in self.lines]
+        if missing:
+            raise ReplayError("an incomplete replay", file, expected=f"a line with {', '.join(missing)}")
+
+    def section(self, key: str) -> list[Line]:
+        """The lines of a section, blank ones left out."""
+        return [(number, line) for number, line in self.lines.get(key, []) if line.strip()]
+
+    def line(self, key: str) -> int:
+        """Where a header stands; 0 if it does not."""
+        return self.lines[key][0][0] if key in self.lines else 0
+
+    def error(self, key: str, what: str, expected: str, hint: str = "") -> ReplayError:
+        """The error for a header's value."""
+        number, line = self.lines[key][0]
+        value = line.lstrip()
+        return ReplayError(what, self.file, number, len(line) - len(value) + 1, repr(value[:40]), expected, hint)
+
+    def raw(self, key: str) -> str:
+        """A header's value, '' without one."""
+        return self.lines[key][0][1].strip() if key in self.lines else ""
+
+    def text(self, key: str) -> str:
+        """A header's text; one in double quotes is JSON."""
+        value = self.raw(key)
+        if not value.startswith('"'):
+            return value
+        try:
+            decoded = json.loads(value)
+        except ValueError:
+            decoded = None
+        if not isinstance(decoded, str):
+            raise self.error(key, f"a broken text in '{key}'", "text, or a JSON string", "close the double quotes")
+        return decoded
+
+    def count(self, key: str) -> int:
+        """A whole number; 0 without the header."""
+        if key not in self.lines:
+            return 0
+        if not _COUNT.fullmatch(self.raw(key)):
+            raise self.error(key, f"no number in '{key}'", "a whole number from 0")
+        return int(self.raw(key))
+
+    def choice(self, key: str, choices: Sequence[str]) -> str:
+        """One of a few words."""
+        if self.raw(key) not in choices:
+            raise self.error(key, f"an unknown {key}", " or ".join(choices))
+        return self.raw(key)
+
+    def digest(self, key: str) -> str:
+        """64 hex digits; '' without the header."""
+        if key in self.lines and not _DIGEST.fullmatch(self.raw(key)):
+            raise self.error(key, f"no digest in '{key}'", "64 digits 0-9, a-f", "leave the line out if you have none")
+        return self.raw(key)
