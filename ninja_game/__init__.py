@@ -1,3 +1,60 @@
-"""ninja-game: a playable N-style platformer whose world is that of N v1.4, bit for bit."""
+"""ninja-game: a playable N-style platformer whose world is that of N v1.4, bit for bit.
+
+The public API, each name imported when it is first used:
+
+- levels: ``load_level(path)``, ``load_levels(path)``, ``parse_level(text)``, ``LevelData``
+- a run: ``Simulation`` (step, look, save, restore, digest)
+- whole runs: ``run_level``, ``trace_level``
+- errors: everything raised on purpose is a ``NinjaGameError``
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from ninja_game.errors import DemoError, FormatError, LevelError, NinjaGameError, ReplayError
+
+if TYPE_CHECKING:
+    from ninja_game.formats.level_string import parse_level_string as parse_level
+    from ninja_game.runs import RunResult, RunTrace, run_level, trace_level
+    from ninja_game.sim.level_data import LevelData
+    from ninja_game.simulation import Simulation
 
 __version__ = "0.1.0"
+
+_HOMES = {
+    "LevelData": ("ninja_game.sim.level_data", "LevelData"),
+    "RunResult": ("ninja_game.runs", "RunResult"),
+    "RunTrace": ("ninja_game.runs", "RunTrace"),
+    "Simulation": ("ninja_game.simulation", "Simulation"),
+    "parse_level": ("ninja_game.formats.level_string", "parse_level_string"),
+    "run_level": ("ninja_game.runs", "run_level"),
+    "trace_level": ("ninja_game.runs", "trace_level"),
+}
+
+__all__ = [
+    "DemoError",
+    "FormatError",
+    "LevelData",
+    "LevelError",
+    "NinjaGameError",
+    "ReplayError",
+    "RunResult",
+    "RunTrace",
+    "Simulation",
+    "__version__",
+    "parse_level",
+    "run_level",
+    "trace_level",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first asked for, so that the program's help does not load NumPy."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'ninja_game' has no attribute {name!r}")
+    module, attribute = _HOMES[name]
+    value = getattr(import_module(module), attribute)
+    globals()[name] = value
+    return value

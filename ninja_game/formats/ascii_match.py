@@ -55,7 +55,7 @@ def join(
                          found=_named(symbol), expected=f"{_named(wanted)}, as line {placed.line} says")  # fmt: skip
         elif symbol.values is None:
             example = _NEEDED_LINES[symbol.char].format(cell=f"{cell[0]},{cell[1]}")
-            problems.add(f"a {symbol.name} without its line", *picture.where(cell), found=repr(symbol.char),
+            problems.add(f"{_named(symbol)} without its line", *picture.where(cell),
                          hint=f"add a line below the picture, such as: {example}")  # fmt: skip
         else:
             drawn.append((cell, symbol))
@@ -77,7 +77,7 @@ def _mentioned(
                 mentioned.add(cell)
             elif char in ". ":
                 problems.add(
-                    f"the {wanted.name} at {part.column},{part.row} is not in the picture",
+                    f"{_named(wanted)} at {part.column},{part.row} is not in the picture",
                     placed.line,
                     placed.listed.column,
                     hint=f"draw {part.char} in line {picture.where(cell)[0]}, column {picture.where(cell)[1]}, "
@@ -138,10 +138,10 @@ def _tiles(picture: Picture, lines: Iterable[PlacedTile], problems: Problems) ->
             mistake, hint = f"tile {tile.id} has a character", f"draw {TILE_CHARS[tile.id]} in the picture instead"
         elif picture.char(tile.cell) != ODD_TILE:
             mistake, hint = "a tile line for a cell that is not marked", f"draw {ODD_TILE} in the picture there"
+        given.add(tile.cell)
         if mistake:
             problems.add(mistake, line, tile.column, found=f"{column},{row}", hint=hint)
             continue
-        given.add(tile.cell)
         tiles[(column - 1) * ROWS + row - 1] = tile.id
     for cell in picture.cells():
         if picture.char(cell) == ODD_TILE and cell not in given:

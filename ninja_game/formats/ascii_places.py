@@ -64,7 +64,6 @@ def read_place(text: str, dx: float = 0.0, dy: float = 0.0) -> tuple[float, floa
             "not a place",
             found=repr(text),
             expected="column,row such as 5,7 (or 5.5,7), or exact px such as 60,564px",
-            hint="no blank after the comma" if numbers[-1] == "" else "",
         )
     x, y = map(read_number, numbers)
     if px:

@@ -63,7 +63,7 @@ def read_object_line(text: str) -> list[Listed] | list[OddTile]:
     places, given = _sort_words(keyword, FORMS[keyword], rest)
     if not places:
         column = tokens[-1].column + len(tokens[-1].text)
-        raise LevelError(f"a {keyword} without a place", column=column, expected=f"{keyword} 5,7 (column,row)")
+        raise LevelError(f"'{keyword}' without a place", column=column, expected=f"{keyword} 5,7 (column,row)")
     return [Listed(Record(FORMS[keyword].kind, record_values(keyword, place, given)), place.column) for place in places]
 
 
@@ -97,17 +97,20 @@ def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list
         elif names:
             name, value = names[0], token
         elif "," in token.text:
+            if token.text.strip(",") != token.text:
+                hint = "column and row stand together, as in 5,7"
+                raise LevelError("a place with a blank in it", column=token.column, found=repr(token.text), hint=hint)
             if places and form.single:
                 hint = "write one line for each, or 'switch' before its switch" if form.takes else ""
-                raise LevelError(f"a second place in the line of one {keyword}", column=token.column, hint=hint)
+                raise LevelError(f"a second place for one '{keyword}'", column=token.column, hint=hint)
             places.append(token)
             continue
         else:
             known = [word for vocabulary in form.words.values() for word in vocabulary] + list(form.takes)
-            hint = suggestion(token.text, known) if known else f"a {keyword} has places only, such as 5,7"
-            raise LevelError(f"unknown word for a {keyword}", column=token.column, found=repr(token.text), hint=hint)
+            hint = suggestion(token.text, known) if known else f"'{keyword}' has places only, such as 5,7"
+            raise LevelError(f"unknown word for '{keyword}'", column=token.column, found=repr(token.text), hint=hint)
         if name in given:
-            raise LevelError(f"the {name} of the {keyword} is given twice", column=token.column, found=token.text)
+            raise LevelError(f"the {name} of '{keyword}' is given twice", column=token.column, found=token.text)
         given[name] = value
     _check_complete(keyword, form, given, tokens)
     return places, given
@@ -123,10 +126,10 @@ def _check_complete(keyword: str, form: Form, given: dict[str, Token], tokens: S
     for group in form.needs:
         present = [given[name] for name in group if name in given]
         if len(present) > 1:
-            raise LevelError(f"a {keyword} with both {' and '.join(group)}", column=present[1].column, hint="keep one")
+            raise LevelError(f"'{keyword}' with both {' and '.join(group)}", column=present[1].column, hint="keep one")
         if not present:
             words = [", ".join(form.words[name]) if name in form.words else _value_example(name) for name in group]
-            raise LevelError(f"a {keyword} without its {group[0]}", column=column, expected=", or ".join(words))
+            raise LevelError(f"'{keyword}' without its {group[0]}", column=column, expected=", or ".join(words))
 
 
 def _read_tiles(tokens: Sequence[Token]) -> list[OddTile]:

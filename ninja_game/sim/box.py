@@ -19,7 +19,6 @@ from .tiles import (
     CONVEX,
     EMPTY,
     FULL,
-    HALF_TILE,
     NORMAL_X,
     NORMAL_Y,
     SHAPE,
@@ -208,9 +207,7 @@ def narrow(w: World, tile: int, cx: float, cy: float, a: float, b: float) -> int
 
 
 @fast
-def thin(
-    w: World, depth: float, nx: float, ny: float, gap_x: float, gap_y: float, a: float, b: float, m: float
-) -> int:
+def thin(w: World, depth: float, nx: float, ny: float, gap_x: float, gap_y: float, a: float, b: float, m: float) -> int:
     """A thin wedge: out over its flat side (the gap), along the candidate, or along its normal - whichever is least."""
     qx = nx * (-depth)
     qy = ny * (-depth)
@@ -226,9 +223,7 @@ def thin(
 
 
 @fast
-def arc(
-    w: World, dx: float, dy: float, length: float, depth: float, a: float, b: float, m: float
-) -> int:
+def arc(w: World, dx: float, dy: float, length: float, depth: float, a: float, b: float, m: float) -> int:
     """The hollow arc of a concave tile."""
     if depth > 0.0:
         if m < depth:

@@ -25,7 +25,7 @@ EVENT_NAMES = (
 
 @fast
 def emit(w: World, kind: int, slot: int, x: float, y: float, dx: float, dy: float) -> None:
-    """Note an event of this tick: where (x, y) in px, a vector (dx, dy) that depends on the kind, whose slot (0: ninja).
+    """Note an event of this tick: where (x, y) in px, a vector (dx, dy) that depends on the kind, whose (0: ninja).
 
     For DIED, ``slot`` is the kill type and (dx, dy) the impulse; for LANDED (dx, dy) is the impact velocity.
     """

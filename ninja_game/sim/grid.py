@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .memory import fast
 from .rules import CELL, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
-from .schema import Thing, World
+from .schema import Header, World
 
 
 @fast
@@ -27,7 +27,7 @@ def cell_index(column: float, row: float) -> int:
 
 
 @fast
-def link(w: World, o: Thing, slot: int, cell: int) -> None:
+def link(w: World, o: Header, slot: int, cell: int) -> None:
     """Insert at the head of a cell's list (newest first)."""
     o.cell = cell
     if cell:
@@ -40,7 +40,7 @@ def link(w: World, o: Thing, slot: int, cell: int) -> None:
 
 
 @fast
-def unlink(w: World, o: Thing) -> None:
+def unlink(w: World, o: Header) -> None:
     """Take out of the cell's list. The thing's own next link is cleared: a walk standing on it ends there (O 3)."""
     if o.cell:
         if o.prev:
@@ -54,14 +54,14 @@ def unlink(w: World, o: Thing) -> None:
 
 
 @fast
-def file(w: World, o: Thing, slot: int) -> None:
+def file(w: World, o: Header, slot: int) -> None:
     """File under the cell of the thing's position and mark it as filed."""
     link(w, o, slot, cell_at(o.x, o.y))
     o.filed = 1
 
 
 @fast
-def unfile(w: World, o: Thing) -> None:
+def unfile(w: World, o: Header) -> None:
     """Take a filed thing out of the grid for good; nothing for one that is not filed."""
     if o.filed:
         unlink(w, o)
@@ -69,7 +69,7 @@ def unfile(w: World, o: Thing) -> None:
 
 
 @fast
-def refile(w: World, o: Thing, slot: int) -> int:
+def refile(w: World, o: Header, slot: int) -> int:
     """Re-register a thing that moved; 1 if its cell changed. In the same cell it keeps its place in the list."""
     cell = cell_at(o.x, o.y)
     if cell == o.cell:

@@ -27,7 +27,7 @@ def dtype_of(cls: type) -> np.dtype[np.void]:
     fields = fields_of(cls)
     for field in fields:
         if field.name in _REFUSED:
-            raise TypeError(f"{cls.__name__}.{field.name}: this name is an attribute of NumPy's records; rename the field")
+            raise TypeError(f"{cls.__name__}.{field.name}: NumPy's records have an attribute of this name; rename it")
     if cls is Thing:
         return _overlaid(fields)
     offset = 0
@@ -101,21 +101,38 @@ def new_worlds(count: int, things: int) -> Records:
     return np.ndarray((count,), WORLD, block, 0, (stride,))
 
 
-def state_bytes(worlds: Records, index: int) -> NDArray[np.uint8]:
-    """The bytes of one world, without its events: a view, for save-states and copies between worlds."""
-    start = worlds.ctypes.data - _base_address(worlds) + index * worlds.strides[0]
-    block = _block(worlds)
-    used = used_bytes(int(worlds[index]["used"]))
-    return block[start + STATE_START : start + used]
+def state_view(worlds: Records, index: int) -> NDArray[np.uint8]:
+    """The bytes of one world without its events, as a view: save-states and copies between worlds are copies of it."""
+    world = worlds[index : index + 1]
+    used = used_bytes(int(world["used"][0]))
+    return np.ndarray((used - STATE_START,), np.uint8, world.base, _offset(worlds, index) + STATE_START)
 
 
-def _block(worlds: Records) -> NDArray[np.uint8]:
-    """The whole block of memory under an array of worlds, as bytes."""
-    base = worlds
-    while isinstance(base.base, np.ndarray):
-        base = base.base
-    return np.frombuffer(base.base, np.uint8)  # type: ignore[arg-type]
+def _offset(worlds: Records, index: int) -> int:
+    """Where in its block of memory a world begins, in bytes."""
+    block = np.frombuffer(worlds.base, np.uint8)  # type: ignore[arg-type]
+    return int(worlds.ctypes.data - block.ctypes.data) + index * worlds.strides[0]
 
 
-def _base_address(worlds: Records) -> int:
-    return int(_block(worlds).ctypes.data)
+def plain_copy(worlds: Records, index: int) -> World:
+    """One world of an array as plain objects, for looking at it, digests and comparisons. Its events come along."""
+    record = worlds[index]
+    w = World()
+    for field in fields_of(World):
+        if isinstance(field.type, str):
+            value = record[field.name].tolist()
+            setattr(w, field.name, value)
+    _fill(w.ninja, record["ninja"].item())
+    for event, values in zip(w.events, record["events"][: w.event_count].tolist(), strict=False):
+        _fill(event, values)
+    for values in record["things"][1 : w.used].tolist():
+        o = Thing()
+        _fill(o, values)
+        w.things.append(o)
+    return w
+
+
+def _fill(o: object, values: tuple[object, ...]) -> None:
+    """Give an object its fields in the order of the schema."""
+    for field, value in zip(fields_of(type(o)), values, strict=True):
+        setattr(o, field.name, value)

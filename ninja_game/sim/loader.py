@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
+
+from ninja_game.errors import LevelError
 
 from .grid import cell_at, cell_index, file, link
 from .level_data import (
@@ -29,7 +32,7 @@ from .objects.door import write_edges
 from .objects.drone import UNIT_X, UNIT_Y
 from .rules import DOWN, DRAG, DRONE_SPEED, GRAVITY, HALF, LEFT, RIGHT, SOLID, STRIDE, THWUMP_FALL, THWUMP_HALF, UP
 from .schedule import start_think, start_update
-from .schema import INERT, SWITCH, Door, Drone, FloorGuard, Level, Ninja, Thing, Thwump, World
+from .schema import CAPACITY, INERT, SWITCH, Door, Drone, FloorGuard, Level, Ninja, Thing, Thwump, World
 from .states import (
     AUTOMATIC,
     LOCKED,
@@ -55,6 +58,33 @@ def grid_tiles(data: LevelData) -> list[int]:
         start = (row + 2) * STRIDE + 2
         tiles[start : start + COLUMNS] = ids[row::ROWS]
     return tiles
+
+
+class RecordTable(NamedTuple):
+    """A level's records as ``populate`` takes them, and how many slots its world needs (slot 0, nobody, among them)."""
+
+    kinds: list[int]
+    counts: list[int]
+    values: list[list[float]]
+    slots: int
+
+
+def record_table(data: LevelData) -> RecordTable:
+    """The records that make an object. Raises LevelError for a level without a ninja or with too many objects."""
+    records = [record for record in data.records if record.kind >= 0]
+    kinds = [record.kind for record in records]
+    if NINJA not in kinds:
+        raise LevelError("this level cannot be played: it has no ninja", hint="add one, a record of type 5")
+    counts = [len(record.values) for record in records]
+    values = [[*record.values[:9], *[0.0] * (9 - count)] for record, count in zip(records, counts, strict=True)]
+    slots = len(records) + 1 + kinds.count(EXIT)
+    if slots > CAPACITY:
+        raise LevelError(
+            "this level has too many objects",
+            found=f"{slots - 1} (an exit counts twice)",
+            expected=f"at most {CAPACITY - 1}",
+        )
+    return RecordTable(kinds, counts, values, slots)
 
 
 @fast

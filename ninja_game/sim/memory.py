@@ -11,6 +11,7 @@ neither Numba nor NumPy.
 from __future__ import annotations
 
 from collections.abc import Callable
+from inspect import get_annotations
 from typing import Annotated, Any, NamedTuple, TypeVar, get_args, get_origin, get_type_hints
 
 f8 = Annotated[float, "f8"]
@@ -46,7 +47,7 @@ def fields_of(cls: type) -> list[Field]:
     found: dict[str, Field] = {}
     for base in reversed(cls.__mro__[:-1]):
         hints = get_type_hints(base, include_extras=True)
-        for name in base.__dict__.get("__annotations__", {}):
+        for name in get_annotations(base):
             found.setdefault(name, _field(name, hints[name]))
     return list(found.values())
 
@@ -60,6 +61,13 @@ def _field(name: str, hint: Any) -> Field:
     if get_origin(hint) is Annotated:
         return Field(name, get_args(hint)[1], length)
     return Field(name, hint, length)
+
+
+def part(cls: type[C]) -> type[C]:
+    """Declare fields that a struct inherits; a class without instances, hence with empty slots."""
+    body = {name: value for name, value in cls.__dict__.items() if name not in ("__dict__", "__weakref__")}
+    remade: type[C] = type(cls.__name__, cls.__bases__, body | {"__slots__": ()})
+    return remade
 
 
 def struct(cls: type[C]) -> type[C]:
@@ -89,4 +97,5 @@ def struct(cls: type[C]) -> type[C]:
         "__qualname__": cls.__qualname__,
         "FIELDS": fields,
     }
-    return type(cls)(cls.__name__, cls.__bases__, body)
+    remade: type[C] = type(cls.__name__, cls.__bases__, body)
+    return remade

@@ -27,9 +27,7 @@ from .tiles import (
 
 
 @fast
-def ray_tile(
-    tile: int, cx: float, cy: float, x: float, y: float, dx: float, dy: float
-) -> tuple[bool, float, float]:
+def ray_tile(tile: int, cx: float, cy: float, x: float, y: float, dx: float, dy: float) -> tuple[bool, float, float]:
     """Ray from (x, y) along (dx, dy) against the tile of the cell centred on (cx, cy): (hit, point px).
 
     Comparisons are written so that NaN decides as in the original: "not (a < b)" is true for it.

@@ -1,8 +1,8 @@
 """Every constant of the game, with its unit and where it comes from - and nothing else.
 
 Lengths in px, speeds in px/tick, 40 ticks a second, y downwards. "W", "O", "N", "G" name the pages world, objects,
-ninja, game of the specification. A product such as 12 * 0.35714285714285715 is written as the double it gives: positions
-are compared to the last bit, so a "nicer" literal would be another game.
+ninja, game of the specification. A product such as 12 * 0.35714285714285715 is written as the double it gives:
+positions are compared to the last bit, so a "nicer" literal would be another game.
 """
 
 TICKS_PER_SECOND = 40

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from .memory import fast
-from .schema import Thing, World
+from .schema import Header, World
 
 
 @fast
-def start_update(w: World, o: Thing, slot: int) -> None:
+def start_update(w: World, o: Header, slot: int) -> None:
     """Make a thing the newest member of the update set, if it is not in it."""
     if o.updating:
         return
@@ -20,7 +20,7 @@ def start_update(w: World, o: Thing, slot: int) -> None:
 
 
 @fast
-def end_update(w: World, o: Thing, slot: int) -> None:
+def end_update(w: World, o: Header, slot: int) -> None:
     """Take a thing out of the update set. The pass keeps its place in ``w.cursor``; a removal moves it along."""
     if not o.updating:
         return
@@ -36,7 +36,7 @@ def end_update(w: World, o: Thing, slot: int) -> None:
 
 
 @fast
-def start_think(w: World, o: Thing, slot: int) -> None:
+def start_think(w: World, o: Header, slot: int) -> None:
     """Insert a thing right before the cursor of the thinker ring and move the cursor onto it: it thinks next."""
     if o.thinking:
         return
@@ -54,7 +54,7 @@ def start_think(w: World, o: Thing, slot: int) -> None:
 
 
 @fast
-def end_think(w: World, o: Thing, slot: int) -> None:
+def end_think(w: World, o: Header, slot: int) -> None:
     """Take a thing out of the thinker ring; if the cursor was on it, the cursor goes to its successor."""
     if not o.thinking:
         return

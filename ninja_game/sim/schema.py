@@ -1,7 +1,7 @@
 """The state of a world, described once: what the rules read and write, and what a save-state holds.
 
-Zeroed memory is a valid state: lists are linked by index through ``World.things`` and index 0 is nobody, cell 0 is no
-cell. ``World`` keeps the events of the tick first (a save-state leaves them out) and the things last (it copies only the
+Zeroed memory is a valid state: lists are linked by index through ``World.things`` and index 0 is nobody, cell 0 is
+no cell. ``World`` keeps the events of the tick first (a save-state leaves them out) and the things last (it copies only the
 used part).
 """
 
@@ -9,13 +9,12 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from .memory import f8, i2, i4, struct, u1
+from .memory import f8, i2, i4, part, struct, u1
 from .rules import GRID_CELLS
 
 CAPACITY = 12_288
 """Slots for things in a compiled world. One number for all levels: another capacity is another type and compile."""
 
-MAX_THINGS = CAPACITY - 1
 MAX_EVENTS = 48
 """Events kept of one tick; what is beyond is dropped (a crowded death may emit dozens, presentation only)."""
 
@@ -79,10 +78,10 @@ class Ninja:
     box: i4
 
 
+@part
 class Header:
     """What every thing has: place, cell list, update set, thinker ring, current routines."""
 
-    __slots__ = ()
     x: f8
     y: f8
     kind: i4
@@ -101,65 +100,65 @@ class Header:
     counter: i4
 
 
+@part
 class Gold(Header):
     """``spent``: collected."""
 
-    __slots__ = ()
     spent: i4
 
 
+@part
 class Mine(Header):
     """``spent``: exploded."""
 
-    __slots__ = ()
     spent: i4
 
 
+@part
 class Exit(Header):
     """``spent``: open. ``partner``: the slot of its switch."""
 
-    __slots__ = ()
     spent: i4
     partner: i4
 
 
+@part
 class Switch(Header):
     """An exit's switch: filed in a cell, but without an id (objects.md §2.2). ``partner``: the slot of its exit."""
 
-    __slots__ = ()
     partner: i4
 
 
+@part
 class BounceBlock(Header):
-    """A block on a spring about its anchor; ``old_*`` is where it was in the tick before; ``counter`` sends it to sleep."""
+    """A block on a spring about its anchor; ``old_*`` is where it was a tick ago; ``counter`` sends it to sleep."""
 
-    __slots__ = ()
     anchor_x: f8
     anchor_y: f8
     old_x: f8
     old_y: f8
 
 
+@part
 class LaunchPad(Header):
     """``face_*``: the normal as given, not normalised."""
 
-    __slots__ = ()
     face_x: f8
     face_y: f8
 
 
+@part
 class OneWay(Header):
     """``face_*``: the side on which one can land."""
 
-    __slots__ = ()
     face_x: f8
     face_y: f8
 
 
+@part
 class Door(Header):
-    """Two edge states of one shared side (indices into ``World.edges``, 0: missing) and what they were when it was made."""
+    """Two edge states of one shared side (indices into ``World.edges``, 0: missing) and what they were at load."""
 
-    __slots__ = ()
     mechanism: i4
     spent: i4
     edge_1: i4
@@ -168,10 +167,10 @@ class Door(Header):
     stored_2: i4
 
 
+@part
 class Thwump(Header):
     """A block that falls to ``fall_*`` and rises to ``anchor_*``; lethal on the side of ``face_*``."""
 
-    __slots__ = ()
     anchor_x: f8
     anchor_y: f8
     face_x: f8
@@ -186,10 +185,10 @@ class Thwump(Header):
     high: i4
 
 
+@part
 class FloorGuard(Header):
     """Runs between ``low_x`` and ``high_x`` (px) when the ninja is on its row in columns ``low``…``high``."""
 
-    __slots__ = ()
     low_x: f8
     high_x: f8
     facing: f8
@@ -197,10 +196,10 @@ class FloorGuard(Header):
     high: i4
 
 
+@part
 class Turret(Header):
     """``aim_*``: where the crosshair is."""
 
-    __slots__ = ()
     aim_x: f8
     aim_y: f8
     aim_factor: f8
@@ -208,10 +207,10 @@ class Turret(Header):
     think: i4
 
 
+@part
 class Launcher(Header):
     """``base_*`` is the launcher, ``x, y`` the rocket (the base's place until the first one flies)."""
 
-    __slots__ = ()
     base_x: f8
     base_y: f8
     heading_x: f8
@@ -220,10 +219,10 @@ class Launcher(Header):
     acceleration: f8
 
 
+@part
 class Drone(Header):
     """All drones. ``clock`` and ``toggle`` are k and w of objects.md §8.13; ``grab`` is the pending direction + 1."""
 
-    __slots__ = ()
     goal_x: f8
     goal_y: f8
     speed: f8

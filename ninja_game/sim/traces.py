@@ -16,7 +16,7 @@ from .level_data import (
     TURRET,
 )
 from .memory import fast
-from .schema import INERT, Thing, World
+from .schema import INERT, World
 from .states import AUTOMATIC, LAUNCHER_FLIGHT, THWUMP_REST
 
 

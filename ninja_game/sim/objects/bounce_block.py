@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from ..contacts import push
-from ..events import BLOCK_WOKEN, emit
-from ..memory import fast
-from ..rules import BLOCK_DRAG, BLOCK_HALF, BLOCK_SHARE, BLOCK_SLEEP, BLOCK_SPRING, RADIUS
-from ..schedule import end_think, end_update, start_think, start_update
-from ..schema import BounceBlock, World
+from ninja_game.sim.contacts import push
+from ninja_game.sim.events import BLOCK_WOKEN, emit
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import BLOCK_DRAG, BLOCK_HALF, BLOCK_SHARE, BLOCK_SLEEP, BLOCK_SPRING, RADIUS
+from ninja_game.sim.schedule import end_think, end_update, start_think, start_update
+from ninja_game.sim.schema import BounceBlock, World
 
 
 @fast
 def touch_block(w: World, o: BounceBlock, slot: int) -> None:
-    """Box contact: four fifths of the overlap move the block, one fifth the ninja. The block's old place stays, so
-    that its displacement is velocity in the next update."""
+    """Box contact: four fifths of the overlap move the block, one fifth the ninja.
+
+    The block's old place stays, so that its displacement is velocity in the next update.
+    """
     n = w.ninja
     dy = n.y - o.y
     overlap_y = BLOCK_HALF + RADIUS - abs(dy)

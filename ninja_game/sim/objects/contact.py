@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..level_data import (
+from ninja_game.sim.level_data import (
     BOUNCE_BLOCK,
     DOOR,
     DRONE,
@@ -15,9 +15,10 @@ from ..level_data import (
     ONE_WAY,
     THWUMP,
 )
-from ..memory import fast
-from ..rules import STRIDE
-from ..schema import SWITCH, World
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import STRIDE
+from ninja_game.sim.schema import SWITCH, World
+
 from .bounce_block import touch_block
 from .door import touch_door
 from .drone_weapons import touch_drone

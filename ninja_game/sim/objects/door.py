@@ -1,21 +1,21 @@
-"""Doors: automatic, locked and trap doors change the two edge states of one side, nothing else (objects.md §8.6-§8.7)."""
+"""Doors: automatic, locked and trap doors change two edge states of one side, nothing else (objects.md §8.6-§8.7)."""
 
 from __future__ import annotations
 
 from math import sqrt
 
-from ..events import DOOR_CLOSED, DOOR_OPENED, LOCK_OPENED, TRAP_CLOSED, emit
-from ..grid import unfile
-from ..memory import fast
-from ..rules import AUTOMATIC_DOOR_OPEN, AUTOMATIC_DOOR_RADIUS, DOOR_SWITCH_RADIUS, RADIUS, SOLID
-from ..schedule import end_update, start_update
-from ..schema import Door, World
-from ..states import AUTOMATIC, LOCKED
+from ninja_game.sim.events import DOOR_CLOSED, DOOR_OPENED, LOCK_OPENED, TRAP_CLOSED, emit
+from ninja_game.sim.grid import unfile
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import AUTOMATIC_DOOR_OPEN, AUTOMATIC_DOOR_RADIUS, DOOR_SWITCH_RADIUS, RADIUS, SOLID
+from ninja_game.sim.schedule import end_update, start_update
+from ninja_game.sim.schema import Door, World
+from ninja_game.sim.states import AUTOMATIC, LOCKED
 
 
 @fast
 def write_edges(w: World, o: Door, closed: bool) -> None:
-    """Write both states: solid, or what was there when the door was made. Several doors on a side: the last one wins."""
+    """Write both states: solid, or what was there when the door was made. Of several doors on a side the last wins."""
     if o.edge_1:
         w.edges[o.edge_1] = SOLID if closed else o.stored_1
     if o.edge_2:

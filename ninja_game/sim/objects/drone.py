@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from ..events import CHASE_STARTED, emit
-from ..grid import refile
-from ..memory import fast
-from ..rules import CELL, OFF
-from ..schema import Drone, World
-from ..states import (
+from ninja_game.sim.events import CHASE_STARTED, emit
+from ninja_game.sim.grid import refile
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import CELL, OFF
+from ninja_game.sim.schema import Drone, World
+from ninja_game.sim.states import (
     ALTERNATING,
     MOVEMENT_BELOW,
     NO_DIRECTION,
@@ -18,7 +18,7 @@ from ..states import (
     WANDER_CCW,
     WANDER_CW,
 )
-from ..tiles import CENTRE_X, CENTRE_Y, COLUMN, ROW, STEP
+from ninja_game.sim.tiles import CENTRE_X, CENTRE_Y, COLUMN, ROW, STEP
 
 UNIT_X = [1.0, 0.0, -1.0, 0.0]
 UNIT_Y = [0.0, 1.0, 0.0, -1.0]

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from math import sqrt
 
-from ..death import kill, stop_firing
-from ..events import CHAINGUN_CHARGING, CHAINGUN_ON, CHAINGUN_SHOT, LASER_CHARGING, LASER_ON, emit
-from ..memory import fast
-from ..rays import ray_tiles, sees
-from ..rules import (
+from ninja_game.sim.death import kill, stop_firing
+from ninja_game.sim.events import CHAINGUN_CHARGING, CHAINGUN_ON, CHAINGUN_SHOT, LASER_CHARGING, LASER_ON, emit
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rays import ray_tiles, sees
+from ninja_game.sim.rules import (
     CHAINGUN_COOL,
     CHAINGUN_PAUSE,
     CHAINGUN_PREPARE,
@@ -18,9 +18,9 @@ from ..rules import (
     LASER_PREPARE,
     RADIUS,
 )
-from ..schedule import end_think, start_think
-from ..schema import Drone, Level, World
-from ..states import (
+from ninja_game.sim.schedule import end_think, start_think
+from ninja_game.sim.schema import Drone, Level, World
+from ninja_game.sim.states import (
     BULLET,
     DRONE_FIRING,
     DRONE_MOVE,
@@ -30,6 +30,7 @@ from ..states import (
     WEAPON_LASER,
     WEAPON_ZAP,
 )
+
 from .drone import move_drone
 from .floor_guard import zap
 

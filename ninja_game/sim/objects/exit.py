@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from math import sqrt
 
-from ..death import win
-from ..events import EXIT_OPENED, emit
-from ..grid import file
-from ..memory import fast
-from ..rules import EXIT_RADIUS, RADIUS, SWITCH_RADIUS
-from ..schema import Exit, Switch, World
+from ninja_game.sim.death import win
+from ninja_game.sim.events import EXIT_OPENED, emit
+from ninja_game.sim.grid import file
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import EXIT_RADIUS, RADIUS, SWITCH_RADIUS
+from ninja_game.sim.schema import Exit, Switch, World
 
 
 @fast

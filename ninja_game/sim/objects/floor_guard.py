@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from math import sqrt
 
-from ..death import kill
-from ..events import GUARD_STARTED, emit
-from ..grid import refile
-from ..memory import fast
-from ..rules import GUARD_RADIUS, GUARD_SPEED, RADIUS
-from ..schema import FloorGuard, World
-from ..states import ELECTRIC, GUARD_CHASE, GUARD_IDLE
-from ..tiles import COLUMN, ROW
+from ninja_game.sim.death import kill
+from ninja_game.sim.events import GUARD_STARTED, emit
+from ninja_game.sim.grid import refile
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import GUARD_RADIUS, GUARD_SPEED, RADIUS
+from ninja_game.sim.schema import FloorGuard, World
+from ninja_game.sim.states import ELECTRIC, GUARD_CHASE, GUARD_IDLE
+from ninja_game.sim.tiles import COLUMN, ROW
 
 
 @fast

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from math import sqrt
 
-from ..events import GOLD_TAKEN, emit
-from ..grid import unfile
-from ..memory import fast
-from ..rules import GOLD_RADIUS, RADIUS
-from ..schema import Gold, World
+from ninja_game.sim.events import GOLD_TAKEN, emit
+from ninja_game.sim.grid import unfile
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import GOLD_RADIUS, RADIUS
+from ninja_game.sim.schema import Gold, World
 
 
 @fast

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from math import sqrt
 
-from ..events import LAUNCHED, emit
-from ..memory import fast
-from ..rules import PAD_RADIUS, PAD_STRENGTH, RADIUS
-from ..schema import LaunchPad, World
-from ..states import FALLING, enter_state
+from ninja_game.sim.events import LAUNCHED, emit
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import PAD_RADIUS, PAD_STRENGTH, RADIUS
+from ninja_game.sim.schema import LaunchPad, World
+from ninja_game.sim.states import FALLING, enter_state
 
 
 @fast

@@ -1,16 +1,16 @@
-"""Homing launcher and its rocket (objects.md §8.11). The launcher itself has no contact; only a rocket in flight has."""
+"""Homing launcher and its rocket (objects.md §8.11). The launcher has no contact; only a rocket in flight has."""
 
 from __future__ import annotations
 
 from math import sqrt
 
-from ..arithmetic import div
-from ..death import kill
-from ..events import ROCKET_EXPLODED, ROCKET_LAUNCHED, emit
-from ..grid import file, refile, unfile
-from ..memory import fast
-from ..rays import sees, solid_at
-from ..rules import (
+from ninja_game.sim.arithmetic import div
+from ninja_game.sim.death import kill
+from ninja_game.sim.events import ROCKET_EXPLODED, ROCKET_LAUNCHED, emit
+from ninja_game.sim.grid import file, refile, unfile
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rays import sees, solid_at
+from ninja_game.sim.rules import (
     OFF,
     RADIUS,
     ROCKET_ACCELERATION,
@@ -20,10 +20,10 @@ from ..rules import (
     ROCKET_TURN,
     SOLID,
 )
-from ..schedule import end_think, end_update, start_think, start_update
-from ..schema import Launcher, Level, World
-from ..states import EXPLOSIVE, LAUNCHER_FLIGHT, LAUNCHER_IDLE, LAUNCHER_PREPARE
-from ..tiles import STEP
+from ninja_game.sim.schedule import end_think, end_update, start_think, start_update
+from ninja_game.sim.schema import Launcher, Level, World
+from ninja_game.sim.states import EXPLOSIVE, LAUNCHER_FLIGHT, LAUNCHER_IDLE, LAUNCHER_PREPARE
+from ninja_game.sim.tiles import STEP
 
 
 @fast

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from math import sqrt
 
-from ..death import kill
-from ..events import MINE_EXPLODED, emit
-from ..grid import unfile
-from ..memory import fast
-from ..rules import MINE_RADIUS, RADIUS
-from ..schema import Mine, World
-from ..states import EXPLOSIVE
+from ninja_game.sim.death import kill
+from ninja_game.sim.events import MINE_EXPLODED, emit
+from ninja_game.sim.grid import unfile
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import MINE_RADIUS, RADIUS
+from ninja_game.sim.schema import Mine, World
+from ninja_game.sim.states import EXPLOSIVE
 
 
 @fast

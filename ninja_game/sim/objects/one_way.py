@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ..contacts import push
-from ..memory import fast
-from ..rules import ONE_WAY_HALF, RADIUS
-from ..schema import OneWay, World
+from ninja_game.sim.contacts import push
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import ONE_WAY_HALF, RADIUS
+from ninja_game.sim.schema import OneWay, World
 
 
 @fast

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from ..contacts import push
-from ..death import kill
-from ..events import THWUMP_FELL, THWUMP_LANDED, emit
-from ..grid import refile
-from ..memory import fast
-from ..rules import RADIUS, THWUMP_FALL, THWUMP_HALF, THWUMP_RISE, THWUMP_SIGHT
-from ..schema import Thwump, World
-from ..states import ELECTRIC, THWUMP_MOVE, THWUMP_REST
-from ..tiles import COLUMN, ROW
+from ninja_game.sim.contacts import push
+from ninja_game.sim.death import kill
+from ninja_game.sim.events import THWUMP_FELL, THWUMP_LANDED, emit
+from ninja_game.sim.grid import refile
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import RADIUS, THWUMP_FALL, THWUMP_HALF, THWUMP_RISE, THWUMP_SIGHT
+from ninja_game.sim.schema import Thwump, World
+from ninja_game.sim.states import ELECTRIC, THWUMP_MOVE, THWUMP_REST
+from ninja_game.sim.tiles import COLUMN, ROW
 
 
 @fast

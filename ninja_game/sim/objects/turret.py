@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from math import sqrt
 
-from ..death import kill
-from ..events import TURRET_FIRED, TURRET_LOCKED, emit
-from ..memory import fast
-from ..rays import sees
-from ..rules import (
+from ninja_game.sim.death import kill
+from ninja_game.sim.events import TURRET_FIRED, TURRET_LOCKED, emit
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rays import sees
+from ninja_game.sim.rules import (
     AIM_FAR,
     AIM_FAR_SQUARED,
     AIM_MID,
@@ -18,9 +18,9 @@ from ..rules import (
     TURRET_DELAY,
     TURRET_SHOT,
 )
-from ..schedule import end_think, end_update, start_think, start_update
-from ..schema import Level, Turret, World
-from ..states import (
+from ninja_game.sim.schedule import end_think, end_update, start_think, start_update
+from ninja_game.sim.schema import Level, Turret, World
+from ninja_game.sim.states import (
     HARD_BULLET,
     TURRET_POST_FIRE,
     TURRET_PRE_FIRE,
@@ -32,7 +32,7 @@ from ..states import (
 
 @fast
 def sees_ninja(level: Level, w: World, o: Turret) -> bool:
-    """Is the way from the turret to the ninja free?"""
+    """Tell whether the way from the turret to the ninja is free."""
     return sees(level, w, o.x, o.y, w.ninja.x, w.ninja.y)[0]
 
 
@@ -132,7 +132,7 @@ def fire(level: Level, w: World, o: Turret, slot: int) -> None:
 
 @fast
 def end_shot(w: World, o: Turret, slot: int) -> None:
-    """Think again and cool down. Runs also when the shot killed and the turret was idled during it (objects.md §4.1)."""
+    """Think again and cool down. Runs also when the shot killed and so idled the turret during it (objects.md §4.1)."""
     start_think(w, o, slot)
     o.think = TURRET_TARGETING
     o.counter = 0

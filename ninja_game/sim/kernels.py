@@ -1,7 +1,6 @@
 """What the compiled memory is called for: whole runs and traces of worlds in an array, without coming back each tick.
 
-These functions take arrays of worlds and an index, never a single record: that is what Numba passes quickly. They work
-on lists of plain worlds just as well, which the tests use.
+These functions take arrays of worlds and an index, never a single record: that is what Numba passes quickly.
 """
 
 from __future__ import annotations
@@ -11,9 +10,10 @@ from typing import Any
 
 from .loader import populate
 from .memory import fast
+from .rules import NAN
 from .schema import Level, World
 from .tiles import set_edges
-from .traces import is_traced, place_of, status_of
+from .traces import place_of, status_of
 from .world import step
 
 
@@ -25,10 +25,12 @@ def load_world(
     kinds: Sequence[int],
     counts: Sequence[int],
     values: Sequence[Sequence[float]],
+    box: int,
 ) -> None:
     """Set the edges of level ``index`` and create its objects in a zeroed world ``index``."""
     set_edges(levels[index], worlds[index])
     populate(levels[index], worlds[index], kinds, counts, values)
+    worlds[index].ninja.box = box
 
 
 @fast
@@ -50,8 +52,8 @@ def run_world(
     n = w.ninja
     for tick in range(len(frames)):
         step(level, w, int(frames[tick]))
-        positions[tick, 0] = n.x + 0.0
-        positions[tick, 1] = n.y + 0.0
+        positions[tick, 0] = clean(n.x)
+        positions[tick, 1] = clean(n.y)
         states[tick] = n.state
         if w.outcome:
             return tick + 1
@@ -71,14 +73,11 @@ def race_world(levels: Sequence[Level], worlds: Sequence[World], index: int, fra
 
 
 @fast
-def traced_slots(w: World, slots: Any) -> int:
-    """Write the slots of all objects that traces show, in id order; their number."""
-    count = 0
-    for slot in range(1, w.ids + 1):
-        if is_traced(w, slot):
-            slots[count] = slot
-            count += 1
-    return count
+def clean(value: float) -> float:
+    """A number as traces write it: no -0.0, one NaN."""
+    if value != value:
+        return NAN
+    return value + 0.0
 
 
 @fast
@@ -87,39 +86,33 @@ def trace_world(
     worlds: Sequence[World],
     index: int,
     frames: Sequence[int],
+    slots: Sequence[int],
     ninja: Any,
-    ninja_status: Any,
-    slots: Any,
-    places: Any,
-    statuses: Any,
-) -> int:
-    """Run all of ``frames``, whatever happens, and record everything after each tick; the number of traced objects.
+    things: Any,
+) -> None:
+    """Run all of ``frames``, whatever happens, and record everything after each tick.
 
-    ``ninja`` (ticks x 4): x, y, px, py; ``ninja_status`` (ticks x 2): state, gold; ``slots`` (objects): which slot each
-    traced object has; ``places`` (ticks x objects x 2) px and ``statuses`` (ticks x objects).
+    ``ninja``: NINJA_RECORD (ticks); ``things``: THING_RECORD (ticks x slots) for the things in ``slots``.
     """
     level = levels[index]
     w = worlds[index]
     n = w.ninja
-    count = traced_slots(w, slots)
     for tick in range(len(frames)):
         step(level, w, int(frames[tick]))
-        ninja[tick, 0] = n.x
-        ninja[tick, 1] = n.y
-        ninja[tick, 2] = n.px
-        ninja[tick, 3] = n.py
-        ninja_status[tick, 0] = n.state
-        ninja_status[tick, 1] = w.gold
-        for k in range(count):
-            places[tick, k, 0], places[tick, k, 1] = place_of(w, slots[k])
-            statuses[tick, k] = status_of(w, slots[k])
-    return count
+        row = ninja[tick]
+        row.x = clean(n.x)
+        row.y = clean(n.y)
+        row.px = clean(n.px)
+        row.py = clean(n.py)
+        row.s = n.state
+        row.gold = w.gold
+        for k in range(len(slots)):
+            slot = slots[k]
+            x, y = place_of(w, slot)
+            place = things[tick, k]
+            place.x = clean(x)
+            place.y = clean(y)
+            place.s = status_of(w, slot)
 
 
-@fast
-def copy_bytes(source: Any, target: Any, count: int) -> None:
-    """Copy the first ``count`` bytes: a save, a restore, or a copy between worlds."""
-    target[:count] = source[:count]
-
-
-ENTRY_POINTS: tuple[Callable[..., Any], ...] = (load_world, step_world, run_world, race_world, trace_world, copy_bytes)
+ENTRY_POINTS: tuple[Callable[..., Any], ...] = (load_world, step_world, run_world, race_world, trace_world)

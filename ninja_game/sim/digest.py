@@ -1,0 +1,98 @@
+"""The canonical digest of a world, and the first difference of two: field by field, the same for both memories.
+
+A digest covers every field of the schema but the events: little-endian, -0.0 as 0.0, every NaN as one; of each thing
+the common header and the fields of its kind.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import struct
+from collections.abc import Iterator
+from operator import attrgetter
+from typing import Any
+
+from .level_data import KIND_NAMES
+from .memory import fields_of
+from .plain import WORLD_SCALARS
+from .rules import NAN
+from .schema import (
+    BounceBlock,
+    Door,
+    Drone,
+    Exit,
+    FloorGuard,
+    Gold,
+    Header,
+    Launcher,
+    LaunchPad,
+    Mine,
+    Ninja,
+    OneWay,
+    Switch,
+    Thing,
+    Thwump,
+    Turret,
+    World,
+)
+
+KIND_CLASSES: tuple[type, ...] = (
+    Gold, BounceBlock, LaunchPad, Turret, FloorGuard, Header, Drone,
+    OneWay, Thwump, Door, Launcher, Exit, Mine, Switch, Header,
+)  # fmt: skip
+"""The schema class of each kind number; ninja records and inert objects have only the header."""
+
+_SCALARS = [field for field in WORLD_SCALARS if field.name != "event_count"]
+
+
+class _Reader:
+    """Reads and packs the fields of one schema class."""
+
+    def __init__(self, fields: list[Any]) -> None:
+        self.names = [field.name for field in fields]
+        self.get = attrgetter(*self.names)
+        self.pack = struct.Struct("<" + "".join("d" if field.type == "f8" else "i" for field in fields)).pack
+
+    def bytes_of(self, o: Any) -> bytes:
+        """The fields of an object, packed canonically."""
+        return self.pack(*[NAN if value != value else value + 0 for value in self.get(o)])
+
+
+_WORLD = _Reader(_SCALARS)
+_NINJA = _Reader(fields_of(Ninja))
+_THINGS = [_Reader(fields_of(cls)) for cls in KIND_CLASSES]
+
+
+def world_digest(w: World) -> str:
+    """Sha256 (hex) of a world's canonical form."""
+    digest = hashlib.sha256(_WORLD.bytes_of(w) + _NINJA.bytes_of(w.ninja))
+    digest.update(struct.pack(f"<{len(w.heads)}h", *w.heads) + bytes(w.edges))
+    for o in w.things[1 : w.used]:
+        digest.update(_THINGS[o.kind].bytes_of(o))
+    return digest.hexdigest()
+
+
+def differences(ours: World, theirs: World) -> Iterator[tuple[str, Any, Any]]:
+    """Every field in which two worlds differ: (name, our value, their value), the ninja first, then things by slot."""
+    yield from _unequal("ninja", _NINJA, ours.ninja, theirs.ninja)
+    yield from _unequal("world", _WORLD, ours, theirs)
+    for slot in range(1, min(ours.used, theirs.used)):
+        mine, other = ours.things[slot], theirs.things[slot]
+        yield from _unequal(thing_name(mine), _THINGS[mine.kind], mine, other)
+    for name in ("heads", "edges"):
+        for index, (mine, other) in enumerate(zip(getattr(ours, name), getattr(theirs, name), strict=True)):
+            if mine != other:
+                yield f"{name}[{index}]", mine, other
+
+
+def thing_name(o: Thing) -> str:
+    """A thing as reports call it: "object 12 (drone)"."""
+    kind = KIND_NAMES[o.kind] if o.kind < len(KIND_NAMES) else ("exit switch", "inert object")[o.kind - len(KIND_NAMES)]
+    return f"object {o.id} ({kind})" if o.id >= 0 else f"{kind} at ({o.x}, {o.y})"
+
+
+def _unequal(name: str, reader: _Reader, ours: Any, theirs: Any) -> Iterator[tuple[str, Any, Any]]:
+    """The fields of two objects that differ; NaN equals NaN."""
+    for field, mine, other in zip(reader.names, reader.get(ours), reader.get(theirs), strict=True):
+        if mine != other and not (mine != mine and other != other):
+            yield f"{name}: {field}", mine, other
