@@ -1,7 +1,7 @@
 """Compiled kernels, once per process, with their machine code kept in the user's cache folder.
 
 Numba's own cache notices a change only in the file of an entry point, so the folder is named after a digest of all
-sources of ``sim``. Numba reads that name when it is first imported and never again.
+sources with compiled functions. Numba reads that name when it is first imported and never again.
 """
 
 from __future__ import annotations
@@ -17,9 +17,11 @@ from typing import TYPE_CHECKING, Literal
 from ninja_game.errors import NinjaGameError
 
 if TYPE_CHECKING:
-    from ninja_game.sim.compiled import Kernels
+    from ninja_game.sim.compiled import Compiler, Kernels
 
 Memory = Literal["plain", "compiled"]
+
+COMPILED_FOLDERS = ("sim", "many")
 
 
 class MemoryUnavailableError(NinjaGameError):
@@ -51,23 +53,29 @@ def choose_memory(memory: str) -> Memory:
 
 
 def source_digest() -> str:
-    """A short digest of every source file of the simulation and of the Python that compiles it."""
+    """A short digest of every source file with compiled functions and of the Python that compiles them."""
     digest = hashlib.sha256(sys.version.encode())
-    folder = Path(__file__).parent / "sim"
-    for path in sorted(folder.rglob("*.py")):
-        digest.update(path.relative_to(folder).as_posix().encode() + path.read_bytes())
+    package = Path(__file__).parent
+    for folder in COMPILED_FOLDERS:
+        for path in sorted((package / folder).rglob("*.py")):
+            digest.update(path.relative_to(package).as_posix().encode() + path.read_bytes())
     return digest.hexdigest()[:16]
 
 
-@cache
 def kernels() -> Kernels:
-    """The compiled entry points by name (``sim/kernels.py``). Raises MemoryUnavailableError without Numba."""
+    """The compiled entry points of all modules imported so far, by name. Raises MemoryUnavailableError without Numba."""
+    return _compiler().kernels()
+
+
+@cache
+def _compiler() -> Compiler:
+    """The compiler of this process; tells Numba where its cache is before Numba is imported."""
     choose_memory("compiled")
     if "numba" not in sys.modules:
         from platformdirs import user_cache_path
 
         folder = user_cache_path("ninja-game") / "compiled" / source_digest()
         os.environ.setdefault("NUMBA_CACHE_DIR", str(folder))
-    from ninja_game.sim.compiled import compile_rules
+    from ninja_game.sim.compiled import Compiler
 
-    return compile_rules()
+    return Compiler()

@@ -37,9 +37,10 @@ def trace_digests(trace: RunTrace) -> TraceDigests:
     """The digests that tell whether two runs are the same in every bit."""
     ticks = len(trace.ninja)
     ninja = trace.ninja.tobytes()
-    rows = np.empty((ticks, NINJA_RECORD.itemsize + THING_RECORD.itemsize * len(trace.ids)), np.uint8)
-    rows[:, : NINJA_RECORD.itemsize] = np.frombuffer(ninja, np.uint8).reshape(ticks, NINJA_RECORD.itemsize)
-    rows[:, NINJA_RECORD.itemsize :] = np.frombuffer(trace.things.tobytes(), np.uint8).reshape(ticks, -1)
+    widths = NINJA_RECORD.itemsize, THING_RECORD.itemsize * len(trace.ids)
+    rows = np.empty((ticks, sum(widths)), np.uint8)
+    rows[:, : widths[0]] = np.frombuffer(ninja, np.uint8).reshape(ticks, widths[0])
+    rows[:, widths[0] :] = np.frombuffer(trace.things.tobytes(), np.uint8).reshape(ticks, widths[1])
     objects = {
         id_: sha256(column.tobytes()).hexdigest()[:8] for id_, column in zip(trace.ids, trace.things.T, strict=True)
     }

@@ -8,7 +8,7 @@ from .rules import INF, NAN
 
 @fast
 def div(a: float, b: float) -> float:
-    """Give a / b, with x/0 = ±∞ (by the sign of x) and 0/0 = NaN instead of an error. The sign of a zero never matters."""
+    """Give a / b, with x/0 = ±∞ (by the sign of x) and 0/0 = NaN. The sign of a zero never matters."""
     if b == 0.0:
         if a > 0.0:
             return INF

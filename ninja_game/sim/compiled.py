@@ -3,9 +3,8 @@
 A twin has the code of its rule and a namespace of its own, in which rules are compiled functions and module-level lists
 are constant arrays. So the plain rules stay ordinary Python and both memories run side by side in one process.
 
-Only what is called from outside (``kernels.ENTRY_POINTS``) gets the wrappers that Python needs and a place in the cache;
-that
-saves a quarter of the compile time and most of the cache.
+Only entry points get the wrappers that Python needs and a place in the cache; that saves a quarter of the compile time
+and most of the cache.
 """
 
 from __future__ import annotations
@@ -25,31 +24,38 @@ from .loader import grid_tiles, record_table
 from .memory import REGISTERED
 
 Kernels = dict[str, Callable[..., Any]]
-"""Compiled entry points by name; see kernels.py."""
+"""Compiled entry points by name."""
 
 
-def compile_rules(boundscheck: bool = False) -> Kernels:
-    """Compiled entry points by name. Nothing is compiled before it is called for the first time.
+class Compiler:
+    """Makes compiled twins of what is registered, and of what is registered later when it is asked again.
 
-    ``boundscheck``: raise IndexError for an index out of range (otherwise it is silent), for the tests.
+    Nothing is compiled before it is called for the first time. ``boundscheck``: raise IndexError for an index out of
+    range (otherwise it is silent), for the tests; it does not use the cache.
     """
-    import numba
 
-    options: dict[str, Any] = {"nogil": True, "error_model": "python", "boundscheck": boundscheck}
-    jit: Any = numba.njit
-    inner = jit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)
-    outer = jit(cache=not boundscheck, **options)
-    twins: dict[Callable[..., Any], Any] = {}
-    namespaces: dict[str, dict[str, Any]] = {}
-    for rule in REGISTERED:
-        namespace = namespaces.setdefault(rule.__module__, {"__builtins__": __builtins__})
-        twin = FunctionType(rule.__code__, namespace, rule.__name__, rule.__defaults__)
-        twin.__module__ = rule.__module__
-        twin.__qualname__ = rule.__qualname__
-        twins[rule] = (outer if rule in ENTRY_POINTS else inner)(twin)
-    for name, namespace in namespaces.items():
-        _fill(namespace, vars(sys.modules[name]), twins)
-    return {entry.__name__: twins[entry] for entry in ENTRY_POINTS}
+    def __init__(self, *, boundscheck: bool = False) -> None:
+        import numba
+
+        jit: Any = numba.njit
+        options: dict[str, Any] = {"nogil": True, "error_model": "python", "boundscheck": boundscheck}
+        self._inner = jit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)
+        self._outer = jit(cache=not boundscheck, **options)
+        self._twins: dict[Callable[..., Any], Any] = {}
+        self._namespaces: dict[str, dict[str, Any]] = {}
+
+    def kernels(self) -> Kernels:
+        """All entry points registered so far."""
+        new = [rule for rule in REGISTERED if rule not in self._twins]
+        for rule in new:
+            namespace = self._namespaces.setdefault(rule.__module__, {"__builtins__": __builtins__})
+            twin = FunctionType(rule.__code__, namespace, rule.__name__, rule.__defaults__)
+            twin.__module__ = rule.__module__
+            twin.__qualname__ = rule.__qualname__
+            self._twins[rule] = (self._outer if rule in ENTRY_POINTS else self._inner)(twin)
+        for name in {rule.__module__ for rule in new}:
+            _fill(self._namespaces[name], vars(sys.modules[name]), self._twins)
+        return {entry.__name__: self._twins[entry] for entry in ENTRY_POINTS}
 
 
 def _fill(namespace: dict[str, Any], source: dict[str, Any], twins: dict[Callable[..., Any], Any]) -> None:

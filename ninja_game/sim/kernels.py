@@ -5,11 +5,11 @@ These functions take arrays of worlds and an index, never a single record: that 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from .loader import populate
-from .memory import fast
+from .memory import entry_point, fast
 from .rules import NAN
 from .schema import Level, World
 from .tiles import set_edges
@@ -17,7 +17,7 @@ from .traces import place_of, status_of
 from .world import step
 
 
-@fast
+@entry_point
 def load_world(
     levels: Sequence[Level],
     worlds: Sequence[World],
@@ -33,13 +33,13 @@ def load_world(
     worlds[index].ninja.box = box
 
 
-@fast
+@entry_point
 def step_world(levels: Sequence[Level], worlds: Sequence[World], index: int, frame: int) -> None:
     """One tick of one world."""
     step(levels[index], worlds[index], frame)
 
 
-@fast
+@entry_point
 def run_world(
     levels: Sequence[Level], worlds: Sequence[World], index: int, frames: Sequence[int], positions: Any, states: Any
 ) -> int:
@@ -60,7 +60,7 @@ def run_world(
     return len(frames)
 
 
-@fast
+@entry_point
 def race_world(levels: Sequence[Level], worlds: Sequence[World], index: int, frames: Sequence[int]) -> int:
     """Run like ``run_world``, without a record: only the number of ticks run."""
     level = levels[index]
@@ -80,7 +80,7 @@ def clean(value: float) -> float:
     return value + 0.0
 
 
-@fast
+@entry_point
 def trace_world(
     levels: Sequence[Level],
     worlds: Sequence[World],
@@ -113,6 +113,3 @@ def trace_world(
             place.x = clean(x)
             place.y = clean(y)
             place.s = status_of(w, slot)
-
-
-ENTRY_POINTS: tuple[Callable[..., Any], ...] = (load_world, step_world, run_world, race_world, trace_world)

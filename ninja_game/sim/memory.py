@@ -26,10 +26,20 @@ REGISTERED: list[Callable[..., Any]] = []
 """Every function marked ``@fast``, in import order."""
 
 
+ENTRY_POINTS: list[Callable[..., Any]] = []
+"""Those of them that Python calls: only they get wrappers and a place in Numba's cache."""
+
+
 def fast(function: F) -> F:
     """Register a rule for compilation and give it back unchanged."""
     REGISTERED.append(function)
     return function
+
+
+def entry_point(function: F) -> F:
+    """Register a function that is called from outside; its arguments are arrays and numbers, never single records."""
+    ENTRY_POINTS.append(function)
+    return fast(function)
 
 
 class Field(NamedTuple):

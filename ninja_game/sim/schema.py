@@ -1,8 +1,8 @@
 """The state of a world, described once: what the rules read and write, and what a save-state holds.
 
 Zeroed memory is a valid state: lists are linked by index through ``World.things`` and index 0 is nobody, cell 0 is
-no cell. ``World`` keeps the events of the tick first (a save-state leaves them out) and the things last (it copies only the
-used part).
+no cell. ``World`` keeps the events of the tick first (a save-state leaves them out) and the things last (it copies
+only the used part).
 """
 
 from __future__ import annotations

@@ -1,0 +1,138 @@
+"""`ninja-game info`: what is in level and replay files."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ninja_game.errors import NinjaGameError
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ninja_game.formats.files import NamedLevel, Recording
+
+TICKS_PER_SECOND = 40
+
+
+@click.command()
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
+@click.option("--record", type=click.IntRange(min=0), help="Show this one of a file's levels, counted from 0.")
+@click.option("--picture/--no-picture", default=None, help="Draw the level. [default: if it is the only one]")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object a level, for programs.")
+def command(files: Sequence[Path], record: int | None, picture: bool | None, as_json: bool) -> None:
+    """Show what is in level and replay files.
+
+    Names and authors, counts of objects, recordings, warnings of what is odd, and a picture of the level. FILE may be
+    a folder. Several levels make a table; choose one of them with --record.
+
+    \b
+    Examples:
+      ninja-game info levels/
+      ninja-game info userlevels.txt --record 17
+      ninja-game info userlevels.txt --json
+    """
+    from rich.console import Console
+
+    from ninja_game.formats.files import load_levels
+
+    console = Console(highlight=False)
+    levels = [level for file in files for level in load_levels(file)]
+    if record is not None:
+        levels = [level for level in levels if level.record == record]
+        if not levels:
+            raise click.UsageError(f"there is no record {record}")
+    recordings = {(run.file, run.record): run for file in files for run in _recordings(file)}
+    if as_json:
+        for level in levels:
+            click.echo(json.dumps(_facts(level, recordings.get((level.file, level.record)))))
+    elif len(levels) == 1 or record is not None or picture:
+        for level in levels:
+            _show(console, level, recordings.get((level.file, level.record)), picture is not False)
+    else:
+        _show_table(console, levels, recordings)
+
+
+def _recordings(file: Path) -> list[Recording]:
+    """The recordings in a file or folder; none where it holds levels only."""
+    from ninja_game.formats.files import level_files, load_replays
+
+    found = []
+    for part in level_files(file):
+        try:
+            found += load_replays(part)
+        except NinjaGameError:
+            continue
+    return found
+
+
+def _counts(level: NamedLevel) -> Counter[str]:
+    """How many objects of each kind."""
+    from ninja_game.sim.level_data import KIND_NAMES
+
+    return Counter(KIND_NAMES[record.kind] for record in level.level.records if record.kind >= 0)
+
+
+def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
+    """Everything about a level, for programs."""
+    from ninja_game.formats.level_string import level_digest
+
+    facts: dict[str, Any] = {
+        "file": level.file, "record": level.record, "line": level.line, "form": level.form, "name": level.name,
+        "author": level.author, "comment": level.comment, "objects": dict(_counts(level)),
+        "level_digest": level_digest(level.level), "warnings": level.warnings,
+    }  # fmt: skip
+    return facts | ({"recording_ticks": run.ticks} if run else {})
+
+
+def _show(console: Console, level: NamedLevel, run: Recording | None, picture: bool) -> None:
+    """One level in full."""
+    from rich.text import Text
+
+    from ninja_game.cli.picture import level_picture
+
+    by = f" by {level.author}" if level.author else ""
+    console.print(Text.assemble((level.name or "(no name)", "bold"), by, f"  {level.comment}" * bool(level.comment)))
+    console.print(Text(f"{level.file}, record {level.record}", "dim"))
+    if picture:
+        console.print(level_picture(level.level), soft_wrap=True)
+    objects = ", ".join(f"{count} {kind}" for kind, count in _counts(level).items())
+    console.print(Text(objects or "no objects"))
+    if run:
+        console.print(Text(f"recording: {run.ticks} ticks, {run.ticks / TICKS_PER_SECOND:.3f} s"))
+    if run and run.replay:
+        replay = run.replay
+        console.print(Text(f"claims: {replay.outcome}, gold {replay.gold}, body {replay.body}, rules {replay.rules}"))
+    for warning in level.warnings:
+        console.print(Text.assemble(("warning: ", "yellow"), warning))
+
+
+def _show_table(console: Console, levels: Sequence[NamedLevel], recordings: dict[tuple[str, int], Recording]) -> None:
+    """A row a level."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for title in ("record", "name", "author", "objects", "gold", "ticks", "warnings"):
+        table.add_column(title, justify="left" if title in ("name", "author") else "right", overflow="fold")
+    several = len({level.file for level in levels}) > 1
+    for level in levels:
+        counts = _counts(level)
+        run = recordings.get((level.file, level.record))
+        warnings = len(level.warnings)
+        table.add_row(
+            f"{escape(Path(level.file).name)}:{level.record}" if several else str(level.record),
+            escape(level.name),
+            escape(level.author),
+            str(sum(counts.values())),
+            str(counts["gold"]),
+            str(run.ticks) if run else "",
+            str(warnings) if warnings else "",
+        )
+    console.print(table)
+    console.print(f"{len(levels)} levels; --record N shows one of them")
