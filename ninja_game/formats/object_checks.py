@@ -75,7 +75,7 @@ def _deep(ground: Ground, x: float, y: float) -> bool:
 
 def _exit(record: Record, ground: Ground) -> Iterator[str]:
     x, y, switch_x, switch_y = record.values
-    if not ground.touchable(x, y, EXIT_RADIUS):
+    if cell_at(x, y) and not ground.touchable(x, y, EXIT_RADIUS):
         yield "the ninja cannot reach it"
     if not ground.touchable(switch_x, switch_y, SWITCH_RADIUS):
         yield f"the ninja cannot reach its switch at {place_text(switch_x, switch_y)}"
@@ -83,7 +83,7 @@ def _exit(record: Record, ground: Ground) -> Iterator[str]:
 
 def _gold(record: Record, ground: Ground) -> Iterator[str]:
     x, y = record.values
-    if not ground.touchable(x, y, GOLD_RADIUS):
+    if cell_at(x, y) and not ground.touchable(x, y, GOLD_RADIUS):
         yield "the ninja cannot reach it"
 
 

@@ -1,0 +1,162 @@
+"""Any level to ASCII and back: the same tiles, records, order and float64 values, to the bit."""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.formats.ascii_legend import SYMBOLS, TILE_CHARS, visible_parts
+from ninja_game.formats.ascii_level import is_ascii_level, parse_ascii_level, write_ascii_level
+from ninja_game.formats.ascii_writer import picture_rows
+from ninja_game.formats.level_string import parse_level_string
+from ninja_game.formats.object_writer import same_record
+from ninja_game.sim.level_data import GOLD, NINJA, TILES, VALUE_COUNTS, LevelData, Record
+
+ODD_NUMBERS = (math.nan, math.inf, -math.inf, -0.0, 0.0, 1e300, 5e-324, 0.1, 0.7071067811865468, 408.15000000000003)
+
+
+def same_level(a: LevelData, b: LevelData) -> bool:
+    return a.tiles == b.tiles and len(a.records) == len(b.records) and all(map(same_record, a.records, b.records))
+
+
+def assert_round_trip(level: LevelData) -> str:
+    text = write_ascii_level(level)
+    read = parse_ascii_level(text, file="round trip").level
+    assert same_level(read, level), text
+    return text
+
+
+cells = st.integers(1, 31).map(lambda i: 24.0 * i + 12.0)
+coordinates = st.one_of(
+    cells,
+    st.integers(-2, 70).map(lambda i: 12.0 * i),
+    st.integers(-10, 800).map(float),
+    st.floats(),
+    st.sampled_from(ODD_NUMBERS),
+)
+small = st.one_of(st.integers(-1, 6).map(float), st.sampled_from(ODD_NUMBERS))
+proper = st.sampled_from((0.0, 1.0, 2.0, 3.0))
+
+
+@st.composite
+def records(draw: st.DrawFn) -> Record:
+    """Objects as real levels have them, and every odd thing beside."""
+    kind = draw(st.integers(-1, 12))
+    if kind == -1:
+        return Record(-1, tuple(draw(st.lists(coordinates, max_size=2))), draw(st.text(max_size=8)))
+    drawable = [symbol for symbol in SYMBOLS if symbol.kind == kind and symbol.values is not None]
+    if draw(st.booleans()) and drawable:
+        symbol = draw(st.sampled_from(drawable))
+        place = [draw(cells) + symbol.dx, draw(cells) + symbol.dy, *(symbol.values or ())]
+        return Record(kind, tuple(place + [draw(cells) for _ in range(VALUE_COUNTS[kind] - len(place))]))
+    count = draw(st.one_of(st.just(VALUE_COUNTS[kind]), st.just(VALUE_COUNTS[kind]), st.integers(0, 10)))
+    places = [draw(coordinates) for _ in range(min(2, count))]
+    rest = [draw(st.one_of(proper, small, cells)) for _ in range(count - len(places))]
+    return Record(kind, tuple(places + rest), draw(st.sampled_from(("", "", "", "text"))))
+
+
+tiles = st.one_of(
+    st.just((0,) * TILES),
+    st.lists(st.one_of(st.just(0), st.integers(0, 33)), min_size=TILES, max_size=TILES).map(tuple),
+    st.lists(st.sampled_from((0, 1, 2, -1, 34, 1_000_000)), min_size=TILES, max_size=TILES).map(tuple),
+)
+few = st.sampled_from((36.0, 60.0))
+levels = st.builds(LevelData, tiles, st.lists(records(), max_size=25).map(tuple))
+
+
+@settings(max_examples=80, deadline=None)
+@given(levels)
+def test_random_levels_come_back_to_the_bit(level: LevelData) -> None:
+    assert_round_trip(level)
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.lists(st.tuples(records(), few, few), max_size=12))
+def test_objects_that_crowd_few_cells_come_back_in_order(drawn: list[tuple[Record, float, float]]) -> None:
+    crowded = [
+        Record(record.kind, (x, y, *record.values[2:]), record.text)
+        for record, x, y in drawn
+        if len(record.values) >= 2
+    ]
+    assert_round_trip(LevelData(records=tuple(crowded)))
+
+
+@given(st.text(), st.text(), st.text())
+def test_any_name_author_and_comment_come_back(name: str, author: str, comment: str) -> None:
+    text = write_ascii_level(LevelData(), name=name, author=author, comment=comment)
+    read = parse_ascii_level(text)
+    assert (read.name, read.author, read.comment) == (name, author, comment)
+
+
+def test_a_level_written_with_its_legend_reads_the_same() -> None:
+    level = LevelData(records=(Record(NINJA, (36.0, 36.0)), Record(GOLD, (60.0, 61.0))))
+    assert parse_ascii_level(write_ascii_level(level, legend=True)).level == level
+
+
+def test_objects_in_reading_order_need_no_line() -> None:
+    drawn = (Record(NINJA, (300.0, 300.0)), Record(GOLD, (36.0, 36.0)), Record(GOLD, (60.0, 36.0)))
+    text = write_ascii_level(LevelData(records=drawn))
+    assert "gold" not in text
+    assert "\n\ngold 1,1\n" in assert_round_trip(LevelData(records=(drawn[0], drawn[2], drawn[1])))
+
+
+def test_the_picture_shows_tiles_and_objects() -> None:
+    level = LevelData((1,) * 23 + (0,) * (TILES - 23), (Record(GOLD, (60.0, 36.0)),))
+    rows = picture_rows(level)
+    assert len(rows) == 23
+    assert rows[0] == "#o" + "." * 29
+
+
+def test_written_levels_are_recognised() -> None:
+    assert is_ascii_level(write_ascii_level(LevelData()))
+    assert not is_ascii_level("")
+    assert not is_ascii_level("$name#author##" + "0" * TILES + "|#")
+
+
+@settings(max_examples=80, deadline=None)
+@given(levels, st.lists(st.tuples(st.integers(0, 5000), st.integers(0, 40), st.text(max_size=6)), max_size=4))
+def test_mutated_text_gives_a_level_or_an_error_of_ours(level: LevelData, edits: list[tuple[int, int, str]]) -> None:
+    text = write_ascii_level(level, name="mutant")
+    for place, length, new in edits:
+        start = place % (len(text) + 1)
+        text = text[:start] + new + text[start + length :]
+    with contextlib.suppress(NinjaGameError):
+        parse_ascii_level(text)
+
+
+@given(st.text(alphabet=TILE_CHARS + ' |;:,"\n' + "".join(symbol.char for symbol in SYMBOLS) + "raw tile id px"))
+def test_rubbish_gives_an_error_of_ours(text: str) -> None:
+    for lead in ("", "ninja-game level 1\n"):
+        with pytest.raises(NinjaGameError):
+            parse_ascii_level(lead + text)
+
+
+def level_texts(folder: Path) -> Iterator[str]:
+    csv.field_size_limit(1 << 24)
+    for table in ("levels.tsv", "scenes.tsv", "fuzz.tsv", "random_runs.tsv"):
+        with (folder / table).open(encoding="utf-8", newline="") as file:
+            texts = [row["data"] for row in csv.DictReader(file, delimiter="\t", quoting=csv.QUOTE_NONE)]
+        # The crowded ones are many and alike: every tenth keeps the suite fast, tools/soak_ascii.py takes all.
+        yield from texts if table in ("levels.tsv", "scenes.tsv") else texts[::10]
+
+
+def test_reference_levels_come_back_to_the_bit(reference: Path) -> None:
+    for text in level_texts(reference):
+        level = parse_level_string(text)
+        written = write_ascii_level(level)
+        assert written.isascii()
+        assert same_level(parse_ascii_level(written).level, level), text
+
+
+def test_visible_parts_are_in_the_picture() -> None:
+    record = Record(GOLD, (36.0, 36.0))
+    assert [tuple(part) for part in visible_parts(record)] == [("o", 1, 1)]
+    assert visible_parts(Record(GOLD, (37.0, 36.0))) == []
