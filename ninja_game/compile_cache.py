@@ -63,7 +63,7 @@ def source_digest() -> str:
 
 
 def kernels() -> Kernels:
-    """The compiled entry points of all modules imported so far, by name. Raises MemoryUnavailableError without Numba."""
+    """Compiled entry points of all modules imported so far, by name. Raises MemoryUnavailableError without Numba."""
     return _compiler().kernels()
 
 

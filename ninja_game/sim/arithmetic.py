@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from .memory import fast
-from .rules import INF, NAN
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import INF, NAN
 
 
 @fast

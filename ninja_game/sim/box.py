@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from math import sqrt
 
-from .arithmetic import div
-from .contacts import push_from_tile
-from .grid import cell_at
-from .memory import fast
-from .rules import CELL, DOWN, HALF, LEFT, OFF, RADIUS, RIGHT, SOLID, STRIDE, UP
-from .schema import Level, World
-from .tiles import (
+from ninja_game.sim.arithmetic import div
+from ninja_game.sim.contacts import push_from_tile
+from ninja_game.sim.grid import cell_at
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import CELL, DOWN, HALF, LEFT, OFF, RADIUS, RIGHT, SOLID, STRIDE, UP
+from ninja_game.sim.schema import Level, World
+from ninja_game.sim.tiles import (
     ANCHOR_X,
     ANCHOR_Y,
     CENTRE_X,

@@ -6,13 +6,13 @@ exactly one pass. (hx, hy) always points from the neighbour to the body.
 
 from __future__ import annotations
 
-from .circle_shapes import AXIS, NONE, diagonal, horizontal, own, point, vertical
-from .contacts import push_from_tile
-from .grid import cell_at
-from .memory import fast
-from .rules import DOWN, HALF, LEFT, OFF, RADIUS, RIGHT, ROOT2, SOLID, STRIDE, UP
-from .schema import Level, World
-from .tiles import CENTRE_X, CENTRE_Y
+from ninja_game.sim.circle_shapes import AXIS, NONE, diagonal, horizontal, own, point, vertical
+from ninja_game.sim.contacts import push_from_tile
+from ninja_game.sim.grid import cell_at
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import DOWN, HALF, LEFT, OFF, RADIUS, RIGHT, ROOT2, SOLID, STRIDE, UP
+from ninja_game.sim.schema import Level, World
+from ninja_game.sim.tiles import CENTRE_X, CENTRE_Y
 
 
 @fast

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from math import sqrt
 
-from .arithmetic import div
-from .contacts import push_from_tile
-from .memory import fast
-from .rules import CELL, HALF, RADIUS, ROOT2
-from .schema import World
-from .tiles import (
+from ninja_game.sim.arithmetic import div
+from ninja_game.sim.contacts import push_from_tile
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import CELL, HALF, RADIUS, ROOT2
+from ninja_game.sim.schema import World
+from ninja_game.sim.tiles import (
     CONCAVE,
     CONVEX,
     FULL,

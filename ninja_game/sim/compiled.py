@@ -17,11 +17,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .kernels import ENTRY_POINTS
-from .layout import LEVEL, Records, new_worlds
-from .level_data import LevelData
-from .loader import grid_tiles, record_table
-from .memory import REGISTERED
+from ninja_game.sim import kernels as _entry_points  # noqa: F401 - registers the entry points of the simulation
+from ninja_game.sim.layout import LEVEL, Records, new_worlds
+from ninja_game.sim.level_data import LevelData
+from ninja_game.sim.loader import grid_tiles, record_table
+from ninja_game.sim.memory import ENTRY_POINTS, REGISTERED
 
 Kernels = dict[str, Callable[..., Any]]
 """Compiled entry points by name."""

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from .death import kill
-from .memory import fast
-from .rules import CRUSH
-from .schema import Ninja, World
-from .states import CRUSHED
+from ninja_game.sim.death import kill
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import CRUSH
+from ninja_game.sim.schema import Ninja, World
+from ninja_game.sim.states import CRUSHED
 
 
 @fast

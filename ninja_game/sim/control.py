@@ -5,9 +5,9 @@
 
 from __future__ import annotations
 
-from .events import JUMPED, LANDED, WALL_JUMPED, emit
-from .memory import fast
-from .rules import (
+from ninja_game.sim.events import JUMPED, LANDED, WALL_JUMPED, emit
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import (
     AIR_ACCELERATION,
     CELEBRATION_DRAG,
     DRAG,
@@ -21,8 +21,8 @@ from .rules import (
     TOP_SPEED,
     WALL_FRICTION,
 )
-from .schema import Ninja, World
-from .states import FALLING, JUMPING, RUNNING, SKIDDING, SLIDING, STANDING, enter_state
+from ninja_game.sim.schema import Ninja, World
+from ninja_game.sim.states import FALLING, JUMPING, RUNNING, SKIDDING, SLIDING, STANDING, enter_state
 
 
 @fast

@@ -12,11 +12,11 @@ from collections.abc import Iterator
 from operator import attrgetter
 from typing import Any
 
-from .level_data import KIND_NAMES
-from .memory import fields_of
-from .plain import WORLD_SCALARS
-from .rules import NAN
-from .schema import (
+from ninja_game.sim.level_data import KIND_NAMES
+from ninja_game.sim.memory import fields_of
+from ninja_game.sim.plain import WORLD_SCALARS
+from ninja_game.sim.rules import NAN
+from ninja_game.sim.schema import (
     BounceBlock,
     Door,
     Drone,

@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from .loader import populate
-from .memory import entry_point, fast
-from .rules import NAN
-from .schema import Level, World
-from .tiles import set_edges
-from .traces import place_of, status_of
-from .world import step
+from ninja_game.sim.loader import populate
+from ninja_game.sim.memory import entry_point, fast
+from ninja_game.sim.rules import NAN
+from ninja_game.sim.schema import Level, World
+from ninja_game.sim.tiles import set_edges
+from ninja_game.sim.traces import place_of, status_of
+from ninja_game.sim.world import step
 
 
 @entry_point

@@ -12,8 +12,8 @@ import mmap
 import numpy as np
 from numpy.typing import NDArray
 
-from .memory import Field, fields_of
-from .schema import Header, Level, Thing, World
+from ninja_game.sim.memory import Field, fields_of
+from ninja_game.sim.schema import Header, Level, Thing, World
 
 _SIZES = {"f8": 8, "i4": 4, "i2": 2, "u1": 1}
 _REFUSED = set(dir(np.recarray)) | set(dir(np.record))

@@ -6,9 +6,8 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ninja_game.errors import LevelError
-
-from .grid import cell_at, cell_index, file, link
-from .level_data import (
+from ninja_game.sim.grid import cell_at, cell_index, file, link
+from ninja_game.sim.level_data import (
     BOUNCE_BLOCK,
     COLUMNS,
     DOOR,
@@ -27,13 +26,26 @@ from .level_data import (
     VALUE_COUNTS,
     LevelData,
 )
-from .memory import fast
-from .objects.door import write_edges
-from .objects.drone import UNIT_X, UNIT_Y
-from .rules import DOWN, DRAG, DRONE_SPEED, GRAVITY, HALF, LEFT, RIGHT, SOLID, STRIDE, THWUMP_FALL, THWUMP_HALF, UP
-from .schedule import start_think, start_update
-from .schema import CAPACITY, INERT, SWITCH, Door, Drone, FloorGuard, Level, Ninja, Thing, Thwump, World
-from .states import (
+from ninja_game.sim.memory import fast
+from ninja_game.sim.objects.door import write_edges
+from ninja_game.sim.objects.drone import UNIT_X, UNIT_Y
+from ninja_game.sim.rules import (
+    DOWN,
+    DRAG,
+    DRONE_SPEED,
+    GRAVITY,
+    HALF,
+    LEFT,
+    RIGHT,
+    SOLID,
+    STRIDE,
+    THWUMP_FALL,
+    THWUMP_HALF,
+    UP,
+)
+from ninja_game.sim.schedule import start_think, start_update
+from ninja_game.sim.schema import CAPACITY, INERT, SWITCH, Door, Drone, FloorGuard, Level, Ninja, Thing, Thwump, World
+from ninja_game.sim.states import (
     AUTOMATIC,
     LOCKED,
     MOVEMENT_BELOW,
@@ -45,7 +57,7 @@ from .states import (
     WEAPON_UNKNOWN,
     WEAPON_ZAP,
 )
-from .tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ODD_HALF_ID, ROW, UNDEFINED_ID
+from ninja_game.sim.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ODD_HALF_ID, ROW, UNDEFINED_ID
 
 
 def grid_tiles(data: LevelData) -> list[int]:

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from math import sqrt
 
-from .box import collide_box
-from .circle import collide_circle
-from .control import celebrate, think_in_air, think_on_ground
-from .death import kill
-from .grid import cell_at
-from .memory import fast
-from .objects.contact import touch_things
-from .rays import solid_at
-from .rules import FATAL_IMPACT, WALL_PROBE
-from .schema import Level, Ninja, World
-from .states import CELEBRATING, DEAD, FALL
+from ninja_game.sim.box import collide_box
+from ninja_game.sim.circle import collide_circle
+from ninja_game.sim.control import celebrate, think_in_air, think_on_ground
+from ninja_game.sim.death import kill
+from ninja_game.sim.grid import cell_at
+from ninja_game.sim.memory import fast
+from ninja_game.sim.objects.contact import touch_things
+from ninja_game.sim.rays import solid_at
+from ninja_game.sim.rules import FATAL_IMPACT, WALL_PROBE
+from ninja_game.sim.schema import Level, Ninja, World
+from ninja_game.sim.states import CELEBRATING, DEAD, FALL
 
 
 @fast

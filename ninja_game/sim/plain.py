@@ -6,11 +6,11 @@ from collections.abc import Callable
 from operator import attrgetter
 from typing import Any
 
-from .level_data import LevelData
-from .loader import grid_tiles, populate, record_table
-from .memory import Field, fields_of
-from .schema import Level, Ninja, Thing, World
-from .tiles import set_edges
+from ninja_game.sim.level_data import LevelData
+from ninja_game.sim.loader import grid_tiles, populate, record_table
+from ninja_game.sim.memory import Field, fields_of
+from ninja_game.sim.schema import Level, Ninja, Thing, World
+from ninja_game.sim.tiles import set_edges
 
 PlainState = tuple[tuple[Any, ...], tuple[Any, ...], list[int], list[int], list[tuple[Any, ...]]]
 """A save-state of a plain world: its scalars, the ninja, cell heads, edges, things. Never changed once made."""

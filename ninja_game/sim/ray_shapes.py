@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from math import sqrt
 
-from .arithmetic import div
-from .memory import fast
-from .rules import CELL, HALF
-from .tiles import (
+from ninja_game.sim.arithmetic import div
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import CELL, HALF
+from ninja_game.sim.tiles import (
     CONCAVE,
     CONVEX,
     FULL,

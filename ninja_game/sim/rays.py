@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from math import sqrt
 
-from .grid import cell_at
-from .memory import fast
-from .ray_shapes import ray_tile
-from .rules import CELL, DOWN, HALF, LEFT, OFF, RADIUS, RIGHT, SOLID, STRIDE, UP
-from .schema import Level, World
-from .tiles import (
+from ninja_game.sim.grid import cell_at
+from ninja_game.sim.memory import fast
+from ninja_game.sim.ray_shapes import ray_tile
+from ninja_game.sim.rules import CELL, DOWN, HALF, LEFT, OFF, RADIUS, RIGHT, SOLID, STRIDE, UP
+from ninja_game.sim.schema import Level, World
+from ninja_game.sim.tiles import (
     ANCHOR_X,
     ANCHOR_Y,
     CENTRE_X,

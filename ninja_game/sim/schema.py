@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from .memory import f8, i2, i4, part, struct, u1
-from .rules import GRID_CELLS
+from ninja_game.sim.memory import f8, i2, i4, part, struct, u1
+from ninja_game.sim.rules import GRID_CELLS
 
 CAPACITY = 12_288
 """Slots for things in a compiled world. One number for all levels: another capacity is another type and compile."""

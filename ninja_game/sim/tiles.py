@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from .memory import fast
-from .rules import CELL, INTERESTING, OFF, ROOT2, SOLID, STRIDE
-from .schema import Level, World
+from ninja_game.sim.memory import fast
+from ninja_game.sim.rules import CELL, INTERESTING, OFF, ROOT2, SOLID, STRIDE
+from ninja_game.sim.schema import Level, World
 
 EMPTY, FULL, HALF_TILE, SLOPE_45, CONCAVE, CONVEX, THIN_22, THICK_22, THIN_67, THICK_67, UNDEFINED = range(11)
 """Tile classes. UNDEFINED is a malformed tile: never solid, but not empty for edges (world.md §2.3)."""

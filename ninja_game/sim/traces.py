@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .level_data import (
+from ninja_game.sim.level_data import (
     BOUNCE_BLOCK,
     DOOR,
     DRONE,
@@ -15,9 +15,9 @@ from .level_data import (
     THWUMP,
     TURRET,
 )
-from .memory import fast
-from .schema import INERT, World
-from .states import AUTOMATIC, LAUNCHER_FLIGHT, THWUMP_REST
+from ninja_game.sim.memory import fast
+from ninja_game.sim.schema import INERT, World
+from ninja_game.sim.states import AUTOMATIC, LAUNCHER_FLIGHT, THWUMP_REST
 
 
 @fast

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from .level_data import BOUNCE_BLOCK, DOOR, DRONE, FLOOR_GUARD, LAUNCHER, THWUMP, TURRET
-from .memory import fast
-from .ninja import tick_ninja
-from .objects.bounce_block import think_block, update_block
-from .objects.door import update_door
-from .objects.drone_weapons import think_drone, update_drone
-from .objects.floor_guard import update_guard
-from .objects.launcher import think_launcher, update_launcher
-from .objects.thwump import update_thwump
-from .objects.turret import think_turret, update_turret
-from .schema import Level, World
-from .states import DEAD
+from ninja_game.sim.level_data import BOUNCE_BLOCK, DOOR, DRONE, FLOOR_GUARD, LAUNCHER, THWUMP, TURRET
+from ninja_game.sim.memory import fast
+from ninja_game.sim.ninja import tick_ninja
+from ninja_game.sim.objects.bounce_block import think_block, update_block
+from ninja_game.sim.objects.door import update_door
+from ninja_game.sim.objects.drone_weapons import think_drone, update_drone
+from ninja_game.sim.objects.floor_guard import update_guard
+from ninja_game.sim.objects.launcher import think_launcher, update_launcher
+from ninja_game.sim.objects.thwump import update_thwump
+from ninja_game.sim.objects.turret import think_turret, update_turret
+from ninja_game.sim.schema import Level, World
+from ninja_game.sim.states import DEAD
 
 
 @fast

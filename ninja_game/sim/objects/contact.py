@@ -16,20 +16,19 @@ from ninja_game.sim.level_data import (
     THWUMP,
 )
 from ninja_game.sim.memory import fast
+from ninja_game.sim.objects.bounce_block import touch_block
+from ninja_game.sim.objects.door import touch_door
+from ninja_game.sim.objects.drone_weapons import touch_drone
+from ninja_game.sim.objects.exit import touch_exit, touch_switch
+from ninja_game.sim.objects.floor_guard import touch_guard
+from ninja_game.sim.objects.gold import touch_gold
+from ninja_game.sim.objects.launch_pad import touch_pad
+from ninja_game.sim.objects.launcher import touch_rocket
+from ninja_game.sim.objects.mine import touch_mine
+from ninja_game.sim.objects.one_way import touch_one_way
+from ninja_game.sim.objects.thwump import touch_thwump
 from ninja_game.sim.rules import STRIDE
 from ninja_game.sim.schema import SWITCH, World
-
-from .bounce_block import touch_block
-from .door import touch_door
-from .drone_weapons import touch_drone
-from .exit import touch_exit, touch_switch
-from .floor_guard import touch_guard
-from .gold import touch_gold
-from .launch_pad import touch_pad
-from .launcher import touch_rocket
-from .mine import touch_mine
-from .one_way import touch_one_way
-from .thwump import touch_thwump
 
 NINE_CELLS = [0, STRIDE, STRIDE + 1, STRIDE - 1, -1, -STRIDE - 1, 1, -STRIDE + 1, -STRIDE]
 """Own, below, below right, below left, left, above left, right, above right, above."""

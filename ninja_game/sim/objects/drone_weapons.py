@@ -7,6 +7,8 @@ from math import sqrt
 from ninja_game.sim.death import kill, stop_firing
 from ninja_game.sim.events import CHAINGUN_CHARGING, CHAINGUN_ON, CHAINGUN_SHOT, LASER_CHARGING, LASER_ON, emit
 from ninja_game.sim.memory import fast
+from ninja_game.sim.objects.drone import move_drone
+from ninja_game.sim.objects.floor_guard import zap
 from ninja_game.sim.rays import ray_tiles, sees
 from ninja_game.sim.rules import (
     CHAINGUN_COOL,
@@ -30,9 +32,6 @@ from ninja_game.sim.states import (
     WEAPON_LASER,
     WEAPON_ZAP,
 )
-
-from .drone import move_drone
-from .floor_guard import zap
 
 
 @fast
