@@ -60,10 +60,11 @@ def command(files: Sequence[Path], record: int | None, picture: bool | None, as_
 
 def _recordings(file: Path) -> list[Recording]:
     """The recordings in a file or folder; none where it holds levels only."""
-    from ninja_game.formats.files import level_files, load_replays
+    from ninja_game.formats.files import load_replays
+    from ninja_game.formats.text_file import text_files
 
     found = []
-    for part in level_files(file):
+    for part in text_files(file):
         try:
             found += load_replays(part)
         except NinjaGameError:

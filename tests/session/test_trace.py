@@ -2,67 +2,60 @@
 
 from __future__ import annotations
 
-import csv
 import io
-import lzma
 from hashlib import sha256
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from ninja_game.errors import FormatError
-from ninja_game.session.trace import NINJA, THING, Trace, canonical, first_difference, rows, trace_digests
-from ninja_game.session.trace_files import read_csv, read_traces, write_csv, write_npz
+from ninja_game.runs import NINJA_RECORD, THING_RECORD, RunTrace
+from ninja_game.session.trace import first_difference, rows, trace_digests
+from ninja_game.session.trace_files import FiledTrace, read_csv, read_traces, write_csv, write_npz
+from tests.reference import scene_traces, scenes
 
 
-def a_trace() -> Trace:
-    """Three ticks with two objects, and values that are easy to lose on the way: -0.0, NaN, many digits."""
-    ninja = np.array([(0.1 + k, -0.0, 0.1, 1e-300, k, 2 * k) for k in range(3)], NINJA)
-    things = np.array([[(1 / 3, float("nan"), 1), (2.0, 3.0, k)] for k in range(3)], THING)
-    return Trace(ninja, things, (1, 4), ("gold", "drone"), ("jumped", "", "landed died"), "a name")
+def a_trace() -> RunTrace:
+    """Three ticks with two objects, and values that are easy to lose on the way: NaN, tiny ones, many digits."""
+    ninja = np.array([(0.1 + k, 0.0, 0.1, 1e-300, k, 2 * k) for k in range(3)], NINJA_RECORD)
+    things = np.array([[(1 / 3, float("nan"), 1), (2.0, 3.0, k)] for k in range(3)], THING_RECORD)
+    return RunTrace(ninja, things, (1, 4), ("gold", "drone"), ("jumped", "", "landed died"))
 
 
-def changed(trace: Trace, tick: int, column: int, field: str, value: float) -> Trace:
+TWICE = [FiledTrace(0, "a name", a_trace()), FiledTrace(5, "a name", a_trace())]
+
+
+def changed(trace: RunTrace, tick: int, column: int, field: str, value: float) -> RunTrace:
     """The same trace with another value; column -1 is the ninja."""
     ninja, things = trace.ninja.copy(), trace.things.copy()
     if column < 0:
         ninja[field][tick] = value
     else:
         things[field][tick, column] = value
-    return Trace(ninja, things, trace.ids, trace.kinds, trace.events, trace.name)
-
-
-def test_canonical_form_has_one_zero_and_one_nan() -> None:
-    strange = np.array([(-0.0, np.frombuffer(b"\x01\0\0\0\0\0\xf8\xff", "<f8")[0], -7)], THING)
-    assert canonical(strange).tobytes() == bytes(8) + b"\0\0\0\0\0\0\xf8\x7f" + b"\xf9\xff\xff\xff"
-    assert np.signbit(strange["x"][0]), "the original is left alone"
+    return RunTrace(ninja, things, trace.ids, trace.kinds, trace.events)
 
 
 def test_digests_are_over_the_records_in_order() -> None:
     trace = a_trace()
     digests = trace_digests(trace)
-    ninja, things = canonical(trace.ninja), canonical(trace.things)
+    ninja, things = trace.ninja, trace.things
     whole = b"".join(ninja[k].tobytes() + things[k].tobytes() for k in range(3))
     assert digests.ninja_sha256 == sha256(ninja.tobytes()).hexdigest()
     assert digests.run_sha256 == sha256(whole).hexdigest()
     assert digests.objects[4] == sha256(b"".join(things[k, 1].tobytes() for k in range(3))).hexdigest()[:8]
 
 
-def test_digests_of_the_reference_scenes(reference: Path) -> None:
-    with (reference / "scenes.tsv").open(encoding="utf-8", newline="") as text:
-        scenes = list(csv.DictReader(text, delimiter="\t"))
-    everything = lzma.decompress((reference / "scenes.bin.xz").read_bytes())
-    offsets = [int(scene["offset"]) for scene in scenes] + [len(everything)]
-    for scene, (start, end) in list(zip(scenes, pairwise(offsets), strict=True))[::40]:
-        ticks = int(scene["ticks"])
-        table = np.frombuffer(everything[start:end], np.uint8).reshape(ticks, -1)
-        ninja = table[:, :40].copy().view(NINJA)[:, 0]
-        things = table[:, 40:].copy().view(THING)
-        ids = tuple(range(things.shape[1]))
-        digests = trace_digests(Trace(ninja, things, ids, ("",) * len(ids)))
-        assert (digests.ninja_sha256, digests.run_sha256) == (scene["ninja_sha256"], scene["run_sha256"])
+def test_digests_of_the_reference_scenes() -> None:
+    everything = scene_traces()
+    ends = [scene.offset for scene in scenes()[1:]] + [len(everything)]
+    for scene, end in list(zip(scenes(), ends, strict=True))[::40]:
+        table = np.frombuffer(everything[scene.offset : end], np.uint8).reshape(scene.ticks, -1)
+        ninja = table[:, : NINJA_RECORD.itemsize].copy().view(NINJA_RECORD)[:, 0]
+        things = table[:, NINJA_RECORD.itemsize :].copy().view(THING_RECORD)
+        objects = things.shape[1]
+        digests = trace_digests(RunTrace(ninja, things, tuple(range(objects)), ("",) * objects))
+        assert (digests.ninja_sha256, digests.run_sha256) == (scene.ninja_sha256, scene.run_sha256), scene.name
 
 
 @pytest.mark.parametrize("form", ["csv", "npz"])
@@ -70,14 +63,14 @@ def test_files_keep_every_bit(form: str, tmp_path: Path) -> None:
     path = tmp_path / "trace"
     if form == "csv":
         with path.open("w", encoding="utf-8") as text:
-            write_csv([(0, a_trace()), (5, a_trace())], text)
+            write_csv(TWICE, text)
     else:
         with path.open("wb") as file:
-            write_npz([(0, a_trace()), (5, a_trace())], file)
-    back = dict(read_traces(path))
-    assert list(back) == [0, 5]
-    assert trace_digests(back[5]) == trace_digests(a_trace())
-    assert (back[5].kinds, back[5].events, back[5].name) == (("gold", "drone"), a_trace().events, "a name")
+            write_npz(TWICE, file)
+    back = list(read_traces(path))
+    assert [(trace.record, trace.name) for trace in back] == [(0, "a name"), (5, "a name")]
+    assert trace_digests(back[1].run) == trace_digests(a_trace())
+    assert (back[1].run.kinds, back[1].run.events) == (a_trace().kinds, a_trace().events)
 
 
 @pytest.mark.parametrize("text", ["", "tick,x\n1,2\n", "\0"])
@@ -88,7 +81,7 @@ def test_other_files_are_refused_by_name(text: str) -> None:
 
 def test_broken_row_is_refused_with_its_line() -> None:
     out = io.StringIO()
-    write_csv([(0, a_trace())], out)
+    write_csv(TWICE[:1], out)
     with pytest.raises(FormatError, match=r"^t\.csv:\d+: a row"):
         list(read_csv(io.StringIO(out.getvalue().replace("0.1", "point one")), file="t.csv"))
 
@@ -124,7 +117,7 @@ def test_equal_traces_have_no_difference() -> None:
 
 def test_length_and_missing_objects_are_differences() -> None:
     whole = a_trace()
-    short = Trace(whole.ninja[:2], whole.things[:2], whole.ids, whole.kinds)
-    fewer = Trace(whole.ninja, whole.things[:, :1], whole.ids[:1], whole.kinds[:1])
+    short = RunTrace(whole.ninja[:2], whole.things[:2], whole.ids, whole.kinds)
+    fewer = RunTrace(whole.ninja, whole.things[:, :1], whole.ids[:1], whole.kinds[:1])
     assert str(first_difference(whole, short)) == "tick 2: run: number of ticks is 3, expected 2"
     assert str(first_difference(whole, fewer)) == "tick 0: object 4: kind is drone, expected missing"

@@ -1,0 +1,82 @@
+"""`ninja-game info`: facts, warnings, a picture."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from ninja_game.cli.main import cli
+from ninja_game.cli.picture import level_picture
+from ninja_game.formats.level_string import parse_level_string
+from tests.cli.samples import NO_NINJA, SPIKED, WALK, running, write_records
+
+
+def info(*words: str | Path) -> Result:
+    """`ninja-game info WORDS…`."""
+    return CliRunner().invoke(cli, ["info", *map(str, words)])
+
+
+@pytest.fixture
+def two(tmp_path: Path) -> Path:
+    """A file of two records, the first with a recording."""
+    return write_records(tmp_path / "two.txt", ("Walk", WALK, running(25)), ("[red]None", NO_NINJA, running(3)))
+
+
+def test_several_levels_make_a_table(two: Path) -> None:
+    result = info(two)
+    assert result.exit_code == 0
+    assert "Walk" in result.stdout
+    assert "[red]None" in result.stdout, "names are no markup"
+    assert "2 levels" in result.stdout
+
+
+def test_one_level_is_shown_with_picture_and_counts(two: Path) -> None:
+    result = info(two, "--record", "0")
+    assert result.exit_code == 0
+    assert "Walk by me" in result.stdout
+    assert "@" in result.stdout
+    assert "1 ninja, 1 exit, 1 gold" in result.stdout
+    assert "recording: 26 ticks, 0.650 s" in result.stdout
+
+
+def test_warnings_are_shown(two: Path) -> None:
+    assert "warning: there is no ninja" in info(two, "--record", "1", "--no-picture").stdout
+
+
+def test_json_is_one_object_a_level(two: Path) -> None:
+    first, second = map(json.loads, info(two, "--json").stdout.splitlines())
+    assert (first["record"], first["name"], first["objects"]["gold"], first["recording_ticks"]) == (0, "Walk", 1, 26)
+    assert any("no ninja" in warning for warning in second["warnings"])
+
+
+def test_level_without_recording_has_none(tmp_path: Path) -> None:
+    source = write_records(tmp_path / "walk.txt", ("Walk", WALK, ""))
+    assert "recording_ticks" not in json.loads(info(source, "--json").stdout)
+
+
+def test_folder_is_read_file_by_file(tmp_path: Path) -> None:
+    write_records(tmp_path / "a.txt", ("Walk", WALK, ""))
+    write_records(tmp_path / "b.txt", ("Mine", SPIKED, ""))
+    result = info(tmp_path)
+    assert result.exit_code == 0
+    assert "a.txt:0" in result.stdout
+    assert "b.txt:0" in result.stdout
+
+
+def test_record_that_is_not_there_is_wrong_usage(two: Path) -> None:
+    assert info(two, "--record", "7").exit_code == 2
+
+
+def test_picture_shows_slopes_and_objects_in_their_cells() -> None:
+    tiles = ["0"] * 713
+    tiles[0] = "1"
+    tiles[23] = "2"  # a slope, solid at the bottom left
+    lines = level_picture(parse_level_string("".join(tiles) + "|5^36,60!0^756,564")).plain.splitlines()
+    assert len(lines) == 25
+    assert {len(line) for line in lines} == {64}
+    assert lines[1][1:5] == "██▙▖"
+    assert lines[2][1] == "@"
+    assert lines[23][61] == "o"
