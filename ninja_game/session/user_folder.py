@@ -1,0 +1,49 @@
+"""Where the player's own things live: settings, records, levels, replays, pictures."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+HOME_VARIABLE = "NINJA_GAME_HOME"
+"""Environment variable that moves the folder."""
+
+LEVELS, REPLAYS, EXPORTS = "levels", "replays", "exports"
+"""Folders in it: level files that the game offers, replays that it offers, what it writes on request."""
+
+SETTINGS, RECORDS = "settings.toml", "records.sqlite"
+"""Files in it."""
+
+
+def user_folder() -> Path:
+    """The folder, whether it exists or not: ``NINJA_GAME_HOME``, else the system's place for data of programs."""
+    moved = os.environ.get(HOME_VARIABLE)
+    if moved:
+        return Path(moved).expanduser()
+    from platformdirs import user_data_path
+
+    return user_data_path("ninja-game", appauthor=False)
+
+
+def make_user_folder(folder: Path | None = None) -> Path:
+    """The folder with its parts, made where they are missing. Raises OSError where that is impossible."""
+    folder = user_folder() if folder is None else folder
+    for name in (LEVELS, REPLAYS, EXPORTS):
+        (folder / name).mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+def set_aside(path: Path, why: str) -> Path:
+    """Move a file that cannot be used out of the way, and what SQLite keeps beside it; its new path.
+
+    ``why``: one word for the new name. Nothing is ever overwritten. Raises OSError.
+    """
+    number = 1
+    while (target := path.with_name(f"{path.stem}.{why}-{number}{path.suffix}")).exists():
+        number += 1
+    path.replace(target)
+    for tail in ("-wal", "-shm", "-journal"):
+        beside = path.with_name(path.name + tail)
+        if beside.exists():
+            beside.replace(target.with_name(target.name + tail))
+    return target
