@@ -1,0 +1,13 @@
+"""Which memories a test runs on: the compiled one only where Numba is."""
+
+from __future__ import annotations
+
+import pytest
+
+from ninja_game.compile_cache import compiled_available
+
+PLAIN = pytest.param("plain", id="plain")
+COMPILED = pytest.param(
+    "compiled", id="compiled", marks=pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+)
+BOTH = (PLAIN, COMPILED)
