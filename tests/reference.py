@@ -44,8 +44,7 @@ class RunRow(NamedTuple):
     """A run with the ninja's positions: a recording of a passed level, or random keys.
 
     ``data``: the in-game string it runs on; ``end_tick``: -1 if nothing ended it; ``offset``: where its ``ticks``
-    positions and states start in ``positions()``; ``source`` and ``kind``: only of recordings; ``score_ticks``: likewise,
-    else 0.
+    positions and states start in ``positions()``; ``source``, ``kind`` and ``score_ticks``: only of recordings.
     """
 
     table: str
@@ -65,7 +64,7 @@ class RunRow(NamedTuple):
 
 
 class AftermathRow(NamedTuple):
-    """The run ``row`` of ``table``, carried on for 150 ticks: digests of everything; ``objects``: id -> 8 hex digits."""
+    """The run ``row`` of ``table``, 150 ticks beyond its end: digests; ``objects``: id -> 8 hex digits."""
 
     table: str
     row: int

@@ -131,7 +131,7 @@ def _odd_text(value: float) -> str:
         return "NaN"
     if math.isinf(value):
         return "1e999" if value > 0 else "-1e999"
-    return str(int(value)) if value.is_integer() and abs(value) < 1e15 else ""
+    return str(int(value)) if abs(value) < 1e15 and value == int(value) else ""
 
 
 def _text_that_reads_as(value: float, digits: int) -> str:

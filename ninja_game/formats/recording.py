@@ -83,7 +83,8 @@ def _read_recordings(records: Iterable[LevelRecord], file: str, level: LevelData
         try:
             demo = parse_demo(record.demo)
         except DemoError as error:
-            error.file, error.line = file, record.line
+            error.what += f" (character {error.column} of the demo)"
+            error.file, error.line, error.column = file, record.line, 0
             raise
         words = (record.name, record.author, record.comment)
         recordings.append(Recording(*words, known[record.level], demo, file, record.number, record.line))

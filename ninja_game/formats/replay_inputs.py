@@ -88,7 +88,7 @@ def _bad_run(text: str, file: str, line: int, column: int) -> ReplayError:
     keys, star, count = text.partition("*")
     if star and not re.fullmatch("[1-9][0-9]{0,6}", count):
         hint = "a count is a whole number from 1"
-    elif set(keys.upper()) <= set("LRJ!-.") and _RUN.fullmatch(_in_order(keys.upper())):
+    elif set(keys.upper()) <= set("LRJ!-."):
         hint = f"write {_in_order(keys.upper())}{star}{count}"
     else:
         hint = "L left, R right, J jump, . no key"
@@ -96,5 +96,6 @@ def _bad_run(text: str, file: str, line: int, column: int) -> ReplayError:
 
 
 def _in_order(keys: str) -> str:
-    """The same keys as the notation has them: L, R, J, the mark, each once."""
-    return "".join(key for key in "LRJ!-" if key in keys) or "."
+    """The same keys as the notation has them: L, R, J, each once, then the mark."""
+    mark = "!" if "!" in keys else "-" if "-" in keys else ""
+    return ("".join(key for key in "LRJ" if key in keys) or ".") + mark

@@ -1,0 +1,211 @@
+"""Any file of levels or recordings is told from its text, whatever it is called."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from ninja_game.errors import DemoError, LevelError, NinjaGameError, ReplayError
+from ninja_game.formats.ascii_level import write_ascii_level
+from ninja_game.formats.files import load_levels, load_replays
+from ninja_game.formats.level_file import LevelRecord, write_level_file
+from ninja_game.formats.level_string import level_digest, parse_level_string
+from ninja_game.formats.named_level import parse_levels
+from ninja_game.formats.replay import Replay, write_replay
+
+TEXT = "0" * 713 + "|5^60,540!0^396,300!11^708,540,396,540"
+OTHER = "0" * 712 + "1|5^84,540"
+LEVEL = parse_level_string(TEXT)
+DEMO = "2:193"
+
+
+def saved(folder: Path, text: str, name: str = "some file") -> Path:
+    path = folder / name
+    path.write_bytes(text.encode())
+    return path
+
+
+def test_ascii_levels(tmp_path: Path) -> None:
+    path = saved(tmp_path, write_ascii_level(LEVEL, name="A hill, $5 #1 | b", author="us"))
+    (level,) = load_levels(path)
+    assert (level.name, level.author, level.level, level.form) == ("A hill, $5 #1 | b", "us", LEVEL, "ascii")
+
+
+def test_level_files(tmp_path: Path) -> None:
+    path = saved(tmp_path, f"free\n$a#us#x#{TEXT}#\n$b#us#y#{OTHER}#{DEMO}#\n")
+    first, second = load_levels(str(path))
+    assert (first.name, first.author, first.comment, first.level) == ("a", "us", "x", LEVEL)
+    assert (second.record, second.line, second.file, second.form) == (1, 3, str(path), "file")
+
+
+@pytest.mark.parametrize("text", [TEXT, TEXT + "\r\n", "\n" + TEXT[:400] + "\n" + TEXT[400:730] + "\r" + TEXT[730:]])
+def test_in_game_strings_wrapped_or_not(tmp_path: Path, text: str) -> None:
+    (level,) = load_levels(saved(tmp_path, text, "hill.level"))
+    assert (level.name, level.level, level.form) == ("hill", LEVEL, "string")
+
+
+def test_in_game_strings_one_a_line(tmp_path: Path) -> None:
+    levels = load_levels(saved(tmp_path, f"{TEXT}\n\n{OTHER}\n"))
+    assert [(level.record, level.line, level.level) for level in levels] == [
+        (0, 1, LEVEL),
+        (1, 3, parse_level_string(OTHER)),
+    ]
+
+
+def test_a_single_in_game_string_is_read_as_the_game_reads_it(tmp_path: Path) -> None:
+    text = "0" * 275 + "|5^ 300,446!0^685 ,446"
+    (level,) = load_levels(saved(tmp_path, text))
+    assert level.level == parse_level_string(text)
+
+
+def test_levels_come_with_their_warnings(tmp_path: Path) -> None:
+    (level,) = load_levels(saved(tmp_path, OTHER))
+    assert any("exit" in warning for warning in level.warnings)
+
+
+def test_folders_are_searched_in_order_hidden_and_foreign_files_left_out(tmp_path: Path) -> None:
+    for name in ("b.txt", "a.txt", "sub/c.level", ".hidden.txt", ".git/d.txt", "notes.md"):
+        path = tmp_path / name
+        path.parent.mkdir(exist_ok=True)
+        saved(path.parent, TEXT, path.name)
+    assert [level.name for level in load_levels(tmp_path)] == ["a", "b", "c"]
+
+
+def test_an_empty_folder_is_an_error(tmp_path: Path) -> None:
+    with pytest.raises(LevelError, match="no levels here"):
+        load_levels(tmp_path)
+    with pytest.raises(ReplayError, match="no recordings here"):
+        load_replays(tmp_path)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+def test_text_in_any_usual_encoding(tmp_path: Path, encoding: str) -> None:
+    path = tmp_path / "levels"
+    path.write_bytes(f"$né#us##{TEXT}#".encode(encoding))
+    assert load_levels(path)[0].name == "né"
+
+
+@pytest.mark.parametrize(
+    "data, message",
+    [
+        (b"", "an empty file"),
+        (b"\n \n", "an empty file"),
+        (b"hello\nworld", r":1: not a level in any format.*found 'hello"),
+        (b"| a | table |\n|---|---|\n", "not a level in any format"),
+        (b"\x89PNG\r\n\x1a\n\0\0", "not a text file"),
+        (b"$a#b#c##", ":1: record 0 has no level string"),
+        (b"$###" + DEMO.encode() + b"#", "recordings without their levels"),
+        (b"ninja-game level 1\nhello", "some"),
+        (b"ninja-game replay 1\nhello", "not a header line"),
+    ],
+)  # fmt: skip
+def test_what_is_no_level_is_refused_with_the_files_name(tmp_path: Path, data: bytes, message: str) -> None:
+    path = tmp_path / "some.txt"
+    path.write_bytes(data)
+    with pytest.raises(NinjaGameError, match=message) as caught:
+        load_levels(path)
+    assert str(path) in str(caught.value)
+
+
+def test_a_file_that_is_far_too_large_is_not_read(tmp_path: Path) -> None:
+    path = tmp_path / "big"
+    with path.open("wb") as file:
+        os.truncate(file.fileno(), 70 * 2**20)
+    with pytest.raises(LevelError, match="too large"):
+        load_levels(path)
+
+
+# --- Recordings ---
+
+
+def test_recordings_of_n(tmp_path: Path) -> None:
+    records = [LevelRecord("a", "us", "x", TEXT, DEMO), LevelRecord("", "", "", TEXT, "3:0")]
+    first, second = load_replays(saved(tmp_path, write_level_file(records)))
+    assert (first.name, first.author, first.comment, first.level) == ("a", "us", "x", LEVEL)
+    assert (first.ticks, first.inputs(5)) == (3, bytes([1, 12, 12, 0, 0]))
+    assert (second.record, second.line, second.ticks, second.replay) == (1, 2, 4, None)
+    assert first.level is second.level
+
+
+def test_a_raw_level_in_a_recording_plays_as_the_game_reads_it(tmp_path: Path) -> None:
+    text = "0" * 713 + "|5^ 300,446!0^685 ,446! 0^3,4"
+    (recording,) = load_replays(saved(tmp_path, f"$###{text}#{DEMO}#"))
+    assert recording.level == parse_level_string(text)
+
+
+def test_recordings_without_level_need_one(tmp_path: Path) -> None:
+    for text in (f"##{DEMO}#", DEMO + "\n"):
+        path = saved(tmp_path, text)
+        assert load_replays(path, level=LEVEL)[0].level is LEVEL
+        with pytest.raises(ReplayError, match=":1: record 0 leaves its level out; give the level"):
+            load_replays(path)
+
+
+def test_replays_of_ours(tmp_path: Path) -> None:
+    replay = Replay(bytes([2, 2, 14]), 7, "running", level=LEVEL, level_digest=level_digest(LEVEL), name="walk")
+    (recording,) = load_replays(saved(tmp_path, write_replay(replay)))
+    assert (recording.name, recording.level, recording.replay) == ("walk", LEVEL, replay)
+    # Unlike in a demo nothing is repeated after the last input.
+    assert (recording.ticks, recording.inputs(8)) == (8, bytes([2, 2, 14, 0, 0, 0, 0, 0]))
+
+
+def test_a_replay_finds_its_level_from_its_own_folder(tmp_path: Path) -> None:
+    (tmp_path / "levels").mkdir()
+    (tmp_path / "replays").mkdir()
+    saved(tmp_path / "levels", f"$a###{OTHER}#\n$b###{TEXT}#", "two.txt")
+    replay = Replay(b"", 0, "running", level_path="../levels/two.txt", level_record=1, level_digest=level_digest(LEVEL))
+    path = saved(tmp_path / "replays", write_replay(replay))
+    assert load_replays(path)[0].level == LEVEL
+    assert load_levels(path)[0].level == LEVEL
+
+
+@pytest.mark.parametrize(
+    "replay, message",
+    [
+        (Replay(b"", 0, "dead", level_path="nowhere.txt"), "the replay's level is not here; found nowhere.txt; give"),
+        (Replay(b"", 0, "dead", level_digest="0f" * 32), "is not here; found level-digest 0f0f0f0f0f0f"),
+        (Replay(b"", 0, "dead", level_path="two.txt", level_record=2), "not in its file.*expected a record 2"),
+        (Replay(b"", 0, "dead", level_path="two.txt", level_digest="0f" * 32), "not the level of this.*was changed"),
+        (Replay(b"", 0, "dead", level_path="some file"), "a replay as the level of a replay"),
+        (Replay(b"", 0, "dead", level_path="."), "is not here"),
+        (Replay(b"", 0, "dead", level_path="\0"), "is not here"),
+    ],
+)  # fmt: skip
+def test_a_replay_without_its_level_says_so(tmp_path: Path, replay: Replay, message: str) -> None:
+    saved(tmp_path, f"$a###{OTHER}#\n$b###{TEXT}#", "two.txt")
+    path = saved(tmp_path, write_replay(replay))
+    with pytest.raises(ReplayError, match=message) as caught:
+        load_replays(path)
+    assert str(caught.value).startswith(str(path))
+
+
+def test_a_given_level_serves_a_replay_that_has_only_a_digest(tmp_path: Path) -> None:
+    path = saved(tmp_path, write_replay(Replay(b"", 0, "dead", level_digest=level_digest(LEVEL))))
+    assert load_replays(path, level=LEVEL)[0].level is LEVEL
+    with pytest.raises(ReplayError, match="not the level of this replay"):
+        load_replays(path, level=parse_level_string(OTHER))
+
+
+@pytest.mark.parametrize(
+    "text, error, message",
+    [
+        (f"$a###{TEXT}#\n$b###{TEXT}#{DEMO}#", ReplayError, ":1: record 0 has no demo; expected"),
+        (f"$a###{TEXT}#34x:1|2#", ReplayError, ":1: record 0 has no demo; found '34x:1"),
+        (f"\n$a###{TEXT}#Aaaa!#", ReplayError, ":2: record 0 has no demo"),
+        (f'\n$a###{TEXT}#A"""\x67#', DemoError, r":2: a character .* has here \(character 6 of the demo\)"),
+        (TEXT, ReplayError, "no recording; found '0000"),
+        (write_ascii_level(LEVEL), ReplayError, "no recording; found 'ninja-game level 1"),
+        ("", ReplayError, "no recording"),
+    ],
+)
+def test_what_is_no_recording_is_refused(tmp_path: Path, text: str, error: type[NinjaGameError], message: str) -> None:
+    path = saved(tmp_path, text)
+    with pytest.raises(error, match=message) as caught:
+        load_replays(path)
+    assert str(path) in str(caught.value)
+
+
+def test_texts_need_no_file() -> None:
+    assert parse_levels(TEXT)[0].level == LEVEL
