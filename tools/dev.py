@@ -167,6 +167,18 @@ def docs(rest: Sequence[str]) -> int:
     return max([run(venv_script("python"), script, *rest) for script in scripts], default=0)
 
 
+def golden(rest: Sequence[str]) -> int:
+    """Write the golden digests of tests/golden anew, after a change that is meant to change the world."""
+    install(DEVELOPMENT)
+    return run(venv_script("python"), ROOT / "tools" / "golden.py", *rest)
+
+
+def change_rules(rest: Sequence[str]) -> int:
+    """Test the tests: break about sixty rules, one at a time, and tell which breaks no test notices."""
+    install(DEVELOPMENT)
+    return run(venv_script("python"), ROOT / "tools" / "change_rules.py", *rest)
+
+
 def run_ninja_game(rest: Sequence[str]) -> int:
     """Any `ninja-game` command: `run info levels/first.txt`."""
     install(())
@@ -188,6 +200,8 @@ COMMANDS: dict[str, Callable[[Sequence[str]], int]] = {
     "check": check,
     "bench": bench,
     "docs": docs,
+    "golden": golden,
+    "change-rules": change_rules,
     "run": run_ninja_game,
     "clean": clean,
 }
@@ -206,7 +220,7 @@ def main(words: Sequence[str]) -> int:
         return 0
     if name in COMMANDS:
         return COMMANDS[name](rest)
-    table = "\n".join(f"  {name:<6} {describe(name).splitlines()[0]}" for name in COMMANDS)
+    table = "\n".join(f"  {name:<12} {describe(name).splitlines()[0]}" for name in COMMANDS)
     overview = f"usage: tools/dev.py COMMAND …\n\n{(__doc__ or '').strip()}\n\n{table}"
     if name in ("", "-h", "--help", "help"):
         print(overview)

@@ -1,0 +1,123 @@
+"""What must hold in any level: save-states, both memories, digests, the ninja stays inside."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ninja_game.compile_cache import compiled_available
+from ninja_game.errors import LevelError
+from ninja_game.sim.level_data import GOLD, LAUNCH_PAD, NINJA, LevelData, Record
+from ninja_game.simulation import BODIES, Body, Simulation
+from tests.sim.crowded import crowded_frames, crowded_level
+from tests.sim.memories import BOTH
+
+seeds = st.integers(0, 2**32)
+bodies = st.sampled_from(BODIES)
+
+
+@pytest.mark.parametrize("memory", BOTH)
+@settings(deadline=None, max_examples=40)
+@given(seed=seeds, body=bodies, start=st.integers(0, 120), span=st.integers(1, 120))
+def test_a_restored_run_goes_on_as_if_nothing_had_been(
+    memory: str, seed: int, body: Body, start: int, span: int
+) -> None:
+    frames = crowded_frames(seed, start + span)
+    run = Simulation(crowded_level(seed), body=body, memory=memory)
+    for frame in frames[:start]:
+        run.step_frame(frame)
+    state = run.save()
+    before = run.digest()
+    for frame in frames[start:]:
+        run.step_frame(frame)
+    straight = run.digest()
+    run.restore(state)
+    assert run.digest() == before
+    for frame in frames[start:]:
+        run.step_frame(frame)
+    assert run.digest() == straight
+
+
+@pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+@settings(deadline=None, max_examples=60)
+@given(seed=seeds, body=bodies)
+def test_plain_and_compiled_worlds_are_equal_in_every_field_and_event(seed: int, body: Body) -> None:
+    plain, compiled = (Simulation(crowded_level(seed), body=body, memory=memory) for memory in ("plain", "compiled"))
+    for tick, frame in enumerate(crowded_frames(seed, 150)):
+        plain.step_frame(frame)
+        compiled.step_frame(frame)
+        if tick % 10 == 0:
+            assert plain.digest() == compiled.digest(), plain.first_difference(compiled)
+            # repr, so that NaN equals NaN
+            assert repr(plain.events) == repr(compiled.events)
+    assert plain.digest() == compiled.digest(), plain.first_difference(compiled)
+
+
+@settings(deadline=None, max_examples=60)
+@given(seed=seeds, body=bodies)
+def test_the_ninja_never_leaves_the_interior(seed: int, body: Body) -> None:
+    level = crowded_level(seed)
+    records = tuple(record for record in level.records if record.kind != LAUNCH_PAD)
+    run = Simulation(LevelData(level.tiles, records), body=body)
+    for frame in crowded_frames(seed):
+        run.step_frame(frame)
+        assert 24.0 <= run.ninja.x <= 768.0
+        assert 24.0 <= run.ninja.y <= 576.0
+
+
+@pytest.mark.parametrize("memory", BOTH)
+def test_reset_starts_afresh(memory: str) -> None:
+    run = Simulation(crowded_level(5), memory=memory)
+    fresh = run.digest()
+    for frame in crowded_frames(5):
+        run.step_frame(frame)
+    assert run.digest() != fresh
+    run.reset()
+    assert (run.tick, run.digest()) == (0, fresh)
+
+
+def test_a_save_state_of_another_level_is_refused() -> None:
+    one, other = Simulation(crowded_level(1)), Simulation(crowded_level(2))
+    with pytest.raises(ValueError, match="another level"):
+        other.restore(one.save())
+
+
+@pytest.mark.parametrize("memory", BOTH)
+def test_a_jump_key_triggers_once_until_it_is_released(memory: str) -> None:
+    run = Simulation(LevelData(records=(Record(NINJA, (100.0, 566.0)),)), memory=memory)
+    run.step()
+    run.step(jump=True)
+    assert [event.name for event in run.events] == ["jumped"]
+    run.step(jump=True)
+    assert run.events == []
+    assert run.ninja.state == "jumping"
+
+
+def test_a_level_without_a_ninja_cannot_be_played() -> None:
+    with pytest.raises(LevelError, match="no ninja"):
+        Simulation(LevelData())
+
+
+def test_too_many_objects_are_refused_with_their_number() -> None:
+    records = (Record(NINJA, (100.0, 100.0)), *[Record(GOLD, (200.0, 200.0))] * 20_000)
+    with pytest.raises(LevelError, match="20001"):
+        Simulation(LevelData(records=records))
+
+
+@pytest.mark.parametrize("memory", BOTH)
+def test_two_thousand_objects_load_and_run(memory: str) -> None:
+    gold = [Record(GOLD, (30.0 + 7 * (k % 100), 30.0 + 25 * (k // 100))) for k in range(2000)]
+    run = Simulation(LevelData(records=(Record(NINJA, (300.0, 300.0)), *gold)), memory=memory)
+    for _ in range(50):
+        run.step(right=True)
+    assert run.gold > 0
+    assert len(run.objects) == 2000
+
+
+def test_a_wrong_body_or_memory_is_named() -> None:
+    level = LevelData(records=(Record(NINJA, (100.0, 100.0)),))
+    with pytest.raises(ValueError, match="triangle"):
+        Simulation(level, body="triangle")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="cloud"):
+        Simulation(level, memory="cloud")

@@ -1,0 +1,81 @@
+"""Test the tests: change one rule at a time in a scratch copy and see whether a test notices.
+
+    python3 tools/dev.py change-rules [NAME …]
+
+Only tests that need no reference data run (the scratch copy has no ../shared), on the plain memory. Each change is one
+line, by pattern; a pattern that no longer fits is an error, so that this list stays in step with the rules. Changes that
+no test notices are listed at the end; docs/testing.md says which are left and why. Exit code 1 if more than
+``ALLOWED`` go unnoticed.
+"""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+from rule_changes import CHANGES, Change
+
+ROOT = Path(__file__).resolve().parent.parent
+ALLOWED = 5
+COPIED = ("ninja_game", "tests", "levels", "pyproject.toml", "README.md")
+TESTS = ("tests/sim", "-x", "-q", "-k", "not compiled", "-p", "no:cacheprovider")
+
+
+def scratch_copy(folder: Path) -> None:
+    """Copy what the tests need into an empty folder."""
+    for name in COPIED:
+        source = ROOT / name
+        if source.is_dir():
+            shutil.copytree(source, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
+        elif source.exists():
+            shutil.copy(source, folder / name)
+
+
+def apply(change: Change, folder: Path) -> None:
+    """Change one line. Raises SystemExit if the pattern does not stand there exactly once."""
+    path = folder / "ninja_game" / "sim" / change.file
+    text = path.read_text(encoding="utf-8")
+    if text.count(change.old) != 1:
+        raise SystemExit(f"{change.name}: {change.old!r} stands {text.count(change.old)} times in sim/{change.file}")
+    path.write_text(text.replace(change.old, change.new), encoding="utf-8")
+
+
+def unnoticed(change: Change | None) -> bool:
+    """Run the tests with a change (None: without one); True if they all pass."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name) / "ninja-game"
+        folder.mkdir()
+        scratch_copy(folder)
+        if change:
+            apply(change, folder)
+        command = [sys.executable, "-m", "pytest", *TESTS]
+        try:
+            done = subprocess.run(command, cwd=folder, capture_output=True, timeout=300, check=False)
+        except subprocess.TimeoutExpired:
+            return False
+        return done.returncode == 0
+
+
+def main(names: list[str]) -> int:
+    """Try the named changes, or all; the number of unnoticed ones decides the exit code."""
+    changes = [change for change in CHANGES if not names or change.name in names]
+    if not unnoticed(None):
+        print("the tests fail without any change; mend that first")
+        return 2
+    with ThreadPoolExecutor(2) as pool:
+        results = list(zip(changes, pool.map(unnoticed, changes), strict=True))
+    for change, missed in results:
+        print(f"{'UNNOTICED' if missed else 'noticed  '}  {change.name}")
+    missing = [change.name for change, missed in results if missed]
+    print(f"{len(changes) - len(missing)} of {len(changes)} changes noticed")
+    return 1 if len(missing) > ALLOWED else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

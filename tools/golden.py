@@ -1,0 +1,14 @@
+"""Write the golden digests anew: `python3 tools/dev.py golden` (see tests/golden/README.md)."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+
+from tests.golden_runs import GOLDEN, write_golden_files
+
+if __name__ == "__main__":
+    write_golden_files()
+    print(f"wrote {', '.join(sorted(path.name for path in GOLDEN.glob('*.tsv')))}")

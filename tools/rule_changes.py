@@ -1,0 +1,93 @@
+"""The rules that ``change_rules.py`` breaks, one at a time: constants, strictness, order, omitted quirks."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Change(NamedTuple):
+    """One line of a file under ``ninja_game/sim``, and what it becomes."""
+
+    name: str
+    file: str
+    old: str
+    new: str
+
+
+CHANGES = (
+    # Constants.
+    Change("gravity", "rules.py", "\nGRAVITY = 0.15", "\nGRAVITY = 0.150000001"),
+    Change("jump-gravity", "rules.py", "JUMP_GRAVITY = 0.025", "JUMP_GRAVITY = 0.026"),
+    Change("drag", "rules.py", "\nDRAG = 0.99", "\nDRAG = 0.991"),
+    Change("celebration-drag", "rules.py", "CELEBRATION_DRAG = 0.8", "CELEBRATION_DRAG = 0.9"),
+    Change("air-acceleration", "rules.py", "AIR_ACCELERATION = 0.1", "AIR_ACCELERATION = 0.11"),
+    Change("wall-friction", "rules.py", "WALL_FRICTION = 0.13", "WALL_FRICTION = 0.12"),
+    Change("skid-friction", "rules.py", "SKID_FRICTION = 0.92", "SKID_FRICTION = 0.93"),
+    Change("stand-friction", "rules.py", "STAND_FRICTION = 0.8", "STAND_FRICTION = 0.9"),
+    Change("longest-jump", "rules.py", "LONGEST_JUMP = 30", "LONGEST_JUMP = 29"),
+    Change("fatal-impact", "rules.py", "FATAL_IMPACT = 9.0", "FATAL_IMPACT = 9.5"),
+    Change("crush", "rules.py", "CRUSH = 80.0", "CRUSH = 95.0"),
+    Change("wall-probe", "rules.py", "WALL_PROBE = 10.1", "WALL_PROBE = 10.2"),
+    Change("pad-strength", "rules.py", "PAD_STRENGTH = 5.142857142857142 ", "PAD_STRENGTH = 5.142857142857143 "),
+    Change("thwump-fall", "rules.py", "THWUMP_FALL = 4.285714285714286", "THWUMP_FALL = 4.285714285714285"),
+    Change("block-half", "rules.py", "BLOCK_HALF = 9.600000000000001", "BLOCK_HALF = 9.6"),
+    Change("rocket-turn", "rules.py", "ROCKET_TURN = 0.1", "ROCKET_TURN = 0.11"),
+    Change("gold-radius", "rules.py", "GOLD_RADIUS = 6.0", "GOLD_RADIUS = 7.0"),
+    Change("mine-radius", "rules.py", "MINE_RADIUS = 4.0", "MINE_RADIUS = 4.5"),
+    Change("laser-beam", "rules.py", "LASER_BEAM, LASER_COOL = 30, 80, 40", "LASER_BEAM, LASER_COOL = 30, 79, 40"),
+    Change("automatic-door-open", "rules.py", "AUTOMATIC_DOOR_OPEN = 5", "AUTOMATIC_DOOR_OPEN = 6"),
+    # Grid, tiles, collision.
+    Change("edge-under-the-surface", "tiles.py", "OFF, INTERESTING, OFF]", "OFF, INTERESTING, SOLID]"),
+    Change("thin-faces", "tiles.py", "(shape == THIN_22 and side in (0, 2))", "(shape == THIN_22 and side == 4)"),
+    Change("insert-at-the-tail", "objects/contact.py", "STRIDE, STRIDE + 1, STRIDE - 1, -1", "STRIDE, STRIDE - 1, STRIDE + 1, -1"),
+    Change("keep-next-link", "grid.py", "    o.next = 0\n    o.prev = 0\n", "    o.prev = 0\n"),
+    Change("keep-place-in-the-list", "grid.py", "    if cell == o.cell:\n        return 0\n", "    if cell == o.cell and cell == 0:\n        return 0\n"),
+    Change("vertical-first", "circle.py", "    dx = n.x - cx\n", "    dx = n.px - cx\n"),
+    Change("diagonal-after-axis", "circle.py", "oy > 0.0 and ox > 0.0 and kind_v != AXIS and kind_h != AXIS", "oy > 0.0 and ox > 0.0 and kind_v != AXIS"),
+    Change("behind-the-surface", "circle_shapes.py", "RADIUS - abs((n.x - ax) * nx + (n.y - ay) * ny)", "RADIUS - ((n.x - ax) * nx + (n.y - ay) * ny)"),
+    Change("half-both-overlaps", "circle_shapes.py", "push_from_tile(w, ox, oy, ox / m, oy / m)", "push_from_tile(w, -ox, oy, -ox / m, oy / m)"),
+    Change("exit-tie", "circle_shapes.py", "    if ox < oy:\n        hx", "    if ox <= oy:\n        hx"),
+    Change("convex-ray-behind", "ray_shapes.py", "t = t2 if t2 < t1 else t1", "t = t1 if t2 < 0.0 else t2"),
+    Change("ray-corner-order", "rays.py", "        if tx < ty:\n            t = tx", "        if tx <= ty:\n            t = tx"),
+    Change("box-pulls-back", "box.py", "        a = ox if dx < 0.0 else -ox\n", "        a = -ox if dx < 0.0 else ox\n"),
+    # The ninja.
+    Change("crush-notes-contact", "contacts.py", "        kill(w, CRUSHED, 0.0, 0.0, n.x, n.y)\n        return\n", "        kill(w, CRUSHED, 0.0, 0.0, n.x, n.y)\n"),
+    Change("third-floor-contact", "contacts.py", "        if n.contacts == 0:", "        if n.contacts != 1:"),
+    Change("floor-normal-kept", "ninja.py", "if not (n.first_x == n.floor_x and n.first_y == n.floor_y):", "if n.contacts:"),
+    Change("probe-without-wall-only", "ninja.py", "if n.in_air and not n.near_wall:", "if n.in_air:"),
+    Change("fall-needs-air", "ninja.py", "    if n.was_in_air:\n", "    if n.contacts:\n"),
+    Change("jump-drops-opposing-speed", "control.py", "    if (n.y - n.py) * jy < 0.0:\n        n.py = n.y\n", ""),
+    Change("wall-hop", "control.py", "if state == SLIDING and towards < 0.0:", "if state == SLIDING and towards > 0.0:"),
+    Change("slide-needs-downward-speed", "control.py", "elif vy > 0.0 and towards < 0.0:", "elif towards < 0.0:"),
+    Change("uphill-jump", "control.py", "jump_off_floor(w, n, 0.0, -0.7)", "jump_off_floor(w, n, 0.0, -0.8)"),
+    Change("uphill-help", "control.py", "        elif direction * floor_x < 0.0:\n            run_uphill", "        elif direction * floor_x < -9.0:\n            run_uphill"),
+    Change("top-speed-strict", "control.py", "    a = vx + direction * AIR_ACCELERATION\n    if abs(a) < TOP_SPEED:", "    a = vx + direction * AIR_ACCELERATION\n    if abs(a) < TOP_SPEED + 0.1:"),
+    # Schedule, death, win.
+    Change("newest-first", "schedule.py", "    w.thinker = slot\n\n\n@fast\ndef end_think", "    w.thinker = w.thinker or slot\n\n\n@fast\ndef end_think"),
+    Change("think-every-fourth", "world.py", "if w.think_counter > 2:", "if w.think_counter > 1:"),
+    Change("think-counter-stands", "world.py", "    if w.thinker:\n        if w.think_counter", "    if w.thinker or w.think_counter:\n        if w.think_counter"),
+    Change("idle-turret", "death.py", "            o.think = TURRET_WAITING\n            end_think(w, o, slot)\n", "            o.think = TURRET_WAITING\n"),
+    Change("idle-guard", "death.py", "            o.routine = GUARD_IDLE\n            end_update(w, o, slot)\n", "            end_update(w, o, 0)\n"),
+    Change("idle-doors", "death.py", "        elif kind == DOOR:\n            unfile(w, o)\n", ""),
+    Change("contact-pass-off", "death.py", "    w.contacts_off = 1\n", ""),
+    # Things.
+    Change("block-wakes", "objects/bounce_block.py", "    o.counter = 0\n    if not", "    if not"),
+    Change("pad-plane", "objects/launch_pad.py", "        if not u * o.face_x + v * o.face_y < 0.0:", "        if True:"),
+    Change("pad-up-twice", "objects/launch_pad.py", "            if o.face_y < 0.0:", "            if o.face_y < -0.9:"),
+    Change("one-way-was-outside", "objects/one_way.py", "            gap = n.py - face * RADIUS - (o.y + face * ONE_WAY_HALF)\n            if 0.0 <= gap * face:", "            gap = n.py - face * RADIUS - (o.y + face * ONE_WAY_HALF)\n            if gap == gap:"),
+    Change("trap-door-once", "objects/door.py", "        write_edges(w, o, True)\n        unfile(w, o)\n", "        write_edges(w, o, True)\n"),
+    Change("thwump-lethal-face", "objects/thwump.py", "        elif o.face_y > 0.0:", "        elif o.face_y > 0.0 and o.sign > 0.0 and o.routine:"),
+    Change("thwump-snap", "objects/thwump.py", "if dx * dx + dy * dy < o.speed * o.speed:", "if dx * dx + dy * dy <= 1.0:"),
+    Change("guard-strict-row", "objects/floor_guard.py", "column != COLUMN[o.cell]", "column >= 0"),
+    Change("rocket-edge", "objects/launcher.py", "edge_between(w, old, o.cell) == SOLID", "edge_between(w, old, o.cell) > SOLID"),
+    Change("turret-aim-tick", "objects/turret.py", "2.0 + w.tick % 4", "2.0 + w.tick % 3"),
+    Change("turret-old-factor", "objects/turret.py", "2.0 * n.x - n.px", "n.x"),
+    Change("drone-list-order", "objects/drone.py", "ROTATIONS = [1, 0, 3, 2,", "ROTATIONS = [1, 3, 0, 2,"),
+    Change("drone-random-clock", "objects/drone.py", "            o.clock = 0 if odd else 1", "            o.clock = 0"),
+    Change("drone-no-u-turn", "objects/drone.py", "    if o.direction == direction ^ 2:\n        return False\n", ""),
+    Change("drone-grab", "objects/drone.py", "        o.grab = (direction + 3) % 4 + 1", "        o.grab = (direction + 1) % 4 + 1"),
+    Change("chaingun-length", "objects/drone_weapons.py", "o.last_shot = 4 + w.tick % 5", "o.last_shot = 4 + w.tick % 4"),
+    Change("chaingun-side", "objects/drone_weapons.py", "(n.y - n.py) * o.aim_x < 0.0:", "(n.y - n.py) * o.aim_x > 0.0:"),
+    Change("laser-end", "objects/drone_weapons.py", "    elif t < 1.0:", "    elif t < 2.0:"),
+)  # fmt: skip
+"""About sixty rules."""
