@@ -17,6 +17,8 @@ from ninja_game import __version__
 from ninja_game.errors import NinjaGameError
 
 COMMANDS = {
+    "verify": "Run recordings again and judge them.",
+    "trace": "Show every tick of recordings: position, velocity, state, events.",
     "convert": "Turn levels from one format into the other.",
     "info": "Show what is in level and replay files.",
     "completion": "Set up completion of commands and options in your shell.",

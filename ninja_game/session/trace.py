@@ -14,13 +14,37 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.runs import NINJA_RECORD, THING_RECORD, RunTrace
+from ninja_game.formats.recording import Recording
+from ninja_game.runs import NINJA_RECORD, THING_RECORD, RunTrace, run_level, trace_level
+from ninja_game.session.sources import body_of, named_errors
 
 Records: TypeAlias = NDArray[np.void]
 """An array of NINJA_RECORD or THING_RECORD."""
 
 NINJA_NAME = "ninja"
 """Kind of the ninja's rows, beside the kinds of objects."""
+
+
+def trace_recording(
+    recording: Recording,
+    *,
+    ticks: int | None = None,
+    after: int = 0,
+    memory: str = "auto",
+    objects: bool = True,
+    events: bool = False,
+) -> RunTrace:
+    """The trace of a recording: of exactly ``ticks`` ticks, else until its end as ``verify`` has it and ``after`` more.
+
+    ``events`` runs on the plain memory. Raises LevelError naming file and record for a level that cannot be played.
+    """
+    body = body_of(recording)
+    with named_errors(recording):
+        if ticks is None:
+            frames = recording.inputs(recording.ticks)
+            ticks = run_level(recording.level, frames, body=body, memory=memory).ticks + after
+        frames = recording.inputs(ticks)
+        return trace_level(recording.level, frames, body=body, memory=memory, objects=objects, events=events)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,181 @@
+"""`ninja-game trace`: everything a run shows, tick by tick, as a table or as digests; compared with another trace."""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+import sys
+from collections.abc import Iterator, Sequence
+from functools import partial
+from pathlib import Path
+from typing import IO, TYPE_CHECKING, Any, NamedTuple
+
+import click
+
+from ninja_game.cli.run_options import jobs_option, memory_option, with_progress, workers
+
+if TYPE_CHECKING:
+    from ninja_game.formats.recording import Recording
+    from ninja_game.session.trace_files import FiledTrace
+
+SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
+"""A comment like this names the section of the specification that a recording is about."""
+
+
+class Traced(NamedTuple):
+    """A trace, the file of its recording and the comment there."""
+
+    file: str
+    comment: str
+    trace: FiledTrace
+
+
+@click.command()
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
+@click.option("--record", type=click.IntRange(min=0), help="Only this one of a file's recordings, counted from 0.")
+@click.option("--ticks", type=click.IntRange(min=1), help="Exactly so many ticks, whatever happens.")
+@click.option("--after", type=click.IntRange(min=0), help="So many ticks more than `verify` would run.")
+@click.option("--objects", is_flag=True, help="Rows for the objects too, not only for the ninja.")
+@click.option("--digests", is_flag=True, help="One JSON object a recording with digests of everything, instead.")
+@click.option(
+    "--against", type=click.Path(exists=True, dir_okay=False, path_type=Path), help="Compare with this trace."
+)
+@click.option(
+    "--output", "-o", type=click.Path(dir_okay=False, path_type=Path), help="Write to this .csv or .npz file."
+)
+@memory_option
+@jobs_option
+@click.pass_context
+def command(
+    ctx: click.Context,
+    files: Sequence[Path],
+    record: int | None,
+    ticks: int | None,
+    after: int | None,
+    objects: bool,
+    digests: bool,
+    against: Path | None,
+    output: Path | None,
+    memory: str,
+    jobs: int | None,
+) -> None:
+    """Show every tick of recordings: position, velocity, state, events.
+
+    FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Each runs as
+    `verify` runs it, unless --ticks or --after say otherwise. Lengths are px, velocities px/tick; numbers keep every
+    bit. Events are recorded by the plain memory only, so --memory compiled leaves them out.
+
+    Exit code 0: all is well; 1: --against found a difference; 2: something cannot be read.
+
+    \b
+    Examples:
+      ninja-game trace run.replay.txt > run.csv
+      ninja-game trace run.replay.txt --objects -o run.npz
+      ninja-game trace run.replay.txt --against run.csv
+      ninja-game trace demos.txt --digests --after 150
+    """
+    if ticks is not None and after is not None:
+        raise click.UsageError("--ticks and --after exclude each other")
+    if digests + bool(against) + bool(output) > 1:
+        raise click.UsageError("--digests, --against and --output exclude each other")
+    table = not digests and not against
+    options = {
+        "ticks": ticks, "after": after or 0, "memory": memory,
+        "objects": objects or digests or against is not None, "events": table and memory != "compiled",
+    }  # fmt: skip
+    traces = Traces(files, record, options, workers("plain" if options["events"] else memory, jobs))
+    different = 0
+    if digests:
+        for traced in traces:
+            click.echo(json.dumps(_digests(traced)))
+    elif against:
+        different = _compare(traces, against)
+    else:
+        _write(traces, output)
+    if not traces.count and not traces.unreadable:
+        raise click.UsageError(f"there is no record {record}")
+    ctx.exit(2 if traces.unreadable else 1 if different else 0)
+
+
+class Traces:
+    """The traces of all recordings, one after the other; what cannot be read is told on stderr and counted."""
+
+    def __init__(
+        self, files: Sequence[Path], record: int | None, options: dict[str, Any], workers: dict[str, Any]
+    ) -> None:
+        from ninja_game.session.sources import for_each_recording
+
+        traced = for_each_recording(partial(_trace, options), files, record=record, **workers)
+        self.items = with_progress(traced, "traces")
+        self.count = 0
+        self.unreadable = 0
+
+    def __iter__(self) -> Iterator[Traced]:
+        for item in self.items:
+            if isinstance(item, Traced):
+                self.count += 1
+                yield item
+            else:
+                self.unreadable += 1
+                click.echo(f"ninja-game: {item.message}", err=True)
+
+
+def _trace(options: dict[str, Any], recording: Recording) -> Traced:
+    from ninja_game.session.trace import trace_recording
+    from ninja_game.session.trace_files import FiledTrace
+
+    run = trace_recording(recording, **options)
+    return Traced(recording.file, recording.comment, FiledTrace(recording.record, recording.name, run))
+
+
+def _digests(traced: Traced) -> dict[str, Any]:
+    """The digests of a run, for programs."""
+    from ninja_game.session.trace import trace_digests
+
+    file, _, (record, name, run) = traced
+    digests = trace_digests(run)
+    return {
+        "file": file, "record": record, "name": name, "ticks": digests.ticks, "ninja_sha256": digests.ninja_sha256,
+        "run_sha256": digests.run_sha256, "objects": {str(id_): text for id_, text in digests.objects.items()},
+    }  # fmt: skip
+
+
+def _compare(traces: Traces, against: Path) -> int:
+    """How many runs differ from the trace in ``against``; each is told with its first difference."""
+    from ninja_game.session.trace import first_difference
+    from ninja_game.session.trace_files import read_traces
+
+    expected = {trace.record: trace.run for trace in read_traces(against)}
+    different = 0
+    for file, comment, (record, name, run) in traces:
+        section = comment if SECTION.fullmatch(comment) else ""
+        there = expected.get(record)
+        difference = first_difference(run, there, section) if there else f"record {record} is not in {against}"
+        if difference:
+            different += 1
+            click.echo(f"{file}:{record} {name}: {difference}")
+    click.echo(f"{traces.count - different} of {traces.count} equal to {against}")
+    return different
+
+
+def _write(traces: Traces, output: Path | None) -> None:
+    """Write the table: to the terminal, to a .npz file, or as CSV to any other file."""
+    from ninja_game.session.atomic_file import write_atomically
+    from ninja_game.session.trace_files import write_csv, write_npz
+
+    runs = (traced.trace for traced in traces)
+    if output is None:
+        write_csv(runs, sys.stdout)
+    elif output.suffix == ".npz":
+        write_atomically(output, partial(write_npz, runs))
+    else:
+        write_atomically(output, partial(_fill_csv, runs))
+
+
+def _fill_csv(runs: Iterator[FiledTrace], file: IO[bytes]) -> None:
+    from ninja_game.session.trace_files import write_csv
+
+    text = io.TextIOWrapper(file, "utf-8", newline="")
+    write_csv(runs, text)
+    text.detach()

@@ -1,0 +1,95 @@
+"""Recordings out of files and folders, one after the other; what cannot be read is told and does not stop the rest."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import TypeVar
+
+from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.formats.files import load_replays
+from ninja_game.formats.level_file import read_level_file
+from ninja_game.formats.named_level import is_level_file, parse_levels
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.text_file import read_text, text_files
+from ninja_game.session.workers import ordered_map
+from ninja_game.simulation import Body
+
+R = TypeVar("R")
+
+
+@dataclass(frozen=True)
+class Unreadable:
+    """A file, or a record of one, that cannot be used; ``message`` names it."""
+
+    message: str
+
+
+def recordings_in(paths: Iterable[Path]) -> Iterator[Recording | Unreadable]:
+    """Every recording of files and folders, in order. Levels among the recordings of a folder are passed by."""
+    for path in paths:
+        files = text_files(path)
+        if not files:
+            yield Unreadable(f"{path}: no recordings here")
+        for file in files:
+            try:
+                yield from load_replays(file)
+            except NinjaGameError as error:
+                if not (path.is_dir() and _only_levels(file)):
+                    yield Unreadable(str(error))
+            except OSError as error:
+                yield Unreadable(f"{file}: {error.strerror or error}")
+
+
+@contextmanager
+def named_errors(recording: Recording) -> Iterator[None]:
+    """Levels that cannot be played name their file and record."""
+    try:
+        yield
+    except LevelError as error:
+        what = f"record {recording.record}: {error.what}"
+        raise replace(error, file=recording.file, line=recording.line, what=what) from None
+
+
+def body_of(recording: Recording) -> Body:
+    """The ninja's body: as a replay of ours says, else the circle of the classic rules."""
+    return "box" if recording.replay and recording.replay.body == "box" else "circle"
+
+
+def _only_levels(file: Path) -> bool:
+    """Whether a file holds levels and no recording."""
+    try:
+        text = read_text(file)
+        parse_levels(text, file=str(file))
+        return not is_level_file(text) or not any(record.demo for record in read_level_file(text))
+    except (NinjaGameError, OSError):
+        return False
+
+
+def for_each_recording(
+    function: Callable[[Recording], R],
+    paths: Iterable[Path],
+    *,
+    record: int | None = None,
+    jobs: int = 1,
+    processes: bool = False,
+) -> Iterator[R | Unreadable]:
+    """``function`` of every recording, on ``jobs`` workers, in order; its own errors become Unreadable too.
+
+    ``record``: only this one of each file.
+    """
+    found = recordings_in(paths)
+    wanted = (item for item in found if record is None or isinstance(item, Unreadable) or item.record == record)
+    yield from ordered_map(partial(_guarded, function), wanted, jobs=jobs, processes=processes)
+
+
+def _guarded(function: Callable[[Recording], R], recording: Recording | Unreadable) -> R | Unreadable:
+    if isinstance(recording, Unreadable):
+        return recording
+    try:
+        return function(recording)
+    except NinjaGameError as error:
+        return Unreadable(str(error))

@@ -1,0 +1,114 @@
+"""`ninja-game trace`: tables, digests, and differences that explain themselves."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+
+from ninja_game import parse_level, trace_level
+from ninja_game.cli.main import cli
+from ninja_game.session.trace import trace_digests
+from tests.cli.samples import SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
+
+
+def trace(*words: str | Path) -> Result:
+    """`ninja-game trace WORDS…` on the plain memory."""
+    return CliRunner().invoke(cli, ["trace", "--memory", "plain", *map(str, words)])
+
+
+@pytest.fixture
+def two(tmp_path: Path) -> Path:
+    """Two recordings: one reaches the exit, one dies on a mine."""
+    return write_records(tmp_path / "two.txt", ("Walk", WALK, running(WALK_END)), ("Mine", SPIKED, running(60)))
+
+
+def test_table_has_every_tick_with_velocity_state_and_events(two: Path) -> None:
+    rows = list(csv.DictReader(trace(two, "--record", "0").stdout.splitlines()))
+    assert [int(row["tick"]) for row in rows] == list(range(WALK_END + 1))
+    assert {row["kind"] for row in rows} == {"ninja"}
+    assert float(rows[5]["vx"]) == float(rows[5]["x"]) - float(rows[5]["px"]) > 0
+    assert "won" in rows[WALK_END]["events"].split()
+    assert rows[WALK_END]["gold"] == "1"
+
+
+def test_objects_get_rows_of_their_own(two: Path) -> None:
+    rows = list(csv.DictReader(trace(two, "--record", "0", "--objects").stdout.splitlines()))
+    assert [(row["id"], row["kind"]) for row in rows[:3]] == [("", "ninja"), ("1", "exit"), ("2", "gold")]
+    assert [row["s"] for row in rows if row["kind"] == "gold"][-1] == "0", "collected"
+
+
+@pytest.mark.parametrize("words, ticks", [((), 24), (("--after", "150"), 174), (("--ticks", "7"), 7)])
+def test_length_can_be_chosen(words: tuple[str, ...], ticks: int, two: Path) -> None:
+    result = trace(two, "--record", "0", "--digests", *words)
+    assert json.loads(result.stdout)["ticks"] == ticks
+
+
+def test_digests_are_those_of_the_whole_run(two: Path) -> None:
+    digests = [json.loads(line) for line in trace(two, "--digests", "--ticks", "40").stdout.splitlines()]
+    assert [(each["file"], each["record"], each["name"]) for each in digests] == [
+        (str(two), 0, "Walk"), (str(two), 1, "Mine"),
+    ]  # fmt: skip
+    run = trace_level(parse_level(SPIKED), bytes([2] * 40), memory="plain")
+    expected = trace_digests(run)
+    assert digests[1]["ninja_sha256"] == expected.ninja_sha256
+    assert digests[1]["run_sha256"] == expected.run_sha256
+    assert digests[1]["objects"] == {"1": expected.objects[1], "2": expected.objects[2]}
+
+
+@pytest.mark.parametrize("name", ["run.csv", "run.npz"])
+def test_trace_against_its_own_file_is_equal(name: str, two: Path, tmp_path: Path) -> None:
+    path = tmp_path / name
+    assert trace(two, "--objects", "-o", path).exit_code == 0
+    result = trace(two, "--against", path)
+    assert (result.exit_code, result.stdout) == (0, f"2 of 2 equal to {path}\n")
+
+
+def test_difference_names_tick_thing_field_and_section(tmp_path: Path) -> None:
+    path = tmp_path / "run.csv"
+    source = tmp_path / "scene.replay.txt"
+    source.write_text(replay_of_walk())
+    assert trace(source, "--objects", "-o", path).exit_code == 0
+    lines = path.read_text().splitlines(keepends=True)
+    at = next(number for number, line in enumerate(lines) if ",3,2,gold," in line)
+    lines[at] = lines[at].replace("gold,115.0", "gold,116.0")
+    path.write_text("".join(lines))
+    result = trace(source, "--against", path)
+    assert result.exit_code == 1
+    assert "walk: tick 3: object 2 (gold): x is 115.0, expected 116.0" in result.stdout
+
+
+def test_section_of_the_specification_is_told(two: Path, tmp_path: Path) -> None:
+    path = tmp_path / "run.csv"
+    assert trace(two, "-o", path).exit_code == 0
+    scene = tmp_path / "scene.txt"
+    scene.write_text(two.read_text().replace("#test#", "#objects 8.12#").replace("^100,", "^101,"))
+    result = trace(scene, "--against", path)
+    assert result.exit_code == 1
+    assert "tick 0: ninja: x is " in result.stdout
+    assert "(specification: objects 8.12)" in result.stdout
+
+
+def test_numpy_file_keeps_every_bit(two: Path, tmp_path: Path) -> None:
+    assert trace(two, "--objects", "-o", tmp_path / "run.npz").exit_code == 0
+    with np.load(tmp_path / "run.npz") as arrays:
+        run = trace_level(parse_level(WALK), bytes([2] * (WALK_END + 1)), memory="plain")
+        assert arrays["ninja_0"].tobytes() == run.ninja.tobytes()
+        assert arrays["things_0"].tobytes() == run.things.tobytes()
+
+
+@pytest.mark.parametrize(
+    "words", [("--ticks", "5", "--after", "5"), ("--digests", "-o", "x.csv"), ("--record", "9"), ("--ticks", "0")]
+)
+def test_wrong_usage(words: tuple[str, ...], two: Path) -> None:
+    assert trace(two, *words).exit_code == 2
+
+
+def test_against_something_else_names_the_file(two: Path) -> None:
+    result = trace(two, "--against", two)
+    assert result.exit_code == 2
+    assert result.stderr.startswith(f"ninja-game: {two}:1: this is no trace")
