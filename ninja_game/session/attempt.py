@@ -1,16 +1,10 @@
-"""One attempt at a level: the world under it, what is recorded, and how the lifetime runs (game.md §1-§4).
-
-Nothing here knows a clock or a window: the game calls ``tick`` with the keys that are down, and ``time_up`` once a
-picture.
-"""
+"""One try at a level: inputs recorded and played, the lifetime counted, the score taken (game.md §1-§4)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from random import random
+from typing import Any
 
-from ninja_game.formats.demo import MAX_FRAMES
+from ninja_game.formats.demo import Demo
 from ninja_game.formats.level_string import level_digest
 from ninja_game.formats.replay import Replay
 from ninja_game.session.scoring import level_score
@@ -18,199 +12,125 @@ from ninja_game.sim.death import kill
 from ninja_game.sim.level_data import LevelData
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import CELEBRATING, DEAD, EXPLOSIVE, FALL, HARD_BULLET
-from ninja_game.simulation import HELD, LEFT, RIGHT, TRIGGERED, Body, SaveState, Simulation
+from ninja_game.simulation import HELD, TRIGGERED, Body, SaveState, Simulation
 
-RETRY_DELAY = 40
-"""After more ticks than this since death the recording is closed and the retry message comes (game.md §2)."""
-
-READY, PLAYING, DEAD_PHASE, PASSED = "ready", "playing", "dead", "passed"
-"""Phases: before the start, in play, after a death, after the exit contact."""
-
-
-@dataclass(frozen=True)
-class AttemptState:
-    """A moment of an attempt to come back to (practice)."""
-
-    world: SaveState
-    frames: int
-    phase: str
-    counters: tuple[int, int, int, bool, bool]
+JUMP = HELD
 
 
 class Attempt:
-    """A level being played.
+    """One try at a level, from its start to the exit, to death, or to giving up.
 
-    ``lifetime``: ticks left at its start. ``practice``: no countdown, no death by time. ``chance``: numbers in [0, 1)
-    for the suicide's impulse, which is the only thing here that chance decides. Raises LevelError for a level that
-    cannot be played.
+    ``lifetime``: ticks left, which gold adds to. ``frames``: the recording, one byte a tick. ``score``: ticks, taken at
+    the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``practised``: tools
+    were used (or it is practice), so it is no record.
     """
 
     def __init__(
-        self,
-        level: LevelData,
-        *,
-        lifetime: int = LIFETIME,
-        practice: bool = False,
-        body: Body = "circle",
-        chance: Callable[[], float] = random,
+        self, level: LevelData, *, body: Body = "circle", lifetime: int = LIFETIME, practice: bool = False
     ) -> None:
-        self.level = level
-        self.practice = practice
-        self.start_lifetime = lifetime
         self.simulation = Simulation(level, body=body)
-        self._chance = chance
-        self._begin()
+        self.start_lifetime = lifetime
+        self.practice = practice
+        self.restart()
 
-    def _begin(self) -> None:
-        self.phase = READY
+    def restart(self) -> None:
+        """Back to the level's start."""
+        self.simulation.reset()
         self.lifetime = self.start_lifetime
         self.frames = bytearray()
-        self.recording_open = True
-        self.suicide = False
-        self.ended_tick = -1
         self.score = 0
-        self._gold = 0
-
-    def retry(self) -> None:
-        """The level from its start: lifetime as at its start, this attempt's gold and recording gone."""
-        self.simulation.reset()
-        self._begin()
-
-    def start(self) -> None:
-        """Begin to play, from the phase ``ready``."""
-        if self.phase == READY:
-            self.phase = PLAYING
-
-    # --- time ---
-
-    def tick(self, held: int) -> None:
-        """One tick with these keys down (1 left, 2 right, 4 jump). Nothing happens in ``ready``."""
-        if self.phase == READY:
-            return
-        w = self.simulation.world
-        frame = held & (LEFT | RIGHT | HELD)
-        if frame & HELD and not w.ninja.held:
-            frame |= TRIGGERED
-        self.simulation.step_frame(frame)
-        if w.ninja.state not in (DEAD, CELEBRATING):
-            self._record(frame)
-        if w.gold > self._gold:
-            # The bonus comes at once, in practice too; what is taken in the tick of the exit still counts.
-            self.lifetime += GOLD_BONUS * (w.gold - self._gold)
-            self._gold = w.gold
-        if self.phase == PLAYING:
-            if w.outcome:
-                self._end()
-            if not self.practice and self.phase != PASSED:
-                self.lifetime -= 1
-        if self.waiting_ticks == RETRY_DELAY + 1:
-            self._close_recording()
-
-    def _record(self, frame: int) -> None:
-        """One more frame, if the recording is still open; at the longest length it is closed instead (§4.1)."""
-        if self.recording_open and self.phase != PASSED:
-            if len(self.frames) >= MAX_FRAMES:
-                self._close_recording()
-            else:
-                self.frames.append(frame)
-
-    def _end(self) -> None:
-        """The exit contact or the death has just come, in the tick that ``simulation.tick`` has counted."""
-        self.ended_tick = self.simulation.tick - 1
-        if self.simulation.outcome == "exit":
-            self.phase = PASSED
-            self.score = level_score(self._gold, self.ended_tick)
-        else:
-            self.phase = DEAD_PHASE
-
-    def time_up(self) -> bool:
-        """Once a picture, after its ticks: who has no time left dies of it (§1.2). Whether that happened now."""
-        due = self.phase == PLAYING and not self.practice and self.lifetime <= 0
-        if due:
-            self._kill(FALL, 0.0, 0.0)
-        return due
-
-    def give_up(self) -> None:
-        """The suicide key: 30 % explosive, 70 % bullet, a random impulse. Only while playing."""
-        if self.phase == PLAYING:
-            kind = EXPLOSIVE if self._chance() < 0.3 else HARD_BULLET
-            self.suicide = True
-            self._kill(kind, self._chance() * 10.0 - 5.0, -6.0 * self._chance())
-
-    def _kill(self, kind: int, fx: float, fy: float) -> None:
-        w = self.simulation.world
-        kill(w, kind, fx, fy, w.ninja.x, w.ninja.y)
-        self.ended_tick = self.simulation.tick
-        self.phase = DEAD_PHASE
-
-    # --- after the end ---
-
-    @property
-    def waiting_ticks(self) -> int:
-        """Ticks since the death; 0 while alive or passed."""
-        return self.simulation.tick - self.ended_tick if self.phase == DEAD_PHASE else 0
-
-    @property
-    def retry_offered(self) -> bool:
-        """Whether the retry message may stand there: more than 40 ticks after the death."""
-        return self.waiting_ticks > RETRY_DELAY
-
-    def _close_recording(self) -> None:
-        """The recording's length goes down by one, the words stay (§4.3): the length is all that playback looks at."""
-        if self.recording_open:
-            self.recording_open = False
-            del self.frames[max(len(self.frames) - 1, 0) :]
-
-    @property
-    def recording(self) -> bytes:
-        """The inputs so far, one byte a tick; of a passed level exactly those up to the exit contact."""
-        return bytes(self.frames)
-
-    @property
-    def gold(self) -> int:
-        """Pieces of gold taken."""
-        return self._gold
+        self.ended_tick = -1
+        self.own_hand = False
+        self.practised = self.practice
 
     @property
     def outcome(self) -> str:
-        """What came first: "exit", "dead" or "running"; also deaths that the world did not cause."""
-        return {PASSED: "exit", DEAD_PHASE: "dead"}.get(self.phase, "running")
+        """What came first: "exit", "dead" or, so far, "running"."""
+        return self.simulation.outcome
+
+    @property
+    def gold(self) -> int:
+        """Pieces of gold collected."""
+        return self.simulation.gold
+
+    def tick(self, held: int) -> None:
+        """Run one tick with what is held: 1 left + 2 right + 4 jump."""
+        world = self.simulation.world
+        was_held = world.ninja.held
+        gold = world.gold
+        running = world.outcome == 0
+        frame = held & 7
+        if frame & HELD and not was_held:
+            frame |= TRIGGERED
+        self.simulation.step_frame(frame)
+        # The input is sampled after all physics of the tick, and only by a ninja that lives and is not celebrating.
+        if world.ninja.state not in {DEAD, CELEBRATING} and running:
+            self.frames.append(frame)
+        if running:
+            self._count(world, gold)
+
+    def _count(self, world: Any, gold: int) -> None:
+        """Gold, score and lifetime of a tick."""
+        self.lifetime += GOLD_BONUS * (world.gold - gold)
+        if world.outcome != 0:
+            self.ended_tick = world.tick - 1
+            # The score is taken inside the tick of the exit contact, before its lifetime step.
+            self.score = level_score(world.gold, self.ended_tick)
+        elif not self.practice:
+            self.lifetime -= 1
+
+    def check_time(self) -> None:
+        """Kill a ninja whose lifetime is over: asked once per picture, after its ticks."""
+        if self.lifetime <= 0 and not self.practice and self.outcome == "running":
+            self._kill(FALL, 0.0, 0.0)
+
+    def give_up(self, chance: float, dx: float, dy: float) -> None:
+        """The suicide key: ``chance`` (0…1) below 0.3 explodes; (dx, dy) is the corpse's impulse."""
+        if self.outcome == "running":
+            self.own_hand = True
+            self._kill(EXPLOSIVE if chance < 0.3 else HARD_BULLET, dx, dy)
+
+    def _kill(self, kind: int, dx: float, dy: float) -> None:
+        world = self.simulation.world
+        kill(world, kind, dx, dy, world.ninja.x, world.ninja.y)
+        self.ended_tick = world.tick
+
+    # --- practice ---
+
+    def save(self) -> tuple[SaveState, bytes, int, int]:
+        """This moment, to come back to."""
+        return self.simulation.save(), bytes(self.frames), self.lifetime, self.ended_tick
+
+    def restore(self, moment: tuple[SaveState, bytes, int, int]) -> None:
+        """Go back to a saved moment."""
+        state, frames, self.lifetime, self.ended_tick = moment
+        self.simulation.restore(state)
+        self.frames[:] = frames
+        self.score = level_score(self.gold, self.ended_tick) if self.outcome == "exit" else 0
+        self.practised = True
+
+    # --- recordings ---
+
+    def demo(self) -> Demo:
+        """The recording in N's form; a death's claims one frame less than it has (game.md §4.3)."""
+        dead = self.outcome == "dead"
+        return Demo(bytes(self.frames), max(0, len(self.frames) - dead))
 
     def replay(self, name: str = "", author: str = "") -> Replay:
-        """The attempt as a replay text's content, with its level inside. Of a passed level: up to the exit contact.
-
-        The inputs are run again, since the world has gone on since; what chance or the clock killed is "running" there.
-        """
-        final = self.ended_tick if self.phase == PASSED else max(len(self.frames) - 1, 0)
-        run = Simulation(self.level, body=self.simulation.body)
-        for frame in bytes(self.frames).ljust(final + 1, b"\0")[: final + 1]:
-            run.step_frame(frame)
+        """The recording in our form: run again from its inputs, so that it holds what really comes of them."""
+        run = Simulation(self.simulation.level, body=self.simulation.body)
+        ticks = len(self.frames) + (self.outcome != "running")
+        for tick in range(ticks):
+            run.step_frame(self.frames[tick] if tick < len(self.frames) else 0)
         return Replay(
             inputs=bytes(self.frames),
-            final_tick=final,
+            final_tick=max(0, run.tick - 1),
             outcome=run.outcome,
             gold=run.gold,
             digest=run.digest(),
             name=name,
             author=author,
-            body=run.body,
-            level_digest=level_digest(self.level),
-            level=self.level,
+            body=self.simulation.body,
+            level_digest=level_digest(self.simulation.level),
+            level=self.simulation.level,
         )
-
-    # --- practice ---
-
-    def save(self) -> AttemptState:
-        """This moment, to come back to."""
-        counters = (self.lifetime, self.ended_tick, self._gold, self.suicide, self.recording_open)
-        return AttemptState(self.simulation.save(), len(self.frames), self.phase, counters)
-
-    def restore(self, state: AttemptState, frames: bytes | None = None) -> None:
-        """Go back to a saved moment of this attempt; ``frames``: the inputs up to it, where they are not a prefix."""
-        self.simulation.restore(state.world)
-        if frames is not None:
-            self.frames = bytearray(frames)
-        del self.frames[state.frames :]
-        self.phase = state.phase
-        self.lifetime, self.ended_tick, self._gold, self.suicide, self.recording_open = state.counters
-        self.score = level_score(self._gold, self.ended_tick) if self.phase == PASSED else 0

@@ -1,0 +1,282 @@
+"""The program with a window: its loop, its screens, its look."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from contextlib import suppress
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+
+import pygame
+
+from ninja_game.errors import LevelError
+from ninja_game.play.canvas import HEIGHT, WIDTH, Canvas
+from ninja_game.play.controls import Controls, Keyboard
+from ninja_game.play.ear import Ear, Silence
+from ninja_game.play.options import Options
+from ninja_game.play.palette import PALETTES
+from ninja_game.play.screen import Screen, ScreenStack
+from ninja_game.play.theme import Theme
+from ninja_game.simulation import Body
+
+TITLE = "ninja-game"
+FALLBACK_RATE = 60
+"""Pictures per second where the display does not say its rate."""
+
+MAIN_MENU = "ninja_game.play.menus.main_menu"
+START = "ninja_game.play.start"
+
+
+class App:
+    """The window with its stack of screens, and what all screens share.
+
+    ``controls``: keys to actions. ``ear``: sound. ``options``: what the player chose; after a change call
+    ``apply_options``. ``size``: px of the window; by default the stage times the largest whole number that fits.
+    """
+
+    def __init__(
+        self,
+        options: Options | None = None,
+        controls: Controls | None = None,
+        ear: Ear | None = None,
+        *,
+        size: tuple[int, int] | None = None,
+    ) -> None:
+        pygame.display.init()
+        pygame.font.init()
+        self.options = options or Options()
+        self.controls: Controls = controls or Keyboard()
+        self.ear: Ear = ear or Silence()
+        self.stack = ScreenStack()
+        self.running = True
+        self.screenshot_to: str | None = None
+        self._size = size or fitting_size()
+        self._fullscreen = self.options.fullscreen
+        self.surface = self._open_window()
+        self.canvas = Canvas(self.surface.get_size())
+        self.theme = Theme(PALETTES[self.options.palette], self.canvas)
+
+    # --- the window ---
+
+    def _open_window(self) -> pygame.Surface:
+        flags = pygame.FULLSCREEN if self._fullscreen else pygame.RESIZABLE
+        surface = pygame.display.set_mode((0, 0) if self._fullscreen else self._size, flags)
+        pygame.display.set_caption(TITLE)
+        return surface
+
+    def apply_options(self) -> None:
+        """Show what changed in the options: palette, full screen."""
+        if self.options.fullscreen != self._fullscreen:
+            self._fullscreen = self.options.fullscreen
+            self.surface = self._open_window()
+        self._relayout()
+
+    def _relayout(self) -> None:
+        """Draw everything again, at the window's present size and in the present palette."""
+        self.surface = pygame.display.get_surface() or self.surface
+        self.canvas = Canvas(self.surface.get_size())
+        self.theme = Theme(PALETTES[self.options.palette], self.canvas)
+        self.stack.redraw_all()
+
+    # --- the screens ---
+
+    @property
+    def top(self) -> Screen:
+        """The screen that gets the events."""
+        return self.stack.top
+
+    def push(self, screen: Screen) -> None:
+        """Cover the top screen by another."""
+        self.stack.push(screen)
+
+    def replace(self, screen: Screen) -> None:
+        """Put another screen in the top one's place."""
+        self.stack.replace(screen)
+
+    def pop(self) -> None:
+        """Go back to the screen below; from the lowest one, end."""
+        self.stack.pop()
+        if not self.stack:
+            self.running = False
+
+    def pop_to(self, kind: type[Screen]) -> None:
+        """Go back to the topmost screen of a kind, or to the lowest one."""
+        self.stack.pop_to(kind)
+
+    def quit(self) -> None:
+        """End the program after this picture."""
+        self.running = False
+
+    # --- the loop ---
+
+    def run(self, frames: int | None = None) -> None:
+        """Run until a screen quits, or for ``frames`` pictures.
+
+        Without a real display (SDL's dummy driver) a bounded run takes its time from the count of pictures, 60 a
+        second, and does not wait: it always shows the same.
+        """
+        clock = pygame.time.Clock()
+        simulated = frames is not None and pygame.display.get_driver() in {"dummy", "offscreen"}
+        last = pygame.time.get_ticks()
+        count = 0
+        while self.running and self.stack and (frames is None or count < frames):
+            count += 1
+            now = last + (count * 1000 // 60 - (count - 1) * 1000 // 60) if simulated else pygame.time.get_ticks()
+            self.frame(now - last)
+            last = now
+            if not simulated:
+                clock.tick(self._rate())
+        self.stack.clear()
+
+    def _rate(self) -> int:
+        return self.options.frame_limit or pygame.display.get_current_refresh_rate() or FALLBACK_RATE
+
+    def frame(self, real_ms: int) -> None:
+        """One turn of the loop: events, time, picture."""
+        for event in pygame.event.get():
+            self._handle(event)
+            if not (self.running and self.stack):
+                return
+        for screen in self.stack.running():
+            screen.update(real_ms)
+        if self.stack:
+            self._draw()
+
+    def _handle(self, event: pygame.Event) -> None:
+        """Deal with what concerns the window; everything goes to the top screen."""
+        if event.type == pygame.QUIT:
+            self.quit()
+        elif event.type in {pygame.VIDEORESIZE, pygame.WINDOWSIZECHANGED}:
+            if not self._fullscreen:
+                self._size = pygame.display.get_window_size()
+            self._relayout()
+        elif event.type in {pygame.WINDOWEXPOSED, pygame.WINDOWRESTORED}:
+            self.stack.redraw_all()
+        action = self.controls.action(event)
+        if action == "fullscreen":
+            self.options.fullscreen = not self.options.fullscreen
+            self.apply_options()
+        elif action == "screenshot":
+            self.save_screenshot(free_name(Path.cwd(), "ninja-game", ".png"))
+        self.top.handle(event)
+
+    def _draw(self) -> None:
+        """Draw the screens that are seen and show what changed."""
+        visible = self.stack.visible()
+        if len(visible) > 1 and any(screen.redraw or screen.below_runs for screen in visible[1:]):
+            visible[0].redraw = True
+        changed: list[pygame.Rect] | None = []
+        for screen in visible:
+            whole = screen.redraw
+            rects = screen.draw(self.surface)
+            screen.redraw = False
+            changed = None if whole or rects is None or changed is None else changed + rects
+        if changed is None:
+            pygame.display.flip()
+        elif changed:
+            pygame.display.update(changed)
+
+    def save_screenshot(self, path: Path) -> None:
+        """The picture as it is, as a PNG file."""
+        pygame.image.save(self.surface, str(path))
+
+
+def fitting_size() -> tuple[int, int]:
+    """The stage times the largest whole number that leaves the desktop some room."""
+    sizes = pygame.display.get_desktop_sizes() or [(WIDTH, HEIGHT)]
+    width, height = sizes[0]
+    factor = max(1, min((width - 20) // WIDTH, (height - 80) // HEIGHT))
+    return WIDTH * factor, HEIGHT * factor
+
+
+def free_name(folder: Path, stem: str, suffix: str) -> Path:
+    """A file name in a folder that is not taken: the stem with the next number."""
+    number = 1
+    while (folder / f"{stem}-{number}{suffix}").exists():
+        number += 1
+    return folder / f"{stem}-{number}{suffix}"
+
+
+def main(
+    level_path: str | None = None,
+    *,
+    body: Body = "circle",
+    frames: int | None = None,
+    screenshot: str | None = None,
+    size: tuple[int, int] | None = None,
+    replay_path: str | None = None,
+    practice: bool = False,
+) -> int:
+    """Play: the program `ninja-game play`. Gives the exit code.
+
+    ``level_path``: a file of levels; without one the main menu. ``replay_path``: watch the recordings of a file.
+    ``frames``: end after so many pictures. ``screenshot``: write the last picture to this PNG file.
+
+    Raises NinjaGameError for a file that cannot be read.
+    """
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    # Read before a window opens: what is wrong with a file is said in the terminal.
+    first = first_screen(level_path, replay_path, body=body, practice=practice)
+    app = App(*prepared(), size=size)
+    try:
+        app.push(first(app))
+        app.run(frames)
+        if screenshot:
+            app.save_screenshot(Path(screenshot))
+    finally:
+        pygame.quit()
+    return 0
+
+
+def prepared() -> tuple[Options | None, Controls | None, Ear | None]:
+    """Options, controls and sound as the player's settings have them."""
+    if find_spec(START) is None:
+        return None, None, None
+    options, controls, ear = import_module(START).prepare()
+    return options, controls, ear
+
+
+def first_screen(
+    level_path: str | None, replay_path: str | None, *, body: Body, practice: bool
+) -> Callable[[App], Screen]:
+    """What makes the first screen. Files are read here."""
+    from ninja_game.formats.files import load_levels, load_replays
+
+    if replay_path:
+        recordings = load_replays(replay_path)
+
+        def watch(app: App) -> Screen:
+            from ninja_game.play.replay_screen import ReplayScreen
+
+            return ReplayScreen(app, recordings)
+
+        return watch
+    if level_path is None and _has_menu():
+        return _main_menu
+    from ninja_game.session.bundled import bundled_levels
+
+    paths = [Path(level_path)] if level_path else bundled_levels()[:1]
+    if not paths:
+        raise LevelError("no levels come with this copy of the game", hint="name a level: ninja-game play LEVEL")
+    named = load_levels(paths[0])[0]
+
+    def play(app: App) -> Screen:
+        from ninja_game.play.course import SingleLevel
+        from ninja_game.play.level_screen import LevelScreen
+
+        return LevelScreen(app, SingleLevel(named.name, named.level, body=body, practice=practice))
+
+    return play
+
+
+def _main_menu(app: App) -> Screen:
+    screen: Screen = import_module(MAIN_MENU).MainMenu(app)
+    return screen
+
+
+def _has_menu() -> bool:
+    with suppress(ModuleNotFoundError):
+        return find_spec(MAIN_MENU) is not None
+    return False

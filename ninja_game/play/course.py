@@ -1,0 +1,83 @@
+"""What surrounds a level being played: its title and lifetime, who runs along, and what comes after it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from ninja_game.play.screen import Screen
+from ninja_game.session.attempt import Attempt
+from ninja_game.sim.level_data import LevelData
+from ninja_game.sim.rules import LIFETIME
+from ninja_game.simulation import Body
+
+
+@dataclass(frozen=True)
+class GhostRun:
+    """A recording that runs along: ``frames``, one byte a tick as in demos; ``colour`` "#rrggbb" or the palette's."""
+
+    label: str
+    frames: bytes
+    colour: str = ""
+
+
+class Course(Protocol):
+    """A level in its context: single, of an episode, a time trial."""
+
+    title: str
+    level: LevelData
+    body: Body
+    lifetime: int
+    practice: bool
+
+    def ghosts(self) -> list[GhostRun]:
+        """The recordings that run along."""
+
+    def passed(self, attempt: Attempt) -> list[str]:
+        """Called once, right after the tick of the exit contact: saves; gives notices to show."""
+
+    def died(self, attempt: Attempt) -> None:
+        """Called once per death."""
+
+    def onward(self) -> Course | None:
+        """What to play when the player goes on from a passed level; None: leave."""
+
+    def leaving(self) -> Screen | None:
+        """What to show instead of the screen below when the level is left; None: just that."""
+
+
+class SingleLevel:
+    """A level by itself, without records; the last passing run of this session is its ghost."""
+
+    def __init__(
+        self, title: str, level: LevelData, *, body: Body = "circle", lifetime: int = LIFETIME, practice: bool = False
+    ) -> None:
+        self.title = title
+        self.level = level
+        self.body: Body = body
+        self.lifetime = lifetime
+        self.practice = practice
+        self.best: tuple[int, bytes] | None = None
+
+    def ghosts(self) -> list[GhostRun]:
+        """The best run of this session."""
+        return [GhostRun("best", self.best[1])] if self.best else []
+
+    def passed(self, attempt: Attempt) -> list[str]:
+        """Keep the run if it is the best so far."""
+        if attempt.practised or (self.best and self.best[0] >= attempt.score):
+            return []
+        first = self.best is None
+        self.best = attempt.score, bytes(attempt.frames)
+        return [] if first else ["Best run so far"]
+
+    def died(self, attempt: Attempt) -> None:
+        """Nothing is counted."""
+
+    def onward(self) -> Course | None:
+        """The same level again."""
+        return self
+
+    def leaving(self) -> Screen | None:
+        """Back to where we came from."""
+        return None

@@ -1,0 +1,136 @@
+"""Colours by role. A palette is one table; widgets and drawings name roles, never colours."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields
+
+import pygame
+
+
+def _c(text: str) -> pygame.Color:
+    return pygame.Color(text)
+
+
+@dataclass(frozen=True)
+class Palette:
+    """Colours by role; the defaults are the classic greys. ``shapes``: danger is marked by spikes and bars too."""
+
+    name: str
+    shapes: bool = False
+
+    # The stage and the interface.
+    background: pygame.Color = field(default=_c("#cacad0"))
+    tile: pygame.Color = field(default=_c("#787887"))
+    text: pygame.Color = field(default=_c("#17171c"))
+    faint: pygame.Color = field(default=_c("#62626f"))
+    on_tile: pygame.Color = field(default=_c("#e4e4ea"))
+    panel: pygame.Color = field(default=_c("#dcdce1"))
+    panel_edge: pygame.Color = field(default=_c("#9a9aa6"))
+    accent: pygame.Color = field(default=_c("#a33a2c"))
+    good: pygame.Color = field(default=_c("#2d6a3a"))
+    bad: pygame.Color = field(default=_c("#992222"))
+    bar_full: pygame.Color = field(default=_c("#5865a0"))
+    bar_empty: pygame.Color = field(default=_c("#ad4b4e"))
+    # The ninja.
+    ninja: pygame.Color = field(default=_c("#1d1d22"))
+    band: pygame.Color = field(default=_c("#a33a2c"))
+    ghost: pygame.Color = field(default=_c("#5865a0"))
+    blood: pygame.Color = field(default=_c("#990000"))
+    # Things: outline, fills from dark to light, and one colour each for what must be told apart.
+    outline: pygame.Color = field(default=_c("#3a3a42"))
+    dark: pygame.Color = field(default=_c("#5b5b66"))
+    middle: pygame.Color = field(default=_c("#9a9aa5"))
+    light: pygame.Color = field(default=_c("#b8b8c1"))
+    bright: pygame.Color = field(default=_c("#ebebef"))
+    gold: pygame.Color = field(default=_c("#cc9900"))
+    gold_light: pygame.Color = field(default=_c("#f4dd55"))
+    gold_dark: pygame.Color = field(default=_c("#8a6500"))
+    exit: pygame.Color = field(default=_c("#8f6fb0"))
+    exit_light: pygame.Color = field(default=_c("#cbb4dd"))
+    switch: pygame.Color = field(default=_c("#5b7fb0"))
+    mine: pygame.Color = field(default=_c("#990f0f"))
+    weapon: pygame.Color = field(default=_c("#882222"))
+    laser: pygame.Color = field(default=_c("#9c1c1c"))
+    warning: pygame.Color = field(default=_c("#cb7679"))
+    turret: pygame.Color = field(default=_c("#7f335a"))
+    launcher: pygame.Color = field(default=_c("#4d0f2c"))
+    electric: pygame.Color = field(default=_c("#0099cc"))
+    spark: pygame.Color = field(default=_c("#d8f8ff"))
+    drone: pygame.Color = field(default=_c("#26262c"))
+    lock: pygame.Color = field(default=_c("#6d5a2c"))
+    trap: pygame.Color = field(default=_c("#8f3b3b"))
+    # Fire, smoke, dust.
+    flame: pygame.Color = field(default=_c("#ffe45c"))
+    ember: pygame.Color = field(default=_c("#f09022"))
+    smoke: pygame.Color = field(default=_c("#84848c"))
+    dust: pygame.Color = field(default=_c("#8e8e9c"))
+
+
+def _palette(name: str, *, shapes: bool = False, **colours: str) -> Palette:
+    return Palette(name, shapes, **{role: _c(colour) for role, colour in colours.items()})
+
+
+CLASSIC = Palette("classic")
+
+DARK = _palette(
+    "dark", background="#23252c", tile="#4a4e5c", text="#e8e8ee", faint="#9a9eac", on_tile="#e8e8ee",
+    panel="#2e313a", panel_edge="#565b69", accent="#ff8f6b", good="#7fd08c", bad="#ff7b74",
+    bar_full="#7f92e0", bar_empty="#e06a6a", ninja="#f1f1f5", band="#ff6b4a", ghost="#8fa0ff", blood="#d92626",
+    outline="#0f1014", dark="#757a88", middle="#8e93a1", light="#a9aebb", bright="#e4e6ec",
+    gold="#e0ae1c", gold_light="#fff08a", gold_dark="#7d5c00", exit="#9c78c8", exit_light="#d9c4ee",
+    switch="#7ba4dd", mine="#ff5148", weapon="#e0433c", laser="#ff4a40", warning="#a85456", turret="#d0659c",
+    launcher="#b3487c", electric="#22b8f0", spark="#e8fbff", drone="#8a8f9e", lock="#c9a24a", trap="#d06a6a",
+    flame="#fff07a", ember="#ffa033", smoke="#6d707a", dust="#7b808e",
+)  # fmt: skip
+
+CONTRAST = _palette(
+    "contrast", shapes=True, background="#ffffff", tile="#3a3a3a", text="#000000", faint="#333333",
+    on_tile="#ffffff", panel="#ffffff", panel_edge="#000000", accent="#0033cc", good="#006000", bad="#b00000",
+    bar_full="#0033cc", bar_empty="#b00000", ninja="#000000", band="#0033cc", ghost="#4a6fff", blood="#c00000",
+    outline="#000000", dark="#333333", middle="#888888", light="#c4c4c4", bright="#ffffff",
+    gold="#c08000", gold_light="#ffe000", gold_dark="#4d3300", exit="#7a2fc0", exit_light="#d8b0ff",
+    switch="#0050d0", mine="#d00000", weapon="#d00000", laser="#d00000", warning="#ff5a5a", turret="#a00060",
+    launcher="#600030", electric="#0078d8", spark="#bfe8ff", drone="#000000", lock="#7a5500", trap="#a00000",
+    flame="#ffd800", ember="#ff7a00", smoke="#777777", dust="#777777",
+)  # fmt: skip
+
+# Blue and orange differ for every common kind of colour blindness; danger is always orange to vermilion, and spiked.
+SAFE = _palette(
+    "safe", shapes=True, background="#d3d5d8", tile="#6f7680", text="#14161a", faint="#565c66",
+    on_tile="#eef0f3", panel="#e3e5e8", panel_edge="#8f959f", accent="#0060a8", good="#0060a8", bad="#c24a00",
+    bar_full="#0072b2", bar_empty="#d55e00", ninja="#101216", band="#0060a8", ghost="#0072b2", blood="#8a2c00",
+    gold="#e6c200", gold_light="#fff27a", gold_dark="#6b5900", exit="#56b4e9", exit_light="#c9e8fb",
+    switch="#0072b2", mine="#d55e00", weapon="#d55e00", laser="#d55e00", warning="#e8a06a", turret="#b04a00",
+    launcher="#7a3300", electric="#d55e00", spark="#fff0d8", drone="#202329", lock="#5b5f22", trap="#a34700",
+    flame="#ffe9a0", ember="#e69f00",
+)  # fmt: skip
+
+SAFE_DARK = _palette(
+    "safe-dark", shapes=True, background="#1e2227", tile="#4b525c", text="#eceff3", faint="#a2a9b3",
+    on_tile="#eceff3", panel="#2a2f36", panel_edge="#5a626d", accent="#56b4e9", good="#56b4e9", bad="#ff9a4d",
+    bar_full="#56b4e9", bar_empty="#ff8c33", ninja="#f4f6f8", band="#56b4e9", ghost="#56b4e9", blood="#d06a2c",
+    outline="#0c0e10", dark="#78808c", middle="#8f97a3", light="#aab1bc", bright="#e6e9ee",
+    gold="#f0e442", gold_light="#fffbc0", gold_dark="#7a7200", exit="#56b4e9", exit_light="#d0ecfc",
+    switch="#3a9bdc", mine="#ff8c33", weapon="#ff7a1a", laser="#ff8c33", warning="#a8642e", turret="#ff9a4d",
+    launcher="#d0702a", electric="#ff8c33", spark="#fff0d8", drone="#8b939f", lock="#c0c060", trap="#ff9a4d",
+    flame="#fff0b0", ember="#f0a820", smoke="#6d737c", dust="#7d848f",
+)  # fmt: skip
+
+PALETTES: dict[str, Palette] = {palette.name: palette for palette in (CLASSIC, DARK, CONTRAST, SAFE, SAFE_DARK)}
+
+ROLES = tuple(entry.name for entry in fields(Palette) if entry.name not in {"name", "shapes"})
+"""All colour roles."""
+
+FLAVOURS = (
+    "", "#d9127f", "#7d7700", "#1a6488", "#765484", "#6a2424", "#f7f7f7", "#c79400", "#787887", "#bfbfc6",
+)  # fmt: skip
+"""The ninja's colours: the palette's own, then one per completed column (game.md §8)."""
+
+
+def mixed(a: pygame.Color, b: pygame.Color, share: float) -> pygame.Color:
+    """A colour between two, ``share`` (0…1) of the way from ``a`` to ``b``.
+
+    >>> mixed(pygame.Color("black"), pygame.Color(200, 100, 0), 0.5)
+    Color(100, 50, 0, 255)
+    """
+    return a.lerp(b, min(1.0, max(0.0, share)))
