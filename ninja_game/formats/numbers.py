@@ -111,18 +111,14 @@ def format_number(value: float) -> str:
 
 
 def format_exact(value: float) -> str:
-    """The shortest decimal that ``parse_number`` reads as exactly this value.
+    """A short decimal that ``parse_number`` reads as exactly this value.
 
-    Where no decimal of up to 20 digits does (the digit sum misses some float64), the nearest one of 17 digits.
+    The digit sum misses some float64 (very large or small ones, hardly any coordinate): there the nearest decimal.
     """
     text = _odd_text(value)
-    if text:
-        return text
     for digits in (15, 16, 17, 18, 19, 20):
-        text = _text_that_reads_as(value, digits)
-        if text:
-            return text
-    return _plain(Decimal(f"{value:.17g}"))
+        text = text or _text_that_reads_as(value, digits)
+    return text or _text_around(value) or _plain(Decimal(f"{value:.17g}"))
 
 
 def _odd_text(value: float) -> str:
@@ -153,6 +149,17 @@ def _text_that_reads_as(value: float, digits: int) -> str:
                 return text
         aim += Decimal(value) - Decimal(found)
     return ""
+
+
+def _text_around(value: float) -> str:
+    """A decimal of 17 digits in the neighbourhood that reads as ``value``, '' if there is none.
+
+    The last resort: neighbouring decimals need not read in their order.
+    """
+    near = Decimal(f"{value:.16e}")
+    unit = Decimal(1).scaleb(near.adjusted() - 16)
+    texts = (_plain(near + steps * unit) for steps in range(-99, 100))
+    return next((text for text in texts if parse_number(text) == value), "")
 
 
 def _plain(number: Decimal) -> str:

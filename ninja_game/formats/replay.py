@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from urllib.parse import quote, unquote
 
-from ninja_game.errors import LevelError, ReplayError
-from ninja_game.formats.level_string import level_digest, parse_level_string, write_level_string
+from ninja_game.errors import ReplayError
+from ninja_game.formats.ascii_level import parse_ascii_level, write_ascii_level
+from ninja_game.formats.level_string import level_digest
+from ninja_game.formats.numbers import NAN
 from ninja_game.formats.replay_headers import COUNT_LIMIT, Headers, Line
 from ninja_game.formats.replay_inputs import MAX_TICKS, read_inputs, write_inputs
 from ninja_game.sim.level_data import LevelData
@@ -59,9 +61,6 @@ class Replay:
 
 _FIRST_LINE = re.compile(rf"{MAGIC} +([0-9]{{1,9}})[ \t]*")
 
-_DATA_WIDTH = 100
-_PLAIN_CHARS = "".join(chr(code) for code in range(33, 127) if chr(code) != "%")
-
 
 def is_replay(text: str) -> bool:
     """Whether a text begins as a replay of ours does."""
@@ -71,7 +70,8 @@ def is_replay(text: str) -> bool:
 def parse_replay(text: str, *, file: str = "") -> Replay:
     """The replay that a text describes.
 
-    Raises ReplayError, naming line and column, for whatever is not as `docs/replay-format.md` says.
+    Raises ReplayError, naming line and column, for whatever is not as `docs/replay-format.md` says; LevelError for the
+    level inside.
     """
     lines = list(enumerate(re.split(r"\r\n|\r|\n", text.removeprefix("\ufeff")), 1))
     lines = [(number, line) for number, line in lines if line.strip() and not line.startswith(";")]
@@ -113,14 +113,17 @@ def _check_first_line(lines: Sequence[Line], file: str) -> None:
 
 
 def _read_level(lines: Sequence[Line], file: str) -> LevelData | None:
-    """The embedded level; None without one."""
+    """The embedded ASCII level; None without one. Raises LevelError with the line of the replay."""
     if not lines:
         return None
-    text = "".join("".join(line.split()) for _, line in lines)
-    try:
-        return parse_level_string(unquote(text, errors="surrogatepass"))
-    except (LevelError, UnicodeDecodeError) as error:
-        raise ReplayError(f"a broken level: {error}", file, lines[0][0], expected="an in-game level string") from error
+    text = [""] * lines[-1][0]
+    for number, line in lines:
+        text[number - 1] = line
+    level = parse_ascii_level("\n".join(text), file=file).level
+    # With one and the same NaN everywhere a replay equals the one that was written.
+    one_nan = [tuple(NAN if math.isnan(value) else value for value in record.values) for record in level.records]
+    records = [record._replace(values=values) for record, values in zip(level.records, one_nan, strict=True)]
+    return LevelData(level.tiles, tuple(records))
 
 
 def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
@@ -152,8 +155,7 @@ def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
 def write_replay(replay: Replay) -> str:
     """The replay as text; reading it gives an equal replay.
 
-    Raises ReplayError for a replay that contradicts itself, DemoError for an input above 15, LevelError for a level
-    that no in-game string can say.
+    Raises ReplayError for a replay that contradicts itself, DemoError for an input above 15.
     """
     problem = _contradiction(replay)
     if problem:
@@ -174,9 +176,7 @@ def write_replay(replay: Replay) -> str:
     lines = [f"{MAGIC} {VERSION}", *(f"{key}: {value}" for key, value in headers.items() if value)]
     lines += ["inputs:", *(f"  {line}" for line in write_inputs(replay.inputs))]
     if replay.level is not None:
-        data = _level_text(replay.level)
-        starts = range(0, len(data), _DATA_WIDTH)
-        lines += ["level-data:", *(f"  {data[start : start + _DATA_WIDTH]}" for start in starts)]
+        lines += ["level-data:", *(f"  {line}".rstrip() for line in write_ascii_level(replay.level).splitlines())]
     return "\n".join(lines) + "\n"
 
 
@@ -184,11 +184,3 @@ def _text(value: str) -> str:
     """A header's text; as JSON where it would not read back as it is."""
     plain = value == value.strip() and value.isprintable() and not value.startswith('"')
     return value if plain else json.dumps(value)
-
-
-def _level_text(level: LevelData) -> str:
-    """The in-game string with exact numbers, ``%xx`` for what is not printable ASCII."""
-    text = write_level_string(level, exact=True)
-    if level_digest(parse_level_string(text)) != level_digest(level):
-        raise ReplayError("the level holds a number that no level string can say")
-    return quote(text, safe=_PLAIN_CHARS, errors="surrogatepass")
