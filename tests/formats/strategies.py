@@ -25,9 +25,9 @@ values = st.one_of(decimal_texts.map(parse_number), st.just(NAN))
 
 NO_TEXT = st.just("")
 
-proper_records = st.one_of([
-    st.builds(Record, st.just(kind), st.tuples(*[values] * count), NO_TEXT) for kind, count in enumerate(VALUE_COUNTS)
-])
+proper_records = st.one_of(
+    [st.builds(Record, st.just(kind), st.tuples(*[values] * count), NO_TEXT) for kind, count in enumerate(VALUE_COUNTS)]
+)
 inert_records = st.builds(Record, st.integers(0, 12), st.lists(values, max_size=11).map(tuple), NO_TEXT)
 ignored_records = st.builds(
     Record,
