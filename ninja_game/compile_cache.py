@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import re
 import sys
 from functools import cache
 from importlib.util import find_spec
@@ -21,7 +22,8 @@ if TYPE_CHECKING:
 
 Memory = Literal["plain", "compiled"]
 
-COMPILED_FOLDERS = ("sim", "many")
+_REGISTERS = re.compile(rb"^@(fast|entry_point)$", re.MULTILINE)
+_IMPORTS = re.compile(rb"ninja_game\.many\.(\w+)")
 
 
 class MemoryUnavailableError(NinjaGameError):
@@ -52,13 +54,29 @@ def choose_memory(memory: str) -> Memory:
     raise ValueError(f"memory is {memory!r}; expected 'plain', 'compiled' or 'auto'")
 
 
+def compiled_sources() -> list[Path]:
+    """Every source file that goes into the machine code, so that an edit elsewhere compiles nothing anew.
+
+    All of ``sim``; of ``many`` the files that register functions, and what those import from there.
+    """
+    package = Path(__file__).parent
+    texts = {path.stem: path.read_bytes() for path in (package / "many").glob("*.py")}
+    found = {name for name, text in texts.items() if _REGISTERS.search(text)}
+    waiting = list(found)
+    while waiting:
+        imported = {name.decode() for name in _IMPORTS.findall(texts[waiting.pop()])}
+        new = imported & texts.keys() - found
+        found |= new
+        waiting += new
+    return sorted((package / "sim").rglob("*.py")) + [package / "many" / f"{name}.py" for name in sorted(found)]
+
+
 def source_digest() -> str:
     """A short digest of every source file with compiled functions and of the Python that compiles them."""
     digest = hashlib.sha256(sys.version.encode())
     package = Path(__file__).parent
-    for folder in COMPILED_FOLDERS:
-        for path in sorted((package / folder).rglob("*.py")):
-            digest.update(path.relative_to(package).as_posix().encode() + path.read_bytes())
+    for path in compiled_sources():
+        digest.update(path.relative_to(package).as_posix().encode() + path.read_bytes())
     return digest.hexdigest()[:16]
 
 

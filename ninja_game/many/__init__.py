@@ -1,0 +1,1 @@
+"""Many worlds at once: batches, verification at scale, search."""
