@@ -37,13 +37,20 @@ def scratch_copy(folder: Path) -> None:
             shutil.copy(source, folder / name)
 
 
+def misfits(changes: list[Change]) -> list[str]:
+    """The changes whose pattern does not stand in its file exactly once."""
+    counts = [(ROOT / "ninja_game/sim" / change.file).read_text("utf-8").count(change.old) for change in changes]
+    return [
+        f"{change.name}: {change.old!r} stands {count} times in sim/{change.file}"
+        for change, count in zip(changes, counts, strict=True)
+        if count != 1
+    ]
+
+
 def apply(change: Change, folder: Path) -> None:
-    """Change one line. Raises SystemExit if the pattern does not stand there exactly once."""
+    """Change one line of the copy."""
     path = folder / "ninja_game" / "sim" / change.file
-    text = path.read_text(encoding="utf-8")
-    if text.count(change.old) != 1:
-        raise SystemExit(f"{change.name}: {change.old!r} stands {text.count(change.old)} times in sim/{change.file}")
-    path.write_text(text.replace(change.old, change.new), encoding="utf-8")
+    path.write_text(path.read_text("utf-8").replace(change.old, change.new), encoding="utf-8")
 
 
 def unnoticed(change: Change | None) -> bool:
@@ -65,14 +72,17 @@ def unnoticed(change: Change | None) -> bool:
 def main(names: list[str]) -> int:
     """Try the named changes, or all; the number of unnoticed ones decides the exit code."""
     changes = [change for change in CHANGES if not names or change.name in names]
+    if wrong := misfits(changes):
+        print("\n".join(wrong))
+        return 2
     if not unnoticed(None):
         print("the tests fail without any change; mend that first")
         return 2
+    missing = []
     with ThreadPoolExecutor(2) as pool:
-        results = list(zip(changes, pool.map(unnoticed, changes), strict=True))
-    for change, missed in results:
-        print(f"{'UNNOTICED' if missed else 'noticed  '}  {change.name}")
-    missing = [change.name for change, missed in results if missed]
+        for change, missed in zip(changes, pool.map(unnoticed, changes), strict=True):
+            print(f"{'UNNOTICED' if missed else 'noticed  '}  {change.name}", flush=True)
+            missing += [change.name] if missed else []
     print(f"{len(changes) - len(missing)} of {len(changes)} changes noticed")
     return 1 if len(missing) > ALLOWED else 0
 

@@ -61,7 +61,7 @@ CHANGES = (
     Change("slide-needs-downward-speed", "control.py", "elif vy > 0.0 and towards < 0.0:", "elif towards < 0.0:"),
     Change("uphill-jump", "control.py", "jump_off_floor(w, n, 0.0, -0.7)", "jump_off_floor(w, n, 0.0, -0.8)"),
     Change("uphill-help", "control.py", "        elif direction * floor_x < 0.0:\n            run_uphill", "        elif direction * floor_x < -9.0:\n            run_uphill"),
-    Change("top-speed-strict", "control.py", "    a = vx + direction * AIR_ACCELERATION\n    if abs(a) < TOP_SPEED:", "    a = vx + direction * AIR_ACCELERATION\n    if abs(a) < TOP_SPEED + 0.1:"),
+    Change("top-speed-strict", "control.py", "    a = vx + n.direction * AIR_ACCELERATION\n    if abs(a) < TOP_SPEED:", "    a = vx + n.direction * AIR_ACCELERATION\n    if abs(a) < TOP_SPEED + 0.1:"),
     # Schedule, death, win.
     Change("newest-first", "schedule.py", "    w.thinker = slot\n\n\n@fast\ndef end_think", "    w.thinker = w.thinker or slot\n\n\n@fast\ndef end_think"),
     Change("think-every-fourth", "world.py", "if w.think_counter > 2:", "if w.think_counter > 1:"),
