@@ -2,8 +2,8 @@
 
     python3 tools/dev.py change-rules [NAME …]
 
-Only tests that need no reference data run (the scratch copy has no ../shared), on the plain memory. Each change is one
-line, by pattern; a pattern that no longer fits is an error, so that this list stays in step with the rules. Changes that
+Only tests that need no reference data run (the scratch copy has no ../shared), on the plain memory. Each change is
+one line, by pattern; a pattern that no longer fits is an error, so that this list stays in step with the rules. Changes that
 no test notices are listed at the end; docs/testing.md says which are left and why. Exit code 1 if more than
 ``ALLOWED`` go unnoticed.
 """
@@ -17,11 +17,11 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
-
-from rule_changes import CHANGES, Change
-
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+
+from tools.rule_changes import CHANGES, Change
+
 ALLOWED = 5
 COPIED = ("ninja_game", "tests", "levels", "pyproject.toml", "README.md")
 TESTS = ("tests/sim", "-x", "-q", "-k", "not compiled", "-p", "no:cacheprovider")

@@ -6,9 +6,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT), str(Path(__file__).resolve().parent)]
-
-from svg import BLUE, FAINT, GOLD, GREEN, INK, PAPER, RED, SOLID, Picture, Point
+sys.path.insert(0, str(ROOT))
 
 from ninja_game.formats.level_string import parse_level_string
 from ninja_game.play.picture.tile_shapes import outline
@@ -19,6 +17,7 @@ from ninja_game.sim.rays import ray_tiles
 from ninja_game.sim.rules import OFF, RADIUS, STRIDE
 from ninja_game.sim.schema import Level, World
 from ninja_game.sim.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW
+from tools.svg import BLUE, FAINT, GOLD, GREEN, INK, PAPER, RED, SOLID, Picture, Point
 
 PICTURES = ROOT / "docs" / "pictures"
 ZOOM = 2.5
@@ -106,7 +105,7 @@ def draw_shapes() -> Picture:
 
 def draw_edges() -> Picture:
     """Every cell's own state for each of its four sides, drawn a little inside the cell."""
-    picture, level, w = blank()
+    picture, _, w = blank()
     inside = 10.2
     for cell in range(len(EXISTS)):
         x, y = CENTRE_X[cell], CENTRE_Y[cell]
