@@ -19,6 +19,7 @@ from ninja_game.errors import NinjaGameError
 COMMANDS = {
     "verify": "Run recordings again and judge them.",
     "trace": "Show every tick of recordings: position, velocity, state, events.",
+    "bench": "Measure how fast the world is on this machine.",
     "convert": "Turn levels from one format into the other.",
     "info": "Show what is in level and replay files.",
     "completion": "Set up completion of commands and options in your shell.",

@@ -1,0 +1,60 @@
+"""`ninja-game bench`: how fast the world is on this machine."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+
+from ninja_game.errors import NinjaGameError
+
+ROWS = (
+    ("plain_ticks_per_s", "plain memory", "ticks/s"),
+    ("compiled_ticks_per_s", "compiled memory", "ticks/s"),
+    ("load_us", "load a level, plain", "us"),
+    ("save_plain_us", "save a state, plain", "us"),
+    ("restore_plain_us", "restore a state, plain", "us"),
+    ("load_compiled_us", "load a level, compiled", "us"),
+    ("save_us", "save a state, compiled", "us"),
+    ("restore_us", "restore a state, compiled", "us"),
+    ("state_bytes", "size of a state, compiled", "bytes"),
+    ("start_plain_s", "first tick of a process, plain", "s"),
+    ("start_compiled_s", "first tick of a process, compiled", "s"),
+    ("compile_s", "the same, nothing compiled before", "s"),
+)
+"""The figures that people are shown: name, meaning, unit."""
+
+
+@click.command()
+@click.argument("files", metavar="[FILE...]", nargs=-1, type=click.Path(exists=True, path_type=Path))
+@click.option("--quick", is_flag=True, help="Leave the compile time out, which takes half a minute.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object with all figures, for programs.")
+def command(files: Sequence[Path], quick: bool, as_json: bool) -> None:
+    """Measure how fast the world is on this machine.
+
+    Runs the replays that come with the game, or those in FILE, on both memories; the costs of loading and of
+    save-states are for the level of median size. Every figure is the median of several rounds on one thread.
+
+    \b
+    Examples:
+      ninja-game bench
+      ninja-game bench demos.txt --quick --json
+    """
+    from ninja_game.formats.files import load_replays
+    from ninja_game.session.benchmark import run_benchmark
+    from ninja_game.session.bundled import bundled_replays
+
+    recordings = [recording for file in files or bundled_replays() for recording in load_replays(file)]
+    if not recordings:
+        raise NinjaGameError("the game's own replays are not here: name files of recordings")
+    figures = run_benchmark(recordings, compile_time=not quick)
+    if as_json:
+        click.echo(json.dumps(figures))
+        return
+    click.echo(f"{figures['recordings']} recordings, Python {figures['python']}, {figures['machine']}")
+    click.echo(f"costs for a level of {figures['objects']} objects")
+    for name, meaning, unit in ROWS:
+        if figures[name] is not None:
+            click.echo(f"  {meaning:<34} {figures[name]:>14,} {unit}")
