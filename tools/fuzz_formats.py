@@ -19,17 +19,17 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from ninja_game.errors import NinjaGameError  # noqa: E402
-from ninja_game.formats.ascii_level import parse_ascii_level, write_ascii_level  # noqa: E402
-from ninja_game.formats.demo import parse_demo, write_demo  # noqa: E402
-from ninja_game.formats.legacy_demo import write_legacy_demo  # noqa: E402
-from ninja_game.formats.level_file import read_level_file  # noqa: E402
-from ninja_game.formats.level_string import level_digest, parse_level_string, write_level_string  # noqa: E402
-from ninja_game.formats.level_warnings import level_warnings  # noqa: E402
-from ninja_game.formats.named_level import parse_levels  # noqa: E402
-from ninja_game.formats.numbers import format_exact, parse_number  # noqa: E402
-from ninja_game.formats.recording import parse_replays  # noqa: E402
-from ninja_game.formats.replay import Replay, parse_replay, write_replay  # noqa: E402
+from ninja_game.errors import NinjaGameError
+from ninja_game.formats.ascii_level import parse_ascii_level, write_ascii_level
+from ninja_game.formats.demo import parse_demo, write_demo
+from ninja_game.formats.legacy_demo import write_legacy_demo
+from ninja_game.formats.level_file import read_level_file
+from ninja_game.formats.level_string import level_digest, parse_level_string, write_level_string
+from ninja_game.formats.level_warnings import level_warnings
+from ninja_game.formats.named_level import parse_levels
+from ninja_game.formats.numbers import format_exact, parse_number
+from ninja_game.formats.recording import parse_replays
+from ninja_game.formats.replay import Replay, parse_replay, write_replay
 
 SLOW_S = 1.0
 
