@@ -76,7 +76,7 @@ def test_a_level_file_of_all_reads_back_equal(table: Callable[[], Iterator[Named
     text = write_level_file(LevelRecord(name, "", "", level, demo) for name, level, demo in named)
     assert [(r.name, r.level, r.demo) for r in read_level_file(text)] == named
     for recording, (_, level, demo) in zip(parse_replays(text), named, strict=True):
-        assert level_digest(recording.level) == level_digest(parse_level_string(level))
+        assert recording.level == parse_level_string(level)
         assert recording.demo == parse_demo(demo)
 
 
@@ -94,7 +94,7 @@ def test_published_levels_as_the_families_of_files_have_them() -> None:
 
 @tables
 def test_replays_of_ours_hold_any_level_and_any_demo(table: Callable[[], Iterator[Named]]) -> None:
-    for name, text, demo_text in list(table())[::7]:
+    for name, text, demo_text in list(table())[::15]:
         level, demo = parse_level_string(text), parse_demo(demo_text)
         replay = Replay(demo.frames, demo.end, "running", name=name, level=level, level_digest=level_digest(level))
         assert parse_replay(write_replay(replay)) == replay
