@@ -3,8 +3,8 @@
     python3 tools/dev.py change-rules [NAME …]
 
 Only tests that need no reference data run (the scratch copy has no ../shared), on the plain memory. Each change is
-one line, by pattern; a pattern that no longer fits is an error, so that this list stays in step with the rules. Changes that
-no test notices are listed at the end; docs/testing.md says which are left and why. Exit code 1 if more than
+one line, by pattern; a pattern that no longer fits is an error, so that the list stays in step with the rules. Changes
+that no test notices are listed at the end; docs/testing.md says which are left and why. Exit code 1 if more than
 ``ALLOWED`` go unnoticed.
 """
 

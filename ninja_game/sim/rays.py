@@ -16,7 +16,6 @@ from ninja_game.sim.tiles import (
     CENTRE_Y,
     CONCAVE,
     CONVEX,
-    EMPTY,
     EXISTS,
     FULL,
     NORMAL_X,
@@ -178,8 +177,10 @@ def solid_at(level: Level, x: float, y: float) -> bool:
     """Is a point in the solid part of its cell's tile? Boundaries are solid; edges and doors play no part."""
     cell = cell_at(x, y)
     tile = level.tiles[cell]
+    if tile == 0:
+        return False
     shape = SHAPE[tile]
-    if shape == EMPTY or shape == UNDEFINED:
+    if shape == UNDEFINED:
         return False
     if shape == FULL:
         return True

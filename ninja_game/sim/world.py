@@ -7,13 +7,14 @@ from ninja_game.sim.memory import fast
 from ninja_game.sim.ninja import tick_ninja
 from ninja_game.sim.objects.bounce_block import think_block, update_block
 from ninja_game.sim.objects.door import update_door
-from ninja_game.sim.objects.drone_weapons import think_drone, update_drone
+from ninja_game.sim.objects.drone import move_drone
+from ninja_game.sim.objects.drone_weapons import think_drone, update_weapon
 from ninja_game.sim.objects.floor_guard import update_guard
 from ninja_game.sim.objects.launcher import think_launcher, update_launcher
 from ninja_game.sim.objects.thwump import update_thwump
 from ninja_game.sim.objects.turret import think_turret, update_turret
 from ninja_game.sim.schema import Level, World
-from ninja_game.sim.states import DEAD
+from ninja_game.sim.states import DEAD, DRONE_MOVE
 
 
 @fast
@@ -47,7 +48,10 @@ def update_things(level: Level, w: World) -> None:
         w.cursor = o.older
         kind = o.kind
         if kind == DRONE:
-            update_drone(level, w, o, slot)
+            if o.routine == DRONE_MOVE:
+                move_drone(w, o, slot)
+            else:
+                update_weapon(level, w, o, slot)
         elif kind == THWUMP:
             update_thwump(w, o, slot)
         elif kind == FLOOR_GUARD:

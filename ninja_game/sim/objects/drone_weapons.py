@@ -7,7 +7,6 @@ from math import sqrt
 from ninja_game.sim.death import kill, stop_firing
 from ninja_game.sim.events import CHAINGUN_CHARGING, CHAINGUN_ON, CHAINGUN_SHOT, LASER_CHARGING, LASER_ON, emit
 from ninja_game.sim.memory import fast
-from ninja_game.sim.objects.drone import move_drone
 from ninja_game.sim.objects.floor_guard import zap
 from ninja_game.sim.rays import ray_tiles, sees
 from ninja_game.sim.rules import (
@@ -61,12 +60,10 @@ def think_drone(level: Level, w: World, o: Drone, slot: int) -> None:
 
 
 @fast
-def update_drone(level: Level, w: World, o: Drone, slot: int) -> None:
-    """Move, or go on with the weapon's routine."""
+def update_weapon(level: Level, w: World, o: Drone, slot: int) -> None:
+    """Go on with the weapon of a drone that does not move: prepare, fire or cool down."""
     routine = o.routine
-    if routine == DRONE_MOVE:
-        move_drone(w, o, slot)
-    elif routine == DRONE_POST_FIRE:
+    if routine == DRONE_POST_FIRE:
         o.counter += 1
         if o.counter >= (LASER_COOL if o.weapon == WEAPON_LASER else CHAINGUN_COOL):
             start_think(w, o, slot)
