@@ -9,8 +9,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from ninja_game.formats.ascii_legend import TILE_CHARS, TILE_FAMILIES, TILE_OF_CHAR  # noqa: E402
-from ninja_game.sim.tiles import (  # noqa: E402
+from ninja_game.formats.ascii_legend import TILE_CHARS, TILE_FAMILIES, TILE_OF_CHAR
+from ninja_game.sim.tiles import (
     CONCAVE,
     CONVEX,
     FULL,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,8 +9,9 @@ from dataclasses import dataclass
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii_match import Placed, PlacedTile, join
 from ninja_game.formats.ascii_picture import ROW_START, read_picture
+from ninja_game.formats.ascii_places import shown
 from ninja_game.formats.ascii_writer import HEADER_KEYS, MAGIC, VERSION, write_ascii_level
-from ninja_game.formats.object_lines import OddTile, read_object_line, suggestion
+from ninja_game.formats.object_lines import OddTile, read_object_line, read_quoted, suggestion
 from ninja_game.formats.problems import Problems
 from ninja_game.sim.level_data import LevelData
 
@@ -73,7 +73,7 @@ def _check_first(lines: Sequence[NumberedLine], problems: Problems) -> None:
     words = first.split()
     expected = f"'{MAGIC} {VERSION}' in the first line"
     if words[:2] != MAGIC.split() or len(words) != 3:
-        problems.add("not an ASCII level", number, 1, found=repr(first[:40]), expected=expected)
+        problems.add("not an ASCII level", number, 1, found=shown(first), expected=expected)
     elif words[2] != str(VERSION):
         hint = "a level for a newer ninja-game needs a newer ninja-game"
         problems.add("unknown version of the level format", number, found=words[2], expected=str(VERSION), hint=hint)
@@ -91,7 +91,7 @@ def _sections(
         if ROW_START.match(line):
             if listed:
                 hint = "the picture is one block; the list of objects stands below it"
-                problems.add("a picture row below the list", number, found=repr(line.strip()[:40]), hint=hint)
+                problems.add("a picture row below the list", number, found=shown(line.strip()), hint=hint)
             else:
                 rows.append((number, line))
         else:
@@ -102,16 +102,18 @@ def _sections(
 def _read_header(lines: Sequence[NumberedLine], problems: Problems) -> dict[str, str]:
     fields: dict[str, str] = {}
     for number, line in lines:
+        if problems.full:
+            break
         key, colon, value = line.partition(":")
         key = key.strip()
         if not colon:
-            problems.add("not a header line", number, 1, found=repr(line.strip()[:40]),
+            problems.add("not a header line", number, 1, found=shown(line.strip()),
                          expected="key: value, or the first row of the picture, |...|",
                          hint="objects are listed below the picture")  # fmt: skip
         elif key not in HEADER_KEYS:
-            problems.add("unknown header", number, 1, found=repr(key), hint=suggestion(key, HEADER_KEYS))
+            problems.add("unknown header", number, 1, found=shown(key), hint=suggestion(key, HEADER_KEYS))
         elif key in fields:
-            problems.add("a header given twice", number, 1, found=repr(key), hint="keep one")
+            problems.add("a header given twice", number, 1, found=shown(key), hint="keep one")
         else:
             fields[key] = _header_value(value.strip())
     return fields
@@ -119,17 +121,16 @@ def _read_header(lines: Sequence[NumberedLine], problems: Problems) -> dict[str,
 
 def _header_value(text: str) -> str:
     """A header's value; in double quotes as JSON when it has blanks at its ends, line breaks or the like."""
-    try:
-        value = json.loads(text) if text.startswith('"') else text
-    except ValueError:
-        return text
-    return value if isinstance(value, str) else text
+    value = read_quoted(text) if text.startswith('"') else None
+    return text if value is None else value
 
 
 def _read_list(lines: Sequence[NumberedLine], problems: Problems) -> tuple[list[Placed], list[PlacedTile]]:
     objects: list[Placed] = []
     tiles: list[PlacedTile] = []
     for number, line in lines:
+        if problems.full:
+            break
         try:
             entries = read_object_line(line)
         except LevelError as error:

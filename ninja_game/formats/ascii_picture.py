@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from ninja_game.formats.ascii_legend import ODD_TILE, SYMBOL_OF_CHAR, TILE_OF_CHAR
+from ninja_game.formats.ascii_places import shown
 from ninja_game.formats.problems import Problems
 from ninja_game.sim.level_data import COLUMNS, ROWS
 
@@ -14,8 +15,8 @@ Cell = tuple[int, int]
 """Column 1…31, row 1…23."""
 
 FRAME = "|"
-ROW_START = re.compile(r"\s*(\d*)\s*\|", re.ASCII)
-_ROW = re.compile(r"\s*(\d*)\s*\|(.*)\|\s*(\d*)\s*", re.ASCII)
+ROW_START = re.compile(r"\s*+(\d*+)\s*+\|", re.ASCII)
+_ROW = re.compile(r"\s*+(\d*+)\s*+\|(.*)\|\s*+(\d*+)\s*+", re.ASCII)
 
 _LOOKS_LIKE = {
     "/": "s or q, the 45° slopes",
@@ -63,7 +64,7 @@ def read_picture(lines: Sequence[tuple[int, str]], end: int, problems: Problems)
     """
     before = len(problems.found)
     rows: list[tuple[str, int, int]] = []
-    for line, text in lines:
+    for line, text in lines[:ROWS]:
         row = _read_row(line, text, len(rows) + 1, problems)
         if row is not None:
             rows.append((row[0], line, row[1]))
@@ -88,7 +89,7 @@ def _read_row(line: int, text: str, number: int, problems: Problems) -> tuple[st
         tail = text.rpartition(FRAME)[2]
         if text.count(FRAME) > 1:
             hint = "nothing but the row's number may follow the frame"
-            problems.add("a picture row with something after its frame", line, found=repr(tail.strip()), hint=hint)
+            problems.add("a picture row with something after its frame", line, found=shown(tail.strip()), hint=hint)
         else:
             problems.add("a picture row without its right frame", line, column, expected=f"'{FRAME}' at the end")
         return None
@@ -96,14 +97,14 @@ def _read_row(line: int, text: str, number: int, problems: Problems) -> tuple[st
     for label in match.group(1, 3):
         if label and (len(label) > 2 or int(label) != number):
             hint = "a row is missing or stands twice above; the numbers may be left out"
-            problems.add("wrong row number", line, found=label, expected=str(number), hint=hint)
+            problems.add("wrong row number", line, found=shown(label), expected=str(number), hint=hint)
     if len(cells) != COLUMNS:
         more = COLUMNS - len(cells)
         column = start + min(len(cells), COLUMNS)
         hint = f"{abs(more)} too {'few' if more > 0 else 'many'}"
         problems.add(f"row {number} of the picture has the wrong width", line, column,
                      found=f"{len(cells)} characters", expected=f"{COLUMNS}", hint=hint)  # fmt: skip
-    for offset, char in enumerate(cells):
+    for offset, char in enumerate(cells[:COLUMNS]):
         if char not in TILE_OF_CHAR and char not in SYMBOL_OF_CHAR and char != ODD_TILE:
             hint = f"did you mean {_similar(char)}?" if _similar(char) else ""
             problems.add("a character that is not in the legend", line, start + offset, found=repr(char), hint=hint,

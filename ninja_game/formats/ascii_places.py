@@ -11,6 +11,12 @@ from ninja_game.formats.ascii_legend import CELL
 from ninja_game.sim.level_data import COLUMNS, ROWS
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?|nan|[+-]?inf", re.ASCII)
+_LONGEST_SHOWN = 40
+
+
+def shown(text: str) -> str:
+    """A word of the file in quotes, cut where it is long."""
+    return repr(text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}...")
 
 
 def same_bits(a: float, b: float) -> bool:
@@ -31,10 +37,10 @@ def read_number(text: str) -> float:
     Raises LevelError (without a place) for anything else.
     """
     if _NUMBER.fullmatch(text) is None:
-        raise LevelError("not a number", found=repr(text), expected="a decimal such as 12, -0.5 or 408.15")
+        raise LevelError("not a number", found=shown(text), expected="a decimal such as 12, -0.5 or 408.15")
     value = float(text)
     if math.isinf(value) and "inf" not in text:
-        raise LevelError("number too large", found=text[:24], hint="write inf if you mean infinity")
+        raise LevelError("number too large", found=shown(text), hint="write inf if you mean infinity")
     return value
 
 
@@ -62,7 +68,7 @@ def read_place(text: str, dx: float = 0.0, dy: float = 0.0) -> tuple[float, floa
     if len(numbers) != 2 or "" in numbers:
         raise LevelError(
             "not a place",
-            found=repr(text),
+            found=shown(text),
             expected="column,row such as 5,7 (or 5.5,7), or exact px such as 60,564px",
         )
     x, y = map(read_number, numbers)
@@ -91,5 +97,5 @@ def read_cell(text: str) -> tuple[int, int]:
     x, y = read_place(text)
     column, row = (x - 12.0) / CELL, (y - 12.0) / CELL
     if text.endswith("px") or not (column.is_integer() and row.is_integer()):
-        raise LevelError("not a whole cell", found=text, expected="column,row such as 20,14")
+        raise LevelError("not a whole cell", found=shown(text), expected="column,row such as 20,14")
     return int(column), int(row)

@@ -11,7 +11,7 @@ from typing import TypeVar
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii_legend import DIRECTION_WORDS, PAD_NORMALS, SYMBOL_OF_NAME
-from ninja_game.formats.ascii_places import read_cell, read_number, read_place
+from ninja_game.formats.ascii_places import read_cell, read_number, read_place, shown
 from ninja_game.sim.level_data import (
     BOUNCE_BLOCK,
     DOOR,
@@ -150,7 +150,7 @@ def _read_pair(text: str) -> tuple[float, float]:
     """Two numbers ``a,b``. Raises LevelError."""
     numbers = text.split(",")
     if len(numbers) != 2:
-        raise LevelError("not a pair of numbers", found=repr(text), expected="x,y such as 0.6,-0.8")
+        raise LevelError("not a pair of numbers", found=shown(text), expected="x,y such as 0.6,-0.8")
     return read_number(numbers[0]), read_number(numbers[1])
 
 

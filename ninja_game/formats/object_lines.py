@@ -9,11 +9,11 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii_places import read_cell, read_number
+from ninja_game.formats.ascii_places import read_cell, read_number, shown
 from ninja_game.formats.object_forms import FORMS, Form, Token, at_token, record_values
 from ninja_game.sim.level_data import Record
 
-_TOKEN = re.compile(r';.*|"(?:[^"\\]|\\.)*"|[^\s;"]+|"')
+_TOKEN = re.compile(r';.*|"(?:[^"\\]|\\.)*+"|[^\s;"]+|".*')
 
 
 class Listed(NamedTuple):
@@ -79,7 +79,7 @@ def _split_keyword(tokens: Sequence[Token]) -> tuple[str, Sequence[Token]]:
         words.append(token.text)
     found = " ".join(words) or tokens[0].text
     hint = suggestion(found, [*FORMS, "tile", "raw"])
-    raise LevelError("unknown kind of object", column=tokens[0].column, found=repr(found), hint=hint)
+    raise LevelError("unknown kind of object", column=tokens[0].column, found=shown(found), hint=hint)
 
 
 def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list[Token], dict[str, Token]]:
@@ -99,7 +99,7 @@ def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list
         elif "," in token.text:
             if token.text.strip(",") != token.text:
                 hint = "column and row stand together, as in 5,7"
-                raise LevelError("a place with a blank in it", column=token.column, found=repr(token.text), hint=hint)
+                raise LevelError("a place with a blank in it", column=token.column, found=shown(token.text), hint=hint)
             if places and form.single:
                 hint = "write one line for each, or 'switch' before its switch" if form.takes else ""
                 raise LevelError(f"a second place for one '{keyword}'", column=token.column, hint=hint)
@@ -108,9 +108,9 @@ def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list
         else:
             known = [word for vocabulary in form.words.values() for word in vocabulary] + list(form.takes)
             hint = suggestion(token.text, known) if known else f"'{keyword}' has places only, such as 5,7"
-            raise LevelError(f"unknown word for '{keyword}'", column=token.column, found=repr(token.text), hint=hint)
+            raise LevelError(f"unknown word for '{keyword}'", column=token.column, found=shown(token.text), hint=hint)
         if name in given:
-            raise LevelError(f"the {name} of '{keyword}' is given twice", column=token.column, found=token.text)
+            raise LevelError(f"the {name} of '{keyword}' is given twice", column=token.column, found=shown(token.text))
         given[name] = value
     _check_complete(keyword, form, given, tokens)
     return places, given
@@ -137,7 +137,7 @@ def _read_tiles(tokens: Sequence[Token]) -> list[OddTile]:
         raise LevelError("incomplete tile line", column=tokens[0].column, expected="tile 5,7 id 70")
     number = tokens[-1]
     if re.fullmatch(r"-?\d{1,18}", number.text, re.ASCII) is None:
-        raise LevelError("not a tile id", column=number.column, found=repr(number.text), expected="a whole number")
+        raise LevelError("not a tile id", column=number.column, found=shown(number.text), expected="a whole number")
     return [OddTile(at_token(token, read_cell), int(number.text), token.column) for token in tokens[1:-2]]
 
 
@@ -163,11 +163,19 @@ def _read_values(text: str) -> tuple[float, ...]:
     return tuple(read_number(part) for part in text.split(","))
 
 
-def _read_string(text: str) -> str:
+def read_quoted(text: str) -> str | None:
+    """What stands in double quotes, with JSON's escapes; None if that is not in order or no text for a file."""
     try:
         value = json.loads(text)
+        return value if isinstance(value, str) and value.encode() is not None else None
     except ValueError:
-        value = None
-    if not isinstance(value, str):
-        raise LevelError("not a text in double quotes", found=text, expected='"text", with \\" and \\\\ as in JSON')
+        return None
+
+
+def _read_string(text: str) -> str:
+    value = read_quoted(text)
+    if value is None:
+        raise LevelError(
+            "not a text in double quotes", found=shown(text), expected='"text", with \\" and \\\\ as in JSON'
+        )
     return value

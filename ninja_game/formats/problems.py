@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from ninja_game.errors import LevelError
 
 _SHOWN = 20
+_ENOUGH = 1000
 
 
 class LevelTextError(LevelError):
@@ -39,6 +40,11 @@ class Problems:
         """Note an error that was raised without file and line."""
         error.file, error.line = self.file, line
         self.found.append(error)
+
+    @property
+    def full(self) -> bool:
+        """Whether there are so many mistakes that looking for more is not worth the time."""
+        return len(self.found) >= _ENOUGH
 
     def raise_if_any(self) -> None:
         """Raise what was noted, in the order of the lines; do nothing if all is well."""

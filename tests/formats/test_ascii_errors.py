@@ -90,7 +90,7 @@ MISTAKES = {
     "row number": (
         level_text().replace("|.", "7 |.", 1),
         (
-            "broken.txt:3: wrong row number; found 7; expected 1; "
+            "broken.txt:3: wrong row number; found '7'; expected 1; "
             "a row is missing or stands twice above; the numbers may be left out"
         ),
     ),
@@ -149,7 +149,7 @@ MISTAKES = {
     ),
     "huge number": (
         level_text("gold 5,1e999px"),
-        "broken.txt:26:6: number too large; found 1e999; write inf if you mean infinity",
+        "broken.txt:26:6: number too large; found '1e999'; write inf if you mean infinity",
     ),
     "outside the grid": (
         level_text("gold 60,564"),
@@ -175,7 +175,7 @@ MISTAKES = {
     ),
     "word twice": (
         level_text("thwump 5.5,7 down up"),
-        "broken.txt:26:19: the direction of 'thwump' is given twice; found up",
+        "broken.txt:26:19: the direction of 'thwump' is given twice; found 'up'",
     ),
     "word missing": (
         level_text("zap drone 5,7 right"),
@@ -209,7 +209,7 @@ MISTAKES = {
     ),
     "door not at a cell": (
         level_text("automatic door 5.5,7 left"),
-        "broken.txt:26:16: not a whole cell; found 5.5,7; expected column,row such as 20,14",
+        "broken.txt:26:16: not a whole cell; found '5.5,7'; expected column,row such as 20,14",
     ),
     "door without its switch": (
         level_text("locked door 5,7 left"),
@@ -235,7 +235,7 @@ MISTAKES = {
     ),
     "raw with a bad text": (
         level_text(r'raw "a\q"'),
-        r"""broken.txt:26:5: not a text in double quotes; found "a\q"; expected "text", with \" and \\ as in JSON""",
+        r"""broken.txt:26:5: not a text in double quotes; found '"a\\q"'; expected "text", with \" and \\ as in JSON""",
     ),
     "tile incomplete": (level_text("tile 5,7 70"), "broken.txt:26:1: incomplete tile line; expected tile 5,7 id 70"),
     "tile without number": (

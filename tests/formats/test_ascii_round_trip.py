@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-import csv
 import math
-from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -19,7 +16,9 @@ from ninja_game.formats.ascii_writer import picture_rows
 from ninja_game.formats.level_string import parse_level_string
 from ninja_game.formats.object_writer import same_record
 from ninja_game.sim.level_data import GOLD, NINJA, TILES, VALUE_COUNTS, LevelData, Record
+from tests.reference import fuzz, levels, random_runs, scenes
 
+EMPTY = "|" + "." * 31 + "|"
 ODD_NUMBERS = (math.nan, math.inf, -math.inf, -0.0, 0.0, 1e300, 5e-324, 0.1, 0.7071067811865468, 408.15000000000003)
 
 
@@ -69,11 +68,11 @@ tiles = st.one_of(
     st.lists(st.sampled_from((0, 1, 2, -1, 34, 1_000_000)), min_size=TILES, max_size=TILES).map(tuple),
 )
 few = st.sampled_from((36.0, 60.0))
-levels = st.builds(LevelData, tiles, st.lists(records(), max_size=25).map(tuple))
+random_levels = st.builds(LevelData, tiles, st.lists(records(), max_size=25).map(tuple))
 
 
 @settings(max_examples=80, deadline=None)
-@given(levels)
+@given(random_levels)
 def test_random_levels_come_back_to_the_bit(level: LevelData) -> None:
     assert_round_trip(level)
 
@@ -121,8 +120,28 @@ def test_written_levels_are_recognised() -> None:
     assert not is_ascii_level("$name#author##" + "0" * TILES + "|#")
 
 
+UNPLEASANT = (
+    "ninja-game level 1\n" + " " * 200_000 + "x",
+    "ninja-game level 1\n" + "7" * 200_000,
+    "ninja-game level 1\n" + "|" * 200_000 + " " * 200_000,
+    "ninja-game level 1\n" + f"{EMPTY}\n" * 20_000,
+    "ninja-game level 1\n" + f"{EMPTY}\n" * 23 + '"\\' * 100_000,
+    "ninja-game level 1\n" + f"{EMPTY}\n" * 23 + "raw " + '\\"' * 100_000,
+    "ninja-game level 1\n" + f"{EMPTY}\n" * 23 + "thwomp 1,1\n" * 20_000,
+    "ninja-game level 1\n" + f"{EMPTY}\n" * 23 + "gold " + "9" * 200_000 + ",1",
+    "ninja-game level 1\n" + "nmae: x\n" * 20_000,
+)
+
+
+@pytest.mark.parametrize("number", range(len(UNPLEASANT)))
+def test_long_rubbish_is_told_shortly(number: int) -> None:
+    with pytest.raises(NinjaGameError) as caught:
+        parse_ascii_level(UNPLEASANT[number])
+    assert len(str(caught.value)) < 5000
+
+
 @settings(max_examples=80, deadline=None)
-@given(levels, st.lists(st.tuples(st.integers(0, 5000), st.integers(0, 40), st.text(max_size=6)), max_size=4))
+@given(random_levels, st.lists(st.tuples(st.integers(0, 5000), st.integers(0, 40), st.text(max_size=6)), max_size=4))
 def test_mutated_text_gives_a_level_or_an_error_of_ours(level: LevelData, edits: list[tuple[int, int, str]]) -> None:
     text = write_ascii_level(level, name="mutant")
     for place, length, new in edits:
@@ -139,17 +158,14 @@ def test_rubbish_gives_an_error_of_ours(text: str) -> None:
             parse_ascii_level(lead + text)
 
 
-def level_texts(folder: Path) -> Iterator[str]:
-    csv.field_size_limit(1 << 24)
-    for table in ("levels.tsv", "scenes.tsv", "fuzz.tsv", "random_runs.tsv"):
-        with (folder / table).open(encoding="utf-8", newline="") as file:
-            texts = [row["data"] for row in csv.DictReader(file, delimiter="\t", quoting=csv.QUOTE_NONE)]
-        # The crowded ones are many and alike: every tenth keeps the suite fast, tools/soak_ascii.py takes all.
-        yield from texts if table in ("levels.tsv", "scenes.tsv") else texts[::10]
+def reference_texts() -> list[str]:
+    # The crowded ones are many and alike: every tenth keeps the suite fast, tools/soak_ascii.py takes all.
+    crowded = [row.data for row in fuzz()[::10]] + [row.data for row in random_runs()[::10]]
+    return [row.data for row in levels()] + [row.data for row in scenes()] + crowded
 
 
-def test_reference_levels_come_back_to_the_bit(reference: Path) -> None:
-    for text in level_texts(reference):
+def test_reference_levels_come_back_to_the_bit() -> None:
+    for text in reference_texts():
         level = parse_level_string(text)
         written = write_ascii_level(level)
         assert written.isascii()

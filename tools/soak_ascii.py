@@ -1,0 +1,81 @@
+"""Soak of the ASCII level format: all reference levels there and back, then mutated texts; prints counts.
+
+Run it from the project's root: python tools/soak_ascii.py [mutations]
+"""
+
+from __future__ import annotations
+
+import random
+import sys
+import time
+from collections import Counter
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.formats.ascii_legend import SYMBOLS, TILE_CHARS
+from ninja_game.formats.ascii_level import parse_ascii_level, write_ascii_level
+from ninja_game.formats.level_string import parse_level_string, write_level_string
+from ninja_game.formats.level_warnings import level_warnings
+from ninja_game.formats.object_writer import same_record
+from tests.reference import fuzz, levels, random_runs, reference_folder, scenes
+
+ALPHABET = TILE_CHARS + "".join(symbol.char for symbol in SYMBOLS) + '0123456789.,;:|"\\\n -px?'
+
+
+def round_trips() -> list[str]:
+    """The ASCII texts of all reference levels; prints how many came back to the bit, and their N texts too."""
+    texts: list[str] = []
+    counts: Counter[str] = Counter()
+    for name, rows in (("levels", levels()), ("scenes", scenes()), ("fuzz", fuzz()), ("random runs", random_runs())):
+        for data in {row.data: None for row in rows}:
+            level = parse_level_string(data)
+            text = write_ascii_level(level)
+            read = parse_ascii_level(text).level
+            same = read.tiles == level.tiles and len(read.records) == len(level.records)
+            same = same and all(map(same_record, read.records, level.records))
+            counts[f"{name}: {'same' if same else 'DIFFERENT'}"] += 1
+            counts[f"{name}: N text {'same' if write_level_string(read) == data else 'differs'}"] += 1
+            texts.append(text)
+    for what, count in counts.items():
+        print(f"{count:6d}  {what}")
+    return texts
+
+
+def mutated(text: str, rng: random.Random) -> str:
+    """The text with a few characters replaced, lines swapped, doubled or cut."""
+    for _ in range(rng.randint(1, 5)):
+        place = rng.randrange(len(text) + 1)
+        text = text[:place] + "".join(rng.choices(ALPHABET, k=rng.randint(0, 4))) + text[place + rng.randint(0, 4) :]
+    lines = text.split("\n")
+    if rng.random() < 0.3:
+        lines.insert(rng.randrange(len(lines)), rng.choice(lines))
+    if rng.random() < 0.2:
+        del lines[rng.randrange(len(lines))]
+    return "\n".join(lines)
+
+
+def mutations(texts: list[str], count: int) -> None:
+    """Read mutated texts; anything but an error of ours ends the soak with a traceback."""
+    rng = random.Random(1)
+    counts: Counter[str] = Counter()
+    slowest = 0.0
+    for _ in range(count):
+        text = mutated(rng.choice(texts), rng)
+        start = time.perf_counter()
+        try:
+            level = parse_ascii_level(text, file="mutant.txt").level
+            level_warnings(level)
+            counts["read"] += 1
+        except NinjaGameError as error:
+            str(error)
+            counts["refused"] += 1
+        slowest = max(slowest, time.perf_counter() - start)
+    print(f"{count:6d}  mutated: {dict(counts)}, slowest {slowest * 1000:.0f} ms")
+
+
+if __name__ == "__main__":
+    bundled = [path.read_text(encoding="utf-8") for path in sorted((ROOT / "levels").glob("*.txt"))]
+    mutations(bundled + (round_trips() if reference_folder() else []), int((sys.argv[1:] or ["10000"])[0]))
