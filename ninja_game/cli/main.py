@@ -17,6 +17,7 @@ from ninja_game import __version__
 from ninja_game.errors import NinjaGameError
 
 COMMANDS = {
+    "play": "Play a level in a window.",
     "verify": "Run recordings again and judge them.",
     "trace": "Show every tick of recordings: position, velocity, state, events.",
     "bench": "Measure how fast the world is on this machine.",

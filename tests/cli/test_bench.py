@@ -17,7 +17,7 @@ from tests.cli.samples import WALK, running, write_records
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 def test_json_has_the_figures_that_programs_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(benchmark, "ROUND_SECONDS", 0.01)
-    monkeypatch.setattr(benchmark, "_first_tick", lambda memory: 0.1)
+    monkeypatch.setattr(benchmark, "_first_tick", lambda _: 0.1)
     path = write_records(tmp_path / "walk.txt", ("Walk", WALK, running(23)))
     result = CliRunner().invoke(cli, ["bench", str(path), "--quick", "--json"])
     assert result.exit_code == 0, result.stderr

@@ -1,0 +1,84 @@
+"""`ninja-game play`: the game in a window."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Literal
+
+import click
+
+from ninja_game.errors import NinjaGameError
+
+
+@click.command()
+@click.argument("level", required=False)
+@click.option(
+    "--body", type=click.Choice(["circle", "box"]), default="circle", show_default=True,
+    help="The ninja's body: the circle of the classic rules, or a box of the same size.",
+)  # fmt: skip
+@click.option("--practice", is_flag=True, help="No time limit, nothing counts.")
+@click.option("--replay", type=click.Path(exists=True, dir_okay=False), help="Watch the recordings of this file.")
+@click.option("--size", metavar="WIDTHxHEIGHT", help="Size of the window in px, e.g. 1584x1200.")
+@click.option("--frames", type=click.IntRange(min=1), help="End after so many pictures.")
+@click.option("--screenshot", type=click.Path(dir_okay=False), help="Write the last picture to this PNG file.")
+@click.pass_context
+def command(
+    ctx: click.Context,
+    level: str | None,
+    body: Literal["circle", "box"],
+    practice: bool,
+    replay: str | None,
+    size: str | None,
+    frames: int | None,
+    screenshot: str | None,
+) -> None:
+    """Play a level in a window.
+
+    LEVEL is a file of levels, or the name of one of the game's own; without it the game begins at its menu.
+
+    \b
+    Examples:
+      ninja-game play
+      ninja-game play my-level.txt --practice
+      ninja-game play --replay run.replay.txt
+      SDL_VIDEODRIVER=dummy ninja-game play --frames 40 --screenshot picture.png
+    """
+    if level is not None and replay is not None:
+        raise click.UsageError("LEVEL and --replay exclude each other")
+    path = _path_of(level) if level is not None else None
+    window = _pixels(size) if size else None
+
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    import pygame
+
+    from ninja_game.play.app import main
+
+    try:
+        code = main(
+            path, body=body, size=window, replay_path=replay, practice=practice, frames=frames, screenshot=screenshot
+        )
+    except pygame.error as error:
+        raise NinjaGameError(f"the window cannot be opened: {error}") from None
+    ctx.exit(code)
+
+
+def _path_of(level: str) -> str:
+    """The file that LEVEL means."""
+    from ninja_game.session.bundled import bundled_levels
+
+    if Path(level).exists():
+        return level
+    own = {path.stem: path for path in bundled_levels()}
+    if level not in own:
+        names = f"; the game's own levels: {', '.join(own)}" if own else ""
+        raise click.UsageError(f"there is no level {level!r}{names}")
+    return str(own[level])
+
+
+def _pixels(size: str) -> tuple[int, int]:
+    """Width and height from ``WIDTHxHEIGHT``."""
+    width, _, height = size.lower().partition("x")
+    if not (width.isdecimal() and height.isdecimal() and 0 < int(width) <= 16384 and 0 < int(height) <= 16384):
+        raise click.UsageError(f"--size is {size!r}; expected WIDTHxHEIGHT in px, e.g. 1584x1200")
+    return int(width), int(height)

@@ -1,0 +1,73 @@
+"""`ninja-game play`: what the command line hands to the window."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pygame
+import pytest
+from click.testing import CliRunner, Result
+
+from ninja_game.cli.main import cli
+from ninja_game.session.bundled import bundled_levels
+
+
+@pytest.fixture
+def calls(monkeypatch: pytest.MonkeyPatch) -> list[dict[str, Any]]:
+    """What a stand-in for the window's main was called with."""
+    noted: list[dict[str, Any]] = []
+
+    def main(level_path: str | None, **named: Any) -> int:
+        noted.append({"level_path": level_path, **named})
+        return 0
+
+    monkeypatch.setitem(sys.modules, "ninja_game.play.app", SimpleNamespace(main=main))
+    return noted
+
+
+def play(*words: str | Path) -> Result:
+    """`ninja-game play WORDS…`."""
+    return CliRunner().invoke(cli, ["play", *map(str, words)])
+
+
+def test_without_a_level_the_menu_opens(calls: list[dict[str, Any]]) -> None:
+    assert play().exit_code == 0
+    assert calls[0]["level_path"] is None
+    assert calls[0]["body"] == "circle"
+
+
+def test_options_reach_the_window(calls: list[dict[str, Any]], tmp_path: Path) -> None:
+    level = tmp_path / "a.txt"
+    level.touch()
+    assert play(level, "--body", "box", "--frames", "3", "--screenshot", "x.png", "--size", "800x600").exit_code == 0
+    call = calls[0]
+    assert (call["level_path"], call["body"], call["frames"]) == (str(level), "box", 3)
+    assert (call["screenshot"], call["size"]) == ("x.png", (800, 600))
+
+
+def test_own_levels_are_known_by_name(calls: list[dict[str, Any]]) -> None:
+    first = bundled_levels()[0]
+    assert play(first.stem).exit_code == 0
+    assert calls[0]["level_path"] == str(first)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [("no-such-level",), ("--size", "big"), ("--size", "0x5"), ("--frames", "0"), ("--body", "square"), ("a", "b")],
+)
+def test_wrong_usage(words: tuple[str, ...], calls: list[dict[str, Any]]) -> None:
+    assert play(*words).exit_code == 2
+    assert calls == []
+
+
+def test_no_display_is_an_error_in_words(monkeypatch: pytest.MonkeyPatch) -> None:
+    def main(_: str | None, **__: Any) -> int:
+        raise pygame.error("no available video device")
+
+    monkeypatch.setitem(sys.modules, "ninja_game.play.app", SimpleNamespace(main=main))
+    result = play()
+    assert result.exit_code == 2
+    assert result.stderr == "ninja-game: the window cannot be opened: no available video device\n"
