@@ -2,9 +2,10 @@
 
 The public API, each name imported when it is first used:
 
-- levels: ``load_level(path)``, ``load_levels(path)``, ``parse_level(text)``, ``LevelData``
-- a run: ``Simulation`` (step, look, save, restore, digest)
+- levels: ``load_levels(path)``, ``load_level(path)``, ``parse_level(text)``, ``LevelData``
+- a run: ``Simulation`` (step, look, save, restore, digest, replay)
 - whole runs: ``run_level``, ``trace_level``
+- replays: ``load_replays(path)``, ``parse_replay``, ``write_replay``, ``verify_recording``
 - errors: everything raised on purpose is a ``NinjaGameError``
 """
 
@@ -16,8 +17,11 @@ from typing import TYPE_CHECKING, Any
 from ninja_game.errors import DemoError, FormatError, LevelError, NinjaGameError, ReplayError
 
 if TYPE_CHECKING:
+    from ninja_game.formats.files import load_level, load_levels, load_replays
     from ninja_game.formats.level_string import parse_level_string as parse_level
+    from ninja_game.formats.replay import Replay, parse_replay, write_replay
     from ninja_game.runs import RunResult, RunTrace, run_level, trace_level
+    from ninja_game.session.verify import Verdict, verify_recording
     from ninja_game.sim.level_data import LevelData
     from ninja_game.simulation import Simulation
 
@@ -25,12 +29,20 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "LevelData": ("ninja_game.sim.level_data", "LevelData"),
+    "Replay": ("ninja_game.formats.replay", "Replay"),
     "RunResult": ("ninja_game.runs", "RunResult"),
     "RunTrace": ("ninja_game.runs", "RunTrace"),
     "Simulation": ("ninja_game.simulation", "Simulation"),
+    "Verdict": ("ninja_game.session.verify", "Verdict"),
+    "load_level": ("ninja_game.formats.files", "load_level"),
+    "load_levels": ("ninja_game.formats.files", "load_levels"),
+    "load_replays": ("ninja_game.formats.files", "load_replays"),
     "parse_level": ("ninja_game.formats.level_string", "parse_level_string"),
+    "parse_replay": ("ninja_game.formats.replay", "parse_replay"),
     "run_level": ("ninja_game.runs", "run_level"),
     "trace_level": ("ninja_game.runs", "trace_level"),
+    "verify_recording": ("ninja_game.session.verify", "verify_recording"),
+    "write_replay": ("ninja_game.formats.replay", "write_replay"),
 }
 
 __all__ = [
@@ -39,14 +51,22 @@ __all__ = [
     "LevelData",
     "LevelError",
     "NinjaGameError",
+    "Replay",
     "ReplayError",
     "RunResult",
     "RunTrace",
     "Simulation",
+    "Verdict",
     "__version__",
+    "load_level",
+    "load_levels",
+    "load_replays",
     "parse_level",
+    "parse_replay",
     "run_level",
     "trace_level",
+    "verify_recording",
+    "write_replay",
 ]
 
 

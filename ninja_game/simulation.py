@@ -22,6 +22,8 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from ninja_game.compile_cache import choose_memory, kernels
+from ninja_game.formats.level_string import level_digest
+from ninja_game.formats.replay import Replay
 from ninja_game.sim.digest import differences, world_digest
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.level_data import KIND_NAMES, LevelData
@@ -87,11 +89,12 @@ class EventView:
 class SaveState:
     """A moment of a run, from ``Simulation.save``: only good for runs of the same level, body and memory."""
 
-    __slots__ = ("data", "owner")
+    __slots__ = ("data", "inputs", "owner")
 
-    def __init__(self, owner: tuple[Any, ...], data: Any) -> None:
+    def __init__(self, owner: tuple[Any, ...], data: Any, inputs: bytes) -> None:
         self.owner = owner
         self.data = data
+        self.inputs = inputs
 
 
 class Simulation:
@@ -114,6 +117,7 @@ class Simulation:
 
     def reset(self) -> None:
         """Start afresh from the loaded level, as at first."""
+        self._inputs = bytearray()
         if self.memory == "plain":
             self._level, self._world = load_plain(self.level, self.body == "box")
             return
@@ -147,6 +151,7 @@ class Simulation:
 
     def step_frame(self, frame: int) -> None:
         """Advance one tick with the input of a demo's frame: 1 left + 2 right + 4 jump held + 8 jump triggered."""
+        self._inputs.append(frame)
         if self.memory == "plain":
             step(self._level, self._world, frame)
         else:
@@ -200,12 +205,13 @@ class Simulation:
     def save(self) -> SaveState:
         """This moment, to come back to. The state is never changed by later steps."""
         data = save_plain(self._world) if self.memory == "plain" else self._state.copy()
-        return SaveState(self._owner(), data)
+        return SaveState(self._owner(), data, bytes(self._inputs))
 
     def restore(self, state: SaveState) -> None:
         """Go back to a saved moment. Raises ValueError for a state of another level, body or memory."""
         if state.owner != self._owner():
             raise ValueError("this save-state is of another level, body or memory")
+        self._inputs = bytearray(state.inputs)
         if self.memory == "plain":
             restore_plain(self._world, state.data)
         else:
@@ -218,6 +224,26 @@ class Simulation:
     def digest(self) -> str:
         """Sha256 (hex) of the whole state in canonical form: the same for both memories."""
         return world_digest(self.world)
+
+    @property
+    def inputs(self) -> bytes:
+        """The frames that led here, one byte a tick."""
+        return bytes(self._inputs)
+
+    def replay(self, *, name: str = "", author: str = "") -> Replay:
+        """The run so far as a replay that holds its level; ``write_replay`` makes a text of it."""
+        return Replay(
+            inputs=self.inputs,
+            final_tick=self.tick - 1,
+            outcome=self.outcome,
+            gold=self.gold,
+            digest=self.digest(),
+            name=name,
+            author=author,
+            body=self.body,
+            level_digest=level_digest(self.level),
+            level=self.level,
+        )
 
     def first_difference(self, other: Simulation) -> tuple[str, Any, Any] | None:
         """The first field in which two runs' states differ: (name, value here, value there); None if they are equal."""

@@ -30,7 +30,7 @@ CHANGES = (
     Change("wall-probe", "rules.py", "WALL_PROBE = 10.1", "WALL_PROBE = 10.2"),
     Change("pad-strength", "rules.py", "PAD_STRENGTH = 5.142857142857142 ", "PAD_STRENGTH = 5.142857142857143 "),
     Change("thwump-fall", "rules.py", "THWUMP_FALL = 4.285714285714286", "THWUMP_FALL = 4.285714285714285"),
-    Change("block-half", "rules.py", "BLOCK_HALF = 9.600000000000001", "BLOCK_HALF = 9.6"),
+    Change("block-half", "rules.py", "BLOCK_HALF = 9.600000000000001", "BLOCK_HALF = 9.61"),
     Change("rocket-turn", "rules.py", "ROCKET_TURN = 0.1", "ROCKET_TURN = 0.11"),
     Change("gold-radius", "rules.py", "GOLD_RADIUS = 6.0", "GOLD_RADIUS = 7.0"),
     Change("mine-radius", "rules.py", "MINE_RADIUS = 4.0", "MINE_RADIUS = 4.5"),

@@ -10,7 +10,7 @@ from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.formats.text_file import SUFFIXES, read_text, text_files
 from ninja_game.sim.level_data import LevelData
 
-__all__ = ["NamedLevel", "Recording", "load_levels", "load_replays"]
+__all__ = ["NamedLevel", "Recording", "load_level", "load_levels", "load_replays"]
 
 
 def load_levels(path: Path | str) -> list[NamedLevel]:
@@ -23,6 +23,17 @@ def load_levels(path: Path | str) -> list[NamedLevel]:
     if not levels:
         raise LevelError("no levels here", str(path), expected=f"files *{', *'.join(SUFFIXES)}")
     return levels
+
+
+def load_level(path: Path | str, record: int = 0) -> LevelData:
+    """The level of a file, or its level number ``record`` (from 0).
+
+    Raises LevelError as ``load_levels`` does, and for a record that the file does not have.
+    """
+    levels = load_levels(path)
+    if not 0 <= record < len(levels):
+        raise LevelError(f"there is no record {record}", str(path), expected=f"0 to {len(levels) - 1}")
+    return levels[record].level
 
 
 def load_replays(path: Path | str, *, level: LevelData | None = None) -> list[Recording]:
