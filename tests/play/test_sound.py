@@ -1,0 +1,99 @@
+"""Every event that is heard has its file; sound follows the world and never disturbs it."""
+
+from __future__ import annotations
+
+import wave
+from pathlib import Path
+
+import numpy as np
+import pygame
+import pytest
+
+from ninja_game.formats.level_string import parse_level_string
+from ninja_game.play.sound import Sound
+from ninja_game.play.sound_table import BY_DEATH, BY_EVENT, CORPSE, LOOPS, OTHER_DEATH, loop_levels
+from ninja_game.simulation import Simulation
+from tools.make_sounds import RECIPES, samples
+
+FLAT = parse_level_string("0" * 713 + "|5^100,566!0^140,566!11^400,564,500,564")
+
+
+@pytest.fixture
+def folder(root: Path) -> Path:
+    return root / "assets" / "sounds"
+
+
+def test_every_sound_of_the_tables_has_a_recipe_and_a_file(folder: Path) -> None:
+    named = {name for names in [*BY_EVENT.values(), *BY_DEATH.values(), OTHER_DEATH] for name in names}
+    named |= {name for _, names in CORPSE for name in names} | set(LOOPS)
+    assert named <= set(RECIPES)
+    assert {path.stem for path in folder.glob("*.wav")} == set(RECIPES)
+
+
+@pytest.mark.parametrize("name", RECIPES)
+def test_file_is_what_the_script_makes(folder: Path, name: str) -> None:
+    """Regenerate with `python3 tools/make_sounds.py`."""
+    with wave.open(str(folder / f"{name}.wav"), "rb") as file:
+        found = np.frombuffer(file.readframes(file.getnframes()), "<i2").astype(int)
+    made = np.frombuffer(samples(name), "<i2").astype(int)
+    assert len(found) == len(made)
+    # Other NumPy builds may round a sine differently.
+    assert np.abs(found - made).max() <= 4
+
+
+@pytest.mark.parametrize("name", LOOPS)
+def test_loops_end_as_they_begin(name: str) -> None:
+    made = np.frombuffer(samples(name), "<i2").astype(float)
+    steps = np.abs(np.diff(made))
+    assert abs(made[0] - made[-1]) <= 1.5 * steps.max()
+
+
+def test_skid_and_slide_follow_the_speed() -> None:
+    run = Simulation(FLAT)
+    for _ in range(40):
+        run.step(right=True)
+    assert loop_levels(run.world, ())["skid"] == 0
+    run.step()
+    run.step()
+    levels = [loop_levels(run.world, ())["skid"]]
+    for _ in range(20):
+        run.step()
+        levels.append(loop_levels(run.world, ())["skid"])
+    assert levels[0] == 1.0
+    assert levels == sorted(levels, reverse=True)
+    assert levels[-1] < levels[0]
+
+
+def test_hearing_plays_the_tick_and_leaves_the_world_alone(folder: Path) -> None:
+    sound = Sound(folder)
+    heard, silent = Simulation(FLAT), Simulation(FLAT)
+    for tick in range(60):
+        for run in (heard, silent):
+            run.step(right=True, jump=tick > 30)
+        sound.hear(heard.world)
+    assert heard.gold == 1
+    assert heard.digest() == silent.digest()
+    sound.quiet()
+
+
+def test_no_sound_device_is_no_error(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def no_device(*_: object) -> None:
+        raise pygame.error("no device")
+
+    pygame.mixer.quit()
+    monkeypatch.setattr(pygame.mixer, "init", no_device)
+    sound = Sound(folder)
+    assert not sound.works
+    run = Simulation(FLAT)
+    run.step(jump=True)
+    sound.hear(run.world)
+    sound.corpse(4.0)
+    sound.play("gold")
+    sound.set_volumes(0, 0)
+    sound.quiet()
+
+
+def test_missing_files_are_silent(tmp_path: Path) -> None:
+    sound = Sound(tmp_path)
+    sound.play("gold")
+    sound.corpse(5.0)
