@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import json
-from collections import Counter
-from collections.abc import Sequence
-from functools import partial
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import IO, TYPE_CHECKING
 
 import click
 
-from ninja_game.cli.run_options import jobs_option, with_progress, workers
+from ninja_game.cli.run_options import jobs_option, with_progress
 
 if TYPE_CHECKING:
+    from ninja_game.many.pieces import Result
+    from ninja_game.many.verification import Tally
     from ninja_game.session.verify import Verdict
 
 TICKS_PER_SECOND = 40
@@ -27,11 +28,33 @@ FAILED = 1
     help="Plain Python, or compiled by Numba; both: compare them in every tick.",
 )  # fmt: skip
 @jobs_option
+@click.option(
+    "--workers", type=click.Choice(["threads", "processes"]),
+    help="What the workers are. [default: threads for compiled runs, else processes]",
+)  # fmt: skip
+@click.option("--cluster", metavar="ADDRESS", default="", help="Run on the Dask cluster with this scheduler.")
+@click.option(
+    "--resume", metavar="JOURNAL", type=click.Path(dir_okay=False, path_type=Path),
+    help="Note in this file what is done; what it has already is not run again.",
+)  # fmt: skip
+@click.option(
+    "--report", metavar="OUT", type=click.Path(dir_okay=False, path_type=Path),
+    help="Write all results and their sums to this file: JSON if it ends in .json, else a table.",
+)  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="One JSON object a recording, for programs.")
 @click.option("--quiet", "-q", is_flag=True, help="Only recordings that fail, and the summary.")
 @click.pass_context
 def command(
-    ctx: click.Context, files: Sequence[Path], memory: str, jobs: int | None, as_json: bool, quiet: bool
+    ctx: click.Context,
+    files: Sequence[Path],
+    memory: str,
+    jobs: int | None,
+    workers: str | None,
+    cluster: str,
+    resume: Path | None,
+    report: Path | None,
+    as_json: bool,
+    quiet: bool,
 ) -> None:
     """Run recordings again and judge them.
 
@@ -46,28 +69,59 @@ def command(
       ninja-game verify tests/replays/
       ninja-game verify demos.txt --json
       ninja-game verify demos.txt --memory both
+      ninja-game verify archive/ -q --resume archive.journal --report archive.json
+      ninja-game verify archive/ -q --cluster tcp://10.0.0.5:8786
     """
-    from ninja_game.session.sources import Unreadable, for_each_recording
-    from ninja_game.session.verify import verify_recording
+    from ninja_game.many.verification import Tally, verify_all
+    from ninja_game.session.sources import Unreadable
 
-    outcomes: Counter[str] = Counter()
-    ticks = bad = unreadable = 0
-    verify = partial(verify_recording, memory=memory)
-    for verdict in with_progress(for_each_recording(verify, files, **workers(memory, jobs)), "runs"):
-        if isinstance(verdict, Unreadable):
-            unreadable += 1
-            click.echo(f"ninja-game: {verdict.message}", err=True)
-            continue
-        outcomes[verdict.outcome] += 1
-        ticks += verdict.ticks
-        bad += not verdict.good
-        if as_json:
-            click.echo(json.dumps(verdict.as_json()))
-        elif not (quiet and verdict.good):
-            click.echo(_row(verdict))
+    tally = Tally()
+    processes = None if workers is None else workers == "processes"
+    with ExitStack() as stack:
+        results = verify_all(
+            files,
+            memory=memory,
+            jobs=jobs,
+            processes=processes,
+            cluster=cluster,
+            resume=resume,
+        )
+        if report:
+            results = _reported(results, report, stack)
+        for result in with_progress(results, "runs"):
+            tally.add(result)
+            if isinstance(result, Unreadable):
+                click.echo(f"ninja-game: {result.message}", err=True)
+            elif as_json:
+                click.echo(json.dumps(result.as_json()))
+            elif not (quiet and result.good):
+                click.echo(_row(result))
     if not as_json:
-        click.echo(_summary(outcomes, ticks, bad, unreadable))
-    ctx.exit(2 if unreadable else FAILED if bad else 0)
+        click.echo(_summary(tally))
+    ctx.exit(2 if tally.unreadable else FAILED if tally.failed else 0)
+
+
+def _reported(results: Iterable[Result], report: Path, stack: ExitStack) -> Iterator[Result]:
+    """The same results, written to a report as they pass."""
+    from ninja_game.many.verification import write_report
+    from ninja_game.session.atomic_file import open_atomically
+
+    out = stack.enter_context(open_atomically(report))
+    return write_report(results, out) if report.suffix.lower() == ".json" else _write_table(results, out)
+
+
+def _write_table(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
+    """The same results, written as a table as they pass."""
+    from ninja_game.many.verification import Tally
+    from ninja_game.session.sources import Unreadable
+
+    tally = Tally()
+    for result in results:
+        tally.add(result)
+        row = f"??   {result.message}" if isinstance(result, Unreadable) else click.unstyle(_row(result))
+        out.write(row.encode() + b"\n")
+        yield result
+    out.write(_summary(tally).encode() + b"\n")
 
 
 def _row(verdict: Verdict) -> str:
@@ -80,9 +134,10 @@ def _row(verdict: Verdict) -> str:
     return "\n     ".join([row, *verdict.problems])
 
 
-def _summary(outcomes: Counter[str], ticks: int, bad: int, unreadable: int) -> str:
+def _summary(tally: Tally) -> str:
     """All recordings in a line."""
-    counts = ", ".join(f"{count} {outcome}" for outcome, count in sorted(outcomes.items()))
-    total = sum(outcomes.values())
-    text = f"{total} run{'s' * (total != 1)} of {ticks} ticks: {counts or 'nothing'}; {bad or 'none'} failed"
-    return text + (f"; {unreadable} unreadable" if unreadable else "")
+    counts = ", ".join(f"{count} {outcome}" for outcome, count in sorted(tally.outcomes.items()))
+    total = tally.recordings
+    runs = f"{total} run{'s' * (total != 1)} of {tally.ticks} ticks: {counts or 'nothing'}"
+    text = f"{runs}; {tally.failed or 'none'} failed"
+    return text + (f"; {tally.unreadable} unreadable" if tally.unreadable else "")

@@ -70,31 +70,28 @@ def _read_recordings(records: Iterable[LevelRecord], file: str, level: LevelData
     known: dict[str, LevelData] = {}
     recordings = []
     for record in records:
-        if not record.demo:
-            raise ReplayError(
-                f"record {record.number} has no demo",
-                file,
-                record.line,
-                found=repr(record.note[:40]) if record.note else "",
-                expected="$name#author#comment#level#demo#",
-            )
-        if record.level not in known:
-            known[record.level] = _level_of_record(record, file, level)
-        try:
-            demo = parse_demo(record.demo)
-        except DemoError as error:
-            error.what += f" (character {error.column} of the demo)"
-            error.file, error.line, error.column = file, record.line, 0
-            raise
-        words = (record.name, record.author, record.comment)
-        recordings.append(Recording(*words, known[record.level], demo, file, record.number, record.line))
+        if record.level and record.demo and record.level not in known:
+            known[record.level] = parse_level_string(record.level, file=file, line=record.line)
+        recordings.append(recording_of(record, file, known.get(record.level, level)))
     return recordings
 
 
-def _level_of_record(record: LevelRecord, file: str, level: LevelData | None) -> LevelData:
-    """A record's own level, else the given one."""
-    if record.level:
-        return parse_level_string(record.level, file=file, line=record.line)
+def recording_of(record: LevelRecord, file: str, level: LevelData | None) -> Recording:
+    """A record with its demo read, on its level. Raises ReplayError or DemoError naming ``file`` and the record."""
+    if not record.demo:
+        raise ReplayError(
+            f"record {record.number} has no demo",
+            file,
+            record.line,
+            found=repr(record.note[:40]) if record.note else "",
+            expected="$name#author#comment#level#demo#",
+        )
     if level is None:
         raise ReplayError(f"record {record.number} leaves its level out", file, record.line, hint="give the level")
-    return level
+    try:
+        demo = parse_demo(record.demo)
+    except DemoError as error:
+        error.what += f" (character {error.column} of the demo)"
+        error.file, error.line, error.column = file, record.line, 0
+        raise
+    return Recording(record.name, record.author, record.comment, level, demo, file, record.number, record.line)

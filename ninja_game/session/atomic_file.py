@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import IO
 
@@ -14,14 +15,21 @@ def write_atomically(path: Path, fill: Callable[[IO[bytes]], object] | bytes | s
 
     ``fill`` is the content (text becomes UTF-8) or a function that writes it into a binary file. Raises OSError.
     """
+    with open_atomically(path) as file:
+        if callable(fill):
+            fill(file)
+        else:
+            file.write(fill.encode("utf-8") if isinstance(fill, str) else fill)
+
+
+@contextmanager
+def open_atomically(path: Path) -> Iterator[IO[bytes]]:
+    """A binary file that appears at ``path`` when the block ends, and never if it ends in an exception."""
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     part = Path(name)
     try:
         with os.fdopen(handle, "wb") as file:
-            if callable(fill):
-                fill(file)
-            else:
-                file.write(fill.encode("utf-8") if isinstance(fill, str) else fill)
+            yield file
         # mkstemp makes files private; this one is as open as any other new file.
         mask = os.umask(0)
         os.umask(mask)

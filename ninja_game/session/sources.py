@@ -38,7 +38,7 @@ def recordings_in(paths: Iterable[Path]) -> Iterator[Recording | Unreadable]:
             try:
                 yield from load_replays(file)
             except NinjaGameError as error:
-                if not (path.is_dir() and _only_levels(file)):
+                if not (path.is_dir() and _has_only_levels(file)):
                     yield Unreadable(str(error))
             except OSError as error:
                 yield Unreadable(f"{file}: {error.strerror or error}")
@@ -59,11 +59,18 @@ def body_of(recording: Recording) -> Body:
     return "box" if recording.replay and recording.replay.body == "box" else "circle"
 
 
-def _only_levels(file: Path) -> bool:
-    """Whether a file holds levels and no recording."""
+def _has_only_levels(file: Path) -> bool:
+    """Whether a file can be read and holds levels and no recording."""
     try:
-        text = read_text(file)
-        parse_levels(text, file=str(file))
+        return holds_only_levels(read_text(file), str(file))
+    except (NinjaGameError, OSError):
+        return False
+
+
+def holds_only_levels(text: str, file: str = "") -> bool:
+    """Whether a text holds levels and no recording."""
+    try:
+        parse_levels(text, file=file)
         return not is_level_file(text) or not any(record.demo for record in read_level_file(text))
     except (NinjaGameError, OSError):
         return False

@@ -1,0 +1,191 @@
+"""One way to run many jobs, in order, on threads, on processes or on a cluster; workers that die lose nothing.
+
+All three are `concurrent.futures` underneath or look like it: ``submit`` gives a future, results come in the order of
+the jobs, and only so many jobs are in flight as keep the workers busy. So memory stays bounded, every result is taken
+exactly once, and what comes out does not depend on who did it.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from itertools import islice
+from multiprocessing import get_context
+from typing import Any, Protocol, TypeVar
+
+from ninja_game.errors import NinjaGameError
+
+J = TypeVar("J")
+R = TypeVar("R")
+
+AHEAD = 4
+"""Jobs in flight for each worker: enough that none waits."""
+
+TRIES = 3
+"""How often a job may take a process with it before it is given up; a cluster's scheduler counts by itself."""
+
+
+class ClusterError(NinjaGameError):
+    """The cluster cannot be used: Dask distributed is missing, or nobody answers at the address."""
+
+
+class WorkerLostError(NinjaGameError):
+    """A job was lost with its worker again and again."""
+
+
+class Workers(Protocol):
+    """Something that runs jobs.
+
+    ``lost``: what is raised when a worker died; ``tries``: a job that is lost so often is given up.
+    """
+
+    lost: tuple[type[BaseException], ...]
+    tries: int
+
+    @property
+    def count(self) -> int:
+        """Jobs that run at a time."""
+
+    def submit(self, function: Callable[[J], R], job: J) -> Any:
+        """A future of ``function(job)``."""
+
+    def renew(self) -> None:
+        """Replace workers that died."""
+
+    def close(self) -> None:
+        """Let the workers go; jobs that have not started are dropped."""
+
+
+class Local:
+    """Threads or processes of this machine."""
+
+    lost: tuple[type[BaseException], ...] = (BrokenProcessPool,)
+    tries = TRIES
+
+    def __init__(self, count: int, *, processes: bool = False) -> None:
+        self._count = count
+        self._processes = processes
+        self._executor = self._start()
+
+    def _start(self) -> Executor:
+        if not self._processes:
+            return ThreadPoolExecutor(self._count)
+        # Not fork: a child that inherits the locks of our threads may wait for ever.
+        return ProcessPoolExecutor(self._count, get_context("spawn"))
+
+    @property
+    def count(self) -> int:
+        """Jobs that run at a time."""
+        return self._count
+
+    def submit(self, function: Callable[[J], R], job: J) -> Any:
+        """A future of ``function(job)``."""
+        try:
+            return self._executor.submit(function, job)
+        except BrokenProcessPool:
+            self.renew()
+            return self._executor.submit(function, job)
+
+    def renew(self) -> None:
+        """Start new processes instead of a pool of which one died."""
+        self._executor.shutdown(wait=False)
+        self._executor = self._start()
+
+    def close(self) -> None:
+        """Let the workers go."""
+        self._executor.shutdown(cancel_futures=True)
+
+
+class Cluster:
+    """The workers of a Dask cluster; its scheduler runs again elsewhere what a lost worker had.
+
+    ``address``: of the scheduler, such as tcp://host:8786. Raises ClusterError.
+    """
+
+    tries = 1
+
+    def __init__(self, address: str) -> None:
+        try:
+            from distributed import Client, KilledWorker
+        except ImportError:
+            raise ClusterError(
+                "a cluster needs Dask distributed; install the extra 'cluster' (pip install 'ninja-game[cluster]')"
+            ) from None
+        self.lost: tuple[type[BaseException], ...] = (KilledWorker,)
+        try:
+            connect: Any = Client
+            self._client = connect(address, timeout="10s", set_as_default=False)
+        except (OSError, ValueError, TypeError) as error:
+            raise ClusterError(f"no Dask scheduler at {address!r}: {error}") from None
+        self._client.wait_for_workers(1)
+
+    @property
+    def count(self) -> int:
+        """Jobs that run at a time, with the workers that are there now."""
+        return max(1, sum(map(int, self._client.nthreads().values())))
+
+    def submit(self, function: Callable[[J], R], job: J) -> Any:
+        """A future of ``function(job)``."""
+        return self._client.submit(function, job, pure=False)
+
+    def renew(self) -> None:
+        """Nothing: the scheduler knows the workers that are left."""
+
+    def close(self) -> None:
+        """Leave the cluster, which goes on."""
+        self._client.close()
+
+
+@contextmanager
+def workers(count: int, *, processes: bool = False, cluster: str = "") -> Iterator[Workers]:
+    """Workers for a while: of the cluster at this address, else ``count`` threads or processes."""
+    found: Workers = Cluster(cluster) if cluster else Local(count, processes=processes)
+    try:
+        yield found
+    finally:
+        found.close()
+
+
+def in_order(crew: Workers, function: Callable[[J], R], jobs: Iterable[J]) -> Iterator[tuple[J, R | WorkerLostError]]:
+    """Every job with its result, in the jobs' order; WorkerLostError for one that kills every worker it meets."""
+    flying: deque[tuple[J, Any]] = deque()
+    waiting = iter(jobs)
+    try:
+        while True:
+            for job in islice(waiting, max(0, AHEAD * crew.count - len(flying))):
+                flying.append((job, crew.submit(function, job)))
+            if not flying:
+                return
+            job, future = flying.popleft()
+            try:
+                result = future.result()
+            except crew.lost:
+                # Whose fault it was is not known: this job goes again alone, then all that fell with it.
+                result = _retry(crew, function, job)
+                flying = deque((job, _kept(crew, function, job, future)) for job, future in flying)
+            yield job, result
+    finally:
+        for _, future in flying:
+            future.cancel()
+
+
+def _retry(crew: Workers, function: Callable[[J], R], job: J) -> R | WorkerLostError:
+    """The result of a job that was lost with its worker."""
+    for _ in range(crew.tries - 1):
+        crew.renew()
+        try:
+            result: R = crew.submit(function, job).result()
+        except crew.lost:
+            continue
+        return result
+    crew.renew()
+    return WorkerLostError("the worker died again and again")
+
+
+def _kept(crew: Workers, function: Callable[[J], R], job: J, future: Any) -> Any:
+    """The job's future, or a new one if it was lost too."""
+    lost = future.done() and not future.cancelled() and isinstance(future.exception(), crew.lost)
+    return crew.submit(function, job) if lost else future
