@@ -28,6 +28,10 @@ TRIES = 3
 """How often a job may take a process with it before it is given up; a cluster's scheduler counts by itself."""
 
 
+PATIENCE = 30
+"""Seconds to wait for a cluster's first worker."""
+
+
 class ClusterError(NinjaGameError):
     """The cluster cannot be used: Dask distributed is missing, or nobody answers at the address."""
 
@@ -120,7 +124,11 @@ class Cluster:
             self._client = connect(address, timeout="10s", set_as_default=False)
         except (OSError, ValueError, TypeError) as error:
             raise ClusterError(f"no Dask scheduler at {address!r}: {error}") from None
-        self._client.wait_for_workers(1)
+        try:
+            self._client.wait_for_workers(1, timeout=PATIENCE)
+        except OSError:
+            self._client.close()
+            raise ClusterError(f"the Dask scheduler at {address} has no workers") from None
 
     @property
     def count(self) -> int:
