@@ -2,75 +2,84 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 
 import pygame
 
 
-def _c(text: str) -> pygame.Color:
-    return pygame.Color(text)
-
-
 @dataclass(frozen=True)
 class Palette:
-    """Colours by role; the defaults are the classic greys. ``shapes``: danger is marked by spikes and bars too."""
+    """Colours by role. ``shapes``: danger is marked by spikes and bars too, not only by colour."""
 
     name: str
-    shapes: bool = False
+    shapes: bool
 
     # The stage and the interface.
-    background: pygame.Color = field(default=_c("#cacad0"))
-    tile: pygame.Color = field(default=_c("#787887"))
-    text: pygame.Color = field(default=_c("#17171c"))
-    faint: pygame.Color = field(default=_c("#62626f"))
-    on_tile: pygame.Color = field(default=_c("#e4e4ea"))
-    panel: pygame.Color = field(default=_c("#dcdce1"))
-    panel_edge: pygame.Color = field(default=_c("#9a9aa6"))
-    accent: pygame.Color = field(default=_c("#a33a2c"))
-    good: pygame.Color = field(default=_c("#2d6a3a"))
-    bad: pygame.Color = field(default=_c("#992222"))
-    bar_full: pygame.Color = field(default=_c("#5865a0"))
-    bar_empty: pygame.Color = field(default=_c("#ad4b4e"))
+    background: pygame.Color
+    tile: pygame.Color
+    text: pygame.Color
+    faint: pygame.Color
+    on_tile: pygame.Color
+    panel: pygame.Color
+    panel_edge: pygame.Color
+    accent: pygame.Color
+    good: pygame.Color
+    bad: pygame.Color
+    bar_full: pygame.Color
+    bar_empty: pygame.Color
     # The ninja.
-    ninja: pygame.Color = field(default=_c("#1d1d22"))
-    band: pygame.Color = field(default=_c("#a33a2c"))
-    ghost: pygame.Color = field(default=_c("#5865a0"))
-    blood: pygame.Color = field(default=_c("#990000"))
+    ninja: pygame.Color
+    band: pygame.Color
+    ghost: pygame.Color
+    blood: pygame.Color
     # Things: outline, fills from dark to light, and one colour each for what must be told apart.
-    outline: pygame.Color = field(default=_c("#3a3a42"))
-    dark: pygame.Color = field(default=_c("#5b5b66"))
-    middle: pygame.Color = field(default=_c("#9a9aa5"))
-    light: pygame.Color = field(default=_c("#b8b8c1"))
-    bright: pygame.Color = field(default=_c("#ebebef"))
-    gold: pygame.Color = field(default=_c("#cc9900"))
-    gold_light: pygame.Color = field(default=_c("#f4dd55"))
-    gold_dark: pygame.Color = field(default=_c("#8a6500"))
-    exit: pygame.Color = field(default=_c("#8f6fb0"))
-    exit_light: pygame.Color = field(default=_c("#cbb4dd"))
-    switch: pygame.Color = field(default=_c("#5b7fb0"))
-    mine: pygame.Color = field(default=_c("#990f0f"))
-    weapon: pygame.Color = field(default=_c("#882222"))
-    laser: pygame.Color = field(default=_c("#9c1c1c"))
-    warning: pygame.Color = field(default=_c("#cb7679"))
-    turret: pygame.Color = field(default=_c("#7f335a"))
-    launcher: pygame.Color = field(default=_c("#4d0f2c"))
-    electric: pygame.Color = field(default=_c("#0099cc"))
-    spark: pygame.Color = field(default=_c("#d8f8ff"))
-    drone: pygame.Color = field(default=_c("#26262c"))
-    lock: pygame.Color = field(default=_c("#6d5a2c"))
-    trap: pygame.Color = field(default=_c("#8f3b3b"))
+    outline: pygame.Color
+    dark: pygame.Color
+    middle: pygame.Color
+    light: pygame.Color
+    bright: pygame.Color
+    gold: pygame.Color
+    gold_light: pygame.Color
+    gold_dark: pygame.Color
+    exit: pygame.Color
+    exit_light: pygame.Color
+    switch: pygame.Color
+    mine: pygame.Color
+    weapon: pygame.Color
+    laser: pygame.Color
+    warning: pygame.Color
+    turret: pygame.Color
+    launcher: pygame.Color
+    electric: pygame.Color
+    spark: pygame.Color
+    drone: pygame.Color
+    lock: pygame.Color
+    trap: pygame.Color
     # Fire, smoke, dust.
-    flame: pygame.Color = field(default=_c("#ffe45c"))
-    ember: pygame.Color = field(default=_c("#f09022"))
-    smoke: pygame.Color = field(default=_c("#84848c"))
-    dust: pygame.Color = field(default=_c("#8e8e9c"))
+    flame: pygame.Color
+    ember: pygame.Color
+    smoke: pygame.Color
+    dust: pygame.Color
+
+
+_CLASSIC = dict(  # noqa: C408 - one form for all palettes
+    background="#cacad0", tile="#787887", text="#17171c", faint="#62626f", on_tile="#e4e4ea", panel="#dcdce1",
+    panel_edge="#9a9aa6", accent="#a33a2c", good="#2d6a3a", bad="#992222", bar_full="#5865a0",
+    bar_empty="#ad4b4e", ninja="#1d1d22", band="#a33a2c", ghost="#5865a0", blood="#990000", outline="#3a3a42",
+    dark="#5b5b66", middle="#9a9aa5", light="#b8b8c1", bright="#ebebef", gold="#cc9900", gold_light="#f4dd55",
+    gold_dark="#8a6500", exit="#8f6fb0", exit_light="#cbb4dd", switch="#5b7fb0", mine="#990f0f",
+    weapon="#882222", laser="#9c1c1c", warning="#cb7679", turret="#7f335a", launcher="#4d0f2c",
+    electric="#0099cc", spark="#d8f8ff", drone="#26262c", lock="#6d5a2c", trap="#8f3b3b", flame="#ffe45c",
+    ember="#f09022", smoke="#84848c", dust="#8e8e9c",
+)  # fmt: skip
 
 
 def _palette(name: str, *, shapes: bool = False, **colours: str) -> Palette:
-    return Palette(name, shapes, **{role: _c(colour) for role, colour in colours.items()})
+    """A palette: the classic one with some colours changed."""
+    return Palette(name, shapes, **{role: pygame.Color(colour) for role, colour in (_CLASSIC | colours).items()})
 
 
-CLASSIC = Palette("classic")
+CLASSIC = _palette("classic")
 
 DARK = _palette(
     "dark", background="#23252c", tile="#4a4e5c", text="#e8e8ee", faint="#9a9eac", on_tile="#e8e8ee",

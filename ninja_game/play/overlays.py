@@ -1,0 +1,20 @@
+"""Overlays that show how the world thinks: hitboxes, grid, edge states, rays, cells. They only read it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ninja_game.play.picture.stage import Stage
+
+if TYPE_CHECKING:
+    from ninja_game.play.level_view import LevelView
+
+
+class Overlays:
+    """Those that are on."""
+
+    def __init__(self) -> None:
+        self.on: set[str] = set()
+
+    def draw(self, stage: Stage, view: LevelView) -> None:
+        """Draw what is on."""

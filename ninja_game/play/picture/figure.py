@@ -1,0 +1,92 @@
+"""The ninja's figure: eleven tapering parts between the joints of a pose, a headband, and nothing else."""
+
+from __future__ import annotations
+
+import pygame
+
+from ninja_game.play.canvas import Point
+from ninja_game.play.palette import Palette, mixed
+from ninja_game.play.picture.pose import Pose
+from ninja_game.play.picture.sketch import Sketch, Sprite
+
+THIGH, SHIN = 5.7, 6.0
+UPPER_ARM, FOREARM = 4.0, 4.2
+HEAD = 2.5
+_REACH = 17.0
+
+
+def bend(a: Point, b: Point, first: float, second: float, side: float) -> Point:
+    """The elbow or knee between two joints, for parts of those lengths; ``side`` 1 or -1: which way it bends."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    distance = (dx * dx + dy * dy) ** 0.5
+    if distance < 1e-6:
+        return a[0] + side * first, a[1]
+    reach = min(distance, (first + second) * 0.999)
+    along = (first * first - second * second + reach * reach) / (2 * reach)
+    out = max(0.0, first * first - along * along) ** 0.5 * side
+    ux, uy = dx / distance, dy / distance
+    # A limb that is pulled longer than its parts (the ragdoll) is stretched.
+    along *= distance / reach
+    return a[0] + ux * along - uy * out, a[1] + uy * along + ux * out
+
+
+def paint_limbs(s: Sketch, colour: pygame.Color, far: pygame.Color, pose: Pose, facing: int) -> None:
+    """All parts of a figure, the far ones first. ``facing``: which way knees bend."""
+    paint_leg(s, far, pose.pelvis, pose.far_foot, facing)
+    paint_arm(s, far, pose.shoulder, pose.far_hand, facing)
+    paint_trunk(s, colour, pose)
+    paint_leg(s, colour, pose.pelvis, pose.near_foot, facing)
+    paint_arm(s, colour, pose.shoulder, pose.near_hand, facing)
+
+
+def paint_leg(s: Sketch, colour: pygame.Color, hip: Point, foot: Point, facing: int) -> None:
+    """Thigh, shin and a hint of a foot."""
+    knee = bend(hip, foot, THIGH, SHIN, -facing)
+    s.stroke(colour, hip, knee, 2.7, 1.9)
+    s.stroke(colour, knee, foot, 1.9, 1.3)
+    s.stroke(colour, foot, (foot[0] + 1.7 * facing, foot[1] - 0.1), 1.3, 0.9)
+
+
+def paint_arm(s: Sketch, colour: pygame.Color, shoulder: Point, hand: Point, facing: int) -> None:
+    """Upper arm and forearm."""
+    elbow = bend(shoulder, hand, UPPER_ARM, FOREARM, facing)
+    s.stroke(colour, shoulder, elbow, 1.9, 1.5)
+    s.stroke(colour, elbow, hand, 1.5, 1.1)
+
+
+def paint_trunk(s: Sketch, colour: pygame.Color, pose: Pose) -> None:
+    """Trunk, neck and head."""
+    s.stroke(colour, pose.shoulder, pose.pelvis, 3.4, 2.5)
+    s.stroke(colour, pose.shoulder, pose.head, 1.6)
+    s.disc(colour, *pose.head, HEAD)
+
+
+def paint_band(s: Sketch, colour: pygame.Color, pose: Pose, facing: int, velocity: Point) -> None:
+    """A headband with two ends that trail behind the motion."""
+    hx, hy = pose.head
+    back = hx - HEAD * 0.9 * facing
+    s.stroke(colour, (back, hy - 0.5), (hx + HEAD * 0.85 * facing, hy - 0.9), 1.1)
+    for k, drop in ((1.0, 0.2), (0.75, 1.6)):
+        fx = -facing * 2.6 - velocity[0] * 0.75
+        fy = drop + 0.9 - velocity[1] * 0.6
+        length = (fx * fx + fy * fy) ** 0.5
+        scale = k * min(1.0, 6.0 / length)
+        middle = back + fx * scale * 0.5, hy - 0.4 + fy * scale * 0.5 - 0.6
+        s.path(colour, [(back, hy - 0.4), middle, (back + fx * scale, hy - 0.4 + fy * scale)], 0.9)
+
+
+def ninja_sprite(
+    scale: float, palette: Palette, pose: Pose, facing: int, velocity: Point, *,
+    colour: pygame.Color, offset: Point = (0.0, 0.0), alpha: float = 1.0, banded: bool = True,
+) -> Sprite:  # fmt: skip
+    """The figure in a pose about its centre. ``offset``: fraction of a px by which it lies beside its point."""
+    s = Sketch(scale, (-_REACH, -_REACH, _REACH, _REACH), fine=3)
+    shown = pose.moved(offset[0] / scale, offset[1] / scale)
+    far = mixed(colour, palette.background, 0.22)
+    if banded:
+        paint_band(s, palette.band, shown, facing, velocity)
+    paint_limbs(s, colour, far, shown, facing)
+    if banded:
+        head = shown.head
+        s.stroke(palette.band, (head[0] - 2.1 * facing, head[1] - 0.6), (head[0] + 2.1 * facing, head[1] - 0.9), 1.1)
+    return s.finish(alpha)
