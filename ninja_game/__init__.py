@@ -3,9 +3,10 @@
 The public API, each name imported when it is first used:
 
 - levels: ``load_levels(path)``, ``load_level(path)``, ``parse_level(text)``, ``LevelData``
-- a run: ``Simulation`` (step, look, save, restore, digest, replay)
+- a run: ``Simulation`` (step, look, save, restore, digest, inputs)
 - whole runs: ``run_level``, ``trace_level``
-- replays: ``load_replays(path)``, ``parse_replay``, ``write_replay``, ``verify_recording``
+- replays: ``load_replays(path)``, ``parse_replay``, ``record_replay``, ``write_replay``,
+  ``verify_recording``
 - errors: everything raised on purpose is a ``NinjaGameError``
 """
 
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from ninja_game.formats.files import load_level, load_levels, load_replays
     from ninja_game.formats.level_string import parse_level_string as parse_level
     from ninja_game.formats.replay import Replay, parse_replay, write_replay
-    from ninja_game.runs import RunResult, RunTrace, run_level, trace_level
+    from ninja_game.runs import RunResult, RunTrace, record_replay, run_level, trace_level
     from ninja_game.session.verify import Verdict, verify_recording
     from ninja_game.sim.level_data import LevelData
     from ninja_game.simulation import Simulation
@@ -39,6 +40,7 @@ _HOMES = {
     "load_replays": ("ninja_game.formats.files", "load_replays"),
     "parse_level": ("ninja_game.formats.level_string", "parse_level_string"),
     "parse_replay": ("ninja_game.formats.replay", "parse_replay"),
+    "record_replay": ("ninja_game.runs", "record_replay"),
     "run_level": ("ninja_game.runs", "run_level"),
     "trace_level": ("ninja_game.runs", "trace_level"),
     "verify_recording": ("ninja_game.session.verify", "verify_recording"),
@@ -63,6 +65,7 @@ __all__ = [
     "load_replays",
     "parse_level",
     "parse_replay",
+    "record_replay",
     "run_level",
     "trace_level",
     "verify_recording",

@@ -13,7 +13,7 @@ class NinjaGameError(Exception):
     """The root of all errors that this package raises on purpose."""
 
 
-@dataclass
+@dataclass(eq=False)
 class FormatError(NinjaGameError):
     """Text that cannot be read: where, what was found, what was expected, how to mend it.
 

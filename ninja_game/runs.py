@@ -20,12 +20,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.compile_cache import choose_memory, kernels
+from ninja_game.formats.level_string import level_digest
+from ninja_game.formats.replay import WAYPOINT_TICKS, Replay, Waypoint
+from ninja_game.sim.digest import world_digest
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.level_data import KIND_NAMES, NINJA, LevelData
 from ninja_game.sim.plain import load_plain
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME, NAN
 from ninja_game.sim.schema import INERT, World
-from ninja_game.sim.states import OUTCOME_NAMES
+from ninja_game.sim.states import OUTCOME_NAMES, STATE_NAMES
 from ninja_game.sim.traces import is_traced, place_of, status_of
 from ninja_game.sim.world import step
 from ninja_game.simulation import Body
@@ -102,6 +105,46 @@ def _run_compiled(level: LevelData, frames: bytes, body: Body) -> RunResult:
     ticks = kernels()["run_world"](levels, worlds, 0, np.frombuffer(frames, np.uint8), positions, states)
     outcome, gold = OUTCOME_NAMES[int(worlds["outcome"][0])], int(worlds["gold"][0])
     return RunResult(outcome, gold, positions[:ticks], states[:ticks])
+
+
+def record_replay(
+    level: LevelData,
+    inputs: bytes,
+    *,
+    ticks: int | None = None,
+    body: Body = "circle",
+    name: str = "",
+    author: str = "",
+) -> Replay:
+    """A replay of ours, with its level in it: what comes of these inputs in that many ticks (None: as many as inputs).
+
+    Ends with the first exit contact or death. Always runs on the plain memory, so that what it claims is what anybody
+    can check. Raises LevelError for a level that cannot be played, ValueError for a run without ticks.
+    """
+    frames = inputs.ljust(ticks, b"\0")[:ticks] if ticks is not None else inputs
+    if not frames:
+        raise ValueError("a replay has at least one tick")
+    static, w = load_plain(level, body == "box")
+    waypoints = []
+    for tick, frame in enumerate(frames):
+        step(static, w, frame)
+        if tick % WAYPOINT_TICKS == WAYPOINT_TICKS - 1:
+            waypoints.append(Waypoint(tick, _clean(w.ninja.x), _clean(w.ninja.y), STATE_NAMES[w.ninja.state]))
+        if w.outcome:
+            break
+    return Replay(
+        inputs=inputs[: w.tick],
+        final_tick=w.tick - 1,
+        outcome=OUTCOME_NAMES[w.outcome],
+        gold=w.gold,
+        digest=world_digest(w),
+        name=name,
+        author=author,
+        body=body,
+        level_digest=level_digest(level),
+        level=level,
+        waypoints=tuple(waypoints),
+    )
 
 
 @dataclass(frozen=True)

@@ -22,8 +22,6 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from ninja_game.compile_cache import choose_memory, kernels
-from ninja_game.formats.level_string import level_digest
-from ninja_game.formats.replay import Replay
 from ninja_game.sim.digest import differences, world_digest
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.level_data import KIND_NAMES, LevelData
@@ -229,21 +227,6 @@ class Simulation:
     def inputs(self) -> bytes:
         """The frames that led here, one byte a tick."""
         return bytes(self._inputs)
-
-    def replay(self, *, name: str = "", author: str = "") -> Replay:
-        """The run so far as a replay that holds its level; ``write_replay`` makes a text of it."""
-        return Replay(
-            inputs=self.inputs,
-            final_tick=self.tick - 1,
-            outcome=self.outcome,
-            gold=self.gold,
-            digest=self.digest(),
-            name=name,
-            author=author,
-            body=self.body,
-            level_digest=level_digest(self.level),
-            level=self.level,
-        )
 
     def first_difference(self, other: Simulation) -> tuple[str, Any, Any] | None:
         """The first field in which two runs' states differ: (name, value here, value there); None if they are equal."""

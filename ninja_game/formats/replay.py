@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from ninja_game.errors import ReplayError
 from ninja_game.formats.ascii_level import parse_ascii_level, write_ascii_level
@@ -25,6 +26,19 @@ BODIES = ("circle", "box")
 OUTCOMES = ("exit", "dead", "running")
 
 
+class Waypoint(NamedTuple):
+    """Where the ninja is after a tick: px, and its state by name."""
+
+    tick: int
+    x: float
+    y: float
+    state: str
+
+
+WAYPOINT_TICKS = 40
+"""How far apart a recorder sets waypoints: a second."""
+
+
 @dataclass(frozen=True)
 class Replay:
     """A run of one level: inputs, and what they lead to.
@@ -32,7 +46,8 @@ class Replay:
     ``inputs``: one byte a tick as in demos (1 left, 2 right, 4 jump held, 8 triggered); in ticks beyond them no key is
     down. ``final_tick``: the last tick that is run, counted from 0; ``outcome``, ``gold`` and ``digest`` (of the world,
     64 hex digits or '') are as after it. The level is given by one or more of: its digest, a path from the replay's
-    folder with the number of the record in that file, the level itself.
+    folder with the number of the record in that file, the level itself. ``waypoints``: where the ninja passes, by tick,
+    so that a run that goes another way is noticed where it does.
     """
 
     inputs: bytes
@@ -48,6 +63,7 @@ class Replay:
     level_path: str = ""
     level_record: int = 0
     level: LevelData | None = None
+    waypoints: tuple[Waypoint, ...] = ()
 
     @property
     def ticks(self) -> int:
@@ -91,6 +107,7 @@ def parse_replay(text: str, *, file: str = "") -> Replay:
         level_path=headers.text("level"),
         level_record=headers.count("level-record"),
         level=_read_level(headers.section("level-data"), file),
+        waypoints=read_waypoints(headers.section("waypoints"), file),
     )
     problem = _contradiction(replay)
     if problem:
@@ -124,6 +141,23 @@ def _read_level(lines: Sequence[Line], file: str) -> LevelData | None:
     one_nan = [tuple(NAN if math.isnan(value) else value for value in record.values) for record in level.records]
     records = [record._replace(values=values) for record, values in zip(level.records, one_nan, strict=True)]
     return LevelData(level.tiles, tuple(records))
+
+
+def read_waypoints(lines: Sequence[Line], file: str) -> tuple[Waypoint, ...]:
+    """The waypoints of a replay, a line each: tick, x, y, state. Raises ReplayError with the line."""
+    waypoints: list[Waypoint] = []
+    for number, line in lines:
+        words = line.split()
+        try:
+            tick, x, y, state = words
+            waypoint = Waypoint(int(tick), float(x), float(y), state)
+        except ValueError:
+            expected = "tick, x, y and state, such as 39 166.5 563.0 jumping"
+            raise ReplayError("no waypoint", file, number, 3, repr(line.strip()[:40]), expected) from None
+        if waypoint.tick <= (waypoints[-1].tick if waypoints else -1):
+            raise ReplayError("waypoints out of order", file, number, 3, words[0], "ticks that grow")
+        waypoints.append(waypoint)
+    return tuple(waypoints)
 
 
 def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
@@ -175,6 +209,8 @@ def write_replay(replay: Replay) -> str:
     }
     lines = [f"{MAGIC} {VERSION}", *(f"{key}: {value}" for key, value in headers.items() if value)]
     lines += ["inputs:", *(f"  {line}" for line in write_inputs(replay.inputs))]
+    if replay.waypoints:
+        lines += ["waypoints:", *(f"  {tick} {x!r} {y!r} {state}" for tick, x, y, state in replay.waypoints)]
     if replay.level is not None:
         lines += ["level-data:", *(f"  {line}".rstrip() for line in write_ascii_level(replay.level).splitlines())]
     return "\n".join(lines) + "\n"

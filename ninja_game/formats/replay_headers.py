@@ -10,8 +10,8 @@ from difflib import get_close_matches
 from ninja_game.errors import ReplayError
 
 REQUIRED = ("rules", "body", "final-tick", "outcome", "gold", "inputs")
-SECTIONS = ("inputs", "level-data")
-KEYS = (*REQUIRED, "name", "author", "level", "level-record", "level-digest", "digest", "level-data")
+SECTIONS = ("inputs", "level-data", "waypoints")
+KEYS = (*REQUIRED, "name", "author", "level", "level-record", "level-digest", "digest", "level-data", "waypoints")
 
 COUNT_LIMIT = 10**9
 
@@ -33,7 +33,7 @@ class Headers:
         for number, line in lines:
             if line[0] in " \t":
                 if key not in SECTIONS:
-                    hint = "indented lines belong below 'inputs:' or 'level-data:'"
+                    hint = "indented lines belong below 'inputs:', 'waypoints:' or 'level-data:'"
                     raise ReplayError("an indented line", file, number, 1, repr(line.strip()[:40]), "key: value", hint)
                 self.lines[key].append((number, line))
                 continue

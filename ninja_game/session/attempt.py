@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from ninja_game.formats.demo import Demo
-from ninja_game.formats.level_string import level_digest
 from ninja_game.formats.replay import Replay
+from ninja_game.runs import record_replay
 from ninja_game.session.scoring import level_score
 from ninja_game.sim.death import kill
 from ninja_game.sim.level_data import LevelData
@@ -14,7 +14,8 @@ from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import CELEBRATING, DEAD, EXPLOSIVE, FALL, HARD_BULLET
 from ninja_game.simulation import HELD, TRIGGERED, Body, SaveState, Simulation
 
-JUMP = HELD
+Moment = tuple[SaveState, bytes, int, int]
+"""A save-state with the recording, the lifetime and the tick of the end."""
 
 
 class Attempt:
@@ -97,16 +98,30 @@ class Attempt:
 
     # --- practice ---
 
-    def save(self) -> tuple[SaveState, bytes, int, int]:
+    def save(self) -> Moment:
         """This moment, to come back to."""
         return self.simulation.save(), bytes(self.frames), self.lifetime, self.ended_tick
 
-    def restore(self, moment: tuple[SaveState, bytes, int, int]) -> None:
+    def restore(self, moment: Moment) -> None:
         """Go back to a saved moment."""
         state, frames, self.lifetime, self.ended_tick = moment
         self.simulation.restore(state)
         self.frames[:] = frames
         self.score = level_score(self.gold, self.ended_tick) if self.outcome == "exit" else 0
+        self.practised = True
+
+    def rewound(self) -> None:
+        """Take note that the simulation was put back to an earlier tick of this recording."""
+        tick = self.simulation.tick
+        ended = self.outcome != "running"
+        del self.frames[tick:]
+        self.lifetime = self.start_lifetime + GOLD_BONUS * self.gold
+        if not self.practice:
+            self.lifetime -= self.ended_tick if ended else tick
+        if not ended:
+            # After a death by the player's own hand ticks went on without input.
+            self.frames.extend(bytes(tick - len(self.frames)))
+            self.ended_tick, self.score, self.own_hand = -1, 0, False
         self.practised = True
 
     # --- recordings ---
@@ -118,19 +133,6 @@ class Attempt:
 
     def replay(self, name: str = "", author: str = "") -> Replay:
         """The recording in our form: run again from its inputs, so that it holds what really comes of them."""
-        run = Simulation(self.simulation.level, body=self.simulation.body)
-        ticks = len(self.frames) + (self.outcome != "running")
-        for tick in range(ticks):
-            run.step_frame(self.frames[tick] if tick < len(self.frames) else 0)
-        return Replay(
-            inputs=bytes(self.frames),
-            final_tick=max(0, run.tick - 1),
-            outcome=run.outcome,
-            gold=run.gold,
-            digest=run.digest(),
-            name=name,
-            author=author,
-            body=self.simulation.body,
-            level_digest=level_digest(self.simulation.level),
-            level=self.simulation.level,
-        )
+        ticks = max(1, len(self.frames) + (self.outcome != "running"))
+        level, body = self.simulation.level, self.simulation.body
+        return record_replay(level, bytes(self.frames), ticks=ticks, body=body, name=name, author=author)

@@ -12,8 +12,9 @@ from typing import Any
 
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay import RULES_VERSION, Replay
-from ninja_game.runs import run_level
+from ninja_game.runs import RunResult, run_level
 from ninja_game.session.sources import body_of, named_errors
+from ninja_game.sim.states import STATE_NAMES
 from ninja_game.simulation import Simulation
 
 
@@ -57,7 +58,7 @@ def verify_recording(recording: Recording, memory: str = "auto") -> Verdict:
     one_memory = "plain" if memory == "both" else memory
     with named_errors(recording):
         run = run_level(recording.level, recording.inputs(recording.ticks), body=body, memory=one_memory)
-        problems = list(_broken_claims(recording, replay, one_memory)) if replay else []
+        problems = list(_broken_claims(recording, replay, run, one_memory)) if replay else []
         if memory == "both":
             problems += filter(None, [memory_difference(recording)])
     if not replay and run.outcome != "exit":
@@ -81,10 +82,11 @@ def _ending(outcome: str, tick: int) -> str:
     return "still running in the last tick" if outcome == "running" else f"{outcome} in tick {tick}"
 
 
-def _broken_claims(recording: Recording, replay: Replay, memory: str) -> Iterator[str]:
-    """What a replay of ours says of its last tick and is not so."""
+def _broken_claims(recording: Recording, replay: Replay, run: RunResult, memory: str) -> Iterator[str]:
+    """What a replay of ours says and is not so: the first waypoint that is missed, then what its last tick claims."""
     if replay.rules != RULES_VERSION:
         yield f"recorded under rules {replay.rules}, these are rules {RULES_VERSION}"
+    yield from _missed_waypoint(replay, run)
     world = Simulation(recording.level, body=body_of(recording), memory=memory)
     for frame in recording.inputs(replay.ticks):
         world.step_frame(frame)
@@ -97,6 +99,22 @@ def _broken_claims(recording: Recording, replay: Replay, memory: str) -> Iterato
     for field, (found, claimed) in claims.items():
         if found != claimed:
             yield f"tick {replay.final_tick}: {field} is {found}, the replay says {claimed}"
+
+
+def _missed_waypoint(replay: Replay, run: RunResult) -> Iterator[str]:
+    """The first waypoint at which the run is somewhere else, by its first field that differs."""
+    passed = "at the start only"
+    for waypoint in replay.waypoints:
+        if waypoint.tick >= run.ticks:
+            yield f"tick {run.ticks - 1}: the run ends ({run.outcome}), the replay goes on to tick {waypoint.tick}"
+            return
+        x, y = run.positions[waypoint.tick].tolist()
+        here = waypoint._replace(x=x, y=y, state=STATE_NAMES[run.states[waypoint.tick]])
+        for field, found, claimed in zip(waypoint._fields, here, waypoint, strict=True):
+            if found != claimed:
+                yield f"tick {waypoint.tick}: ninja: {field} is {found}, the replay says {claimed} (agrees {passed})"
+                return
+        passed = f"up to tick {waypoint.tick}"
 
 
 def memory_difference(recording: Recording) -> str:

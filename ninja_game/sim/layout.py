@@ -102,16 +102,12 @@ def new_worlds(count: int, things: int) -> Records:
 
 
 def state_view(worlds: Records, index: int) -> NDArray[np.uint8]:
-    """The bytes of one world without its events, as a view: save-states and copies between worlds are copies of it."""
-    world = worlds[index : index + 1]
-    used = used_bytes(int(world["used"][0]))
-    return np.ndarray((used - STATE_START,), np.uint8, world.base, _offset(worlds, index) + STATE_START)
+    """The bytes of one world without its events, as a view: save-states and copies between worlds are copies of it.
 
-
-def _offset(worlds: Records, index: int) -> int:
-    """Where in its block of memory a world begins, in bytes."""
-    block = np.frombuffer(worlds.base, np.uint8)  # type: ignore[arg-type]
-    return int(worlds.ctypes.data - block.ctypes.data) + index * worlds.strides[0]
+    ``worlds`` is an array from ``new_worlds``, not a slice of one.
+    """
+    used = used_bytes(int(worlds["used"][index]))
+    return np.ndarray((used - STATE_START,), np.uint8, worlds.base, index * worlds.strides[0] + STATE_START)
 
 
 def plain_copy(worlds: Records, index: int) -> World:

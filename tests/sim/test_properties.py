@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ninja_game.compile_cache import compiled_available
 from ninja_game.errors import LevelError
-from ninja_game.sim.level_data import GOLD, LAUNCH_PAD, NINJA, LevelData, Record
+from ninja_game.sim.level_data import GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS, LevelData, Record
 from ninja_game.simulation import BODIES, Body, Simulation
 from tests.sim.crowded import crowded_frames, crowded_level
 from tests.sim.memories import BOTH
@@ -51,6 +53,38 @@ def test_plain_and_compiled_worlds_are_equal_in_every_field_and_event(seed: int,
             assert plain.digest() == compiled.digest(), plain.first_difference(compiled)
             # repr, so that NaN equals NaN
             assert repr(plain.events) == repr(compiled.events)
+    assert plain.digest() == compiled.digest(), plain.first_difference(compiled)
+
+
+odd_numbers = st.one_of(
+    st.floats(),
+    st.sampled_from([0.0, -0.0, 1.0, -1.0, 2.0, 3.0, 0.5, 12.0, 36.0, 300.0, -5.0, 1e308, 1e-310, math.nan, math.inf]),
+)
+odd_records = st.builds(Record, st.integers(0, 12), st.lists(odd_numbers, max_size=10).map(tuple))
+near_records = st.integers(0, 12).flatmap(
+    lambda kind: st.builds(
+        Record,
+        st.just(kind),
+        st.lists(odd_numbers, min_size=VALUE_COUNTS[kind], max_size=VALUE_COUNTS[kind]).map(tuple),
+    )
+)
+odd_levels = st.builds(
+    LevelData,
+    st.lists(st.sampled_from([0, 0, 0, 0, 1, 2, 9, 14, 25, 33, 40, -1]), min_size=713, max_size=713).map(tuple),
+    st.lists(st.one_of(odd_records, near_records), max_size=12).map(
+        lambda records: (Record(NINJA, (60.0, 60.0)), *records)
+    ),
+)
+
+
+@pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+@settings(deadline=None, max_examples=60)
+@given(level=odd_levels, seed=seeds)
+def test_odd_numbers_neither_stop_the_world_nor_part_the_memories(level: LevelData, seed: int) -> None:
+    plain, compiled = (Simulation(level, memory=memory) for memory in ("plain", "compiled"))
+    for frame in crowded_frames(seed, 60):
+        plain.step_frame(frame)
+        compiled.step_frame(frame)
     assert plain.digest() == compiled.digest(), plain.first_difference(compiled)
 
 
