@@ -44,6 +44,7 @@ class Sound:
         self._machines: list[Thing] = []
         self._corpse_at = 0
         self.works = _open_mixer()
+        self.preload(path.stem for path in sorted(folder.glob("*.wav")))
 
     # --- what is heard ---
 
@@ -83,7 +84,7 @@ class Sound:
         """Play a sound once, heard from ``x`` px of the stage."""
         sound = self._sound(name)
         # Not `find_channel`, which would give away the channels that the loops have reserved.
-        channel = sound.play() if sound else None
+        channel = sound.play() if sound and self.volume else None
         if channel:
             side = max(-1.0, min(1.0, 2 * x / WORLD_WIDTH - 1)) if isfinite(x) else 0.0
             level = self.volume / LOUDEST
@@ -112,8 +113,8 @@ class Sound:
         channel.set_volume(level * self.volume * self.loop_volume / LOUDEST**2)
 
     def _sound(self, name: str) -> pygame.mixer.Sound | None:
-        """A sound, read when it is first played; None if it is missing or cannot be played."""
-        if not self.works or not self.volume:
+        """A sound, read when it is first asked for; None if it is missing or cannot be played."""
+        if not self.works:
             return None
         if name not in self._sounds:
             try:

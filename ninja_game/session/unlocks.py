@@ -7,10 +7,8 @@ from collections.abc import Collection
 from ninja_game.session.progress import COLUMNS, EPISODES_PER_COLUMN, Progress
 from ninja_game.session.store import Store
 
-COLOURS = (
-    "#EC008C", "#827B00", "#186285", "#775383", "#662222", "#FFFFFF", "#CC9900", "#797988", "#C4C4C9",
-)  # fmt: skip
-"""The ninja's colours in the order in which columns unlock them (presentation.md §3)."""
+COLOURS = 9
+"""Colours of the ninja beyond the first one; each complete column unlocks one (presentation.md §3)."""
 
 OVERCLOCK_COLUMNS = 6
 FASTEST_TICK_GAIN = 10
@@ -28,9 +26,9 @@ def complete_columns(progress: Progress, episodes: Collection[int]) -> int:
     return count
 
 
-def unlocked_colours(columns: int) -> tuple[str, ...]:
-    """The colours that may be chosen with so many columns complete."""
-    return COLOURS[:columns]
+def unlocked_colours(columns: int) -> int:
+    """How many colours beyond the first one may be chosen with so many columns complete."""
+    return min(columns, COLOURS)
 
 
 def custom_colour_unlocked(columns: int, present: int) -> bool:
@@ -49,7 +47,7 @@ def new_unlocks(store: Store, columns: int, present: int) -> list[str]:
     before = int(row[0]) if row and row[0].isdecimal() else 0
     if columns <= before:
         return []
-    messages = ["New ninja colour unlocked"] if len(unlocked_colours(columns)) > before else []
+    messages = ["New ninja colour unlocked"] if unlocked_colours(columns) > before else []
     if overclock_unlocked(columns, present) and not overclock_unlocked(before, present):
         messages.append("Overclock unlocked")
     if custom_colour_unlocked(columns, present) and not custom_colour_unlocked(before, present):

@@ -1,0 +1,80 @@
+"""Keys by their place on the keyboard (scancode): names for files, labels for people.
+
+A binding is a place, so that a player with another layout keeps the same fingers. What is printed on that key is learnt
+from the layout: SDL tells it with every press.
+"""
+
+from __future__ import annotations
+
+import re
+
+import pygame
+
+PREFIX = "KSCAN_"
+
+SCANCODES: dict[str, int] = {}
+"""Scancode by name: SDL's names in small letters, such as ``left``, ``a``, ``lshift``, ``kp_plus``."""
+
+_OF_KEYCODE: dict[int, int] = {}
+
+for _name in dir(pygame):
+    if _name.startswith(PREFIX):
+        _code = getattr(pygame, _name)
+        _rest = _name.removeprefix(PREFIX)
+        SCANCODES[_rest.lower()] = _code
+        for _constant in (f"K_{_rest}", f"K_{_rest.lower()}"):
+            if hasattr(pygame, _constant):
+                _OF_KEYCODE[getattr(pygame, _constant)] = _code
+
+_NAMES = {code: name for name, code in sorted(SCANCODES.items(), key=lambda item: -len(item[0]))}
+_UNNAMED = re.compile(r"scancode-([0-9]{1,3})")
+
+LABELS = {
+    "lshift": "Shift", "rshift": "Right Shift", "lctrl": "Ctrl", "rctrl": "Right Ctrl", "lalt": "Alt",
+    "ralt": "Right Alt", "return": "Enter", "kp_enter": "Keypad Enter", "escape": "Esc", "backspace": "Backspace",
+    "pageup": "Page Up", "pagedown": "Page Down", "left": "Left", "right": "Right", "up": "Up", "down": "Down",
+    "capslock": "Caps Lock", "comma": ",", "period": ".", "minus": "-", "equals": "=", "leftbracket": "[",
+    "rightbracket": "]", "semicolon": ";", "apostrophe": "'", "slash": "/", "backslash": "\\", "grave": "`",
+    "lgui": "Left Meta", "rgui": "Right Meta",
+}  # fmt: skip
+
+_learnt: dict[int, str] = {}
+
+
+def scancode_of(event: pygame.Event) -> int:
+    """The scancode of a key event; of a made-up event without one, that of its key on a US keyboard."""
+    return getattr(event, "scancode", 0) or _OF_KEYCODE.get(event.key, 0)
+
+
+def key_name(scancode: int) -> str:
+    """The name of a key in files."""
+    return _NAMES.get(scancode, f"scancode-{scancode}")
+
+
+def scancode_named(name: str) -> int | None:
+    """The key that a name means; None if none."""
+    unnamed = _UNNAMED.fullmatch(name)
+    if unnamed:
+        return int(unnamed[1])
+    return SCANCODES.get(name)
+
+
+def learn_label(event: pygame.Event) -> None:
+    """Remember what the layout prints on a key that was pressed."""
+    scancode = scancode_of(event)
+    if key_name(scancode) not in LABELS and (label := pygame.key.name(event.key)):
+        _learnt[scancode] = label.capitalize() if len(label) > 1 else label.upper()
+
+
+def key_label(name: str) -> str:
+    """What to call a key when talking to the player.
+
+    >>> key_label("lshift"), key_label("kp_plus"), key_label("f5")
+    ('Shift', 'Keypad plus', 'F5')
+    """
+    scancode = scancode_named(name)
+    if scancode in _learnt:
+        return _learnt[scancode]
+    if name in LABELS:
+        return LABELS[name]
+    return name.replace("kp_", "keypad ").replace("kp", "keypad ").capitalize()

@@ -1,0 +1,1 @@
+"""The menus: every screen that is not a level being played or watched."""

@@ -1,0 +1,228 @@
+"""A screen of widgets: focus by keyboard, gamepad and mouse; the same frame around all menus."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.play.bindings import Bindings
+from ninja_game.play.canvas import HEIGHT, WIDTH
+from ninja_game.play.menus.list_view import ListView
+from ninja_game.play.menus.widgets import Widget
+from ninja_game.play.screen import Screen
+from ninja_game.play.sound import Sound
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+    from ninja_game.session.player_data import PlayerData
+
+FIRST_REPEAT_MS, REPEAT_MS = 350, 70
+"""A direction that is held repeats: when first, and then how often."""
+
+DIRECTIONS = {"left": (-1, 0), "right": (1, 0), "up": (0, -1), "down": (0, 1)}
+REPEATING = frozenset({*DIRECTIONS, "page_up", "page_down"})
+
+TITLE_SIZE = 22
+
+
+class MenuScreen(Screen):
+    """Widgets, one of which has the focus. Subclasses fill ``widgets`` in ``build`` and say their ``title``.
+
+    ``foot``: the line at the bottom, where the focused widget has no hint.
+    """
+
+    title = ""
+    foot = "Arrows move, Enter chooses, Esc goes back"
+
+    def __init__(self, app: App) -> None:
+        super().__init__(app)
+        self.widgets: list[Widget] = []
+        self.focus: Widget | None = None
+        self._repeat = ""
+        self._repeat_in = 0
+        self._dragged: Widget | None = None
+
+    @property
+    def player(self) -> PlayerData:
+        """The player's data."""
+        player = self.app.player
+        assert player is not None  # noqa: S101 - menus are only opened with it
+        return player
+
+    def build(self) -> Sequence[Widget]:
+        """The widgets, in the order of the Tab key."""
+        raise NotImplementedError
+
+    def enter(self) -> None:
+        """Make the widgets anew: what they show may have changed. The focus keeps its place."""
+        place = self.widgets.index(self.focus) if self.focus in self.widgets else 0
+        self.widgets = list(self.build())
+        able = [widget for widget in self.widgets if widget.focusable]
+        wanted = self.widgets[place] if place < len(self.widgets) else None
+        self.focus = wanted if wanted in able else next(iter(able), None)
+        self._repeat = ""
+
+    # --- input ---
+
+    def handle(self, event: pygame.Event) -> None:
+        """Give an event to the widget that it concerns."""
+        if self.focus is not None and self.focus.text_event(event):
+            self.redraw = True
+            return
+        if event.type in (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL):
+            self._handle_mouse(event)
+            return
+        controls = self.app.controls
+        if not isinstance(controls, Bindings):
+            return
+        released = controls.menu_release(event)
+        if released is not None and released == self._repeat:
+            self._repeat = ""
+        action = controls.menu(event)
+        if action is not None:
+            if action in REPEATING:
+                self._repeat, self._repeat_in = action, FIRST_REPEAT_MS
+            self.act(action)
+
+    def act(self, action: str) -> None:
+        """Do what a menu action says: the focused widget first, then the screen."""
+        self.redraw = True
+        if action == "back":
+            self.chime("menu-choose")
+            self.back()
+        elif action == "confirm":
+            self.chime("menu-choose")
+            if self.focus is not None:
+                self.focus.confirm()
+        elif self.focus is not None and self.focus.nudge(action):
+            self.chime("menu-move")
+        elif action in DIRECTIONS:
+            self._move(*DIRECTIONS[action])
+        elif action == "next":
+            self._next()
+
+    def back(self) -> None:
+        """The back key."""
+        self.app.pop()
+
+    def chime(self, name: str) -> None:
+        """A sound of the menus."""
+        if isinstance(self.app.ear, Sound):
+            self.app.ear.play(name)
+
+    def focus_on(self, widget: Widget | None) -> None:
+        """Give a widget the focus."""
+        if widget is not None and widget is not self.focus:
+            self.focus = widget
+            self.chime("menu-move")
+            self.redraw = True
+
+    def _next(self) -> None:
+        """The focus goes to the next widget in their order."""
+        able = [widget for widget in self.widgets if widget.focusable]
+        if able:
+            place = able.index(self.focus) if self.focus in able else -1
+            self.focus_on(able[(place + 1) % len(able)])
+
+    def _move(self, dx: int, dy: int) -> None:
+        """The focus goes to the nearest widget in a direction; at the end of the screen to the far end of the other."""
+        if self.focus is None:
+            return
+        others = [widget for widget in self.widgets if widget.focusable and widget is not self.focus]
+        ahead = [widget for widget in others if _ahead(self.focus, widget, dx, dy) > 0]
+        if ahead:
+            goal = min(
+                ahead, key=lambda widget: _ahead(self.focus, widget, dx, dy) + 3 * _aside(self.focus, widget, dx)
+            )
+            self.focus_on(goal)
+        elif others and dy:
+            goal = max(others, key=lambda w: -dy * w.centre[1] - 3 * _aside(self.focus, w, dx))
+            self.focus_on(goal)
+
+    def _handle_mouse(self, event: pygame.Event) -> None:
+        if event.type == pygame.MOUSEWHEEL:
+            widget = self._at(*self.app.canvas.logical(pygame.mouse.get_pos()))
+            self.redraw = (widget is not None and widget.wheel(event.y)) or self.redraw
+            return
+        x, y = self.app.canvas.logical(event.pos)
+        if event.type == pygame.MOUSEMOTION:
+            if self._dragged is not None:
+                self.redraw = self._dragged.drag(x, y) or self.redraw
+                return
+            widget = self._at(x, y)
+            self.focus_on(widget)
+            if isinstance(widget, ListView):
+                self.redraw = widget.hover(x, y) or self.redraw
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
+            widget = self._at(x, y)
+            if widget is not None:
+                self._dragged = widget
+                self.focus_on(widget)
+                widget.click(x, y)
+                self.redraw = True
+        elif event.type == pygame.MOUSEBUTTONUP:
+            self._dragged = None
+
+    def _at(self, x: float, y: float) -> Widget | None:
+        """The widget under a point."""
+        return next((widget for widget in self.widgets if widget.focusable and widget.contains(x, y)), None)
+
+    # --- time and picture ---
+
+    def update(self, real_ms: int) -> None:
+        """Repeat a direction that is held."""
+        if not self._repeat:
+            return
+        self._repeat_in -= real_ms
+        if self._repeat_in <= 0:
+            self._repeat_in += REPEAT_MS
+            if self._repeat_in <= 0:
+                self._repeat_in = REPEAT_MS
+            self.act(self._repeat)
+
+    def leave(self) -> None:
+        """Nothing repeats in another screen's time."""
+        self._repeat = ""
+        self._dragged = None
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        """All of it, if anything has changed."""
+        if not self.redraw:
+            return []
+        self.draw_frame(surface)
+        self.draw_widgets(surface)
+        return None
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        """The background: a room in the stage's colours, the title above, the hint below."""
+        palette, canvas, theme = self.app.theme.palette, self.app.canvas, self.app.theme
+        surface.fill(palette.tile)
+        canvas.fill_rect(surface, palette.background, 24, 52, WIDTH - 48, HEIGHT - 52 - 36, 6)
+        theme.text(surface, self.title, 36, 17, size=TITLE_SIZE, colour=palette.on_tile, bold=True)
+        hint = (self.focus.hint if self.focus is not None else "") or self.foot
+        theme.text(surface, hint, WIDTH / 2, HEIGHT - 25, size=10.5, colour=palette.on_tile, align="centre")
+
+    def draw_widgets(self, surface: pygame.Surface) -> None:
+        """The widgets, the focused one last since its mark stands out."""
+        for widget in sorted(self.widgets, key=lambda widget: widget is self.focus):
+            widget.draw(surface, self.app.theme, focused=widget is self.focus)
+
+
+def _ahead(start: Widget | None, goal: Widget, dx: int, dy: int) -> float:
+    """How far a widget lies in a direction, px, from edge to edge; not positive: not in that direction."""
+    assert start is not None  # noqa: S101 - called with a focus only
+    (ax, ay), (bx, by) = start.centre, goal.centre
+    along = (bx - ax) * dx + (by - ay) * dy
+    gap = (start.area[2] + goal.area[2]) / 2 if dx else (start.area[3] + goal.area[3]) / 2
+    return along - gap + 4 if along > 0 and along > gap / 2 else 0.0
+
+
+def _aside(start: Widget | None, goal: Widget, dx: int) -> float:
+    """How far two widgets are apart across a direction, px; 0 where they overlap."""
+    assert start is not None  # noqa: S101 - called with a focus only
+    side = 1 if dx else 0
+    low, high = start.area[side], start.area[side] + start.area[side + 2]
+    other_low, other_high = goal.area[side], goal.area[side] + goal.area[side + 2]
+    return max(0.0, other_low - high, low - other_high) + 0.01 * abs(start.centre[side] - goal.centre[side])
