@@ -8,6 +8,7 @@ from contextlib import suppress
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
 
 import pygame
 
@@ -18,15 +19,29 @@ from ninja_game.play.ear import Ear, Silence
 from ninja_game.play.options import Options
 from ninja_game.play.palette import PALETTES
 from ninja_game.play.screen import Screen, ScreenStack
+from ninja_game.play.start import prepare
 from ninja_game.play.theme import Theme
-from ninja_game.simulation import Body
+from ninja_game.simulation import Body, Simulation
+
+if TYPE_CHECKING:
+    from ninja_game.formats.named_level import NamedLevel
+    from ninja_game.play.course import Course
+    from ninja_game.play.level_screen import LevelScreen
+    from ninja_game.session.player_data import PlayerData
 
 TITLE = "ninja-game"
 FALLBACK_RATE = 60
 """Pictures per second where the display does not say its rate."""
 
 MAIN_MENU = "ninja_game.play.menus.main_menu"
-START = "ninja_game.play.start"
+COURSES = "ninja_game.play.menus.courses"
+
+
+class Panels(Protocol):
+    """Screens that menus lay over a level; without them a level shows plain messages."""
+
+    def pause(self, level: LevelScreen) -> Screen | None:
+        """A panel to choose from while the level is paused."""
 
 
 class App:
@@ -50,6 +65,8 @@ class App:
         self.controls: Controls = controls or Keyboard()
         self.ear: Ear = ear or Silence()
         self.stack = ScreenStack()
+        self.player: PlayerData | None = None
+        self.panels: Panels | None = None
         self.running = True
         self.screenshot_to: str | None = None
         self._size = size or fitting_size()
@@ -154,11 +171,11 @@ class App:
             self._relayout()
         elif event.type in {pygame.WINDOWEXPOSED, pygame.WINDOWRESTORED}:
             self.stack.redraw_all()
-        action = self.controls.action(event)
-        if action == "fullscreen":
+        actions = self.controls.actions(event)
+        if "fullscreen" in actions:
             self.options.fullscreen = not self.options.fullscreen
             self.apply_options()
-        elif action == "screenshot":
+        elif "screenshot" in actions:
             self.save_screenshot(free_name(Path.cwd(), "ninja-game", ".png"))
         self.top.handle(event)
 
@@ -219,7 +236,7 @@ def main(
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     # Read before a window opens: what is wrong with a file is said in the terminal.
     first = first_screen(level_path, replay_path, body=body, practice=practice)
-    app = App(*prepared(), size=size)
+    app = prepared_app(size)
     try:
         app.push(first(app))
         app.run(frames)
@@ -230,21 +247,21 @@ def main(
     return 0
 
 
-def prepared() -> tuple[Options | None, Controls | None, Ear | None]:
-    """Options, controls and sound as the player's settings have them."""
-    if find_spec(START) is None:
-        return None, None, None
-    options, controls, ear = import_module(START).prepare()
-    return options, controls, ear
+def prepared_app(size: tuple[int, int] | None = None) -> App:
+    """The app with options, controls, sound and records as the player's settings have them."""
+    ready = prepare()
+    app = App(ready.options, ready.controls, ready.ear, size=size)
+    app.player = ready.player
+    return app
 
 
 def first_screen(
     level_path: str | None, replay_path: str | None, *, body: Body, practice: bool
 ) -> Callable[[App], Screen]:
-    """What makes the first screen. Files are read here."""
-    from ninja_game.formats.files import load_levels, load_replays
-
+    """What makes the first screen. Files are read here, before a window opens."""
     if replay_path:
+        from ninja_game.formats.files import load_replays
+
         recordings = load_replays(replay_path)
 
         def watch(app: App) -> Screen:
@@ -253,22 +270,35 @@ def first_screen(
             return ReplayScreen(app, recordings)
 
         return watch
-    if level_path is None and _has_menu():
+    if level_path is None and _is_there(MAIN_MENU):
         return _main_menu
     from ninja_game.session.bundled import bundled_levels
 
-    paths = [Path(level_path)] if level_path else bundled_levels()[:1]
-    if not paths:
+    path = Path(level_path) if level_path else next(iter(bundled_levels()), None)
+    if path is None:
         raise LevelError("no levels come with this copy of the game", hint="name a level: ninja-game play LEVEL")
-    named = load_levels(paths[0])[0]
+    from ninja_game.formats.files import load_levels
+
+    named = load_levels(path)[0]
+    # A level that cannot be played is told of here, too.
+    Simulation(named.level, body=body)
 
     def play(app: App) -> Screen:
-        from ninja_game.play.course import SingleLevel
         from ninja_game.play.level_screen import LevelScreen
 
-        return LevelScreen(app, SingleLevel(named.name, named.level, body=body, practice=practice))
+        return LevelScreen(app, _course(app, named, body, practice=practice))
 
     return play
+
+
+def _course(app: App, named: NamedLevel, body: Body, *, practice: bool) -> Course:
+    """A level with the player's records, where menus and records are there; else by itself."""
+    from ninja_game.play.course import SingleLevel
+
+    if app.player is not None and body == "circle" and not practice and _is_there(COURSES):
+        course: Course = import_module(COURSES).course_for(app, named)
+        return course
+    return SingleLevel(named.name, named.level, body=body, practice=practice)
 
 
 def _main_menu(app: App) -> Screen:
@@ -276,7 +306,7 @@ def _main_menu(app: App) -> Screen:
     return screen
 
 
-def _has_menu() -> bool:
+def _is_there(module: str) -> bool:
     with suppress(ModuleNotFoundError):
-        return find_spec(MAIN_MENU) is not None
+        return find_spec(module) is not None
     return False

@@ -16,11 +16,11 @@ class Controls(Protocol):
     def held(self) -> int:
         """What is held right now: 1 left + 2 right + 4 jump. Called just before a tick."""
 
-    def action(self, event: pygame.Event) -> str | None:
-        """The action that an event presses; None if none."""
+    def actions(self, event: pygame.Event) -> tuple[str, ...]:
+        """All the actions that an event presses: a key may mean one thing in play and another in a replay."""
 
-    def released(self, event: pygame.Event) -> str | None:
-        """The action that an event releases; None if none."""
+    def releases(self, event: pygame.Event) -> tuple[str, ...]:
+        """All the actions that an event releases."""
 
     def name(self, action: str) -> str:
         """What to press for an action, for messages."""
@@ -36,14 +36,14 @@ DEFAULT_KEYS: dict[str, tuple[int, ...]] = {
     "retry": (pygame.K_r,),
     "suicide": (pygame.K_k,),
     "quit": (pygame.K_q,),
-    "replay": (pygame.K_v,),
+    "replay": (pygame.K_r, pygame.K_v),
     "fullscreen": (pygame.K_F11,),
     "screenshot": (pygame.K_F12,),
     "ghost": (pygame.K_g,),
     "quick_save": (pygame.K_F5,),
     "quick_load": (pygame.K_F9,),
     "rewind": (pygame.K_BACKSPACE,),
-    "slow": (pygame.K_TAB,),
+    "slow": (pygame.K_LCTRL,),
     "step": (pygame.K_PERIOD,),
     "overlay_hitboxes": (pygame.K_1,),
     "overlay_grid": (pygame.K_2,),
@@ -77,13 +77,13 @@ class Keyboard:
                 bits |= bit
         return bits
 
-    def action(self, event: pygame.Event) -> str | None:
-        """The action that a key press means, by the screens' order of preference."""
-        return self._actions.get(event.key, [None])[0] if event.type == pygame.KEYDOWN else None
+    def actions(self, event: pygame.Event) -> tuple[str, ...]:
+        """The actions that a key press means."""
+        return tuple(self._actions.get(event.key, ())) if event.type == pygame.KEYDOWN else ()
 
-    def released(self, event: pygame.Event) -> str | None:
-        """The action that a released key meant."""
-        return self._actions.get(event.key, [None])[0] if event.type == pygame.KEYUP else None
+    def releases(self, event: pygame.Event) -> tuple[str, ...]:
+        """The actions that a released key meant."""
+        return tuple(self._actions.get(event.key, ())) if event.type == pygame.KEYUP else ()
 
     def name(self, action: str) -> str:
         """The first key of an action."""

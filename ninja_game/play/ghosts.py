@@ -20,7 +20,7 @@ class Ghost:
 
     def __init__(self, run: GhostRun, level: LevelData, body: Body) -> None:
         self.label = run.label
-        self._frames = run.frames
+        self.frames = run.frames
         self._colour = run.colour
         self.simulation = Simulation(level, body=body)
         self._start: SaveState = self.simulation.save()
@@ -38,7 +38,7 @@ class Ghost:
 
     def _step(self) -> None:
         tick = self.simulation.tick
-        self.simulation.step_frame(self._frames[tick] if tick < len(self._frames) else 0)
+        self.simulation.step_frame(self.frames[tick] if tick < len(self.frames) else 0)
 
     def ticked(self) -> None:
         """One more tick."""

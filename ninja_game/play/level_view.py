@@ -19,13 +19,13 @@ from ninja_game.play.picture.particles import Particles
 from ninja_game.play.picture.ragdoll import Ragdoll
 from ninja_game.play.picture.sprite_book import SpriteBook
 from ninja_game.play.picture.stage import Stage
+from ninja_game.play.scene import Scene
 from ninja_game.sim.events import DIED
 from ninja_game.sim.schema import World
 from ninja_game.sim.states import DEAD
 from ninja_game.simulation import Simulation
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
     from ninja_game.play.ghosts import Ghost
     from ninja_game.play.overlays import Overlays
 
@@ -40,7 +40,7 @@ class LevelView:
     """
 
     def __init__(
-        self, app: App, simulation: Simulation, *, area: Area | None = None, chance: int = 0, loud: bool = True
+        self, app: Scene, simulation: Simulation, *, area: Area | None = None, chance: int = 0, loud: bool = True
     ) -> None:
         self.app = app
         self.simulation = simulation

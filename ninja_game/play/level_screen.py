@@ -1,0 +1,379 @@
+"""A level being played: ready, play, pause, death, success (game.md §2), with ghosts and practice tools."""
+
+from __future__ import annotations
+
+from enum import Enum
+from random import Random
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.play.course import Course
+from ninja_game.play.ghosts import Ghost
+from ninja_game.play.hud import Hud
+from ninja_game.play.level_view import LevelView
+from ninja_game.play.overlays import Overlays
+from ninja_game.play.practice import REWIND_TICKS, SLOW_TICK_MS, Practice
+from ninja_game.play.run_clock import RunClock
+from ninja_game.play.screen import Screen
+from ninja_game.session.attempt import Attempt
+from ninja_game.session.scoring import seconds_text
+from ninja_game.sim.level_data import GOLD
+from ninja_game.sim.rules import LIFETIME
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+_DEATH_PAUSE = 41
+"""Ticks after a death before the message comes."""
+_NOTICE_MS = 4000
+_FILL_SHARE = 0.05
+"""Share of the missing bar that fills per picture before play starts (presentation.md §7)."""
+
+
+class Phase(Enum):
+    """Where in its life a level is."""
+
+    READY = "ready"
+    PLAY = "play"
+    PAUSED = "paused"
+    DEAD = "dead"
+    PASSED = "passed"
+
+
+class LevelScreen(Screen):
+    """Plays the level of a course. Menus may call ``resume``, ``retry``, ``onward`` and ``quit``."""
+
+    def __init__(self, app: App, course: Course) -> None:
+        super().__init__(app)
+        self.chance = Random()  # noqa: S311 - presentation and the suicide key
+        self.clock = RunClock()
+        self.overlays = Overlays()
+        self._start(course)
+
+    def _start(self, course: Course) -> None:
+        """Begin a course: its first attempt."""
+        self.course = course
+        self.attempt = Attempt(
+            course.level, body=course.body, lifetime=course.lifetime, practice=course.practice
+        )  # fmt: skip
+        self.practice = Practice(self.attempt)
+        self.view = LevelView(self.app, self.attempt.simulation, chance=self.chance.randrange(1 << 30))
+        self.view.overlays = self.overlays
+        self.all_gold = sum(record.kind == GOLD for record in course.level.records)
+        self.shown_lifetime = 0.0
+        self._ready()
+
+    def _ready(self) -> None:
+        """At the level's start, waiting for the player."""
+        self.phase = Phase.READY
+        self.notices: list[str] = []
+        self._notice_ms = 0
+        self._held_before = self.app.controls.held()
+        self.last_frame = 0
+        self.after_end = 0
+        self._ghosts()
+        self.view.jumped()
+        self.redraw = True
+
+    def _ghosts(self) -> None:
+        runs = self.course.ghosts()
+        if [run.frames for run in runs] != [ghost.frames for ghost in self.view.ghosts]:
+            self.view.ghosts = [Ghost(run, self.course.level, self.course.body) for run in runs]
+
+    # --- what menus and keys do ---
+
+    def enter(self) -> None:
+        """Uncovered: the clock starts afresh, and text input is off, so that keys are keys."""
+        self.clock.reset()
+        pygame.key.stop_text_input()
+
+    def leave(self) -> None:
+        """No sound from a covered level."""
+        self.app.ear.quiet()
+
+    def begin(self) -> None:
+        """Start to play."""
+        self.phase = Phase.PLAY
+        self.clock.reset()
+        self.redraw = True
+
+    def pause(self) -> None:
+        """Stop time; the app's panel, or a message."""
+        if self.phase is not Phase.PLAY:
+            return
+        self.phase = Phase.PAUSED
+        self.app.ear.quiet()
+        self.redraw = True
+        panel = self.app.panels.pause(self) if self.app.panels else None
+        if panel is not None:
+            self.app.push(panel)
+
+    def resume(self) -> None:
+        """Go on after a pause."""
+        self.phase = Phase.PLAY
+        self.clock.reset()
+        self.redraw = True
+
+    def retry(self) -> None:
+        """Back to the level's start, at once."""
+        self.app.ear.quiet()
+        self.attempt.restart()
+        self.practice.restarted()
+        self.shown_lifetime = float(self.attempt.lifetime)
+        self._ready()
+        # What is held is meant for this try.
+        self._held_before = 0
+
+    def onward(self) -> None:
+        """From a passed level to what comes next."""
+        following = self.course.onward()
+        if following is None:
+            self.quit()
+        elif following is self.course:
+            self.retry()
+        else:
+            self.app.ear.quiet()
+            self._start(following)
+
+    def quit(self) -> None:
+        """Leave the level."""
+        screen = self.course.leaving()
+        if screen is None:
+            self.app.pop()
+        else:
+            self.app.replace(screen)
+
+    def watch_replay(self) -> None:
+        """The attempt again, from its inputs."""
+        from ninja_game.play.replay_screen import ReplayScreen
+        from ninja_game.play.take import Take
+
+        take = Take(self.course.title, self.course.level, bytes(self.attempt.frames), self.course.body)
+        self.app.push(ReplayScreen(self.app, [take]))
+
+    # --- events ---
+
+    def handle(self, event: pygame.Event) -> None:
+        """Keys and clicks, by phase."""
+        if event.type == pygame.WINDOWFOCUSLOST:
+            self.pause()
+        actions = self.app.controls.actions(event)
+        self._practice_keys(actions, self.app.controls.releases(event))
+        if event.type == pygame.MOUSEBUTTONDOWN and event.button == 1 and self.phase is not Phase.PLAY:
+            actions = (*actions, "confirm")
+        for action in actions:
+            if self._act(action):
+                break
+
+    def _act(self, action: str) -> bool:
+        """Do what an action means in this phase; whether it meant anything."""
+        before = self.phase
+        if action == "ghost":
+            self.app.options.show_ghost = not self.app.options.show_ghost
+            return True
+        if self.overlays.toggle(action):
+            self.redraw = True
+            return True
+        if before is Phase.PLAY:
+            return self._act_in_play(action)
+        if action == "quit" or (action == "back" and before is not Phase.PAUSED):
+            self.quit()
+        elif action == "confirm" or (before is Phase.PAUSED and action in {"pause", "back"}):
+            {Phase.READY: self.begin, Phase.PAUSED: self.resume, Phase.DEAD: self.retry, Phase.PASSED: self.onward}[
+                before
+            ]()
+        elif action == "replay" and self._may_watch():
+            self.watch_replay()
+        elif action == "retry" and before is not Phase.READY:
+            self.retry()
+        elif action == "skip" and self.course.practice:
+            self.onward()
+        else:
+            return False
+        return True
+
+    def _may_watch(self) -> bool:
+        if self.phase is Phase.PASSED:
+            return True
+        return self.phase is Phase.DEAD and self.after_end > _DEATH_PAUSE and not self.attempt.own_hand
+
+    def _act_in_play(self, action: str) -> bool:
+        if action in {"pause", "back"}:
+            self.pause()
+        elif action == "retry":
+            self.retry()
+        elif action == "suicide":
+            chance = self.chance
+            self.attempt.give_up(chance.random(), chance.uniform(-5, 5), -6 * chance.random())
+            self.view.killed()
+            self._note_end()
+        elif action == "skip" and self.course.practice:
+            self.onward()
+        else:
+            return False
+        return True
+
+    def _practice_keys(self, pressed: tuple[str, ...], released: tuple[str, ...]) -> None:
+        """Practice tools: some act at once, some while they are held."""
+        tools = self.practice
+        if not self.course.practice or self.phase not in {Phase.PLAY, Phase.DEAD, Phase.PASSED}:
+            return
+        if "quick_save" in pressed:
+            tools.quick_save()
+            self.tell("Saved: come back to this moment with " + self.app.controls.name("quick_load"))
+        elif "quick_load" in pressed and tools.quick_load():
+            self._put_back()
+        elif "step" in pressed:
+            tools.stepping = True
+            self._run_ticks(1)
+        if "rewind" in pressed or "rewind" in released:
+            tools.rewinding = "rewind" in pressed
+            tools.stepping = tools.stepping and not tools.rewinding
+        if "slow" in pressed or "slow" in released:
+            tools.slow = "slow" in pressed
+            tools.stepping = False
+
+    def _put_back(self) -> None:
+        """The attempt is at another moment: so is everything that shows it."""
+        self.phase = {"running": Phase.PLAY, "dead": Phase.DEAD, "exit": Phase.PASSED}[self.attempt.outcome]
+        self.after_end = 0
+        self.view.jumped()
+        self.clock.reset()
+        self.redraw = True
+
+    def tell(self, notice: str) -> None:
+        """Show a line for a while."""
+        self.notices = [notice]
+        self._notice_ms = _NOTICE_MS
+        self.redraw = True
+
+    # --- time ---
+
+    def update(self, real_ms: int) -> None:
+        """Let the world go on, if it does."""
+        if self._notice_ms > 0 and self.phase is not Phase.PASSED:
+            self._notice_ms -= real_ms
+            if self._notice_ms <= 0:
+                self.notices = []
+        if self.phase is Phase.READY:
+            self._wait_for_move()
+        elif self.phase is not Phase.PAUSED:
+            if self.practice.rewinding:
+                self._rewind(real_ms)
+            elif not self.practice.stepping:
+                tick_ms = SLOW_TICK_MS if self.practice.slow else self.app.options.tick_ms
+                self._run_ticks(self.clock.ticks_due(real_ms, tick_ms))
+        if self.attempt.outcome != "exit":
+            self._follow_lifetime()
+
+    def _wait_for_move(self) -> None:
+        """Any move begins; keys that were down before do not count until they are pressed again."""
+        held = self.app.controls.held()
+        self._held_before &= held
+        if held & ~self._held_before:
+            self.begin()
+
+    def _run_ticks(self, due: int) -> None:
+        for _ in range(due):
+            # Sampled right before the tick: as late as can be.
+            self.last_frame = self.app.controls.held() if self.phase is Phase.PLAY else 0
+            self.attempt.tick(self.last_frame)
+            self.view.ticked()
+            self.practice.ticked()
+            self._note_end()
+        if due and self.phase is Phase.PLAY:
+            self.attempt.check_time()
+            if self.attempt.outcome == "dead":
+                self.view.killed()
+                self._note_end()
+
+    def _note_end(self) -> None:
+        """Phases follow the first exit contact or death."""
+        if self.phase is Phase.PLAY and self.attempt.outcome != "running":
+            self.after_end = 0
+            if self.attempt.outcome == "exit":
+                self.phase = Phase.PASSED
+                self.shown_lifetime = float(self.attempt.lifetime)
+                self.notices = self.course.passed(self.attempt)
+            else:
+                self.phase = Phase.DEAD
+                self.course.died(self.attempt)
+            self.redraw = True
+        elif self.phase in {Phase.DEAD, Phase.PASSED}:
+            self.after_end += 1
+            if self.after_end == _DEATH_PAUSE + 1:
+                self.redraw = True
+
+    def _rewind(self, real_ms: int) -> None:
+        due = self.clock.ticks_due(real_ms)
+        if due:
+            self.practice.rewind(due * REWIND_TICKS)
+            self.view.jumped()
+            self.phase = Phase.PLAY if self.attempt.outcome == "running" else self.phase
+            self.redraw = True
+
+    def _follow_lifetime(self) -> None:
+        """The bar follows the true lifetime softly, so that gold fills in (presentation.md §7)."""
+        missing = self.attempt.lifetime - self.shown_lifetime
+        share = _FILL_SHARE if self.phase is Phase.READY else (1 - max(0.0, self.shown_lifetime) / LIFETIME) ** 2
+        self.shown_lifetime += missing * min(1.0, max(_FILL_SHARE, share))
+
+    # --- picture ---
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        """The world, and what is written over it."""
+        running = self.phase is not Phase.PAUSED and not self.practice.stepping and not self.practice.rewinding
+        fraction = self.clock.fraction if running and self.phase is not Phase.READY else 1.0
+        changed = self.view.draw(surface, fraction, whole=self.redraw)
+        written = self._write(surface)
+        for rect in written:
+            self.view.also_covered(rect)
+        return None if changed is None else changed + written
+
+    def _write(self, surface: pygame.Surface) -> list[pygame.Rect]:
+        hud = Hud(self.app.theme)
+        attempt = self.attempt
+        bar = (
+            hud.label(surface, "Practice" + (", slow" if self.practice.slow else ""))
+            if attempt.practice
+            else hud.time_bar(surface, self.shown_lifetime)
+        )
+        written = [bar, hud.level_name(surface, self.course.title, f"gold {attempt.gold} / {self.all_gold}")]
+        if self.app.options.show_keys:
+            written.append(hud.keys(surface, self.last_frame))
+        if self.notices:
+            written.append(hud.notices(surface, self.notices))
+        message = self._message()
+        if message is not None:
+            written.append(hud.message(surface, *message))
+        hint = self._hint()
+        if hint:
+            written.append(hud.hint(surface, hint))
+        return written
+
+    def _message(self) -> tuple[str, list[str]] | None:
+        """Title and lines of the message of this phase; None if it has none."""
+        key = self.app.controls.name
+        if self.phase is Phase.PAUSED and self.app.top is self:
+            return "Paused", [f"{key('confirm')}: go on", f"{key('retry')}: retry", f"{key('quit')}: leave"]
+        if self.phase is Phase.PASSED:
+            attempt = self.attempt
+            lines = [
+                f"{attempt.gold} of {self.all_gold} gold",
+                "",
+                f"{key('confirm')}: go on    {key('replay')}: replay",
+            ]
+            return f"Passed with {seconds_text(attempt.score)}", lines
+        return None
+
+    def _hint(self) -> str:
+        """The line of this phase; '' if it has none."""
+        key = self.app.controls.name
+        if self.phase is Phase.READY:
+            return f"{key('confirm')} or any move to begin"
+        if self.phase is Phase.DEAD and self.after_end > _DEATH_PAUSE:
+            if self.attempt.own_hand:
+                return f"As you wish. {key('confirm')} to try again"
+            return f"{key('confirm')} to try again    {key('replay')}: watch the replay    {key('quit')}: leave"
+        return ""
