@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from ninja_game.formats.files import NamedLevel, Recording
 
 TICKS_PER_SECOND = 40
+PIPE_WIDTH = 160
 
 
 @click.command()
@@ -41,7 +43,8 @@ def command(files: Sequence[Path], record: int | None, picture: bool | None, as_
 
     from ninja_game.formats.files import load_levels
 
-    console = Console(highlight=False)
+    # A pipe has no width; a table cut to 80 columns is of no use to whoever reads it.
+    console = Console(highlight=False, width=None if sys.stdout.isatty() else PIPE_WIDTH)
     levels = [level for file in files for level in load_levels(file)]
     if record is not None:
         levels = [level for level in levels if level.record == record]
@@ -119,15 +122,19 @@ def _show_table(console: Console, levels: Sequence[NamedLevel], recordings: dict
     from rich.table import Table
 
     table = Table(box=None, pad_edge=False, header_style="bold")
-    for title in ("record", "name", "author", "objects", "gold", "ticks", "warnings"):
-        table.add_column(title, justify="left" if title in ("name", "author") else "right", overflow="fold")
-    several = len({level.file for level in levels}) > 1
+    sizes = Counter(level.file for level in levels)
+    table.add_column("file" if len(sizes) > 1 else "record", no_wrap=True)
+    for title in ("name", "author"):
+        table.add_column(title, overflow="fold")
+    for title in ("objects", "gold", "ticks", "warnings"):
+        table.add_column(title, justify="right")
     for level in levels:
         counts = _counts(level)
         run = recordings.get((level.file, level.record))
         warnings = len(level.warnings)
+        place = f":{level.record}" if sizes[level.file] > 1 else ""
         table.add_row(
-            f"{escape(Path(level.file).name)}:{level.record}" if several else str(level.record),
+            escape(Path(level.file).name) + place if len(sizes) > 1 else str(level.record),
             escape(level.name),
             escape(level.author),
             str(sum(counts.values())),
