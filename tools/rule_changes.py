@@ -39,11 +39,11 @@ CHANGES = (
     # Grid, tiles, collision.
     Change("edge-under-the-surface", "tiles.py", "OFF, INTERESTING, OFF]", "OFF, INTERESTING, SOLID]"),
     Change("thin-faces", "tiles.py", "(shape == THIN_22 and side in (0, 2))", "(shape == THIN_22 and side == 4)"),
-    Change("insert-at-the-tail", "objects/contact.py", "STRIDE, STRIDE + 1, STRIDE - 1, -1", "STRIDE, STRIDE - 1, STRIDE + 1, -1"),
+    Change("order-of-the-nine-cells", "objects/contact.py", "STRIDE, STRIDE + 1, STRIDE - 1, -1", "STRIDE, STRIDE - 1, STRIDE + 1, -1"),
     Change("keep-next-link", "grid.py", "    o.next = 0\n    o.prev = 0\n", "    o.prev = 0\n"),
     Change("keep-place-in-the-list", "grid.py", "    if cell == o.cell:\n        return 0\n", "    if cell == o.cell and cell == 0:\n        return 0\n"),
     Change("vertical-first", "circle.py", "    dx = n.x - cx\n", "    dx = n.px - cx\n"),
-    Change("diagonal-after-axis", "circle.py", "oy > 0.0 and ox > 0.0 and kind_v != AXIS and kind_h != AXIS", "oy > 0.0 and ox > 0.0 and kind_v != AXIS"),
+    Change("diagonal-needs-both-overlaps", "circle.py", "oy > 0.0 and ox > 0.0 and kind_v", "oy > 0.0 and ox > 1.0 and kind_v"),
     Change("behind-the-surface", "circle_shapes.py", "RADIUS - abs((n.x - ax) * nx + (n.y - ay) * ny)", "RADIUS - ((n.x - ax) * nx + (n.y - ay) * ny)"),
     Change("half-both-overlaps", "circle_shapes.py", "push_from_tile(w, ox, oy, ox / m, oy / m)", "push_from_tile(w, -ox, oy, -ox / m, oy / m)"),
     Change("exit-tie", "circle_shapes.py", "    if ox < oy:\n        hx", "    if ox <= oy:\n        hx"),
