@@ -9,7 +9,7 @@ from ninja_game.play.palette import Palette, mixed
 from ninja_game.play.picture.pose import Pose
 from ninja_game.play.picture.sketch import Sketch, Sprite
 
-THIGH, SHIN = 5.7, 6.0
+THIGH, SHIN = 5.0, 5.2
 UPPER_ARM, FOREARM = 4.0, 4.2
 HEAD = 2.5
 _REACH = 17.0

@@ -49,22 +49,22 @@ def pose(
     return Pose(head, shoulder, pelvis, near_hand, far_hand, near_foot, far_foot)
 
 
-STAND = pose((-1.2, -3.6), (-0.4, 2.0), (4.2, 0.6), (-5.2, 2.0), (4.6, 9.7), (-3.6, 9.7))
+STAND = pose((-1.0, -4.8), (-0.3, 0.8), (4.0, 0.2), (-5.0, 1.4), (3.8, 9.7), (-3.2, 9.7))
 """At ease, weight on the back foot."""
 
-SKID = pose((-4.8, -2.2), (-1.8, 3.4), (1.8, -5.2), (-10.2, -0.6), (8.0, 9.7), (2.8, 9.7), (-5.0, -5.8))
+SKID = pose((-4.8, -3.0), (-1.6, 2.2), (1.6, -5.8), (-10.0, -0.6), (7.4, 9.7), (3.0, 9.7), (-5.2, -6.6))
 """Leaning back against the motion."""
 
-SLIDE = pose((2.6, -3.0), (1.6, 2.8), (9.2, -6.6), (8.6, -1.4), (9.4, 5.2), (7.4, 9.4), (2.6, -6.6))
+SLIDE = pose((2.4, -4.0), (1.8, 1.7), (9.4, -8.4), (9.2, -3.0), (9.0, 5.8), (6.4, 9.6), (2.8, -7.4))
 """Hands and feet on a wall to the right."""
 
-RISE = pose((1.0, -3.8), (-0.6, 1.8), (5.4, -9.2), (-4.6, -0.6), (4.6, 4.6), (-4.4, 9.8))
+RISE = pose((1.2, -4.4), (-0.4, 1.0), (5.6, -10.4), (-4.6, -0.4), (4.8, 5.2), (-4.6, 10.0))
 """Rising fast: one arm up, one knee high, the other leg stretched."""
 
-FLOAT = pose((0.4, -3.2), (-0.4, 2.2), (6.6, -4.4), (-6.2, -4.0), (4.8, 6.2), (-3.6, 7.0))
+FLOAT = pose((0.6, -4.0), (-0.4, 1.4), (7.2, -4.6), (-6.4, -3.6), (5.2, 6.4), (-4.6, 7.2))
 """At the top: knees drawn up, arms out."""
 
-FALL = pose((-0.2, -3.0), (0.2, 2.6), (6.4, -8.6), (-6.6, -8.0), (4.6, 9.0), (-2.4, 9.8))
+FALL = pose((-0.2, -4.0), (0.2, 1.4), (6.4, -9.4), (-6.6, -8.6), (4.6, 9.6), (-2.6, 10.2))
 """Falling fast: arms up, legs reaching down."""
 
 
@@ -113,9 +113,9 @@ def run_pose(phase: float, speed: float) -> Pose:
     near, far = _foot(phase), _foot(phase + 0.5)
     near = near[0] * vigour, 9.7 - (9.7 - near[1]) * vigour
     far = far[0] * vigour, 9.7 - (9.7 - far[1]) * vigour
-    pelvis = -0.6, 1.9 + bob
-    shoulder = 0.4 + 1.8 * lean, -3.6 + bob
-    near_hand = shoulder[0] - 6.4 * swing * vigour, 0.4 + bob - 2.6 * abs(swing)
-    far_hand = shoulder[0] + 6.4 * swing * vigour, 0.4 + bob - 2.6 * abs(swing)
-    head = shoulder[0] + 0.9 + 0.7 * lean, -7.1 + bob
+    pelvis = -0.6, 1.4 + bob
+    shoulder = 0.2 + 1.9 * lean, -4.0 + bob
+    near_hand = shoulder[0] - 6.4 * swing * vigour, -0.2 + bob - 2.4 * abs(swing)
+    far_hand = shoulder[0] + 6.4 * swing * vigour, -0.2 + bob - 2.4 * abs(swing)
+    head = shoulder[0] + 0.9 + 0.7 * lean, -7.5 + bob
     return Pose(head, shoulder, pelvis, near_hand, far_hand, near, far)
