@@ -78,17 +78,9 @@ class Bindings:
             self._tapped = pygame.time.get_ticks()
         return found
 
-    def action(self, event: pygame.Event) -> str | None:
-        """The first action that an event presses; None if none."""
-        return next(iter(self.actions(event)), None)
-
     def releases(self, event: pygame.Event) -> tuple[str, ...]:
         """All the actions that an event releases."""
         return self._pressed(event, down=False)
-
-    def released(self, event: pygame.Event) -> str | None:
-        """The first action that an event releases; None if none."""
-        return next(iter(self.releases(event)), None)
 
     def name(self, action: str) -> str:
         """What to press for an action: on the pad if that was used last, else on the keyboard."""

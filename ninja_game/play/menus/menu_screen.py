@@ -10,6 +10,7 @@ import pygame
 from ninja_game.play.bindings import Bindings
 from ninja_game.play.canvas import HEIGHT, WIDTH
 from ninja_game.play.menus.list_view import ListView
+from ninja_game.play.menus.text_entry import TextEntry
 from ninja_game.play.menus.widgets import Widget
 from ninja_game.play.screen import Screen
 from ninja_game.play.sound import Sound
@@ -63,6 +64,10 @@ class MenuScreen(Screen):
         wanted = self.widgets[place] if place < len(self.widgets) else None
         self.focus = wanted if wanted in able else next(iter(able), None)
         self._repeat = ""
+        if any(isinstance(widget, TextEntry) for widget in self.widgets):
+            pygame.key.start_text_input()
+        else:
+            pygame.key.stop_text_input()
 
     # --- input ---
 

@@ -1,0 +1,89 @@
+"""Attract mode: replays that play behind the menu, one after another (game.md §7)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from random import Random
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.formats.files import load_replays
+from ninja_game.formats.recording import Recording
+from ninja_game.play.level_view import LevelView
+from ninja_game.play.run_clock import RunClock
+from ninja_game.session.bundled import bundled_replays
+from ninja_game.simulation import Simulation
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+REST_TICKS = 130
+"""How long a replay goes on after its end or a death."""
+
+
+class Attract:
+    """Plays replays for ever in a shuffled order, silently. ``shown``: how many were begun."""
+
+    def __init__(self, app: App, *, seed: int | None = None) -> None:
+        self.app = app
+        self.shown = 0
+        self._clock = RunClock()
+        self._chance = Random(seed)  # noqa: S311 - the order is no secret
+        self._order = self._shuffled()
+        self._inputs = b""
+        self._until = 0
+        self.view: LevelView | None = None
+        self.name = ""
+
+    def _shuffled(self) -> Iterator[Callable[[], Recording]]:
+        """Readers of all recordings, again and again, each round in another order."""
+        while True:
+            files = bundled_replays()
+            self._chance.shuffle(files)
+            if not files:
+                return
+            for file in files:
+                yield lambda file=file: load_replays(file)[0]  # type: ignore[misc]
+
+    def _begin_next(self) -> None:
+        """Put the next recording on the stage; one that cannot be read is left out."""
+        for read in self._order:
+            try:
+                recording = read()
+                simulation = Simulation(recording.level)
+            except (NinjaGameError, OSError):
+                continue
+            self._inputs = recording.inputs(recording.ticks)
+            self._until = len(self._inputs) + REST_TICKS
+            self.view = LevelView(self.app, simulation, chance=self.shown, loud=False)
+            self.name = recording.name
+            self.shown += 1
+            return
+
+    def update(self, real_ms: int) -> None:
+        """Let time pass. With reduced motion the picture stands still."""
+        if self.view is None:
+            self._begin_next()
+            return
+        if self.app.options.reduced_motion:
+            return
+        simulation = self.view.simulation
+        for _ in range(self._clock.ticks_due(real_ms)):
+            tick = simulation.tick
+            if tick >= self._until:
+                self._begin_next()
+                return
+            if tick < len(self._inputs) or simulation.outcome != "running":
+                simulation.step_frame(self._inputs[tick] if tick < len(self._inputs) else 0)
+                self.view.ticked()
+            else:
+                self._until = 0
+
+    def draw(self, surface: pygame.Surface, *, whole: bool = False) -> None:
+        """Draw the replay as it is now."""
+        if self.view is None:
+            surface.fill(self.app.theme.palette.background)
+            return
+        self.view.draw(surface, self._clock.fraction, whole=whole)

@@ -1,0 +1,178 @@
+"""The level browser: the game's single levels and the player's own files, searched, sorted, looked at, played."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.errors import LevelError
+from ninja_game.play.level_screen import LevelScreen
+from ninja_game.play.menus.courses import LevelCourse
+from ninja_game.play.menus.list_view import ListView
+from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.text_entry import TextEntry
+from ninja_game.play.menus.thumbnails import Thumbnails
+from ninja_game.play.menus.watching import watch
+from ninja_game.play.menus.widgets import Area, Button, Choice, Widget, fit
+from ninja_game.play.theme import Theme
+from ninja_game.session.catalogue import Entry
+from ninja_game.session.records import SavedReplay
+from ninja_game.session.scoring import seconds_text
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+ROW = 54
+PICTURE = 60
+SIDE, SIDE_WIDTH = 436, 320
+SORTS: list[tuple[str, object]] = [("as listed", "listed"), ("name", "name"), ("author", "author"), ("best", "best")]
+
+
+class Browser(MenuScreen):
+    """A list at the left, the selected level at the right. The list is read anew whenever the screen is entered."""
+
+    title = "Levels"
+
+    def __init__(self, app: App) -> None:
+        super().__init__(app)
+        self.thumbnails = Thumbnails(app)
+        self.search = ""
+        self.sort: object = "listed"
+        self.message = ""
+        self.entries: list[Entry] = []
+        self.shown: list[Entry] = []
+        self.bests: dict[str, SavedReplay] = {}
+        self.list = ListView(
+            (44, 112, 376, 8 * ROW), ROW, self._draw_row, self._play, empty="No level has these words",
+            hint="Enter plays; Tab goes to the buttons",
+        )  # fmt: skip
+        self.entry_field = TextEntry((44, 66, 236, 32), "Search name or author", "", self._search)
+
+    def enter(self) -> None:
+        """Read the player's folder as it is now."""
+        catalogue = self.player.catalogue
+        catalogue.problems.clear()
+        self.entries = catalogue.singles()
+        self.bests = self.player.records.level_bests()
+        self.message = f"{len(catalogue.problems)} files cannot be read" if catalogue.problems else ""
+        self._arrange()
+        super().enter()
+
+    def build(self) -> Sequence[Widget]:
+        """The list first, then what can be done with the selected level."""
+        play = Button((SIDE, 470, 154, 32), "Play", lambda: self._play(self.list.index))
+        practice = Button(
+            (SIDE + 166, 470, 154, 32), "Practise", lambda: self._play(self.list.index, practice=True),
+            hint="No clock, quick save, rewind, slow motion; no records",
+        )  # fmt: skip
+        watch_best = Button((SIDE, 510, 320, 32), "Watch your best", self._watch)
+        sort = Choice((288, 66, 132, 32), "", SORTS, lambda: self.sort, self._sort, hint="How the list is sorted")
+        return [self.list, self.entry_field, sort, play, practice, watch_best]
+
+    # --- which ---
+
+    def _search(self, text: str) -> None:
+        self.search = text
+        self._arrange()
+
+    def _sort(self, value: object) -> None:
+        self.sort = value
+        self._arrange()
+
+    def _arrange(self) -> None:
+        """Search and sort; the selection goes to the first."""
+        words = self.search.casefold().split()
+        found = [e for e in self.entries if all(word in _words(e) for word in words)]
+        keys: dict[object, Callable[[Entry], object]] = {
+            "name": lambda e: e.title.casefold(),
+            "author": lambda e: (e.named.author.casefold(), e.title.casefold()),
+            "best": lambda e: -(best.score if (best := self.bests.get(e.digest)) else -1),
+        }
+        if self.sort in keys:
+            found.sort(key=keys[self.sort])  # type: ignore[arg-type]
+        if found != self.shown:
+            self.shown = found
+            self.list.index = self.list.first = 0
+        self.list.fill(self.shown)
+
+    @property
+    def selected(self) -> Entry | None:
+        """The selected level."""
+        return self.shown[self.list.index] if self.list.index < len(self.shown) else None
+
+    # --- go ---
+
+    def _play(self, index: int, *, practice: bool = False) -> None:
+        if index >= len(self.shown):
+            return
+        course = LevelCourse(self.player, self.shown[index], practice=practice or self.player.settings.practice)
+        try:
+            screen = LevelScreen(self.app, course)
+        except LevelError as error:
+            self.message = error.what
+            return
+        self.app.push(screen)
+
+    def _watch(self) -> None:
+        best = self.bests.get(self.selected.digest) if self.selected else None
+        if best is None or not watch(self.app, [self.player.records.replay(best.id)]):
+            self.message = "This level has not been passed yet"
+
+    def update(self, real_ms: int) -> None:
+        """Thumbnails come in."""
+        super().update(real_ms)
+        self.redraw = self.thumbnails.work() or self.redraw
+
+    # --- picture ---
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        """The selected level, large, with what is known about it."""
+        super().draw_frame(surface)
+        theme, palette = self.app.theme, self.app.theme.palette
+        entry = self.selected
+        count = f"{len(self.shown)} of {len(self.entries)} levels"
+        theme.text(surface, count, 44, 549, size=9.5, colour=palette.faint)
+        if self.message:
+            theme.text(surface, fit(theme, self.message, SIDE_WIDTH, 10), SIDE, 548, size=10, colour=palette.bad)
+        if entry is None:
+            return
+        self.thumbnails.draw(surface, entry, SIDE, 66, SIDE_WIDTH)
+        theme.text(surface, fit(theme, entry.title, SIDE_WIDTH, 17), SIDE, 320, size=17, bold=True)
+        by = f"by {entry.named.author}" if entry.named.author else "author unknown"
+        theme.text(surface, fit(theme, by, SIDE_WIDTH, 11), SIDE, 346, size=11, colour=palette.faint)
+        comment = fit(theme, entry.named.comment, SIDE_WIDTH, 11)
+        theme.text(surface, comment, SIDE, 364, size=11)
+        best = self.bests.get(entry.digest)
+        text = f"Your best: {seconds_text(best.score)} with {best.gold} gold" if best else "Not passed yet"
+        theme.text(surface, text, SIDE, 390, size=12, colour=palette.good if best else palette.faint)
+        played = self.player.statistics.played(entry.digest)
+        if played.attempts:
+            text = f"{played.attempts} tries, {played.passes} passed, {played.deaths} deaths"
+            theme.text(surface, text, SIDE, 408, size=10.5, colour=palette.faint)
+        where = f"Episode {entry.episode}" if entry.episode else "Your folder" if entry.source == "yours" else ""
+        theme.text(surface, where, SIDE, 424, size=10.5, colour=palette.faint)
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        entry = self.shown[index]
+        canvas, palette = theme.canvas, theme.palette
+        x, y, w, h = area
+        chosen = index == self.list.index
+        canvas.fill_rect(surface, palette.panel, x, y + 1, w, h - 2, 4)
+        edge = palette.accent if chosen else palette.panel_edge
+        canvas.frame_rect(surface, edge, x, y + 1, w, h - 2, 2.5 if focused else 1, 4)
+        self.thumbnails.draw(surface, entry, x + 4, y + 4, PICTURE)
+        left = x + PICTURE + 14
+        theme.text(surface, fit(theme, entry.title, 200, 12), left, y + 11, size=12, bold=chosen)
+        source = entry.named.author or ("your folder" if entry.source == "yours" else "")
+        theme.text(surface, fit(theme, source, 200, 10), left, y + 30, size=10, colour=palette.faint)
+        best = self.bests.get(entry.digest)
+        if best:
+            theme.text(
+                surface, seconds_text(best.score), x + w - 8, y + 20, size=12, colour=palette.good, align="right"
+            )
+
+
+def _words(entry: Entry) -> str:
+    return f"{entry.title} {entry.named.author} {entry.named.comment} {entry.episode}".casefold()

@@ -1,0 +1,120 @@
+"""Levels in their context, with records behind them: single levels, time trials, episodes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ninja_game.formats.named_level import NamedLevel
+from ninja_game.play.course import Course, GhostRun
+from ninja_game.play.screen import Screen
+from ninja_game.session.attempt import Attempt
+from ninja_game.session.catalogue import Entry, Episode
+from ninja_game.session.player_data import PlayerData
+from ninja_game.session.playthrough import EpisodeRun, LevelRun
+from ninja_game.simulation import Body
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+YOUR_BEST = "your best"
+
+
+def best_ghost(player: PlayerData, entry: Entry) -> list[GhostRun]:
+    """The personal best of a level, as a ghost that runs along; none without one."""
+    best = player.records.level_best(entry.digest)
+    replay = player.records.replay(best.id) if best else None
+    return [GhostRun(YOUR_BEST, replay.inputs)] if replay else []
+
+
+class LevelCourse:
+    """A level by itself, played again and again; its personal best runs along and is saved."""
+
+    body: Body = "circle"
+
+    def __init__(self, player: PlayerData, entry: Entry, *, practice: bool = False) -> None:
+        self._run = LevelRun(player, entry, practice=practice)
+        self.player = player
+        self.entry = entry
+        self.title = entry.title
+        self.level = entry.named.level
+        self.lifetime = self._run.lifetime
+        self.practice = practice
+
+    def ghosts(self) -> list[GhostRun]:
+        """The personal best."""
+        return best_ghost(self.player, self.entry)
+
+    def passed(self, attempt: Attempt) -> list[str]:
+        """Save; what to tell the player about it."""
+        return self._run.passed(attempt)
+
+    def died(self, attempt: Attempt) -> None:
+        """Count it."""
+        self._run.died(attempt)
+
+    def onward(self) -> Course | None:
+        """The same level again."""
+        return self
+
+    def leaving(self) -> Screen | None:
+        """Back to where we came from."""
+        return None
+
+
+class EpisodeCourse:
+    """A level of an episode: what comes after it is the next one, with the lifetime that is left."""
+
+    body: Body = "circle"
+
+    def __init__(self, app: App, run: EpisodeRun) -> None:
+        self.app = app
+        self.run = run
+        self.entry = run.entry
+        self.title = run.episode.title(run.level)
+        self.level = run.entry.named.level
+        self.lifetime = run.lifetime
+        self.practice = run.practice
+        self._passed: Attempt | None = None
+        self._notices: list[str] = []
+
+    def ghosts(self) -> list[GhostRun]:
+        """The personal best of this level."""
+        return best_ghost(self.run.data, self.entry)
+
+    def passed(self, attempt: Attempt) -> list[str]:
+        """Save; what to tell the player about it."""
+        self._passed = attempt
+        self._notices = self.run.passed(attempt)
+        return self._notices
+
+    def died(self, attempt: Attempt) -> None:
+        """Count it."""
+        self.run.died(attempt)
+
+    def onward(self) -> Course | None:
+        """The next level, in practice also without passing this one; after the last one None."""
+        if self._passed is not None:
+            more = self.run.advance(self._passed)
+        else:
+            more = self.practice and self.run.skip()
+        return EpisodeCourse(self.app, self.run) if more else None
+
+    def leaving(self) -> Screen | None:
+        """After the last level: what was achieved. Else back to the grid."""
+        if self._passed is None or not self.run.is_last:
+            return None
+        from ninja_game.play.menus.episode_passed import EpisodePassed
+
+        return EpisodePassed(self.app, self.run, self._notices)
+
+
+def episode_course(app: App, player: PlayerData, episode: Episode) -> EpisodeCourse:
+    """An episode from its first level on, in practice mode if that is set."""
+    return EpisodeCourse(app, EpisodeRun(player, episode, practice=player.settings.practice))
+
+
+def course_for(app: App, named: NamedLevel, *, practice: bool = False) -> Course:
+    """A level of any file as a course with records."""
+    player = app.player
+    assert player is not None  # noqa: S101 - called with records at hand
+    return LevelCourse(player, Entry(named, "yours"), practice=practice or player.settings.practice)

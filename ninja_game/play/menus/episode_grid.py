@@ -1,0 +1,192 @@
+"""The grid of episodes: ten columns of ten, and what is in the one that is selected (game.md §2.1, §7)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.play.level_screen import LevelScreen
+from ninja_game.play.menus.courses import LevelCourse, episode_course
+from ninja_game.play.menus.list_view import BAR, ListView
+from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.settings import PRACTICE_HINT
+from ninja_game.play.menus.thumbnails import Thumbnails
+from ninja_game.play.menus.widgets import Area, Choice, Widget, fit
+from ninja_game.play.start import apply_settings
+from ninja_game.play.theme import Theme
+from ninja_game.session.catalogue import Episode
+from ninja_game.session.progress import CHEATED, COLUMNS, EPISODES_PER_COLUMN, LOCKED
+from ninja_game.session.scoring import seconds_text
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+CELL = 31
+GRID: Area = (44, 92, CELL * COLUMNS + BAR + 4, CELL * EPISODES_PER_COLUMN)
+SIDE = 392
+ROW = 84
+PICTURE = 96
+
+
+class EpisodeGrid(MenuScreen):
+    """Choose an episode to play, or one of its levels for a time trial."""
+
+    title = "Episodes"
+
+    def __init__(self, app: App) -> None:
+        super().__init__(app)
+        self.thumbnails = Thumbnails(app)
+        self.grid = ListView(GRID, CELL, self._draw_cell, self._play, columns=COLUMNS, selected=self._selected)
+        self.rows = ListView((SIDE, 132, 364, ROW * 5), ROW, self._draw_row, self._trial)
+        self.rows.hint = "Enter: time trial, this level alone on a full clock"
+        self.grid.fill(range(COLUMNS * EPISODES_PER_COLUMN))
+
+    # --- which ---
+
+    @property
+    def number(self) -> int:
+        """The selected episode's number."""
+        row, column = divmod(self.grid.index, COLUMNS)
+        return column * EPISODES_PER_COLUMN + row
+
+    @property
+    def episode(self) -> Episode | None:
+        """The selected episode, where there is one."""
+        return self.player.catalogue.episodes.get(self.number)
+
+    def _selected(self, _index: int) -> None:
+        self.rows.index = 0
+        self.rows.fill(self.episode.levels if self.episode and self._state(self.number) != LOCKED else ())
+        self.rows.focusable = bool(self.rows.count)
+        self.grid.hint = self._hint()
+
+    def _state(self, number: int) -> str:
+        return self.player.progress.state(number)
+
+    def _hint(self) -> str:
+        if self.episode is None:
+            return "No episode here yet"
+        if self._state(self.number) == LOCKED:
+            return f"Locked: pass episode {self.number - 1} first"
+        cheated = self._state(self.number) == CHEATED
+        return "Enter: play, without records (reached in practice)" if cheated else "Enter: play this episode"
+
+    def build(self) -> Sequence[Widget]:
+        """The grid, the levels of the selected episode, practice."""
+        self._selected(self.grid.index)
+        practice = Choice(
+            (44, 430, 318, 30), "Practice mode", [("off", False), ("on", True)],
+            lambda: self.player.settings.practice, self._set_practice,
+            hint=PRACTICE_HINT,
+        )  # fmt: skip
+        return [self.grid, practice, self.rows]
+
+    def _set_practice(self, value: object) -> None:
+        apply_settings(self.app, self.player.settings.changed(practice=value))
+
+    # --- go ---
+
+    def _play(self, _index: int) -> None:
+        if self.episode is not None and self._state(self.number) != LOCKED:
+            self.app.push(LevelScreen(self.app, episode_course(self.app, self.player, self.episode)))
+
+    def _trial(self, index: int) -> None:
+        if self.episode is not None:
+            entry = self.episode.levels[index]
+            course = LevelCourse(self.player, entry, practice=self.player.settings.practice)
+            self.app.push(LevelScreen(self.app, course))
+
+    def update(self, real_ms: int) -> None:
+        """Thumbnails come in."""
+        super().update(real_ms)
+        self.redraw = self.thumbnails.work() or self.redraw
+
+    # --- picture ---
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        """What the grid's looks mean, and the head of the selected episode."""
+        super().draw_frame(surface)
+        theme, palette = self.app.theme, self.app.theme.palette
+        theme.text(surface, "A column is one road: each episode opens the next below it.", 44, 66, size=10,
+                   colour=palette.faint)  # fmt: skip
+        for place, (look, text) in enumerate(
+            (("beaten", "beaten"), ("open", "open"), ("cheated", "reached in practice"), ("locked", "locked"))
+        ):
+            x, y = 44 + 160 * (place % 2), 476 + 26 * (place // 2)
+            self._draw_look(surface, theme, look, (x, y, 20, 20))
+            theme.text(surface, text, x + 27, y + 4, size=10)
+        episode = self.episode
+        if episode is None:
+            theme.text(surface, "Nothing here yet", SIDE, 66, size=16, colour=palette.faint, bold=True)
+            theme.text(surface, "Episodes are listed in levels/episodes.toml.", SIDE, 96, size=10, colour=palette.faint)
+            return
+        theme.text(surface, f"Episode {episode.number}: {episode.name}", SIDE, 66, size=16, bold=True)
+        best = self.player.records.episode_best(episode.key)
+        text = f"Your best: {seconds_text(best.score)}" if best else f"{len(episode.levels)} levels, not passed yet"
+        theme.text(surface, self._hint() if self._state(episode.number) == LOCKED else text, SIDE, 96, size=11,
+                   colour=palette.good if best else palette.faint)  # fmt: skip
+
+    def _draw_cell(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        row, column = divmod(index, COLUMNS)
+        number = column * EPISODES_PER_COLUMN + row
+        x, y, w, h = area
+        inner = (x + 1.5, y + 1.5, w - 3, h - 3)
+        look = self._look_of(number)
+        self._draw_look(surface, theme, look, inner)
+        if look not in ("none", "locked"):
+            colour = theme.palette.on_tile if look == "beaten" else theme.palette.text
+            theme.text(surface, str(number), x + w / 2, y + h / 2 - 5.5, size=11, colour=colour, align="centre")
+        if index == self.grid.index:
+            width = 2.5 if focused else 1.2
+            theme.canvas.frame_rect(surface, theme.palette.accent, x, y, w, h, width, 4)
+
+    def _look_of(self, number: int) -> str:
+        if number not in self.player.catalogue.episodes:
+            return "none"
+        state = self._state(number)
+        if self.player.progress.is_beaten(number):
+            return "beaten"
+        return {LOCKED: "locked", CHEATED: "cheated"}.get(state, "open")
+
+    @staticmethod
+    def _draw_look(surface: pygame.Surface, theme: Theme, look: str, area: Area) -> None:
+        """One cell by its state: shape tells it as well as colour."""
+        canvas, palette = theme.canvas, theme.palette
+        x, y, w, h = area
+        if look == "none":
+            canvas.circle(surface, palette.panel_edge, (x + w / 2, y + h / 2), 1.5)
+            return
+        fill = {"beaten": palette.tile, "locked": palette.background}.get(look, palette.panel)
+        canvas.fill_rect(surface, fill, x, y, w, h, 3)
+        canvas.frame_rect(surface, palette.panel_edge, x, y, w, h, 1, 3)
+        if look == "cheated":
+            canvas.polygon(surface, palette.bad, [(x + w - 9, y + 1), (x + w - 1, y + 1), (x + w - 1, y + 9)])
+        elif look == "locked":
+            cx, cy = x + w / 2, y + h / 2
+            canvas.fill_rect(surface, palette.panel_edge, cx - 4.5, cy - 1, 9, 7, 1)
+            canvas.circle(surface, palette.panel_edge, (cx, cy - 2), 4, 1.5)
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        episode = self.episode
+        if episode is None or index >= len(episode.levels):
+            return
+        x, y, w, h = area
+        entry = episode.levels[index]
+        theme.canvas.fill_rect(surface, theme.palette.panel, x, y + 2, w, h - 4, 4)
+        edge = theme.palette.accent if focused else theme.palette.panel_edge
+        theme.canvas.frame_rect(surface, edge, x, y + 2, w, h - 4, 2.5 if focused else 1, 4)
+        self.thumbnails.draw(surface, entry, x + 6, y + 5, PICTURE)
+        left = x + PICTURE + 18
+        theme.text(
+            surface, fit(theme, f"{index}  {entry.title}", w - PICTURE - 30, 13), left, y + 16, size=13, bold=True
+        )
+        best = self.player.records.level_best(entry.digest)
+        played = self.player.statistics.played(entry.digest)
+        text = f"best {seconds_text(best.score)}, {best.gold} gold" if best else "not passed yet"
+        colour = theme.palette.good if best else theme.palette.faint
+        theme.text(surface, text, left, y + 37, size=11, colour=colour)
+        if played.attempts:
+            tries = f"{played.attempts} tries, {played.deaths} deaths"
+            theme.text(surface, tries, left, y + 54, size=10, colour=theme.palette.faint)

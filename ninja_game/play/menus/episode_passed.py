@@ -1,0 +1,90 @@
+"""An episode has been passed: its levels, its score, and what that has brought."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.play.canvas import WIDTH
+from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.thumbnails import Thumbnails
+from ninja_game.play.menus.widgets import Button, Widget
+from ninja_game.session.playthrough import EpisodeRun
+from ninja_game.session.scoring import seconds_text
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+    from ninja_game.session.catalogue import Episode
+
+PICTURE = 132
+
+
+class EpisodePassed(MenuScreen):
+    """Shown after an episode's last level. Space goes on to the next episode."""
+
+    def __init__(self, app: App, run: EpisodeRun, notices: Sequence[str]) -> None:
+        super().__init__(app)
+        self.run = run
+        self.notices = list(notices)
+        self.title = f"Episode {run.episode.number} passed"
+        self.thumbnails = Thumbnails(app)
+
+    @property
+    def next_episode(self) -> Episode | None:
+        """The episode after this one, of its column."""
+        following = self.player.catalogue.episodes.get(self.run.episode.number + 1)
+        return following if following and following.column == self.run.episode.column else None
+
+    def build(self) -> Sequence[Widget]:
+        """On, or back."""
+        following = self.next_episode
+        buttons: list[Widget] = []
+        if following is not None:
+            buttons.append(Button((236, 440, 320, 36), f"Go on: episode {following.number}", self.go_on, size=13))
+        watch = Button((236, 482, 156, 30), "Watch the run", self.watch, hint="The best run of this episode")
+        watch.enabled = self.player.records.episode_best(self.run.episode.key) is not None
+        return [*buttons, watch, Button((400, 482, 156, 30), "Episodes", self.back)]
+
+    def go_on(self) -> None:
+        """The next episode."""
+        from ninja_game.play.level_screen import LevelScreen
+        from ninja_game.play.menus.courses import episode_course
+
+        if self.next_episode is not None:
+            self.app.replace(LevelScreen(self.app, episode_course(self.app, self.player, self.next_episode)))
+
+    def watch(self) -> None:
+        """The replays of the episode's best run."""
+        from ninja_game.play.menus.watching import watch
+
+        best = self.player.records.episode_best(self.run.episode.key)
+        if best is not None:
+            watch(self.app, [self.player.records.replay(number) for number in best.replays])
+
+    def update(self, real_ms: int) -> None:
+        """Thumbnails come in."""
+        super().update(real_ms)
+        self.redraw = self.thumbnails.work() or self.redraw
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        """The levels in a row, the score below."""
+        super().draw_frame(surface)
+        theme, palette = self.app.theme, self.app.theme.palette
+        episode = self.run.episode
+        theme.text(surface, episode.name, WIDTH / 2, 76, size=20, align="centre", bold=True)
+        count = len(episode.levels)
+        left = (WIDTH - count * (PICTURE + 8) + 8) / 2
+        for place, entry in enumerate(episode.levels):
+            x = left + place * (PICTURE + 8)
+            self.thumbnails.draw(surface, entry, x, 124, PICTURE)
+            theme.text(surface, entry.title, x + PICTURE / 2, 232, size=10, align="centre")
+            best = self.player.records.level_best(entry.digest)
+            score = f"best {seconds_text(best.score)}" if best else ""
+            theme.text(surface, score, x + PICTURE / 2, 247, size=10, colour=palette.faint, align="centre")
+        theme.text(surface, seconds_text(self.run.score), WIDTH / 2, 290, size=44, align="centre", bold=True)
+        what = "practice" if self.run.practice else "seconds left on the clock"
+        theme.text(surface, what, WIDTH / 2, 340, size=11, colour=palette.faint, align="centre")
+        for line, notice in enumerate(self.notices[-4:]):
+            theme.text(surface, notice, WIDTH / 2, 364 + 17 * line, size=12, colour=palette.good, align="centre")

@@ -1,0 +1,105 @@
+"""The main menu, with replays playing behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game import __version__
+from ninja_game.play.canvas import HEIGHT, WIDTH
+from ninja_game.play.menus.attract import Attract
+from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.panels import Panels, Question
+from ninja_game.play.menus.widgets import Area, Button, Widget, fit
+from ninja_game.play.screen import Screen
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+PANEL: Area = (44, 96, 232, 420)
+TITLE = "NINJA"
+MESSAGE_MS = 12_000
+
+
+class MainMenu(MenuScreen):
+    """Where the game begins and where every way back ends."""
+
+    def __init__(self, app: App) -> None:
+        super().__init__(app)
+        self.attract = Attract(app)
+        self._message_ms = MESSAGE_MS
+        app.panels = Panels(app)
+
+    def build(self) -> Sequence[Widget]:
+        """One button for each screen."""
+        x, y, w, _ = PANEL
+        return [
+            Button((x + 22, y + 98 + 43 * k, w - 44, 34), text, action, hint=hint, size=13)
+            for k, (text, action, hint) in enumerate(self._entries())
+        ]
+
+    def _entries(self) -> list[tuple[str, Callable[[], object], str]]:
+        return [
+            ("Play", self._open("episode_grid", "EpisodeGrid"), "Episodes: up to five levels in a row on one clock"),
+            ("Levels", self._open("browser", "Browser"), "Single levels, and your own files"),
+            ("Records", self._open("records", "RecordsScreen"), "Your best runs, and what killed you"),
+            ("Replays", self._open("replays", "ReplaysScreen"), "Watch runs again"),
+            ("Settings", self._open("settings", "SettingsScreen"), "Keys, sound, colours, comfort"),
+            ("Help", self._open("help", "HelpScreen"), "How to move, and what everything does"),
+            ("Quit", self.back, "Leave the game"),
+        ]
+
+    def _open(self, module: str, name: str) -> Callable[[], None]:
+        """What opens a screen; its module is imported only then."""
+
+        def open_screen() -> None:
+            from importlib import import_module
+
+            screen: Screen = getattr(import_module(f"ninja_game.play.menus.{module}"), name)(self.app)
+            self.app.push(screen)
+
+        return open_screen
+
+    def back(self) -> None:
+        """Ask before the game ends."""
+        self.app.push(Question(self.app, "Leave the game?", "Leave", self.app.quit))
+
+    def update(self, real_ms: int) -> None:
+        """The replay behind goes on."""
+        super().update(real_ms)
+        self.attract.update(real_ms)
+        self._message_ms = max(0, self._message_ms - real_ms)
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        """The replay, and the menu over it. Under a panel it stands still."""
+        if self.app.top is not self and not self.redraw:
+            return []
+        self.attract.draw(surface, whole=self.redraw)
+        canvas, theme = self.app.canvas, self.app.theme
+        x, y, w, h = PANEL
+        rect = canvas.fill_rect(surface, theme.palette.background, x, y, w, h, 6)
+        canvas.frame_rect(surface, theme.palette.panel_edge, x, y, w, h, 1.5, 6)
+        theme.text(surface, TITLE, x + w / 2, y + 22, size=40, align="centre", bold=True)
+        theme.text(
+            surface, f"version {__version__}", x + w / 2, y + 68, size=9, colour=theme.palette.faint, align="centre"
+        )
+        self.draw_widgets(surface)
+        foot = canvas.rect(0, HEIGHT - 24, WIDTH, 24)
+        self._draw_foot(surface)
+        if self.attract.view is not None:
+            self.attract.view.also_covered(rect.inflate(4, 4))
+            self.attract.view.also_covered(foot)
+        return None
+
+    def _draw_foot(self, surface: pygame.Surface) -> None:
+        """The hint, or what went wrong when the game started."""
+        canvas, theme, palette = self.app.canvas, self.app.theme, self.app.theme.palette
+        messages = self.player.messages
+        warn = bool(messages) and self._message_ms > 0
+        text = " ".join(messages) if warn else (self.focus.hint if self.focus else "")
+        canvas.fill_rect(surface, palette.panel if warn else palette.tile, 0, HEIGHT - 24, WIDTH, 24)
+        colour = palette.bad if warn else palette.on_tile
+        theme.text(surface, fit(theme, text, WIDTH - 40, 10.5), WIDTH / 2, HEIGHT - 18, size=10.5, colour=colour,
+                   align="centre")  # fmt: skip

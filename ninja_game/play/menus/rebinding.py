@@ -1,0 +1,172 @@
+"""The settings' pages of keys and buttons: every action, up to four inputs each, changed by pressing another."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.play.bindings import Bindings
+from ninja_game.play.default_bindings import ACTIONS
+from ninja_game.play.gamepad import pad_label
+from ninja_game.play.key_names import key_label
+from ninja_game.play.menus.list_view import ListView
+from ninja_game.play.menus.widgets import TEXT, Area, Button, Slider, Widget, fit
+from ninja_game.play.screen import Screen
+from ninja_game.play.theme import Theme
+
+if TYPE_CHECKING:
+    from ninja_game.play.menus.settings import SettingsScreen
+
+SLOTS = 4
+ROW = 30
+LIST: Area = (216, 72, 540, 13 * ROW)
+LABEL_SHARE = 0.4
+
+
+def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
+    """The widgets of a page. ``device``: "keys" or "pad"."""
+    actions = [name for name in ACTIONS if device == "keys" or ACTIONS[name].pad or name in ("quit", "skip", "boss")]
+    table = BindingTable(screen, device, actions)
+    widgets: list[Widget] = [
+        table,
+        Button((216, 478, 260, 30), "All as they were at first", lambda: screen.change(**{device: {}})),
+    ]
+    if device == "pad":
+        widgets.append(_dead_zone(screen))
+    return widgets
+
+
+def _dead_zone(screen: SettingsScreen) -> Slider:
+    pads = screen.app.controls.pads.count if isinstance(screen.app.controls, Bindings) else 0
+    return Slider(
+        (216, 514, 540, 30), "Dead zone of sticks", (0.05, 0.95, 0.05), lambda: screen.player.settings.dead_zone,
+        lambda value: screen.change(dead_zone=round(value, 2)), show=lambda value: f"{100 * value:.0f} %",
+        hint=f"{pads} gamepads are plugged in" if pads != 1 else "One gamepad is plugged in",
+    )  # fmt: skip
+
+
+class BindingTable(ListView):
+    """One row an action, one cell an input. Left and right choose the cell, Enter waits for a press, Delete clears."""
+
+    def __init__(self, screen: SettingsScreen, device: str, actions: list[str]) -> None:
+        super().__init__(LIST, ROW, self._draw_action, self._capture)
+        self.screen = screen
+        self.device = device
+        self.actions = actions
+        self.slot = 0
+        self.hint = "Left and right choose a place, Enter takes a new press, Delete clears it"
+        self.fill(actions)
+
+    def inputs(self, action: str) -> tuple[str, ...]:
+        """The names of the inputs that an action has now."""
+        changed = getattr(self.screen.player.settings, self.device)
+        default = ACTIONS[action].keys if self.device == "keys" else ACTIONS[action].pad
+        return tuple(changed.get(action, default))
+
+    def bind(self, action: str, inputs: tuple[str, ...]) -> None:
+        """Give an action other inputs; where they are the default ones nothing is stored."""
+        changed = dict(getattr(self.screen.player.settings, self.device))
+        default = ACTIONS[action].keys if self.device == "keys" else ACTIONS[action].pad
+        changed[action] = inputs
+        if inputs == default:
+            del changed[action]
+        self.screen.change(**{self.device: changed})
+
+    def nudge(self, action: str) -> bool:
+        """Left and right within the row, Delete."""
+        if action in ("left", "right"):
+            slot = self.slot + (1 if action == "right" else -1)
+            if not 0 <= slot < SLOTS:
+                return False
+            self.slot = slot
+            return True
+        if action == "delete":
+            name = self.actions[self.index]
+            inputs = self.inputs(name)
+            self.bind(name, inputs[: self.slot] + inputs[self.slot + 1 :])
+            return True
+        return super().nudge(action)
+
+    def click(self, x: float, y: float) -> bool:
+        """The cell that is clicked."""
+        left, width = self._cells()
+        if left <= x < left + SLOTS * width:
+            self.slot = int((x - left) // width)
+        return super().click(x, y)
+
+    def _cells(self) -> tuple[float, float]:
+        x, _, w, _ = self.area
+        return x + w * LABEL_SHARE, (w * (1 - LABEL_SHARE) - 12) / SLOTS
+
+    def _capture(self, index: int) -> None:
+        self.screen.app.push(Capture(self, self.actions[index], self.slot))
+
+    def taken(self, action: str, slot: int, name: str) -> None:
+        """An input was pressed for an action: put it in its place; twice in one row is once."""
+        inputs = [each for each in self.inputs(action) if each != name]
+        inputs[slot : slot + 1] = [name]
+        self.bind(action, tuple(inputs[:SLOTS]))
+
+    def _draw_action(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        canvas, palette = theme.canvas, theme.palette
+        _, y, _, h = area
+        action = self.actions[index]
+        top = y + (h - TEXT) / 2
+        label = fit(theme, ACTIONS[action].label, LIST[2] * LABEL_SHARE - 8, TEXT)
+        theme.text(surface, label, area[0] + 2, top, size=TEXT, bold=focused)
+        left, width = self._cells()
+        inputs = self.inputs(action)
+        for slot in range(SLOTS):
+            x = left + slot * width
+            here = focused and slot == self.slot
+            canvas.fill_rect(surface, palette.panel, x + 2, y + 2, width - 4, h - 4, 3)
+            edge = palette.accent if here else palette.panel_edge
+            canvas.frame_rect(surface, edge, x + 2, y + 2, width - 4, h - 4, 2.5 if here else 1, 3)
+            if slot < len(inputs):
+                text = key_label(inputs[slot]) if self.device == "keys" else pad_label(inputs[slot])
+                shown = fit(theme, text, width - 12, 10)
+                theme.text(surface, shown, x + width / 2, top + 0.5, size=10, align="centre")
+
+
+class Capture(Screen):
+    """Waits for one press, which becomes the input. Esc leaves all as it was."""
+
+    see_through = True
+
+    def __init__(self, table: BindingTable, action: str, slot: int) -> None:
+        super().__init__(table.screen.app)
+        self.table = table
+        self.action = action
+        self.slot = slot
+
+    def handle(self, event: pygame.Event) -> None:
+        """Take the press."""
+        controls = self.app.controls
+        if event.type == pygame.MOUSEBUTTONDOWN:
+            self.app.pop()
+            return
+        if not isinstance(controls, Bindings):
+            return
+        pressed = controls.pressed_input(event)
+        if pressed is None:
+            return
+        device, name = pressed
+        if device == "keys" and name == "escape":
+            self.app.pop()
+        elif device == self.table.device:
+            self.app.pop()
+            self.table.taken(self.action, self.slot, name)
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        """What to do."""
+        if not self.redraw:
+            return []
+        theme, canvas = self.app.theme, self.app.canvas
+        canvas.fill_rect(surface, theme.palette.background, 206, 240, 380, 110, 6)
+        canvas.frame_rect(surface, theme.palette.accent, 206, 240, 380, 110, 2.5, 6)
+        what = "key" if self.table.device == "keys" else "button, or move a stick,"
+        theme.text(surface, ACTIONS[self.action].label, 396, 262, size=16, align="centre", bold=True)
+        theme.text(surface, f"Press a {what} for it", 396, 292, size=12, align="centre")
+        theme.text(surface, "Esc leaves it as it was", 396, 318, size=10, colour=theme.palette.faint, align="centre")
+        return None

@@ -1,0 +1,123 @@
+"""Records: the best of each episode and level, to be watched again, and what killed the player how often."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import pygame
+
+from ninja_game.play.menus.list_view import ListView
+from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.watching import watch
+from ninja_game.play.menus.widgets import Area, Widget, fit
+from ninja_game.play.theme import Theme
+from ninja_game.session.scoring import TICK_MS, seconds_text
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+ROW = 30
+SIDE, SIDE_WIDTH = 528, 228
+
+
+class Row(NamedTuple):
+    """A record: what, its score in ticks (None: not passed), the ids of its replays, whether it heads a group."""
+
+    text: str
+    score: int | None
+    replays: tuple[int, ...]
+    head: bool
+    when: str = ""
+
+
+class RecordsScreen(MenuScreen):
+    """Bests at the left, statistics at the right."""
+
+    title = "Records"
+
+    def __init__(self, app: App) -> None:
+        super().__init__(app)
+        self.rows: list[Row] = []
+        self.list = ListView((44, 92, 468, 15 * ROW), ROW, self._draw_row, self._watch, hint="Enter: watch it")
+        self.list.empty = "No records yet: pass a level"
+
+    def build(self) -> Sequence[Widget]:
+        """The list."""
+        self.rows = self._rows()
+        self.list.fill(self.rows)
+        return [self.list]
+
+    def _rows(self) -> list[Row]:
+        """Episodes with their levels, then other levels that have been passed."""
+        records, catalogue = self.player.records, self.player.catalogue
+        bests = records.level_bests()
+        rows = []
+        listed = set()
+        for episode in catalogue.episodes.values():
+            best = records.episode_best(episode.key)
+            text = f"Episode {episode.number}: {episode.name}"
+            rows.append(Row(text, best.score if best else None, best.replays if best else (), True))
+            for entry in episode.levels:
+                listed.add(entry.digest)
+                saved = bests.get(entry.digest)
+                score, ids = (saved.score, (saved.id,)) if saved else (None, ())
+                rows.append(Row(entry.title, score, ids, False, saved.made_at[:10] if saved else ""))
+        others = [saved for digest, saved in bests.items() if digest not in listed]
+        if others:
+            rows.append(Row("Other levels", None, (), True))
+        others.sort(key=lambda saved: saved.name.casefold())
+        return rows + [
+            Row(saved.name or "nameless", saved.score, (saved.id,), False, saved.made_at[:10]) for saved in others
+        ]
+
+    def _watch(self, index: int) -> None:
+        watch(self.app, [self.player.records.replay(number) for number in self.rows[index].replays])
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        """The heads, and the statistics."""
+        super().draw_frame(surface)
+        theme, palette = self.app.theme, self.app.theme.palette
+        theme.text(surface, "Your best", 44, 68, size=14, bold=True)
+        theme.text(surface, "What killed you", SIDE, 68, size=14, bold=True)
+        deaths = self.player.statistics.deaths()
+        most = max([*deaths.values(), 1])
+        for place, (killer, times) in enumerate(deaths.items()):
+            y = 98 + 27 * place
+            theme.text(surface, _NAMES.get(killer, killer), SIDE, y, size=11)
+            theme.text(surface, str(times), SIDE + SIDE_WIDTH, y, size=11, align="right")
+            theme.canvas.fill_rect(surface, palette.panel, SIDE, y + 15, SIDE_WIDTH, 4, 2)
+            if times:
+                theme.canvas.fill_rect(surface, palette.bad, SIDE, y + 15, max(4, SIDE_WIDTH * times / most), 4, 2)
+        played = self.player.statistics.played()
+        minutes = played.ticks * TICK_MS // 60_000
+        lines = (
+            ("Tries", str(played.attempts)), ("Passed", str(played.passes)), ("Gold taken", str(played.gold)),
+            ("Time in play", f"{minutes // 60} h {minutes % 60:02d} min"),
+        )  # fmt: skip
+        for place, (what, number) in enumerate(lines):
+            y = 364 + 22 * place
+            theme.text(surface, what, SIDE, y, size=11, colour=palette.faint)
+            theme.text(surface, number, SIDE + SIDE_WIDTH, y, size=11, align="right")
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        row = self.rows[index]
+        canvas, palette = theme.canvas, theme.palette
+        x, y, w, h = area
+        if row.head:
+            canvas.fill_rect(surface, palette.panel, x, y + 2, w, h - 4, 3)
+        if index == self.list.index:
+            edge = palette.accent if focused else palette.panel_edge
+            canvas.frame_rect(surface, edge, x, y + 2, w, h - 4, 2.5 if focused else 1, 3)
+        top = y + h / 2 - 6
+        left = x + (8 if row.head else 24)
+        theme.text(surface, fit(theme, row.text, w - 200, 12), left, top, size=12, bold=row.head)
+        if row.score is not None:
+            score = seconds_text(row.score)
+            theme.text(surface, score, x + w - 90, top, size=12, colour=palette.good, align="right", bold=row.head)
+            theme.text(surface, row.when, x + w - 8, top + 1, size=10, colour=palette.faint, align="right")
+        elif not row.head or index == 0:
+            theme.text(surface, "not passed yet", x + w - 8, top, size=10.5, colour=palette.faint, align="right")
+
+
+_NAMES = {"player": "yourself: falls, walls, time"}

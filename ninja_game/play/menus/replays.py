@@ -1,0 +1,147 @@
+"""Replays: those in the records, those in the player's folder, those that come with the game."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import pygame
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.formats.files import load_replays
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.text_file import text_files
+from ninja_game.play.menus.list_view import ListView
+from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.panels import Question
+from ninja_game.play.menus.watching import watch, watch_recording
+from ninja_game.play.menus.widgets import Area, Widget, fit
+from ninja_game.play.theme import Theme
+from ninja_game.session.bundled import bundled_replays
+from ninja_game.session.records import SavedReplay
+from ninja_game.session.scoring import seconds_text
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+ROW = 34
+FILES_SHOWN = 300
+"""Recordings read from the player's folder at most."""
+
+
+class Row(NamedTuple):
+    """A replay: what it is called, whose, how it ended, when; and where it is."""
+
+    text: str
+    who: str
+    what: str
+    when: str
+    good: bool
+    source: SavedReplay | Recording
+
+
+class ReplaysScreen(MenuScreen):
+    """One list of all replays. Delete removes one of the records that no best needs."""
+
+    title = "Replays"
+
+    def __init__(self, app: App) -> None:
+        super().__init__(app)
+        self.rows: list[Row] = []
+        self.problems = 0
+        self._files: list[Row] | None = None
+        self.list = ListView((44, 96, 712, 13 * ROW), ROW, self._draw_row, self._watch)
+        self.list.empty = "No replays yet"
+        self.list.hint = "Enter: watch it. Delete: remove a saved one"
+
+    def build(self) -> Sequence[Widget]:
+        """The list, the newest records first, then files."""
+        if self._files is None:
+            self._files = self._file_rows()
+        self.rows = [_row_of(saved) for saved in self.player.records.replays()] + self._files
+        self.list.fill(self.rows)
+        return [self.list]
+
+    def _file_rows(self) -> list[Row]:
+        rows = []
+        folder = self.player.replay_folder
+        own = text_files(folder) if folder.is_dir() else []
+        for when, files in (("your folder", own), ("the game's", bundled_replays())):
+            for file in files:
+                try:
+                    recordings = load_replays(file)
+                except (NinjaGameError, OSError):
+                    self.problems += 1
+                    continue
+                rows += [_row_of_recording(recording, when) for recording in recordings]
+                if len(rows) > FILES_SHOWN:
+                    break
+        return rows
+
+    def _watch(self, index: int) -> None:
+        source = self.rows[index].source
+        if isinstance(source, Recording):
+            watch_recording(self.app, source)
+        else:
+            watch(self.app, [self.player.records.replay(source.id)])
+
+    def act(self, action: str) -> None:
+        """Delete asks first; all else as in other menus."""
+        source = self.rows[self.list.index].source if self.rows else None
+        if action == "delete" and isinstance(source, SavedReplay):
+            number = source.id
+            if number in {best.id for best in self.player.records.level_bests().values()}:
+                self.list.hint = "This is a personal best; it stays"
+                self.redraw = True
+                return
+            forget = self.player.records.forget_replay
+            self.app.push(Question(self.app, "Remove this replay?", "Remove", lambda: self._forget(forget, number)))
+            return
+        super().act(action)
+
+    def _forget(self, forget: object, number: int) -> None:
+        assert callable(forget)  # noqa: S101 - bound above
+        forget(number)
+        self.enter()
+        self.redraw = True
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        """The heads of the columns."""
+        super().draw_frame(surface)
+        theme, palette = self.app.theme, self.app.theme.palette
+        for x, text, align in ((54, "Level", "left"), (340, "Player", "left"), (598, "Result", "right"),
+                               (734, "From", "right")):  # fmt: skip
+            theme.text(surface, text, x, 72, size=10.5, colour=palette.faint, align=align)
+        if self.problems:
+            theme.text(surface, f"{self.problems} files cannot be read", 44, 545, size=10, colour=palette.bad)
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        row = self.rows[index]
+        canvas, palette = theme.canvas, theme.palette
+        x, y, w, h = area
+        canvas.fill_rect(surface, palette.panel, x, y + 2, w, h - 4, 3)
+        if index == self.list.index:
+            edge = palette.accent if focused else palette.panel_edge
+            canvas.frame_rect(surface, edge, x, y + 2, w, h - 4, 2.5 if focused else 1, 3)
+        top = y + h / 2 - 6
+        theme.text(surface, fit(theme, row.text, 270, 12), x + 10, top, size=12, bold=index == self.list.index)
+        theme.text(surface, fit(theme, row.who, 150, 11), 340, top + 0.5, size=11, colour=palette.faint)
+        colour = palette.good if row.good else palette.faint
+        theme.text(surface, row.what, 598, top, size=12, colour=colour, align="right")
+        theme.text(surface, row.when, 734, top + 1, size=10, colour=palette.faint, align="right")
+
+
+def _row_of(saved: SavedReplay) -> Row:
+    passed = saved.outcome == "exit"
+    what = seconds_text(saved.score) if passed else saved.outcome
+    return Row(saved.name or "nameless", saved.player, what, saved.made_at[:16].replace("T", "  "), passed, saved)
+
+
+def _row_of_recording(recording: Recording, when: str) -> Row:
+    replay = recording.replay
+    if replay is not None:
+        outcome = {"exit": "passed", "dead": "death", "running": "unfinished"}[replay.outcome]
+    else:
+        outcome = "recording"
+    return Row(recording.name or "nameless", recording.author, f"{outcome}, {seconds_text(recording.ticks)} s", when,
+               outcome == "passed", recording)  # fmt: skip
