@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from enum import Enum
 from random import Random
 from typing import TYPE_CHECKING
 
@@ -10,35 +9,23 @@ import pygame
 
 from ninja_game.play.course import Course
 from ninja_game.play.ghosts import Ghost
-from ninja_game.play.hud import Hud
 from ninja_game.play.level_view import LevelView
+from ninja_game.play.level_writing import write_over
 from ninja_game.play.overlays import Overlays
-from ninja_game.play.practice import REWIND_TICKS, SLOW_TICK_MS, Practice
+from ninja_game.play.phase import DEATH_PAUSE, PHASE_OF_OUTCOME, Phase
+from ninja_game.play.practice import REWIND_TICKS, SLOW_TICK_MS, Practice, use_tools
 from ninja_game.play.run_clock import RunClock
 from ninja_game.play.screen import Screen
 from ninja_game.session.attempt import Attempt
-from ninja_game.session.scoring import seconds_text
 from ninja_game.sim.level_data import GOLD
 from ninja_game.sim.rules import LIFETIME
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
 
-_DEATH_PAUSE = 41
-"""Ticks after a death before the message comes."""
 _NOTICE_MS = 4000
 _FILL_SHARE = 0.05
 """Share of the missing bar that fills per picture before play starts (presentation.md §7)."""
-
-
-class Phase(Enum):
-    """Where in its life a level is."""
-
-    READY = "ready"
-    PLAY = "play"
-    PAUSED = "paused"
-    DEAD = "dead"
-    PASSED = "passed"
 
 
 class LevelScreen(Screen):
@@ -159,7 +146,7 @@ class LevelScreen(Screen):
         if event.type == pygame.WINDOWFOCUSLOST:
             self.pause()
         actions = self.app.controls.actions(event)
-        self._practice_keys(actions, self.app.controls.releases(event))
+        use_tools(self, actions, self.app.controls.releases(event))
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == 1 and self.phase is not Phase.PLAY:
             actions = (*actions, "confirm")
         for action in actions:
@@ -196,7 +183,7 @@ class LevelScreen(Screen):
     def _may_watch(self) -> bool:
         if self.phase is Phase.PASSED:
             return True
-        return self.phase is Phase.DEAD and self.after_end > _DEATH_PAUSE and not self.attempt.own_hand
+        return self.phase is Phase.DEAD and self.after_end > DEATH_PAUSE and not self.attempt.own_hand
 
     def _act_in_play(self, action: str) -> bool:
         if action in {"pause", "back"}:
@@ -214,29 +201,9 @@ class LevelScreen(Screen):
             return False
         return True
 
-    def _practice_keys(self, pressed: tuple[str, ...], released: tuple[str, ...]) -> None:
-        """Practice tools: some act at once, some while they are held."""
-        tools = self.practice
-        if not self.course.practice or self.phase not in {Phase.PLAY, Phase.DEAD, Phase.PASSED}:
-            return
-        if "quick_save" in pressed:
-            tools.quick_save()
-            self.tell("Saved: come back to this moment with " + self.app.controls.name("quick_load"))
-        elif "quick_load" in pressed and tools.quick_load():
-            self._put_back()
-        elif "step" in pressed:
-            tools.stepping = True
-            self._run_ticks(1)
-        if "rewind" in pressed or "rewind" in released:
-            tools.rewinding = "rewind" in pressed
-            tools.stepping = tools.stepping and not tools.rewinding
-        if "slow" in pressed or "slow" in released:
-            tools.slow = "slow" in pressed
-            tools.stepping = False
-
-    def _put_back(self) -> None:
+    def put_back(self) -> None:
         """The attempt is at another moment: so is everything that shows it."""
-        self.phase = {"running": Phase.PLAY, "dead": Phase.DEAD, "exit": Phase.PASSED}[self.attempt.outcome]
+        self.phase = PHASE_OF_OUTCOME[self.attempt.outcome]
         self.after_end = 0
         self.view.jumped()
         self.clock.reset()
@@ -263,7 +230,7 @@ class LevelScreen(Screen):
                 self._rewind(real_ms)
             elif not self.practice.stepping:
                 tick_ms = SLOW_TICK_MS if self.practice.slow else self.app.options.tick_ms
-                self._run_ticks(self.clock.ticks_due(real_ms, tick_ms))
+                self.run_ticks(self.clock.ticks_due(real_ms, tick_ms))
         if self.attempt.outcome != "exit":
             self._follow_lifetime()
 
@@ -274,7 +241,8 @@ class LevelScreen(Screen):
         if held & ~self._held_before:
             self.begin()
 
-    def _run_ticks(self, due: int) -> None:
+    def run_ticks(self, due: int) -> None:
+        """So many ticks, each with the input of its moment."""
         for _ in range(due):
             # Sampled right before the tick: as late as can be.
             self.last_frame = self.app.controls.held() if self.phase is Phase.PLAY else 0
@@ -302,7 +270,7 @@ class LevelScreen(Screen):
             self.redraw = True
         elif self.phase in {Phase.DEAD, Phase.PASSED}:
             self.after_end += 1
-            if self.after_end == _DEATH_PAUSE + 1:
+            if self.after_end == DEATH_PAUSE + 1:
                 self.redraw = True
 
     def _rewind(self, real_ms: int) -> None:
@@ -326,54 +294,7 @@ class LevelScreen(Screen):
         running = self.phase is not Phase.PAUSED and not self.practice.stepping and not self.practice.rewinding
         fraction = self.clock.fraction if running and self.phase is not Phase.READY else 1.0
         changed = self.view.draw(surface, fraction, whole=self.redraw)
-        written = self._write(surface)
+        written = write_over(self, surface)
         for rect in written:
             self.view.also_covered(rect)
         return None if changed is None else changed + written
-
-    def _write(self, surface: pygame.Surface) -> list[pygame.Rect]:
-        hud = Hud(self.app.theme)
-        attempt = self.attempt
-        bar = (
-            hud.label(surface, "Practice" + (", slow" if self.practice.slow else ""))
-            if attempt.practice
-            else hud.time_bar(surface, self.shown_lifetime)
-        )
-        written = [bar, hud.level_name(surface, self.course.title, f"gold {attempt.gold} / {self.all_gold}")]
-        if self.app.options.show_keys:
-            written.append(hud.keys(surface, self.last_frame))
-        if self.notices:
-            written.append(hud.notices(surface, self.notices))
-        message = self._message()
-        if message is not None:
-            written.append(hud.message(surface, *message))
-        hint = self._hint()
-        if hint:
-            written.append(hud.hint(surface, hint))
-        return written
-
-    def _message(self) -> tuple[str, list[str]] | None:
-        """Title and lines of the message of this phase; None if it has none."""
-        key = self.app.controls.name
-        if self.phase is Phase.PAUSED and self.app.top is self:
-            return "Paused", [f"{key('confirm')}: go on", f"{key('retry')}: retry", f"{key('quit')}: leave"]
-        if self.phase is Phase.PASSED:
-            attempt = self.attempt
-            lines = [
-                f"{attempt.gold} of {self.all_gold} gold",
-                "",
-                f"{key('confirm')}: go on    {key('replay')}: replay",
-            ]
-            return f"Passed with {seconds_text(attempt.score)}", lines
-        return None
-
-    def _hint(self) -> str:
-        """The line of this phase; '' if it has none."""
-        key = self.app.controls.name
-        if self.phase is Phase.READY:
-            return f"{key('confirm')} or any move to begin"
-        if self.phase is Phase.DEAD and self.after_end > _DEATH_PAUSE:
-            if self.attempt.own_hand:
-                return f"As you wish. {key('confirm')} to try again"
-            return f"{key('confirm')} to try again    {key('replay')}: watch the replay    {key('quit')}: leave"
-        return ""

@@ -1,0 +1,61 @@
+"""What is written over a level being played, by its phase."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.play.hud import Hud
+from ninja_game.play.phase import DEATH_PAUSE, Phase
+from ninja_game.session.scoring import seconds_text
+
+if TYPE_CHECKING:
+    from ninja_game.play.level_screen import LevelScreen
+
+
+def write_over(screen: LevelScreen, surface: pygame.Surface) -> list[pygame.Rect]:
+    """Time bar, name, notices, message; the px that they cover."""
+    hud = Hud(screen.app.theme)
+    attempt = screen.attempt
+    practice = "Practice" + (", slow motion" if screen.practice.slow else "")
+    bar = hud.label(surface, practice) if attempt.practice else hud.time_bar(surface, screen.shown_lifetime)
+    written = [bar, hud.level_name(surface, screen.course.title, f"gold {attempt.gold} / {screen.all_gold}")]
+    if screen.app.options.show_keys:
+        written.append(hud.keys(surface, screen.last_frame))
+    if screen.notices:
+        written.append(hud.notices(surface, screen.notices))
+    message = _message(screen)
+    if message is not None:
+        written.append(hud.message(surface, *message))
+    hint = _hint(screen)
+    if hint:
+        written.append(hud.hint(surface, hint))
+    return written
+
+
+def _message(screen: LevelScreen) -> tuple[str, list[str]] | None:
+    """Title and lines of the message of this phase; None if it has none."""
+    key = screen.app.controls.name
+    if screen.phase is Phase.PAUSED and screen.app.top is screen:
+        return "Paused", [f"{key('confirm')}: go on", f"{key('retry')}: retry", f"{key('quit')}: leave"]
+    if screen.phase is Phase.PASSED:
+        attempt = screen.attempt
+        gold = f"{attempt.gold} of {screen.all_gold} gold"
+        return f"Passed with {seconds_text(attempt.score)}", [
+            gold,
+            f"{key('confirm')}: go on    {key('replay')}: replay",
+        ]
+    return None
+
+
+def _hint(screen: LevelScreen) -> str:
+    """The line of this phase; '' if it has none."""
+    key = screen.app.controls.name
+    if screen.phase is Phase.READY:
+        return f"{key('confirm')} or any move to begin"
+    if screen.phase is Phase.DEAD and screen.after_end > DEATH_PAUSE:
+        if screen.attempt.own_hand:
+            return f"As you wish. {key('confirm')} to try again"
+        return f"{key('confirm')} to try again    {key('replay')}: watch the replay    {key('quit')}: leave"
+    return ""

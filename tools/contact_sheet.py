@@ -1,0 +1,193 @@
+#!/usr/bin/env python3
+"""All drawings and all screens on one picture: `python tools/contact_sheet.py [--out docs/contact-sheet.png]`.
+
+Look at it critically after a change of any drawing: would a player buy this?
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
+os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+
+import pygame
+
+from ninja_game.play.canvas import Canvas
+from ninja_game.play.palette import PALETTES, Palette
+from ninja_game.play.picture.dances import DANCES
+from ninja_game.play.picture.figure import ninja_sprite
+from ninja_game.play.picture.pose import FALL, FLOAT, RISE, SKID, SLIDE, STAND, Pose, run_pose
+from ninja_game.play.picture.sprite_book import Key, SpriteBook
+from ninja_game.play.theme import Theme
+
+SCALE = 3.0
+CELL = 150, 138
+COLUMNS = 12
+MARGIN = 24
+
+Shown = tuple[str, list[tuple[Key, float, float]]]
+"""A label, and drawings with where their points lie, px from the middle of the cell."""
+
+
+def one(label: str, *key: object, at: tuple[float, float] = (0, 0)) -> Shown:
+    """A cell with a single drawing."""
+    return label, [(key, *at)]
+
+
+def drone(label: str, weapon: int, *, seeker: int = 0, chasing: int = 0, heat: int = 0, mood: int = 0) -> Shown:
+    """A drone with its eye, and its barrel if it has one."""
+    parts: list[tuple[Key, float, float]] = [
+        (("drone", 0, 8, weapon, seeker, chasing, heat if weapon == 1 else 0), 0, 3)
+    ]
+    if weapon == 2:
+        parts.append((("barrel", 0, 8, 0, heat), 0, 3))
+    parts.append((("eye", 0, 8, mood), 4.5, 3))
+    return label, parts
+
+
+THINGS: list[Shown] = [
+    one("gold", "gold", 0, 8),
+    *(one(f"gold taken {k}", "streak", 0, 8, k, at=(0, 14)) for k in (2, 5)),
+    one("mine", "mine", 0, 8),
+    one("exit, closed", "exit", 0, 8, 0), one("exit, opening", "exit", 0, 8, 4), one("exit, open", "exit", 0, 8, 8),
+    one("switch", "switch", 0, 8, 0), one("switch, pressed", "switch", 0, 8, 1),
+    one("door, closed", "door", 0, 8, 0, 0), one("door, half", "door", 0, 8, 0, 4), one("door, open", "door", 0, 8, 0, 8),
+    one("lock, closed", "door", 0, 8, 1, 0), one("lock, opening", "door", 0, 8, 1, 4), one("lock, open", "door", 0, 8, 1, 8),
+    one("key", "door switch", 0, 8, 1, 0), one("key, used", "door switch", 0, 8, 1, 1),
+    one("trap, closing", "door", 0, 8, 2, 4), one("trap, closed", "door", 0, 8, 2, 0),
+    one("snare", "door switch", 0, 8, 2, 0), one("snare, used", "door switch", 0, 8, 2, 1),
+    one("pad", "pad", 0, 8, 0), one("pad, sprung", "pad", 0, 8, 8), one("pad, slanted", "pad", 45, 8, 0),
+    one("one-way", "one-way", 0, 8), one("one-way, left", "one-way", -90, 8),
+    one("turret", "turret", 0, 8, 0), one("turret, locked", "turret", 0, 8, 8),
+    *(one(f"crosshair, {name}", "crosshair", 0, 8, k) for k, name in enumerate(("far", "mid", "near", "locked"))),
+    one("launcher", "launcher", 0, 8, 0), one("launcher, ready", "launcher", 0, 8, 8),
+    ("rocket", [(("flame", 0, 8 - k, 7 - k), -24 + 2.6 * (7 - k) - 6, 0) for k in range(7)] + [(("rocket", 0, 8, 1), 10, 0)]),
+    one("block", "block", 0, 8, 0), one("block, awake", "block", 0, 8, 1),
+    one("thwump", "thwump", 0, 8, 0, 0), one("thwump, falling", "thwump", 0, 8, 1, 1),
+    one("thwump, rising", "thwump", 0, 8, 2, 0), one("thwump, left", "thwump", 90, 8, 0, 0),
+    one("guard", "guard", 0, 8, 0, 0), one("guard, running", "guard", 0, 8, 1, 1),
+    drone("zap drone", 0), drone("seeker", 0, seeker=1), drone("seeker, chasing", 0, seeker=1, chasing=1, mood=1),
+    drone("laser drone", 1), drone("laser, charging", 1, heat=5, mood=2), drone("laser, firing", 1, heat=8, mood=2),
+    drone("chaingun drone", 2), drone("chaingun, firing", 2, heat=8, mood=2),
+    one("laser burst", "burst", 0, 8, 8), one("lightning", "lightning", 0, 8, 0),
+    one("fireball", "fireball", 0, 8, 2, 0), one("fireball, late", "fireball", 0, 5, 6, 1),
+    one("explosion", "burst star", 0, 8, 3), one("muzzle flash", "muzzle", 0, 8, 1),
+    one("dust", "puff", 0, 8, "dust", 2, 0), one("smoke", "puff", 0, 6, "smoke", 5, 1),
+]  # fmt: skip
+"""Every thing in every state that looks different."""
+
+POSES: list[tuple[str, Pose, float]] = [
+    ("stand", STAND, 0), ("skid", SKID, 3), ("slide", SLIDE, 0), ("rise", RISE, 1), ("float", FLOAT, 2), ("fall", FALL, 2),
+    *((f"run {k}/6", run_pose(k / 6, 5.0), 5) for k in range(6)),
+    *((f"dance {k + 1}", dance.at(9)[0].placed(1, dance.at(9)[1]), 0) for k, dance in enumerate(DANCES)),
+]  # fmt: skip
+"""The ninja's poses, with the speed that makes its band fly."""
+
+
+def paint_things(palette: Palette, shown: list[Shown]) -> pygame.Surface:
+    """The table of things, and below it the ninja."""
+    cells = len(shown) + len(POSES)
+    rows = -(-len(shown) // COLUMNS) - (-len(POSES) // COLUMNS)
+    sheet = pygame.Surface((2 * MARGIN + COLUMNS * CELL[0], 2 * MARGIN + rows * CELL[1]))
+    sheet.fill(palette.background)
+    theme = Theme(palette, Canvas((1188, 900)))
+    book = SpriteBook(SCALE, palette)
+    place = -1
+    for index in range(cells):
+        place += 1
+        if index == len(shown):
+            place = -(-place // COLUMNS) * COLUMNS
+        x = MARGIN + place % COLUMNS * CELL[0] + CELL[0] // 2
+        y = MARGIN + place // COLUMNS * CELL[1] + CELL[1] // 2 - 12
+        if index < len(shown):
+            label, parts = shown[index]
+            for key, dx, dy in parts:
+                book.sprite(key).blit(sheet, (round(x + dx * SCALE), round(y + dy * SCALE)))
+        else:
+            label, pose, speed = POSES[index - len(shown)]
+            ninja_sprite(SCALE, palette, pose, 1, (speed, 0), colour=palette.ninja).blit(sheet, (x, y))
+        text = theme.lettering.rendered(label, 9, palette.faint)
+        sheet.blit(text, (x - text.get_width() // 2, y + CELL[1] // 2 - 8))
+    return sheet
+
+
+def paint_palettes() -> pygame.Surface:
+    """The most telling things in every palette."""
+    wanted = {"gold", "mine", "exit, open", "trap, closed", "turret", "launcher", "thwump", "guard", "zap drone", "laser, firing",
+              "chaingun drone", "switch"}  # fmt: skip
+    shown = [cell for cell in THINGS if cell[0] in wanted]
+    rows = [paint_things(palette, shown) for palette in PALETTES.values()]
+    height = CELL[1] * 2 + MARGIN
+    sheet = pygame.Surface((rows[0].get_width(), height * len(rows)))
+    for k, row in enumerate(rows):
+        sheet.blit(row, (0, k * height), (0, 0, row.get_width(), height))
+    return sheet
+
+
+def stacked(parts: list[pygame.Surface], background: pygame.Color) -> pygame.Surface:
+    """Pictures under each other."""
+    sheet = pygame.Surface((max(part.get_width() for part in parts), sum(part.get_height() for part in parts)))
+    sheet.fill(background)
+    y = 0
+    for part in parts:
+        sheet.blit(part, (0, y))
+        y += part.get_height()
+    return sheet
+
+
+def grid(pictures: list[tuple[str, pygame.Surface]], width: int, palette: Palette) -> pygame.Surface:
+    """Labelled pictures of one size side by side."""
+    columns = 3
+    theme = Theme(palette, Canvas((1188, 900)))
+    w = (width - MARGIN * (columns + 1)) // columns
+    h = w * 25 // 33
+    rows = -(-len(pictures) // columns)
+    sheet = pygame.Surface((width, rows * (h + 44) + MARGIN))
+    sheet.fill(palette.background)
+    for k, (label, picture) in enumerate(pictures):
+        x, y = MARGIN + k % columns * (w + MARGIN), MARGIN + k // columns * (h + 44)
+        sheet.blit(pygame.transform.smoothscale(picture, (w, h)), (x, y))
+        sheet.blit(theme.lettering.rendered(label, 9, palette.faint), (x, y + h + 4))
+    return sheet
+
+
+def main() -> int:
+    """Paint the sheet."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--out", type=Path, default=ROOT / "docs" / "contact-sheet.png")
+    parser.add_argument("--part", choices=["things", "palettes", "screens", "all"], default="all")
+    arguments = parser.parse_args()
+    pygame.display.init()
+    pygame.font.init()
+    pygame.display.set_mode((64, 64))
+    classic = PALETTES["classic"]
+    makers: dict[str, Callable[[], pygame.Surface]] = {
+        "things": lambda: paint_things(classic, THINGS),
+        "palettes": paint_palettes,
+        "screens": lambda: grid(screen_pictures(), 2 * MARGIN + COLUMNS * CELL[0], classic),
+    }
+    wanted = list(makers) if arguments.part == "all" else [arguments.part]
+    sheet = stacked([makers[name]() for name in wanted], classic.background)
+    arguments.out.parent.mkdir(parents=True, exist_ok=True)
+    pygame.image.save(sheet, str(arguments.out))
+    print(f"{arguments.out}: {sheet.get_width()} x {sheet.get_height()} px")
+    return 0
+
+
+def screen_pictures() -> list[tuple[str, pygame.Surface]]:
+    """Every screen of the game."""
+    from tools.contact_screens import pictures
+
+    return pictures()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
