@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """All drawings and all screens on one picture: `python tools/contact_sheet.py [--out docs/contact-sheet.png]`.
 
 Look at it critically after a change of any drawing: would a player buy this?
@@ -44,9 +43,8 @@ def one(label: str, *key: object, at: tuple[float, float] = (0, 0)) -> Shown:
 
 def drone(label: str, weapon: int, *, seeker: int = 0, chasing: int = 0, heat: int = 0, mood: int = 0) -> Shown:
     """A drone with its eye, and its barrel if it has one."""
-    parts: list[tuple[Key, float, float]] = [
-        (("drone", 0, 8, weapon, seeker, chasing, heat if weapon == 1 else 0), 0, 3)
-    ]
+    body: Key = ("drone", 0, 8, weapon, seeker, chasing, heat if weapon == 1 else 0)
+    parts: list[tuple[Key, float, float]] = [(body, 0, 3)]
     if weapon == 2:
         parts.append((("barrel", 0, 8, 0, heat), 0, 3))
     parts.append((("eye", 0, 8, mood), 4.5, 3))
@@ -59,8 +57,10 @@ THINGS: list[Shown] = [
     one("mine", "mine", 0, 8),
     one("exit, closed", "exit", 0, 8, 0), one("exit, opening", "exit", 0, 8, 4), one("exit, open", "exit", 0, 8, 8),
     one("switch", "switch", 0, 8, 0), one("switch, pressed", "switch", 0, 8, 1),
-    one("door, closed", "door", 0, 8, 0, 0), one("door, half", "door", 0, 8, 0, 4), one("door, open", "door", 0, 8, 0, 8),
-    one("lock, closed", "door", 0, 8, 1, 0), one("lock, opening", "door", 0, 8, 1, 4), one("lock, open", "door", 0, 8, 1, 8),
+    one("door, closed", "door", 0, 8, 0, 0), one("door, half", "door", 0, 8, 0, 4),
+    one("door, open", "door", 0, 8, 0, 8),
+    one("lock, closed", "door", 0, 8, 1, 0), one("lock, opening", "door", 0, 8, 1, 4),
+    one("lock, open", "door", 0, 8, 1, 8),
     one("key", "door switch", 0, 8, 1, 0), one("key, used", "door switch", 0, 8, 1, 1),
     one("trap, closing", "door", 0, 8, 2, 4), one("trap, closed", "door", 0, 8, 2, 0),
     one("snare", "door switch", 0, 8, 2, 0), one("snare, used", "door switch", 0, 8, 2, 1),
@@ -69,7 +69,7 @@ THINGS: list[Shown] = [
     one("turret", "turret", 0, 8, 0), one("turret, locked", "turret", 0, 8, 8),
     *(one(f"crosshair, {name}", "crosshair", 0, 8, k) for k, name in enumerate(("far", "mid", "near", "locked"))),
     one("launcher", "launcher", 0, 8, 0), one("launcher, ready", "launcher", 0, 8, 8),
-    ("rocket", [(("flame", 0, 8 - k, 7 - k), -24 + 2.6 * (7 - k) - 6, 0) for k in range(7)] + [(("rocket", 0, 8, 1), 10, 0)]),
+    ("rocket", [*((("flame", 0, 2 + k, 6 - k), 2.6 * k - 14, 0) for k in range(6)), (("rocket", 0, 8, 1), 12, 0)]),
     one("block", "block", 0, 8, 0), one("block, awake", "block", 0, 8, 1),
     one("thwump", "thwump", 0, 8, 0, 0), one("thwump, falling", "thwump", 0, 8, 1, 1),
     one("thwump, rising", "thwump", 0, 8, 2, 0), one("thwump, left", "thwump", 90, 8, 0, 0),
@@ -85,7 +85,8 @@ THINGS: list[Shown] = [
 """Every thing in every state that looks different."""
 
 POSES: list[tuple[str, Pose, float]] = [
-    ("stand", STAND, 0), ("skid", SKID, 3), ("slide", SLIDE, 0), ("rise", RISE, 1), ("float", FLOAT, 2), ("fall", FALL, 2),
+    ("stand", STAND, 0), ("skid", SKID, 3), ("slide", SLIDE, 0), ("rise", RISE, 1),
+    ("float", FLOAT, 2), ("fall", FALL, 2),
     *((f"run {k}/6", run_pose(k / 6, 5.0), 5) for k in range(6)),
     *((f"dance {k + 1}", dance.at(9)[0].placed(1, dance.at(9)[1]), 0) for k, dance in enumerate(DANCES)),
 ]  # fmt: skip
@@ -121,8 +122,10 @@ def paint_things(palette: Palette, shown: list[Shown]) -> pygame.Surface:
 
 def paint_palettes() -> pygame.Surface:
     """The most telling things in every palette."""
-    wanted = {"gold", "mine", "exit, open", "trap, closed", "turret", "launcher", "thwump", "guard", "zap drone", "laser, firing",
-              "chaingun drone", "switch"}  # fmt: skip
+    wanted = {
+        "gold", "mine", "exit, open", "switch", "trap, closed", "turret", "launcher", "thwump", "guard", "zap drone",
+        "laser, firing", "chaingun drone",
+    }  # fmt: skip
     shown = [cell for cell in THINGS if cell[0] in wanted]
     rows = [paint_things(palette, shown) for palette in PALETTES.values()]
     height = CELL[1] * 2 + MARGIN
