@@ -107,7 +107,7 @@ def arc_roots(fx: float, fy: float, dx: float, dy: float) -> tuple[bool, float, 
     discriminant = b * b - 4.0 * a * g
     if discriminant < 0.0:
         return False, 0.0, 0.0
-    k = 1.0 / (2.0 * a)
+    k = div(1.0, 2.0 * a)
     root = sqrt(discriminant)
     return True, (-b + root) * k, (-b - root) * k
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import sqrt
 
+from ninja_game.sim.arithmetic import div
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory import fast
 from ninja_game.sim.ray_shapes import ray_tile
@@ -110,7 +111,7 @@ def ray_circle(
     discriminant = b * b - 4.0 * a * g
     if discriminant < 0.0:
         return False, 0.0, 0.0
-    k = 1.0 / (2.0 * a)
+    k = div(1.0, 2.0 * a)  # a is 0 for a ray towards a place so far away that its direction vanishes
     root = sqrt(discriminant)
     t1 = (-b + root) * k
     t2 = (-b - root) * k

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import sqrt
 
+from ninja_game.sim.arithmetic import div
 from ninja_game.sim.death import kill, stop_firing
 from ninja_game.sim.events import CHAINGUN_CHARGING, CHAINGUN_ON, CHAINGUN_SHOT, LASER_CHARGING, LASER_ON, emit
 from ninja_game.sim.memory import fast
@@ -111,7 +112,7 @@ def burn(w: World, o: Drone, slot: int) -> None:
     n = w.ninja
     wx = n.x - o.x
     wy = n.y - o.y
-    t = (wx * o.beam_x + wy * o.beam_y) / (o.beam_length * o.beam_length)
+    t = div(wx * o.beam_x + wy * o.beam_y, o.beam_length * o.beam_length)
     if t < 0.0:
         zx = o.x
         zy = o.y
