@@ -211,6 +211,16 @@ def gold_ahead(w: Any, needed: int, gold_slots: Any, gold_fields: Any, point: in
     return nearest + GOLD_STEP * needed
 
 
+@fast
+def note_link(links: Any, counters: Any, source: int, target: int, ticks: int) -> None:
+    """Remember that a macro leads from one table entry to another."""
+    link = links[counters[LINKS]]
+    counters[LINKS] += 1
+    link.source = source
+    link.target = target
+    link.ticks = ticks
+
+
 @entry_point
 def begin(
     levels: Any, worlds: Any, words: Any, nodes: Any, table: Any, links: Any, pool: Any, buckets: Any,
@@ -313,11 +323,7 @@ def expand(
             if w.outcome != OUTCOME_RUNNING:
                 if w.outcome != OUTCOME_EXIT or w.gold < counters[GOLD_NEEDED]:
                     continue
-                counters[LINKS] += 1
-                link = links[counters[LINKS] - 1]
-                link.source = node.entry
-                link.target = -1
-                link.ticks = played
+                note_link(links, counters, node.entry, -1, played)
                 if counters[BEST_TICKS] == 0 or w.tick < counters[BEST_TICKS]:
                     counters[BEST_TICKS] = w.tick
                     counters[BEST_NODE] = counters[NODES]
@@ -348,13 +354,10 @@ def expand(
                 continue
             key = key_of(w, stage, gold, parameters)
             slot = find(table, key)
-            counters[LINKS] += 1
-            link = links[counters[LINKS] - 1]
-            link.source = node.entry
-            link.target = slot
-            link.ticks = played
-            if not is_news(table[slot], w.tick, parameters):
-                continue
+            if table[slot].key != 0:
+                note_link(links, counters, node.entry, slot, played)
+                if not is_news(table[slot], w.tick, parameters):
+                    continue
             if guided:
                 known = find(guide, key_of(w, stage, gold, guide_parameters))
                 if guide[known].key != 0 and guide[known].value < 1.0e8:
@@ -372,6 +375,7 @@ def expand(
                 entry.key = key
                 entry.first = w.tick
                 entry.last = w.tick
+                note_link(links, counters, node.entry, slot, played)
             entry.visits += 1
             entry.first = min(entry.first, w.tick)
             entry.last = max(entry.last, w.tick)

@@ -84,6 +84,8 @@ class SearchMemory:
     def __init__(self, nodes: int, chunks: int) -> None:
         self.nodes: Any = np.empty(nodes, NODE)
         self.table: Any = np.zeros(_power_of_two(2 * nodes), ENTRY)
+        self.guide: Any = np.zeros(_power_of_two(2 * nodes), ENTRY)
+        self.guided_by = np.zeros(PARAMETERS)
         self.links: Any = np.empty(6 * nodes, LINK)
         self.chunk_next = np.empty(chunks, np.int32)
         self.chunk_index = np.empty(chunks * CHUNK, np.int32)
@@ -107,6 +109,12 @@ class SearchMemory:
         self.counters[STAGES] = stages
         self.counters[LOWEST] = BUCKETS
         self.counters[BEST_NODE] = -1
+
+    def keep_as_guide(self, settle: Any) -> None:
+        """Turn the table of the search just made into the guide of the next one."""
+        settle(self.table, self.links, int(self.counters[LINKS]), 40)
+        self.table, self.guide = self.guide, self.table
+        self.guided_by[:] = self.parameters
 
 
 def _power_of_two(count: int) -> int:

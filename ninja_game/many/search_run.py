@@ -77,9 +77,14 @@ class Search:
         self._gold_fields = goals.gold_fields() if gold else np.zeros((1, 1), np.float32)
         memory.counters[STAGES] = 0
 
-    def begin(self, resolution: Resolution, *, seed: int, bound: int, guide: Any = None, guided_by: Any = None) -> None:
-        """Forget the last search and begin a new one. ``bound``: only runs of fewer ticks count (0: any)."""
+    def begin(self, resolution: Resolution, *, seed: int, bound: int, guided: bool = False) -> None:
+        """Begin a new search. ``bound``: only runs of fewer ticks count (0: any).
+
+        ``guided``: by what the last search has learned; otherwise that is forgotten.
+        """
         memory = self.memory
+        if guided:
+            memory.keep_as_guide(self._kernels["settle_values"])
         memory.clear()
         counters, parameters = memory.counters, memory.parameters
         random = np.random.default_rng([seed, 6])
@@ -90,8 +95,7 @@ class Search:
         parameters[WEIGHT], parameters[PATIENCE] = resolution.weight, resolution.patience
         parameters[REVISITS], parameters[SLACK] = resolution.visits, resolution.slack
         parameters[OFF_GUIDE] = resolution.off_guide
-        self._guide = NO_GUIDE if guide is None else guide
-        self._guided_by = parameters if guided_by is None else guided_by
+        self._guide = memory.guide if guided else NO_GUIDE
         counters[GOLD_NEEDED] = self.gold
         counters[BEST_TICKS] = bound
         counters[RANDOM] = int(random.integers(1, 1 << 62))
@@ -119,7 +123,7 @@ class Search:
             memory.links, (memory.chunk_next, memory.chunk_index, memory.chunk_value), memory.buckets, memory.counters,
             memory.parameters, memory.stages, memory.stage_places, memory.fields,
             (goals.slots, len(goals.switches), goals.gold_slots), self._gold_fields,
-            self._guide, self._guided_by, budget,
+            self._guide, memory.guided_by, budget,
         )  # fmt: skip
 
     def _fill_fields(self) -> None:

@@ -1,0 +1,128 @@
+"""Make the solver's table: the reference levels of episodes 00, 10, ... 90 and our own, each for some seconds.
+
+Results are appended to a JSON-lines file after each level; levels that are in it are not solved again, so a long run
+can be interrupted. ``--improve N`` shortens N people's speedruns instead. ``--table`` prints Markdown of a file.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import statistics
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
+
+from ninja_game.formats.demo import parse_demo  # noqa: E402
+from ninja_game.formats.files import load_levels  # noqa: E402
+from ninja_game.formats.level_string import parse_level_string  # noqa: E402
+from ninja_game.many.solver import Task, solve  # noqa: E402
+
+EPISODES = ("00", "10", "20", "30", "40", "50", "60", "70", "80", "90")
+
+
+def tasks(arguments: argparse.Namespace) -> Iterator[tuple[str, Task]]:
+    """Name and task of everything in the table."""
+    from reference import levels, recordings
+
+    base = {"seconds": arguments.seconds, "jobs": arguments.jobs}
+    if arguments.improve:
+        runs = [run for run in recordings() if (run.source, run.kind) == ("rta", "speedrun")]
+        chosen = runs[:: max(1, len(runs) // arguments.improve)][: arguments.improve]
+        for run in chosen:
+            demo = parse_demo(run.demo)
+            first = demo.inputs(run.ticks)
+            yield run.label, Task(parse_level_string(run.data), first=first, **base)
+        return
+    for path in sorted((ROOT / "levels").glob("*.txt")):
+        own = replace(Task(load_levels(path)[0].level), **base)
+        yield path.stem, replace(own, seconds=min(30.0, arguments.seconds))
+    for level in levels():
+        if level.label.split("-")[0] in EPISODES:
+            yield level.label, Task(parse_level_string(level.data), **base)
+
+
+def people(source: str) -> dict[str, int]:
+    """End tick of the shortest speedrun of a source on each level."""
+    from reference import recordings
+
+    best: dict[str, int] = {}
+    for run in recordings():
+        if run.source == source and run.kind == "speedrun":
+            best[run.label] = min(run.end_tick, best.get(run.label, run.end_tick))
+    return best
+
+
+def solve_all(arguments: argparse.Namespace) -> None:
+    """Solve what is not in the file yet."""
+    done = {row["level"] for row in rows(arguments.file)}
+    for name, task in tasks(arguments):
+        if name in done or (arguments.only and name not in arguments.only.split(",")):
+            continue
+        found: list[float] = []
+        began = time.monotonic()
+        run = solve(task, on_better=lambda _, found=found, began=began: found.append(time.monotonic() - began))
+        row: dict[str, Any] = {"level": name, "end_tick": run.end_tick if run else -1, "seconds": task.seconds}
+        row |= {"first_s": round(found[0], 2) if found else -1, "last_s": round(found[-1], 2) if found else -1}
+        if task.first:
+            row["before"] = len(task.first) - 1
+        with arguments.file.open("a", encoding="utf-8") as file:
+            file.write(json.dumps(row) + "\n")
+        print(row, people("rta").get(name), flush=True)
+
+
+def rows(file: Path) -> list[dict[str, Any]]:
+    """The results in a file."""
+    return [json.loads(line) for line in file.read_text(encoding="utf-8").splitlines()] if file.exists() else []
+
+
+def print_table(file: Path, *, improve: bool) -> None:
+    """The results as Markdown."""
+    fastest, tas = people("rta"), people("tas")
+    if improve:
+        print("| level | person's speedrun | improved to | ticks saved |\n|---|---|---|---|")
+        for row in rows(file):
+            print(f"| {row['level']} | {row['before']} | {row['end_tick']} | {row['before'] - row['end_tick']} |")
+        better = sum(row["end_tick"] < row["before"] for row in rows(file))
+        print(f"\n{better} of {len(rows(file))} shortened")
+        return
+    print("| level | solver | people | ratio | tool-assisted | first run after, s |\n|---|---|---|---|---|---|")
+    ratios = []
+    for row in rows(file):
+        name, ticks = row["level"], row["end_tick"]
+        ratio = ""
+        if ticks >= 0 and name in fastest:
+            ratios.append(ticks / fastest[name])
+            ratio = f"{ratios[-1]:.3f}"
+        shown = ticks if ticks >= 0 else "-"
+        print(f"| {name} | {shown} | {fastest.get(name, '')} | {ratio} | {tas.get(name, '')} | {row['first_s']} |")
+    if ratios:
+        solved = sum(row["end_tick"] >= 0 for row in rows(file))
+        print(f"\nsolved {solved} of {len(rows(file))}; median ratio {statistics.median(ratios):.3f} over {len(ratios)}; ")
+        print(f"below 1.0 on {sum(ratio < 1.0 for ratio in ratios)}, at most 1.0 on {sum(r <= 1.0 for r in ratios)}")
+
+
+def main() -> None:
+    """Read the command line and do it."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("file", type=Path, help="results, one JSON object a line")
+    parser.add_argument("--seconds", type=float, default=60.0)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--improve", type=int, default=0, metavar="N")
+    parser.add_argument("--only", default="", metavar="NAMES", help="only these levels, with commas between")
+    parser.add_argument("--table", action="store_true")
+    arguments = parser.parse_args()
+    if arguments.table:
+        print_table(arguments.file, improve=bool(arguments.improve))
+    else:
+        solve_all(arguments)
+
+
+if __name__ == "__main__":
+    main()
