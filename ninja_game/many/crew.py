@@ -17,6 +17,29 @@ Work: TypeAlias = Callable[[int, int], int]
 """Does items ``first`` … ``last`` - 1 and says how much that was."""
 
 CHUNKS_PER_THREAD = 8
+SMALL_CHUNK = 2048
+"""Ticks that a chunk should have at least, unless each thread has but one: every handing over makes a thread wait."""
+
+HEAD_START = 80
+"""Ticks that the caller does while the others wake up."""
+
+TOO_SMALL = 256
+"""Ticks that are not worth waking another thread for."""
+
+
+def chunks(count: int, ticks: int, threads: int) -> list[tuple[int, int]]:
+    """Items 0 … ``count`` - 1, of ``ticks`` each, cut into ranges, in the order in which threads should take them."""
+    small = -(-SMALL_CHUNK // max(ticks, 1))
+    if threads == 1 or count * ticks < TOO_SMALL:
+        return [(0, count)]
+    if small * threads < count:
+        size = max(-(-count // (threads * CHUNKS_PER_THREAD)), small)
+        own = 0
+    else:
+        own = min(count, (count + HEAD_START // max(ticks, 1) * (threads - 1)) // threads)
+        size = -(-(count - own) // (threads - 1)) or 1
+    rest = [(first, min(first + size, count)) for first in range(own, count, size)]
+    return [(0, own), *rest] if own else rest
 
 
 def cores() -> int:
@@ -25,35 +48,34 @@ def cores() -> int:
 
 
 class _Errand:
-    """One call of ``Crew.share``: whoever is free takes the next chunk."""
+    """One call of ``Crew.share``: whoever is free takes the next range."""
 
-    def __init__(self, work: Work, count: int, chunk: int) -> None:
+    def __init__(self, work: Work, ranges: list[tuple[int, int]]) -> None:
         self.work = work
-        self.count = count
-        self.chunk = chunk
+        self.count = len(ranges)
         # A built-in iterator hands out its next item under the interpreter's lock: to one thread only.
-        self.starts: Iterator[int] = iter(range(0, count, chunk))
+        self.ranges: Iterator[tuple[int, int]] = iter(ranges)
         self.done: SimpleQueue[tuple[int, int] | BaseException] = SimpleQueue()
 
     def run(self) -> None:
-        """Take chunks until there are none left; report how many they were and the sum of what the work says."""
-        chunks = total = 0
+        """Take ranges until there are none left; report how many they were and the sum of what the work says."""
+        ranges = total = 0
         try:
-            for first in self.starts:
-                total += self.work(first, min(first + self.chunk, self.count))
-                chunks += 1
-            self.done.put((chunks, total))
+            for first, last in self.ranges:
+                total += self.work(first, last)
+                ranges += 1
+            self.done.put((ranges, total))
         except BaseException as error:  # noqa: BLE001 - raised again by the caller
             self.done.put(error)
 
     def total(self) -> int:
-        """Wait until all chunks are done, not for threads that woke too late to take one."""
-        total = chunks = 0
-        while chunks * self.chunk < self.count:
+        """Wait until all ranges are done, not for threads that woke too late to take one."""
+        total = ranges = 0
+        while ranges < self.count:
             report = self.done.get()
             if isinstance(report, BaseException):
                 raise report
-            chunks += report[0]
+            ranges += report[0]
             total += report[1]
         return total
 
@@ -69,12 +91,15 @@ class Crew:
         for queue in self._queues:
             Thread(target=_serve, args=(queue,), name="ninja-game crew", daemon=True).start()
 
-    def share(self, work: Work, count: int) -> int:
-        """Do items 0 … ``count`` - 1 on all threads; the sum of what ``work`` says. Its first exception is raised."""
-        chunk = -(-count // (self.threads * CHUNKS_PER_THREAD)) if self.threads > 1 else count
-        if chunk >= count:
+    def share(self, work: Work, count: int, ticks: int = SMALL_CHUNK) -> int:
+        """Do items 0 … ``count`` - 1, of ``ticks`` each, on all threads; the sum of what ``work`` says.
+
+        The first exception of ``work`` is raised.
+        """
+        ranges = chunks(count, ticks, self.threads)
+        if len(ranges) == 1:
             return work(0, count)
-        errand = _Errand(work, count, chunk)
+        errand = _Errand(work, ranges)
         for queue in self._queues:
             queue.put(errand)
         errand.run()

@@ -98,7 +98,7 @@ class CompiledWorlds:
         def work(first: int, last: int) -> int:
             return int(entry(self._levels, level_of, self.records, frames, first, last, int(stop)))
 
-        return crew(threads).share(work, len(self.records))
+        return crew(threads).share(work, len(self.records), len(frames))
 
     def save(self, worlds: Numbers) -> NDArray[np.uint8]:
         """The states of worlds as a matrix of bytes."""

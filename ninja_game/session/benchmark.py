@@ -9,14 +9,17 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Sequence
+from hashlib import sha256
 from statistics import median
 from typing import Any
 
 import numpy as np
 
 from ninja_game.compile_cache import compiled_available, kernels
+from ninja_game.formats.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.session.sources import body_of
+from ninja_game.session.trace import trace_digests, trace_recording
 from ninja_game.sim.level_data import LevelData
 from ninja_game.sim.plain import load_plain
 from ninja_game.sim.world import step
@@ -50,6 +53,8 @@ def run_benchmark(recordings: Sequence[Recording], *, compile_time: bool = True)
         "python": platform.python_version(),
         "machine": f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores",
         "recordings": len(recordings),
+        "corpus": corpus_digest(recordings),
+        "signature": signature(recordings),
         "plain_ticks_per_s": plain_speed(recordings),
         "compiled_ticks_per_s": compiled_speed(recordings) if compiled else None,
         "objects": _objects(level),
@@ -63,6 +68,20 @@ def run_benchmark(recordings: Sequence[Recording], *, compile_time: bool = True)
 
 def _objects(level: LevelData) -> int:
     return len(level.records)
+
+
+def corpus_digest(recordings: Sequence[Recording]) -> str:
+    """Sha256 (hex) of all levels, bodies and inputs."""
+    parts = (
+        f"{level_digest(recording.level)} {body_of(recording)} {recording.inputs(recording.ticks).hex()}\n"
+        for recording in recordings
+    )
+    return sha256("".join(parts).encode()).hexdigest()
+
+
+def signature(recordings: Sequence[Recording]) -> str:
+    """Sha256 (hex) of everything that all runs show in every tick, objects and all: any change of any bit shows."""
+    return sha256("".join(trace_digests(trace_recording(run)).run_sha256 for run in recordings).encode()).hexdigest()
 
 
 def plain_speed(recordings: Sequence[Recording]) -> float:

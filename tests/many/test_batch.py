@@ -191,10 +191,11 @@ def test_a_crew_does_every_item_once_and_raises_what_fails() -> None:
         return last - first
 
     hands = Crew(3)
-    for count in (1, 2, 23, 24, 25, 1000):
-        seen.clear()
-        assert hands.share(work, count) == count
-        assert sorted(seen) == list(range(count))
+    for count in (1, 2, 23, 24, 25, 255, 256, 257, 1000, 10_000):
+        for ticks in (0, 1, 7, 64, 5000):
+            seen.clear()
+            assert hands.share(work, count, ticks) == count
+            assert sorted(seen) == list(range(count))
 
     def fail(first: int, last: int) -> int:
         raise LookupError(f"{first} {last}")
