@@ -179,7 +179,7 @@ TICK = (
     ("world.py", "2. think: one every fourth tick", "objects/*.py, rays.py"),
     ("ninja.py", "3. integrate, look up the cell", "grid.py"),
     ("objects/contact.py", "4. touch_things: nine cells", "objects/*.py → contacts.py, death.py"),
-    ("circle.py / box.py", "5. collide: four touched cells", "edges, circle_shapes.py → contacts.py"),
+    ("circle.py / box.py", "5. collide: four touched cells", "edges, circle_sides.py → contacts.py"),
     ("ninja.py", "6. evaluate_floor, probe_walls", "rays.py (solid_at)"),
     ("control.py", "7. think: keys, states, jumps", "states.py"),
 )

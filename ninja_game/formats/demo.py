@@ -4,53 +4,16 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
 
 from ninja_game.errors import DemoError
+from ninja_game.formats.frames import Demo, check_frames, fitted_demo
+from ninja_game.formats.legacy_demo import parse_legacy_demo
 from ninja_game.formats.numbers import format_number, parse_number
 
-LEFT, RIGHT, HELD, TRIGGERED = 1, 2, 4, 8
-"""Bits of a frame: the keys that are down, and whether the jump key was pressed just now."""
-
 FRAMES_PER_WORD = 7
-MAX_FRAMES = 25_193
-"""The game closes a recording at this length."""
-
 _PLAIN_WORD = re.compile(r"0|[1-9][0-9]{0,14}")
 _WORD_BITS = 0xFFFFFFF
 _FRAME_OF_HEX = bytes.maketrans(b"0123456789abcdef", bytes(range(16)))
-
-
-@dataclass(frozen=True)
-class Demo:
-    """A recording's inputs.
-
-    ``frames``: one byte a tick from tick 0, 1 left + 2 right + 4 jump held + 8 jump triggered; in ticks beyond them no
-    key is down. ``length``: how many ticks the recording claims; texts may claim a fraction, NaN or the absurd.
-    """
-
-    frames: bytes
-    length: float
-
-    @property
-    def end(self) -> int:
-        """The first tick that is not the recording's: N for a passed level, 0 if the length is no number.
-
-        Never beyond both the frames and the longest recording that the game makes: an absurd length costs nothing.
-        """
-        if not self.length > 0:
-            return 0
-        limit = max(len(self.frames), MAX_FRAMES)
-        return limit if self.length >= limit else math.ceil(self.length)
-
-    def inputs(self, ticks: int) -> bytes:
-        """The input of each of the first ``ticks`` ticks in playback (game.md §4.4).
-
-        Frame k while k < length; then the last frame once more, trigger and all; then no key.
-        """
-        end = self.end
-        played = self.frames[:end].ljust(end, b"\0")
-        return (played + played[-1:])[:ticks].ljust(ticks, b"\0")
 
 
 def parse_demo(text: str, *, length: float | None = None) -> Demo:
@@ -66,18 +29,10 @@ def parse_demo(text: str, *, length: float | None = None) -> Demo:
     (b'\x01\x02\x03', b'\x01\x02\x03\x03\x00')
     """
     if text.startswith("A"):
-        from ninja_game.formats.legacy_demo import parse_legacy_demo
-
         return parse_legacy_demo(text, length=length)
     length_text, _, rest = text.partition(":")
     words = rest.partition(":")[0]
     return fitted_demo(_frames_of_words(words.split("|")), parse_number(length_text))
-
-
-def fitted_demo(frames: bytes, length: float) -> Demo:
-    """The demo with as many frames as it plays: superfluous ones dropped, missing ones added (no key)."""
-    demo = Demo(frames, length)
-    return Demo(frames[: demo.end].ljust(demo.end, b"\0"), length)
 
 
 def _frames_of_words(words: list[str]) -> bytes:
@@ -108,10 +63,3 @@ def write_demo(demo: Demo) -> str:
             word = word << 4 | frame
         words.append(str(word))
     return f"{format_number(demo.length)}:{'|'.join(words)}"
-
-
-def check_frames(frames: bytes) -> None:
-    """Raise DemoError for a frame with other bits than the four keys'."""
-    for tick, frame in enumerate(frames):
-        if frame > 15:
-            raise DemoError(f"the input of tick {tick} is none", found=str(frame), expected="0 to 15")

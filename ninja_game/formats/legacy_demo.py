@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 
 from ninja_game.errors import DemoError
-from ninja_game.formats.demo import HELD, TRIGGERED, Demo, check_frames, fitted_demo
+from ninja_game.formats.frames import HELD, TRIGGERED, Demo, check_frames, fitted_demo
 
 MAX_DIGITS = 50_000
 """The game stops recording at 5000 words of ten frames."""

@@ -8,7 +8,8 @@ from pathlib import Path
 
 from ninja_game.errors import DemoError, ReplayError
 from ninja_game.formats.ascii_level import is_ascii_level
-from ninja_game.formats.demo import Demo, parse_demo
+from ninja_game.formats.demo import parse_demo
+from ninja_game.formats.frames import Demo
 from ninja_game.formats.level_file import LevelRecord, is_demo, read_level_file
 from ninja_game.formats.level_string import parse_level_string
 from ninja_game.formats.named_level import is_level_file, level_of_replay

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from itertools import groupby
 
 from ninja_game.errors import ReplayError
-from ninja_game.formats.demo import HELD, TRIGGERED, check_frames
+from ninja_game.formats.frames import HELD, TRIGGERED, check_frames
 
 MAX_TICKS = 1_000_000
 """Longest replay, almost seven hours: a slip in a count must not fill the memory."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ninja_game.formats.demo import Demo
+from ninja_game.formats.frames import Demo
 from ninja_game.formats.replay import Replay
 from ninja_game.runs import record_replay
 from ninja_game.session.scoring import level_score

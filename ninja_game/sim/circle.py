@@ -6,7 +6,9 @@ exactly one pass. (hx, hy) always points from the neighbour to the body.
 
 from __future__ import annotations
 
-from ninja_game.sim.circle_shapes import AXIS, NONE, diagonal, horizontal, own, point, vertical
+from ninja_game.sim.circle_blocks import AXIS, NONE, point
+from ninja_game.sim.circle_own import own
+from ninja_game.sim.circle_sides import diagonal, horizontal, vertical
 from ninja_game.sim.contacts import push_from_tile
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory import fast

@@ -6,7 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from ninja_game import Simulation
-from ninja_game.formats.demo import Demo, write_demo
+from ninja_game.formats.demo import write_demo
+from ninja_game.formats.frames import Demo
 from ninja_game.formats.level_file import LevelRecord, write_level_file
 from ninja_game.formats.level_string import parse_level_string
 from ninja_game.formats.replay import Replay, write_replay

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hypothesis import strategies as st
 
-from ninja_game.formats.demo import Demo
+from ninja_game.formats.frames import Demo
 from ninja_game.formats.level_string import level_digest
 from ninja_game.formats.numbers import NAN, parse_number
 from ninja_game.formats.replay import BODIES, OUTCOMES, Replay

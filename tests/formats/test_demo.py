@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 
 from ninja_game.errors import DemoError
-from ninja_game.formats.demo import MAX_FRAMES, Demo, parse_demo, write_demo
+from ninja_game.formats.demo import parse_demo, write_demo
+from ninja_game.formats.frames import MAX_FRAMES, Demo
 from tests.formats.strategies import demos
 
 

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ninja_game.errors import DemoError
-from ninja_game.formats.demo import HELD, TRIGGERED, Demo, parse_demo
+from ninja_game.formats.demo import parse_demo
+from ninja_game.formats.frames import HELD, TRIGGERED, Demo
 from ninja_game.formats.legacy_demo import parse_legacy_demo, write_legacy_demo
 
 

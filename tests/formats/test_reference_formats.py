@@ -6,7 +6,8 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from ninja_game.formats.demo import Demo, parse_demo, write_demo
+from ninja_game.formats.demo import parse_demo, write_demo
+from ninja_game.formats.frames import Demo
 from ninja_game.formats.legacy_demo import parse_legacy_demo, write_legacy_demo
 from ninja_game.formats.level_file import LevelRecord, read_level_file, write_level_file
 from ninja_game.formats.level_string import level_digest, parse_level_string, write_level_string
