@@ -22,6 +22,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from ninja_game.compile_cache import choose_memory, kernels
+from ninja_game.formats.frames import HELD, LEFT, RIGHT, TRIGGERED
 from ninja_game.sim.digest import differences, world_digest
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.level_data import KIND_NAMES, LevelData
@@ -33,9 +34,6 @@ from ninja_game.sim.world import step
 
 Body = Literal["circle", "box"]
 BODIES: tuple[Body, ...] = ("circle", "box")
-
-LEFT, RIGHT, HELD, TRIGGERED = 1, 2, 4, 8
-"""Bits of a frame, the input of one tick."""
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ninja_game.formats.frames import Demo
+from ninja_game.formats.frames import HELD, TRIGGERED, Demo
 from ninja_game.formats.replay import Replay
 from ninja_game.runs import record_replay
 from ninja_game.session.scoring import level_score
@@ -12,7 +12,7 @@ from ninja_game.sim.death import kill
 from ninja_game.sim.level_data import LevelData
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import CELEBRATING, DEAD, EXPLOSIVE, FALL, HARD_BULLET
-from ninja_game.simulation import HELD, TRIGGERED, Body, SaveState, Simulation
+from ninja_game.simulation import Body, SaveState, Simulation
 
 Moment = tuple[SaveState, bytes, int, int]
 """A save-state with the recording, the lifetime and the tick of the end."""

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import pytest
 
+from ninja_game.formats.frames import HELD, LEFT, RIGHT, TRIGGERED
 from ninja_game.formats.level_string import parse_level_string
 from ninja_game.sim.box import collide_box
 from ninja_game.sim.circle import collide_circle
 from ninja_game.sim.plain import load_plain
 from ninja_game.sim.rays import ray_box, ray_tiles, sees
 from ninja_game.sim.schema import Level, World
-from ninja_game.simulation import HELD, LEFT, RIGHT, TRIGGERED, Simulation
+from ninja_game.simulation import Simulation
 
 EMPTY = "0" * 713
 
