@@ -187,6 +187,9 @@ class App:
         changed: list[pygame.Rect] | None = []
         for screen in visible:
             whole = screen.redraw
+            if not whole and screen is not self.top:
+                # Covered and still: drawing it again would paint over what covers it.
+                continue
             rects = screen.draw(self.surface)
             screen.redraw = False
             changed = None if whole or rects is None or changed is None else changed + rects

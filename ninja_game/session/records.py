@@ -165,7 +165,15 @@ def _digest(replay: Replay) -> str:
 
 
 def _insert(db: sqlite3.Connection, replay: Replay, *, kept: bool) -> int:
+    """Save a replay, once: the same run may be a level's best, part of an episode's best, and kept."""
     assert replay.level is not None  # noqa: S101 - as above
+    found = db.execute(
+        "SELECT id FROM replay WHERE level = ? AND body = ? AND inputs = ? AND final_tick = ?",
+        (_digest(replay), replay.body, replay.inputs, replay.final_tick),
+    ).fetchone()
+    if found:
+        db.execute("UPDATE replay SET kept = max(kept, ?) WHERE id = ?", (kept, found[0]))
+        return int(found[0])
     score = level_score(replay.gold, replay.final_tick) if replay.outcome == "exit" else 0
     cursor = db.execute(
         "INSERT INTO replay VALUES (NULL, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",

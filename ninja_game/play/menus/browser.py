@@ -15,7 +15,7 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.text_entry import TextEntry
 from ninja_game.play.menus.thumbnails import Thumbnails
 from ninja_game.play.menus.watching import watch
-from ninja_game.play.menus.widgets import Area, Button, Choice, Widget, fit
+from ninja_game.play.menus.widgets import Area, Button, Choice, Widget, counted, fit
 from ninja_game.play.theme import Theme
 from ninja_game.session.catalogue import Entry
 from ninja_game.session.records import SavedReplay
@@ -149,7 +149,7 @@ class Browser(MenuScreen):
         theme.text(surface, text, SIDE, 390, size=12, colour=palette.good if best else palette.faint)
         played = self.player.statistics.played(entry.digest)
         if played.attempts:
-            text = f"{played.attempts} tries, {played.passes} passed, {played.deaths} deaths"
+            text = f"{counted(played.attempts, 'try', 'tries')}, {counted(played.deaths, 'death', 'deaths')}"
             theme.text(surface, text, SIDE, 408, size=10.5, colour=palette.faint)
         where = f"Episode {entry.episode}" if entry.episode else "Your folder" if entry.source == "yours" else ""
         theme.text(surface, where, SIDE, 424, size=10.5, colour=palette.faint)

@@ -13,7 +13,7 @@ from ninja_game.play.menus.list_view import BAR, ListView
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import Thumbnails
-from ninja_game.play.menus.widgets import Area, Choice, Widget, fit
+from ninja_game.play.menus.widgets import Area, Choice, Widget, counted, fit
 from ninja_game.play.start import apply_settings
 from ninja_game.play.theme import Theme
 from ninja_game.session.catalogue import Episode
@@ -188,5 +188,5 @@ class EpisodeGrid(MenuScreen):
         colour = theme.palette.good if best else theme.palette.faint
         theme.text(surface, text, left, y + 37, size=11, colour=colour)
         if played.attempts:
-            tries = f"{played.attempts} tries, {played.deaths} deaths"
+            tries = f"{counted(played.attempts, 'try', 'tries')}, {counted(played.deaths, 'death', 'deaths')}"
             theme.text(surface, tries, left, y + 54, size=10, colour=theme.palette.faint)

@@ -73,9 +73,7 @@ class MainMenu(MenuScreen):
         self._message_ms = max(0, self._message_ms - real_ms)
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """The replay, and the menu over it. Under a panel it stands still."""
-        if self.app.top is not self and not self.redraw:
-            return []
+        """The replay, and the menu over it."""
         self.attract.draw(surface, whole=self.redraw)
         canvas, theme = self.app.canvas, self.app.theme
         x, y, w, h = PANEL

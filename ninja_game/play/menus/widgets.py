@@ -170,8 +170,13 @@ class Choice(Widget):
 
     def click(self, x: float, y: float) -> bool:
         """On the left arrow the value before, else the next."""
-        left, _, w, _ = self.area
-        return self._step(-1 if left + w * 0.5 <= x < left + w * 0.5 + 24 else 1)
+        left, _ = self._values()
+        return self._step(-1 if left <= x < left + 24 else 1)
+
+    def _values(self) -> tuple[float, float]:
+        """Left edge and width of the part that shows the value: the right half, or all of it without a text."""
+        x, _, w, _ = self.area
+        return (x + w * 0.5, w * 0.5) if self.text else (x, w)
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         """The text left, the value between arrows right."""
@@ -179,9 +184,10 @@ class Choice(Widget):
         x, y, w, h = self.area
         top = y + (h - TEXT) / 2
         theme.text(surface, fit(theme, self.text, w * 0.5 - PAD, TEXT), x + PAD, top, size=TEXT, bold=focused)
-        value = fit(theme, self.options[self.index][0], w * 0.5 - 40, TEXT)
-        theme.text(surface, value, x + w * 0.75, top, size=TEXT, align="centre")
-        for side, tip in ((x + w * 0.5 + 14, -5), (x + w - 14, 5)):
+        left, width = self._values()
+        value = fit(theme, self.options[self.index][0], width - 40, TEXT)
+        theme.text(surface, value, left + width / 2, top, size=TEXT, align="centre")
+        for side, tip in ((left + 14, -5), (left + width - 14, 5)):
             points = [(side, y + h / 2 - 4), (side, y + h / 2 + 4), (side + tip, y + h / 2)]
             theme.canvas.polygon(surface, theme.palette.accent if focused else theme.palette.panel_edge, points)
 
@@ -246,3 +252,24 @@ def fit(theme: Theme, text: str, width: float, size: float) -> str:
     while text and theme.width(text + "...", size) > width:
         text = text[:-1]
     return text.rstrip() + "..."
+
+
+def wrapped(theme: Theme, text: str, width: float, size: float) -> list[str]:
+    """The text in lines that fit a width."""
+    lines: list[str] = []
+    for word in text.split():
+        longer = f"{lines[-1]} {word}" if lines else word
+        if lines and theme.width(longer, size) <= width:
+            lines[-1] = longer
+        else:
+            lines.append(word)
+    return lines
+
+
+def counted(number: int, one: str, more: str) -> str:
+    """A number with its noun.
+
+    >>> counted(1, "try", "tries"), counted(2, "try", "tries")
+    ('1 try', '2 tries')
+    """
+    return f"{number} {one if number == 1 else more}"

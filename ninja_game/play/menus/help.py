@@ -1,0 +1,178 @@
+"""Help: pages about moving and about every object, each with a demonstration that plays again and again."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.play.bindings import Bindings
+from ninja_game.play.canvas import HEIGHT, Canvas
+from ninja_game.play.default_bindings import ACTIONS
+from ninja_game.play.level_view import LevelView
+from ninja_game.play.menus.demonstrations import Page, read_pages
+from ninja_game.play.menus.list_view import ListView
+from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.widgets import Area, Button, Widget, wrapped
+from ninja_game.play.run_clock import RunClock
+from ninja_game.play.theme import Theme
+from ninja_game.simulation import Simulation
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+WINDOW: Area = (240, 66, 504, 288)
+"""Where the demonstration is seen: that much of the stage, at its own scale."""
+
+MARGIN = 12.0
+"""px of the stage left out at the left of a room, so that half of its wall is seen."""
+
+REST_TICKS = 60
+"""How long a demonstration stands still after its last input (game.md §4.4)."""
+
+KEYS_TITLE = "Keys"
+SHOWN_KEYS = ("left", "right", "jump", "confirm", "retry", "pause", "replay", "suicide", "ghost", "quit", "back")
+PRACTICE_KEYS = ("quick_save", "quick_load", "rewind", "slow", "step", "skip", "overlay_hitboxes")
+
+
+class HelpScreen(MenuScreen):
+    """Topics at the left; the selected one's demonstration and text at the right."""
+
+    title = "Help"
+
+    def __init__(self, app: App) -> None:
+        super().__init__(app)
+        self.pages = read_pages()
+        self.topics = [page.title for page in self.pages] + [KEYS_TITLE]
+        self.list = ListView((44, 66, 168, 18 * 26), 26, self._draw_topic, lambda _: None, selected=self._show)
+        self.list.hint = "Up and down choose a topic"
+        self.demonstration: Demonstration | None = None
+        self.list.fill(self.topics)
+
+    def build(self) -> Sequence[Widget]:
+        """The topics; one way back that can be clicked."""
+        return [self.list, Button((612, 506, 132, 30), "Back", self.back)]
+
+    def _show(self, index: int) -> None:
+        """Begin the demonstration of a topic."""
+        page = self.pages[index] if index < len(self.pages) else None
+        if page is None or self.demonstration is None or self.demonstration.page is not page:
+            self.demonstration = Demonstration(self.app, page) if page is not None else None
+        self.redraw = True
+
+    @property
+    def page(self) -> Page | None:
+        """The selected page; None for the table of keys."""
+        return self.demonstration.page if self.demonstration else None
+
+    def update(self, real_ms: int) -> None:
+        """The demonstration goes on."""
+        super().update(real_ms)
+        if self.demonstration is not None:
+            self.demonstration.update(real_ms)
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        """Everything, or only the demonstration."""
+        whole = self.redraw
+        super().draw(surface)
+        if self.demonstration is None:
+            return None if whole else []
+        rects = [self.demonstration.draw(surface), self._draw_keys_pressed(surface, self.demonstration.frame)]
+        return None if whole else rects
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        """The text of the selected page."""
+        super().draw_frame(surface)
+        theme = self.app.theme
+        x, y, _, h = WINDOW
+        theme.text(surface, self.topics[self.list.index], x, y + h + 54, size=18, bold=True)
+        if self.page is None:
+            self._draw_table(surface, theme)
+            return
+        lines = [line for text in self.page.text for line in wrapped(theme, text, WINDOW[2], 12.5)]
+        for place, line in enumerate(lines):
+            theme.text(surface, line, x, y + h + 84 + 19 * place, size=12.5)
+
+    def _draw_topic(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        x, y, w, h = area
+        chosen = index == self.list.index
+        if chosen:
+            theme.canvas.fill_rect(surface, theme.palette.panel, x, y + 1, w, h - 2, 3)
+            edge = theme.palette.accent if focused else theme.palette.panel_edge
+            theme.canvas.frame_rect(surface, edge, x, y + 1, w, h - 2, 2.5 if focused else 1, 3)
+        theme.text(surface, self.topics[index], x + 10, y + 7, size=11.5, bold=chosen)
+
+    def _draw_keys_pressed(self, surface: pygame.Surface, frame: int) -> pygame.Rect:
+        """The three keys of a demonstration, lit while they are down."""
+        canvas, theme, palette = self.app.canvas, self.app.theme, self.app.theme.palette
+        x, y, w, h = WINDOW
+        row = canvas.rect(x, y + h + 10, w, 32)
+        pygame.draw.rect(surface, palette.background, row)
+        for place, (action, bit) in enumerate((("left", 1), ("right", 2), ("jump", 4))):
+            left = x + place * 92
+            lit = bool(frame & bit)
+            canvas.fill_rect(surface, palette.accent if lit else palette.panel, left, y + h + 12, 84, 26, 4)
+            canvas.frame_rect(surface, palette.panel_edge, left, y + h + 12, 84, 26, 1, 4)
+            colour = palette.background if lit else palette.text
+            label = self.app.controls.name(action)
+            theme.text(surface, label, left + 42, y + h + 19, size=11.5, colour=colour, align="centre")
+        return row
+
+    def _draw_table(self, surface: pygame.Surface, theme: Theme) -> None:
+        """What every key does, as it is bound now."""
+        theme.canvas.fill_rect(surface, theme.palette.background, *WINDOW)
+        for column, actions in enumerate((SHOWN_KEYS, PRACTICE_KEYS)):
+            for row, action in enumerate(actions):
+                x, y = WINDOW[0] + 262 * column, WINDOW[1] + 10 + 25 * row
+                theme.text(surface, self.app.controls.name(action), x, y, size=12, bold=True)
+                theme.text(surface, ACTIONS[action].label.replace(" (practice)", ""), x + 92, y, size=12)
+        x, y, _, h = WINDOW
+        theme.text(surface, "All of them can be changed in the settings.", x, y + h + 86, size=12.5)
+        theme.text(surface, "Right column: in practice mode only.", x, y + h + 106, size=12.5)
+        if isinstance(self.app.controls, Bindings) and self.app.controls.pads.count:
+            theme.text(surface, "A gamepad works everywhere too.", x, y + h + 126, size=12.5)
+
+
+class Demonstration:
+    """A page's room with its inputs, again and again, drawn on a sheet of its own of which a part is shown."""
+
+    def __init__(self, app: App, page: Page) -> None:
+        self.app = app
+        self.page = page
+        self.clock = RunClock()
+        self.frame = 0
+        self._sheet: pygame.Surface | None = None
+        self._canvas: Canvas | None = None
+        self._begin()
+
+    def _begin(self) -> None:
+        self.simulation = Simulation(self.page.level)
+        self.view = LevelView(self.app, self.simulation, loud=False)
+        self._whole = True
+
+    def update(self, real_ms: int) -> None:
+        """Let time pass."""
+        for _ in range(self.clock.ticks_due(real_ms)):
+            tick = self.simulation.tick
+            if tick >= len(self.page.inputs) + REST_TICKS:
+                self._begin()
+                return
+            self.frame = self.page.inputs[tick] if tick < len(self.page.inputs) else 0
+            self.simulation.step_frame(self.frame)
+            self.view.ticked()
+
+    def draw(self, surface: pygame.Surface) -> pygame.Rect:
+        """Draw the stage on the sheet, and show the part of it that matters; the px it covers."""
+        canvas = self.app.canvas
+        if self._sheet is None or self._canvas is not canvas:
+            self._sheet, self._canvas, self._whole = pygame.Surface(surface.get_size()), canvas, True
+        self.view.draw(self._sheet, self.clock.fraction, whole=self._whole)
+        self._whole = False
+        x, y, w, h = WINDOW
+        lowest = HEIGHT - 12 - h
+        top = min(max(MARGIN, self.simulation.world.ninja.y - h + 60), lowest)
+        target = canvas.rect(x, y, w, h)
+        surface.blit(self._sheet, target, pygame.Rect(canvas.point(MARGIN, top), target.size))
+        canvas.frame_rect(surface, self.app.theme.palette.panel_edge, x, y, w, h, 1)
+        return target
