@@ -18,9 +18,9 @@ _WARNING_TICKS = 1800
 
 
 _KEYS = (
-    (690, 1, ((-3, 0), (2, -4), (2, 4))),
-    (712, 4, ((0, -4), (4, 2), (-4, 2))),
-    (734, 2, ((3, 0), (-2, -4), (-2, 4))),
+    (0, 1, ((-3, 0), (2, -4), (2, 4))),
+    (20, 4, ((0, -4), (4, 2), (-4, 2))),
+    (40, 2, ((3, 0), (-2, -4), (-2, 4))),
 )
 """Where the keys of left, jump and right are drawn, their bits and their arrows."""
 
@@ -91,16 +91,15 @@ class Hud:
             rect = box if not rect.width else rect.union(box)
         return rect
 
-    def keys(self, surface: pygame.Surface, frame: int) -> pygame.Rect:
-        """The three keys of the present input: left, jump, right."""
+    def keys(self, surface: pygame.Surface, frame: int, x: float = 366) -> pygame.Rect:
+        """The three keys of the present input below the level, from ``x`` on: left, jump, right."""
         palette, canvas = self.theme.palette, self.theme.canvas
         rect = pygame.Rect(0, 0, 0, 0)
-        for x, bit, points in _KEYS:
+        for dx, bit, arrow in _KEYS:
             down = bool(frame & bit)
-            fill = palette.accent if down else palette.panel
-            box = canvas.fill_rect(surface, fill, x, 540, 20, 18, 3)
-            canvas.frame_rect(surface, palette.panel_edge, x, 540, 20, 18, 1, 3)
+            box = canvas.fill_rect(surface, palette.accent if down else palette.panel, x + dx, 580, 18, 16, 3)
+            canvas.frame_rect(surface, palette.panel_edge, x + dx, 580, 18, 16, 1, 3)
             ink = palette.panel if down else palette.faint
-            canvas.polygon(surface, ink, [(x + 10 + px, 549 + py) for px, py in points])
+            canvas.polygon(surface, ink, [(x + dx + 9 + px, 588 + py) for px, py in arrow])
             rect = box if not rect.width else rect.union(box)
         return rect

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from functools import lru_cache
 
 import pygame
 
@@ -13,22 +12,23 @@ _KEPT = 400
 """Rendered texts kept; a changing time adds one a picture."""
 
 
-@lru_cache(maxsize=64)
-def font_of(px: int, bold: bool) -> pygame.font.Font:
-    """The font at a size in px."""
-    if not pygame.font.get_init():
-        pygame.font.init()
-    font = pygame.font.Font(None, px)
-    font.set_bold(bold)
-    return font
-
-
 class Lettering:
     """Draws text on a canvas; keeps what it rendered."""
 
     def __init__(self, canvas: Canvas) -> None:
         self.canvas = canvas
+        self._fonts: dict[tuple[int, bool], pygame.font.Font] = {}
         self._kept: OrderedDict[tuple[str, int, tuple[int, ...], bool], pygame.Surface] = OrderedDict()
+
+    def _font(self, px: int, bold: bool) -> pygame.font.Font:
+        """The font at a size in px. Kept here and not for good: it dies with pygame."""
+        key = px, bold
+        if key not in self._fonts:
+            if not pygame.font.get_init():
+                pygame.font.init()
+            self._fonts[key] = pygame.font.Font(None, px)
+            self._fonts[key].set_bold(bold)
+        return self._fonts[key]
 
     def rendered(self, text: str, size: float, colour: Colour, *, bold: bool = False) -> pygame.Surface:
         """The picture of a text, ``size`` logical px high."""
@@ -36,7 +36,7 @@ class Lettering:
         key = text, px, tuple(pygame.Color(colour)), bold
         found = self._kept.get(key)
         if found is None:
-            found = font_of(px, bold).render(text, True, colour)
+            found = self._font(px, bold).render(text, True, colour)
             self._kept[key] = found
             if len(self._kept) > _KEPT:
                 self._kept.popitem(last=False)
@@ -47,7 +47,7 @@ class Lettering:
     def width(self, text: str, size: float, *, bold: bool = False) -> float:
         """Width of a text in logical px."""
         px = max(6, round(size * self.canvas.scale * FONT_SCALE))
-        return font_of(px, bold).size(text)[0] / self.canvas.scale
+        return self._font(px, bold).size(text)[0] / self.canvas.scale
 
     def draw(
         self, surface: pygame.Surface | None, text: str, x: float, y: float, size: float, colour: Colour,

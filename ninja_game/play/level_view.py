@@ -119,8 +119,8 @@ class LevelView:
         for event in world.events[: world.event_count]:
             if event.kind == DIED:
                 gory = not self.app.options.reduced_gore
-                self.doll.shove(event.slot, (event.dx, event.dy), event.y, n.y)
-                if self.doll.dismembered and gory:
+                self.doll.shove(event.slot, (event.dx, event.dy), event.y, n.y, whole=not gory)
+                if self.doll.dismembered:
                     self.effects.blood(n.x, n.y, 0.0, -2.0, 12)
 
     def _corpse_hit(self, x: float, y: float, into: float, along: float) -> None:

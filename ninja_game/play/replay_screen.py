@@ -189,7 +189,7 @@ class ReplayScreen(Screen):
             self.bar.draw(surface, self.app.theme, self.tick, playback.end, playback.length),
             self.bar.write(surface, self.app.theme, self.tick, playback.end, f"x {SPEEDS[self.speed]:g}"),
             hud.label(surface, playback.take.title),
-            hud.keys(surface, playback.input_at(self.tick - 1)),
+            hud.keys(surface, playback.input_at(self.tick - 1), 604),
         ]
         hint = self._hint()
         if hint:

@@ -6,7 +6,6 @@ from typing import Any
 
 from ninja_game.formats.frames import HELD, TRIGGERED, Demo
 from ninja_game.formats.replay import Replay
-from ninja_game.runs import record_replay
 from ninja_game.session.scoring import level_score
 from ninja_game.sim.death import kill
 from ninja_game.sim.level_data import LevelData
@@ -133,6 +132,9 @@ class Attempt:
 
     def replay(self, name: str = "", author: str = "") -> Replay:
         """The recording in our form: run again from its inputs, so that it holds what really comes of them."""
+        # It imports NumPy, which playing does without.
+        from ninja_game.runs import record_replay
+
         ticks = max(1, len(self.frames) + (self.outcome != "running"))
         level, body = self.simulation.level, self.simulation.body
         return record_replay(level, bytes(self.frames), ticks=ticks, body=body, name=name, author=author)

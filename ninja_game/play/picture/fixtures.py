@@ -98,27 +98,18 @@ def door_switch(s: Sketch, p: Palette, mechanism: int, used: int) -> None:
             s.stroke(p.bright, (-1.2, 1.2), (1.2, -1.2), 0.8)
 
 
-@drawing("pad", -9.5, -8, 9.5, 5)
+@drawing("pad", -9.5, -12, 9.5, 3)
 def launch_pad(s: Sketch, p: Palette, step: int) -> None:
-    """A spring plate lying on the surface below it; ``step`` 8: just sprung, 0: settled."""
-    lift = 4.5 * step / 8
+    """A spring plate lying on the surface at its point; ``step`` 8: just sprung, 0: settled."""
+    top = -4.6 - 4.5 * step / 8
     flash = mixed(p.light, p.bright, step / 8)
-    s.polygon(p.dark, [(-5.5, 3), (5.5, 3), (4, 0.5 - lift), (-4, 0.5 - lift)])
-    s.stroke(p.outline, (-3.6, 2.4), (3.6, 1 - lift), 0.7)
-    s.stroke(p.outline, (3.6, 2.4), (-3.6, 1 - lift), 0.7)
-    s.framed_box(flash, p.outline, -7.6, -1.8 - lift, 15.2, 3, 0.7)
-    s.polygon(
-        p.good,
-        [
-            (-2.4, -0.3 - lift),
-            (0, -1.5 - lift),
-            (2.4, -0.3 - lift),
-            (2.4, 0.5 - lift),
-            (0, -0.7 - lift),
-            (-2.4, 0.5 - lift),
-        ],
-    )
-    s.box(p.outline, -7.6, 2.6, 15.2, 1)
+    s.polygon(p.dark, [(-5.5, 0), (5.5, 0), (4, top + 2.4), (-4, top + 2.4)])
+    s.stroke(p.outline, (-3.6, -0.4), (3.6, top + 3), 0.7)
+    s.stroke(p.outline, (3.6, -0.4), (-3.6, top + 3), 0.7)
+    s.framed_box(flash, p.outline, -7.6, top, 15.2, 3, 0.7)
+    chevron = [(-2.6, 0.7), (0, -0.7), (2.6, 0.7), (2.6, 1.6), (0, 0.2), (-2.6, 1.6)]
+    s.polygon(p.good, [(x, y + top + 1.2) for x, y in chevron])
+    s.box(p.outline, -7.6, -0.7, 15.2, 0.9)
 
 
 @drawing("one-way", 13)

@@ -80,8 +80,11 @@ class Ragdoll:
 
     # --- the moment of death ---
 
-    def shove(self, kind: int, impulse: Point, hit_y: float, centre_y: float) -> None:
-        """The blow: everything is thrown, most of all the end that was hit. Falls have none."""
+    def shove(self, kind: int, impulse: Point, hit_y: float, centre_y: float, *, whole: bool = False) -> None:
+        """The blow: everything is thrown, most of all the end that was hit. Falls have none.
+
+        ``whole``: it stays in one piece, whatever killed it (reduced gore).
+        """
         if kind != FALL:
             h = (hit_y - centre_y) / 10
             u = min(1.0, abs(h))
@@ -92,7 +95,7 @@ class Ragdoll:
                 share = weight * (self.chance.uniform(0.8, 1) if k > SHOULDER else 1)
                 particle.ox -= impulse[0] * (share + self.chance.random())
                 particle.oy -= impulse[1] * (share + self.chance.random())
-        if kind == EXPLOSIVE:
+        if kind == EXPLOSIVE and not whole:
             self.dismember()
 
     def dismember(self) -> None:

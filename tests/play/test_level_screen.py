@@ -1,0 +1,243 @@
+"""A level from its start to its end, played by a script on pictures 25 ms apart: one tick each."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from ninja_game.formats.files import load_replays
+from ninja_game.formats.recording import Recording
+from ninja_game.play.app import App
+from ninja_game.play.course import SingleLevel
+from ninja_game.play.level_screen import LevelScreen
+from ninja_game.play.phase import DEATH_PAUSE, Phase
+from ninja_game.play.replay_screen import ReplayScreen
+from ninja_game.sim.rules import LIFETIME
+from tests.play.scripted import ScriptedControls, frames, press, release, scripted_app
+
+REPLAY = Path(__file__).parent.parent / "replays" / "01-first-steps.replay.txt"
+
+
+@pytest.fixture(name="recording")
+def recording_of_first_level() -> Recording:
+    return load_replays(REPLAY)[0]
+
+
+@pytest.fixture(name="stage")
+def stage_with_app() -> Iterator[tuple[App, ScriptedControls]]:
+    with scripted_app() as made:
+        yield made
+
+
+def open_level(app: App, recording: Recording, **options: object) -> LevelScreen:
+    course = SingleLevel("level", recording.level, **options)  # type: ignore[arg-type]
+    screen = LevelScreen(app, course)
+    app.push(screen)
+    frames(app)
+    return screen
+
+
+def phase_of(screen: LevelScreen) -> Phase:
+    """The phase, for a type checker that thinks it cannot change."""
+    return screen.phase
+
+
+def play_to_the_end(app: App, controls: ScriptedControls, screen: LevelScreen, recording: Recording) -> None:
+    controls.script = iter(recording.inputs(recording.ticks))
+    press("confirm")
+    while screen.phase in {Phase.READY, Phase.PLAY}:
+        frames(app)
+        assert screen.attempt.simulation.tick < 4000
+    controls.script = None
+
+
+def test_a_script_of_the_recording_passes_the_level(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
+    app, controls = stage
+    screen = open_level(app, recording)
+    play_to_the_end(app, controls, screen, recording)
+    assert recording.replay is not None
+    assert screen.phase is Phase.PASSED
+    assert screen.attempt.ended_tick == recording.replay.final_tick
+    assert screen.attempt.gold == recording.replay.gold
+    assert screen.attempt.score == LIFETIME + 80 * screen.attempt.gold - screen.attempt.ended_tick
+    assert bytes(screen.attempt.frames) == recording.inputs(len(screen.attempt.frames))
+    assert screen.attempt.replay().digest == recording.replay.digest
+
+
+def test_passing_makes_a_ghost_for_the_next_try(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
+    app, controls = stage
+    screen = open_level(app, recording)
+    play_to_the_end(app, controls, screen, recording)
+    press("confirm")
+    frames(app)
+    assert screen.phase is Phase.READY
+    assert screen.attempt.simulation.tick == 0
+    assert len(screen.view.ghosts) == 1
+    press("confirm")
+    frames(app, 40)
+    ghost = screen.view.ghosts[0]
+    assert ghost.simulation.tick == screen.attempt.simulation.tick == 40
+
+
+def test_nothing_ticks_before_a_move_and_any_move_begins(
+    stage: tuple[App, ScriptedControls], recording: Recording
+) -> None:
+    app, controls = stage
+    controls.held_bits = 2
+    screen = open_level(app, recording)
+    frames(app, 20)
+    assert phase_of(screen) is Phase.READY, "a key that was down before does not begin"
+    controls.held_bits = 0
+    frames(app)
+    controls.held_bits = 2
+    frames(app, 2)
+    assert phase_of(screen) is Phase.PLAY
+    assert screen.attempt.frames[0] == 2
+
+
+def test_pause_stops_time_and_the_clock_starts_afresh(
+    stage: tuple[App, ScriptedControls], recording: Recording
+) -> None:
+    app, _ = stage
+    screen = open_level(app, recording)
+    press("confirm")
+    frames(app, 10, 33)
+    press("pause")
+    frames(app)
+    tick = screen.attempt.simulation.tick
+    frames(app, 10, 400)
+    assert screen.phase is Phase.PAUSED
+    assert screen.attempt.simulation.tick == tick
+    press("pause")
+    frames(app, 1, 24)
+    assert screen.attempt.simulation.tick == tick, "24 ms are no tick: the remainder was dropped"
+
+
+def test_a_stall_counts_as_one_tick(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
+    app, _ = stage
+    screen = open_level(app, recording)
+    press("confirm")
+    frames(app)
+    tick = screen.attempt.simulation.tick
+    frames(app, 1, 30_000)
+    assert screen.attempt.simulation.tick == tick + 1
+
+
+def test_retry_in_play_is_at_once_and_the_world_is_new(
+    stage: tuple[App, ScriptedControls], recording: Recording
+) -> None:
+    app, controls = stage
+    screen = open_level(app, recording)
+    start = screen.attempt.simulation.digest()
+    press("confirm")
+    controls.held_bits = 2
+    frames(app, 30)
+    controls.held_bits = 0
+    press("retry")
+    frames(app)
+    assert screen.phase is Phase.READY
+    assert screen.attempt.simulation.digest() == start
+    assert not screen.attempt.frames
+
+
+def test_death_goes_on_as_a_corpse_then_offers_retry_and_replay(
+    stage: tuple[App, ScriptedControls], recording: Recording
+) -> None:
+    app, controls = stage
+    screen = open_level(app, recording)
+    controls.held_bits = 2
+    press("confirm")
+    frames(app, 10)
+    screen.attempt.lifetime = 1
+    frames(app, 2)
+    assert phase_of(screen) is Phase.DEAD
+    assert screen.view.doll is not None
+    tick = screen.attempt.simulation.tick
+    frames(app, DEATH_PAUSE + 2)
+    assert screen.attempt.simulation.tick == tick + DEATH_PAUSE + 2
+    press("replay")
+    frames(app)
+    assert isinstance(app.top, ReplayScreen)
+    press("back")
+    frames(app)
+    press("confirm")
+    frames(app)
+    assert phase_of(screen) is Phase.PLAY, "the key that is held is meant for the new try"
+    assert screen.attempt.outcome == "running"
+
+
+def test_giving_up_has_no_replay(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
+    app, _ = stage
+    screen = open_level(app, recording)
+    press("confirm")
+    frames(app, 3)
+    press("suicide")
+    frames(app, DEATH_PAUSE + 3)
+    press("replay")
+    frames(app)
+    assert app.top is screen
+    assert screen.phase is Phase.DEAD
+
+
+def test_practice_goes_back_to_a_saved_moment_exactly(
+    stage: tuple[App, ScriptedControls], recording: Recording
+) -> None:
+    app, controls = stage
+    screen = open_level(app, recording, practice=True)
+    controls.script = iter(recording.inputs(recording.ticks))
+    press("confirm")
+    frames(app, 60)
+    press("quick_save")
+    frames(app, 1, 0)
+    saved, played = screen.attempt.simulation.digest(), bytes(screen.attempt.frames)
+    frames(app, 50)
+    press("quick_load")
+    frames(app, 1, 0)
+    assert screen.attempt.simulation.digest() == saved
+    assert bytes(screen.attempt.frames) == played
+    assert screen.attempt.practised
+
+
+def test_rewind_runs_the_recording_backwards(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
+    app, controls = stage
+    screen = open_level(app, recording, practice=True)
+    controls.script = iter(recording.inputs(recording.ticks))
+    digests = {}
+    press("confirm")
+    for _ in range(80):
+        frames(app)
+        digests[screen.attempt.simulation.tick] = screen.attempt.simulation.digest()
+    press("rewind")
+    frames(app, 15)
+    release("rewind")
+    frames(app, 1, 0)
+    tick = screen.attempt.simulation.tick
+    assert tick < 60
+    assert screen.attempt.simulation.digest() == digests[tick]
+    assert len(screen.attempt.frames) == tick
+
+
+def test_slow_motion_and_single_steps(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
+    app, _ = stage
+    screen = open_level(app, recording, practice=True)
+    press("confirm")
+    frames(app)
+    press("slow")
+    frames(app, 8)
+    assert screen.attempt.simulation.tick == 3, "eight pictures of 25 ms are two slow ticks"
+    press("step")
+    frames(app, 5)
+    assert screen.attempt.simulation.tick == 4, "time stands still after a step"
+
+
+def test_tools_do_nothing_outside_practice(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
+    app, _ = stage
+    screen = open_level(app, recording)
+    press("confirm")
+    frames(app, 30)
+    press("rewind")
+    frames(app, 5)
+    assert screen.attempt.simulation.tick == 35
+    assert not screen.attempt.practised

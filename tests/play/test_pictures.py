@@ -1,0 +1,119 @@
+"""Pictures of scenes against those in `tests/play/golden/`, with a tolerance for other rasterisers.
+
+To accept new pictures after a change of drawings run `ACCEPT_PICTURES=1 python -m pytest tests/play/test_pictures.py`
+and look at them. A picture that differs is written beside the accepted one as `NAME.new.png` (git ignores it).
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pygame
+import pytest
+
+from ninja_game.formats.files import load_levels, load_replays
+from ninja_game.play.level_view import LevelView
+from ninja_game.play.options import Options
+from ninja_game.play.overlays import OVERLAY_ACTIONS, Overlays
+from ninja_game.play.palette import PALETTES
+from ninja_game.play.picture.thumbnail import thumbnail
+from ninja_game.play.scene import Sheet
+from ninja_game.sim.death import kill
+from ninja_game.sim.states import ELECTRIC, EXPLOSIVE
+from ninja_game.simulation import Simulation
+
+HERE = Path(__file__).parent
+GOLDEN = HERE / "golden"
+ROOT = HERE.parent.parent
+SIZE = (528, 400)
+MEAN_TOLERANCE = 1.5
+"""Largest mean difference of a colour channel, of 255."""
+BLOCK_TOLERANCE = 30
+"""Largest mean difference in any block of 8 x 8 px."""
+
+
+def scene(
+    number: int, ticks: int, options: Options | None = None, *, overlays: bool = False, fatal: int = -1
+) -> pygame.Surface:
+    """A bundled replay after some ticks; with ``fatal`` the ninja is killed and seen 5 ticks later."""
+    path = sorted((ROOT / "tests" / "replays").glob("*.replay.txt"))[number]
+    recording = load_replays(path)[0]
+    run = Simulation(recording.level)
+    view = LevelView(Sheet(SIZE, options), run, chance=7)
+    if overlays:
+        view.overlays = Overlays()
+        view.overlays.on = set(OVERLAY_ACTIONS)
+    inputs = recording.inputs(ticks)
+    for frame in inputs:
+        run.step_frame(frame)
+        view.ticked()
+    if fatal >= 0:
+        n = run.world.ninja
+        kill(run.world, fatal, 4.0, -3.0, n.x, n.y - 4)
+        view.killed()
+        for _ in range(5):
+            run.step_frame(0)
+            view.ticked()
+    surface = pygame.Surface(SIZE)
+    view.draw(surface, 0.5, whole=True)
+    return surface
+
+
+SCENES = {
+    "first-steps": lambda: scene(0, 120),
+    "chimney-dark": lambda: scene(2, 150, Options(palette="dark")),
+    "locksmith-safe": lambda: scene(4, 200, Options(palette="safe")),
+    "night-shift-contrast": lambda: scene(6, 160, Options(palette="contrast")),
+    "works-safe-dark": lambda: scene(7, 200, Options(palette="safe-dark")),
+    "works-overlays": lambda: scene(7, 140, overlays=True),
+    "works-passed": lambda: scene(7, 560),
+    "death-explosive": lambda: scene(0, 60, fatal=EXPLOSIVE),
+    "death-electric": lambda: scene(0, 60, fatal=ELECTRIC),
+    "death-without-gore": lambda: scene(0, 60, Options(reduced_gore=True, reduced_motion=True), fatal=EXPLOSIVE),
+    "thumbnail": lambda: thumbnail(
+        load_levels(ROOT / "levels" / "08-the-works.txt")[0].level, PALETTES["classic"], 264
+    ),
+}
+
+
+def difference(a: pygame.Surface, b: pygame.Surface) -> tuple[float, float]:
+    """Mean difference of the channels, over all px and in the worst block."""
+    if a.get_size() != b.get_size():
+        return 255.0, 255.0
+    distance = a.copy()
+    other = b.copy()
+    distance.blit(b, (0, 0), special_flags=pygame.BLEND_RGB_SUB)
+    other.blit(a, (0, 0), special_flags=pygame.BLEND_RGB_SUB)
+    distance.blit(other, (0, 0), special_flags=pygame.BLEND_RGB_ADD)
+    blocks = pygame.transform.smoothscale(distance, (a.get_width() // 8, a.get_height() // 8))
+    worst = max(
+        max(blocks.get_at((x, y))[:3]) for y in range(blocks.get_height()) for x in range(blocks.get_width())
+    )  # fmt: skip
+    mean = pygame.transform.average_color(distance)
+    return max(mean[:3]), float(worst)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_scene_looks_as_accepted(name: str) -> None:
+    picture = SCENES[name]()
+    accepted, new = GOLDEN / f"{name}.png", GOLDEN / f"{name}.new.png"
+    new.unlink(missing_ok=True)
+    if os.environ.get("ACCEPT_PICTURES"):
+        GOLDEN.mkdir(exist_ok=True)
+        pygame.image.save(picture, str(accepted))
+        return
+    golden = pygame.Surface(picture.get_size())
+    golden.blit(pygame.image.load(accepted), (0, 0))
+    shown = pygame.Surface(picture.get_size())
+    shown.blit(picture, (0, 0))
+    mean, worst = difference(shown, golden)
+    if mean > MEAN_TOLERANCE or worst > BLOCK_TOLERANCE:
+        pygame.image.save(picture, str(new))
+        pytest.fail(f"{name} differs (mean {mean}, worst block {worst}); look at {new}, or accept it (see above)")
+
+
+def test_the_comparison_sees_a_missing_thing() -> None:
+    """Break what this file guards once: a picture without its ninja must not pass."""
+    with_ninja, without = scene(0, 120), scene(0, 60)
+    assert difference(with_ninja, without)[1] > BLOCK_TOLERANCE

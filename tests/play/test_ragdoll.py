@@ -1,0 +1,74 @@
+"""The corpse: falls, lies still, stays out of walls, and comes out alike from the same chance."""
+
+from __future__ import annotations
+
+from random import Random
+
+from ninja_game.play.picture.pose import STAND
+from ninja_game.play.picture.ragdoll import STICKS, Ragdoll
+from ninja_game.sim.level_data import LevelData, Record
+from ninja_game.sim.rays import solid_at
+from ninja_game.sim.states import BULLET, EXPLOSIVE
+from ninja_game.simulation import Simulation
+
+
+def cave(tile: int = 0) -> Simulation:
+    """A hall with a slope or another tile in every third cell of its floor."""
+    tiles = [0] * 713
+    for column in range(0, 31, 3):
+        tiles[column * 23 + 22] = tile
+    return Simulation(LevelData(tuple(tiles), (Record(5, (396.0, 300.0)),)))
+
+
+def drop(run: Simulation, ticks: int, *, kind: int = BULLET, seed: int = 3, push: float = 6.0) -> Ragdoll:
+    at = STAND.moved(396, 300)
+    doll = Ragdoll(at, at, (1.0, -1.0), 1, Random(seed), lambda *_: None)
+    doll.shove(kind, (push, -3.0), 296, 300)
+    for _ in range(ticks):
+        doll.step(run.static, run.world)
+    return doll
+
+
+def test_it_comes_to_rest_on_the_floor() -> None:
+    run = cave()
+    doll = drop(run, 600)
+    for particle in doll.particles:
+        assert abs(particle.x - particle.sx) < 0.3
+        assert particle.y + particle.half <= 576.6
+    assert max(particle.y for particle in doll.particles) > 560
+
+
+def test_sticks_keep_it_together() -> None:
+    doll = drop(cave(), 600)
+    for stick in STICKS:
+        a, b = doll.particles[stick.first], doll.particles[stick.second]
+        assert ((a.x - b.x) ** 2 + (a.y - b.y) ** 2) ** 0.5 < stick.longest + 3
+
+
+def test_it_stays_out_of_every_shape() -> None:
+    for tile in range(1, 34):
+        run = cave(tile)
+        for push in (-9.0, 9.0):
+            doll = drop(run, 200, push=push)
+            for particle in doll.particles:
+                assert 24 <= particle.x <= 768
+                assert 24 <= particle.y <= 576
+                assert not solid_at(run.static, particle.x, particle.y), (tile, push)
+
+
+def test_explosions_take_it_apart() -> None:
+    doll = drop(cave(), 5, kind=EXPLOSIVE)
+    assert doll.dismembered
+    assert len(doll.particles) == 10
+
+
+def test_the_same_chance_gives_the_same_fall() -> None:
+    first, second = drop(cave(), 150), drop(cave(), 150)
+    assert [(p.x, p.y) for p in first.particles] == [(p.x, p.y) for p in second.particles]
+
+
+def test_the_world_does_not_notice() -> None:
+    run = cave(2)
+    before = run.digest()
+    drop(run, 100)
+    assert run.digest() == before

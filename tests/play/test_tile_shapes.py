@@ -1,0 +1,67 @@
+"""The drawn tiles are the tiles of the world, and nothing shines through between them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import pygame
+import pytest
+
+from ninja_game.play.canvas import Canvas
+from ninja_game.play.palette import PALETTES
+from ninja_game.play.picture.backdrop import Backdrop
+from ninja_game.play.picture.sprite_book import SpriteBook
+from ninja_game.play.picture.tile_shapes import tile_picture
+from ninja_game.sim.level_data import LevelData, Record
+from ninja_game.sim.rays import solid_at
+from ninja_game.simulation import Simulation
+
+CLASSIC = PALETTES["classic"]
+
+
+class OneTile(NamedTuple):
+    tiles: list[int]
+
+
+@pytest.mark.parametrize("tile", range(34))
+def test_a_shape_covers_what_is_solid(tile: int) -> None:
+    size = 48
+    picture = tile_picture(tile, (size, size), CLASSIC.tile)
+    run = Simulation(LevelData((tile, *[0] * 712), (Record(5, (400.0, 300.0)),)))
+    for row in range(size):
+        for column in range(size):
+            x, y = 24 + (column + 0.5) / 2, 24 + (row + 0.5) / 2
+            near = [
+                solid_at(run.static, x + dx, y + dy)
+                for dx in (-0.7, 0, 0.7)
+                for dy in (-0.7, 0, 0.7)
+                if 24 <= x + dx < 48 and 24 <= y + dy < 48
+            ]
+            if len(set(near)) == 1:
+                assert (picture.get_at((column, row)).a > 127) == near[0], (tile, column, row)
+
+
+@pytest.mark.parametrize("size", [(792, 600), (1000, 700), (1584, 1200), (613, 477)])
+def test_no_seams_between_full_tiles(size: tuple[int, int]) -> None:
+    canvas = Canvas(size)
+    run = Simulation(LevelData((1,) * 713, (Record(5, (400.0, 300.0)),)))
+    backdrop = Backdrop(canvas, CLASSIC, SpriteBook(canvas.scale, CLASSIC), run.static)
+    mask = pygame.mask.from_surface(backdrop.tiles, 254)
+    assert mask.count() == canvas.size[0] * canvas.size[1]
+
+
+def test_slopes_meet_their_neighbours_without_seams() -> None:
+    """Along the border between a slope and the full tile under it no px is less than full."""
+    for size in ((792, 600), (1000, 760)):
+        canvas = Canvas(size)
+        columns = [[0] * 23 for _ in range(31)]
+        for column in range(31):
+            columns[column][10], columns[column][11] = (18, 22)[column % 2] if column % 3 else 2, 1
+        tiles = tuple(tile for column in columns for tile in column)
+        run = Simulation(LevelData(tiles, (Record(5, (400.0, 100.0)),)))
+        backdrop = Backdrop(canvas, CLASSIC, SpriteBook(canvas.scale, CLASSIC), run.static)
+        _, border = canvas.point(0, 24 * 12)
+        left, right = canvas.point(24, 0)[0], canvas.point(768, 0)[0]
+        for x in range(left, right):
+            assert backdrop.tiles.get_at((x, border)).a == 255
+            assert backdrop.tiles.get_at((x, border + 1)).a == 255

@@ -1,0 +1,102 @@
+"""Nothing that is drawn touches the world: digests are those of bare runs with everything on."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from ninja_game.formats.files import load_replays
+from ninja_game.play.course import GhostRun, SingleLevel
+from ninja_game.play.level_screen import LevelScreen
+from ninja_game.play.level_view import LevelView
+from ninja_game.play.options import Options
+from ninja_game.play.overlays import OVERLAY_ACTIONS
+from ninja_game.play.phase import Phase
+from ninja_game.play.scene import Sheet
+from ninja_game.simulation import Simulation
+from tests.play.scripted import frames, press, release, scripted_app
+
+REPLAYS = sorted((Path(__file__).parent.parent / "replays").glob("*.replay.txt"))
+AFTER = 60
+
+
+def bare_digests(path: Path) -> list[str]:
+    """The digest after every tenth tick of a run that nobody looks at."""
+    recording = load_replays(path)[0]
+    run = Simulation(recording.level)
+    digests = []
+    inputs = recording.inputs(recording.ticks) + bytes(AFTER)
+    for frame in inputs:
+        run.step_frame(frame)
+        if run.tick % 10 == 0:
+            digests.append(run.digest())
+    return digests
+
+
+@pytest.mark.parametrize("path", REPLAYS, ids=lambda path: path.name.split(".")[0])
+def test_a_run_with_everything_on_is_the_bare_run(path: Path) -> None:
+    recording = load_replays(path)[0]
+    digests = []
+    inputs = recording.inputs(recording.ticks)
+    with scripted_app((396, 300), Options(palette="safe-dark", show_keys=True)) as (app, controls):
+        course = SingleLevel("level", recording.level)
+        course.best = 1, inputs[: len(inputs) // 2]
+        screen = LevelScreen(app, course)
+        screen.overlays.on = set(OVERLAY_ACTIONS)
+        screen.view.ghosts = [*screen.view.ghosts]
+        app.push(screen)
+        controls.script = iter(b"\0" + inputs)
+        press("confirm")
+        frames(app, 1, 0)
+        controls.script = iter(inputs)
+        for _ in range(len(inputs) + AFTER):
+            frames(app)
+            if screen.attempt.simulation.tick % 10 == 0:
+                digests.append(screen.attempt.simulation.digest())
+        assert len(screen.view.ghosts) == 1
+    assert digests == bare_digests(path)
+
+
+def test_rewinding_again_and_again_changes_nothing() -> None:
+    recording = load_replays(REPLAYS[-1])[0]
+    inputs = recording.inputs(recording.ticks)
+    with scripted_app((396, 300)) as (app, controls):
+        screen = LevelScreen(app, SingleLevel("level", recording.level, practice=True))
+        app.push(screen)
+        press("confirm")
+        frames(app, 1, 0)
+        while screen.phase is Phase.PLAY:
+            tick = screen.attempt.simulation.tick
+            controls.script = iter(inputs[tick:])
+            frames(app, 37)
+            press("rewind")
+            frames(app, 4)
+            release("rewind")
+            frames(app, 1, 0)
+            tick = screen.attempt.simulation.tick
+            controls.script = iter(inputs[tick:])
+            frames(app, min(30, max(1, len(inputs) - tick)))
+        assert screen.attempt.outcome == "exit"
+        assert screen.attempt.replay().digest == getattr(recording.replay, "digest", None)
+
+
+def test_looking_only_reads() -> None:
+    """A view drawn twice as often, with a ghost, leaves a world in which every field is as without."""
+    recording = load_replays(REPLAYS[-1])[0]
+    bare, seen = Simulation(recording.level), Simulation(recording.level)
+    sheet = Sheet((396, 300))
+    view = LevelView(sheet, seen, chance=5)
+    import pygame
+
+    from ninja_game.play.ghosts import Ghost
+
+    surface = pygame.Surface((396, 300))
+    view.ghosts = [Ghost(GhostRun("ghost", b""), recording.level, "circle")]
+    for frame in recording.inputs(recording.ticks):
+        bare.step_frame(frame)
+        seen.step_frame(frame)
+        view.ticked()
+        view.draw(surface, 0.3)
+        view.draw(surface, 0.8)
+        assert bare.first_difference(seen) is None

@@ -1,0 +1,145 @@
+"""The window of `ninja-game play`, without a display: it opens, plays, writes its picture, ends."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pygame
+import pytest
+
+from ninja_game.errors import LevelError
+from ninja_game.play.app import App, fitting_size, free_name, main
+from ninja_game.play.canvas import Canvas
+from ninja_game.play.run_clock import RunClock
+from ninja_game.play.screen import Screen
+from tests.play.scripted import frames, scripted_app
+
+ROOT = Path(__file__).parent.parent.parent
+LEVEL = str(ROOT / "levels" / "01-first-steps.txt")
+
+
+@pytest.fixture(autouse=True)
+def _own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path / "home"))
+
+
+def test_frames_and_screenshot(tmp_path: Path) -> None:
+    picture = tmp_path / "picture.png"
+    assert main(LEVEL, frames=5, screenshot=str(picture)) == 0
+    assert pygame.image.load(picture).get_size() == (792, 600)
+
+
+def test_any_size(tmp_path: Path) -> None:
+    picture = tmp_path / "picture.png"
+    main(LEVEL, frames=2, screenshot=str(picture), size=(1000, 500))
+    assert pygame.image.load(picture).get_size() == (1000, 500)
+
+
+def test_a_replay_is_watched(tmp_path: Path) -> None:
+    replay = str(ROOT / "tests" / "replays" / "01-first-steps.replay.txt")
+    assert main(replay_path=replay, frames=60, screenshot=str(tmp_path / "picture.png")) == 0
+
+
+def test_a_broken_level_is_told_before_a_window_opens(tmp_path: Path) -> None:
+    broken = tmp_path / "broken.txt"
+    broken.write_text("not a level", "utf-8")
+    pygame.display.quit()
+    with pytest.raises(LevelError, match=r"broken\.txt"):
+        main(str(broken), frames=1)
+    assert not pygame.display.get_init()
+
+
+def test_playing_needs_neither_numba_nor_numpy(tmp_path: Path) -> None:
+    program = (
+        "import sys; from ninja_game.play.app import main\n"
+        f"main({LEVEL!r}, frames=3)\n"
+        "assert 'numba' not in sys.modules\n"
+        "assert 'numpy' not in sys.modules\n"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=60, cwd=ROOT)
+
+
+class Probe(Screen):
+    """Writes down what it is told."""
+
+    def __init__(self, app: App, *, see_through: bool = False, below_runs: bool = False) -> None:
+        super().__init__(app)
+        self.see_through, self.below_runs = see_through, below_runs
+        self.log: list[str] = []
+
+    def enter(self) -> None:
+        self.log.append("enter")
+
+    def leave(self) -> None:
+        self.log.append("leave")
+
+    def update(self, real_ms: int) -> None:  # noqa: ARG002
+        self.log.append("update")
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:  # noqa: ARG002
+        self.log.append("draw" + (" whole" if self.redraw else ""))
+        return []
+
+
+def test_the_stack_draws_what_is_seen_and_runs_what_runs() -> None:
+    with scripted_app() as (app, _):
+        below, panel, menu = Probe(app), Probe(app, see_through=True, below_runs=True), Probe(app)
+        app.push(below)
+        frames(app, 2)
+        assert below.log == ["enter", "update", "draw whole", "update", "draw"]
+        below.log.clear()
+        app.push(panel)
+        frames(app)
+        assert below.log == ["leave", "update", "draw whole"]
+        app.push(menu)
+        below.log.clear()
+        frames(app)
+        assert below.log == []
+        app.pop_to(Probe)
+        app.pop()
+        assert panel.log[-1] == "enter"
+        app.pop()
+        app.pop()
+        assert not app.running
+
+
+def test_a_new_palette_or_size_draws_everything_again() -> None:
+    with scripted_app() as (app, _):
+        probe = Probe(app)
+        app.push(probe)
+        frames(app, 2)
+        app.options.palette = "dark"
+        app.apply_options()
+        frames(app)
+        assert probe.log[-1] == "draw whole"
+        assert app.theme.palette.name == "dark"
+
+
+def test_the_clock_keeps_the_remainder_and_drops_stalls() -> None:
+    clock = RunClock()
+    assert sum(clock.ticks_due(16) for _ in range(1000)) == 640
+    clock.reset()
+    assert clock.ticks_due(2000) == 80
+    assert clock.ticks_due(2001) == 1
+    assert clock.fraction == 0.0
+    assert clock.ticks_due(20, 15) == 1
+
+
+def test_the_canvas_letterboxes_and_neighbours_share_edges() -> None:
+    canvas = Canvas((1000, 500))
+    assert canvas.size == (660, 500)
+    assert canvas.origin == (170, 0)
+    for column in range(32):
+        assert canvas.rect(24 * column, 0, 24, 24).right == canvas.rect(24 * column + 24, 0, 24, 24).left
+
+
+def test_the_first_size_is_a_whole_multiple(tmp_path: Path) -> None:
+    pygame.display.init()
+    width, height = fitting_size()
+    assert width % 792 == 0
+    assert height % 600 == 0
+    pygame.display.quit()
+    (tmp_path / "a-1.png").touch()
+    assert free_name(tmp_path, "a", ".png").name == "a-2.png"
