@@ -159,7 +159,7 @@ class App:
         for screen in self.stack.running():
             screen.update(real_ms)
         if self.stack:
-            self._draw()
+            self.draw()
 
     def _handle(self, event: pygame.Event) -> None:
         """Deal with what concerns the window; everything goes to the top screen."""
@@ -179,7 +179,7 @@ class App:
             self.save_screenshot(free_name(Path.cwd(), "ninja-game", ".png"))
         self.top.handle(event)
 
-    def _draw(self) -> None:
+    def draw(self) -> None:
         """Draw the screens that are seen and show what changed."""
         visible = self.stack.visible()
         if len(visible) > 1 and any(screen.redraw or screen.below_runs for screen in visible[1:]):

@@ -1,0 +1,177 @@
+"""What a picture costs: `python tools/frame_cost.py`, a busy level at 1584 x 1200 px on SDL's software renderer.
+
+Drawing alone (median, 99th percentile, worst), then the share of a core that playing at 60 pictures a second takes. The
+targets are 4 ms, 8 ms and 25 %. `--display` uses the real display instead of the dummy driver; `--level` another level.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from random import Random
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+if "--display" not in sys.argv:
+    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
+
+import pygame
+
+from ninja_game.formats.files import load_levels
+from ninja_game.play.app import App
+from ninja_game.play.controls import Keyboard
+from ninja_game.play.course import SingleLevel
+from ninja_game.play.level_screen import LevelScreen
+from ninja_game.play.options import Options
+from ninja_game.play.phase import Phase
+from ninja_game.sim.level_data import (
+    BOUNCE_BLOCK,
+    DRONE,
+    EXIT,
+    FLOOR_GUARD,
+    GOLD,
+    LAUNCHER,
+    MINE,
+    NINJA,
+    THWUMP,
+    TURRET,
+    LevelData,
+    Record,
+)
+
+SIZE = (1584, 1200)
+
+
+def busy_level() -> LevelData:
+    """Halls full of everything that moves; the ninja runs about in a niche where little reaches it."""
+    tiles = [0] * 713
+
+    def put(column: int, row: int, tile: int) -> None:
+        tiles[(column - 1) * 23 + row - 1] = tile
+
+    for row in (6, 12, 18):
+        for column in range(1, 32):
+            if column % 8:
+                put(column, row, (1, 2, 3, 10, 18, 26, 30)[(column + row) % 7] if column % 3 == 0 else 1)
+    for row in range(19, 24):
+        put(8, row, 1)
+    records = [Record(NINJA, (60.0, 560.0)), Record(EXIT, (744.0, 60.0, 744.0, 200.0))]
+    chance = Random(1)
+    for k in range(24):
+        x, y = 36.0 + 24 * (k + 3), (60.0, 204.0, 348.0)[k % 3]
+        records.append(Record(DRONE, (x, y, float(k % 6), float(k % 2), float(k % 3), float(k % 4))))
+    records += [Record(THWUMP, (300.0 + 48 * k, 454.0, 1.0)) for k in range(9)]
+    records += [Record(FLOOR_GUARD, (250.0 + 60 * k, 570.0, 1.0)) for k in range(6)]
+    records += [Record(BOUNCE_BLOCK, (100.0 + 40 * k, 250.0)) for k in range(14)]
+    records += [Record(TURRET, (180.0 * k + 90, 36.0)) for k in range(4)]
+    records += [Record(LAUNCHER, (150.0 * k + 90, 470.0)) for k in range(4)]
+    records += [Record(MINE, (chance.uniform(250, 750), 576.0)) for _ in range(12)]
+    records += [Record(GOLD, (36.0 + 12 * (k % 60), 100.0 + 40 * (k // 60))) for k in range(180)]
+    return LevelData(tuple(tiles), tuple(records))
+
+
+class Restless(Keyboard):
+    """Keys at random, held for some ticks."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._keys = self._random_keys()
+
+    @staticmethod
+    def _random_keys() -> Iterator[int]:
+        chance = Random(3)
+        while True:
+            bits = chance.choice((1, 2, 1, 2, 5, 6, 4))
+            for _ in range(chance.randrange(4, 20)):
+                yield bits
+
+    def held(self) -> int:
+        """The next of the keys."""
+        return next(self._keys)
+
+
+def measure_drawing(app: App, screen: LevelScreen, pictures: int) -> dict[str, float]:
+    """Times of drawing, ms: everything from the world to the window's surface, showing it included.
+
+    ``work``: the time in which the processor was ours; on a machine that others use too only that tells.
+    """
+    times, work = [], []
+    for number in range(pictures):
+        for event in pygame.event.get():
+            screen.handle(event)
+        screen.update(16 + number % 3 // 2)
+        if screen.phase is not Phase.PLAY and screen.after_end > 60:
+            screen.retry()
+            screen.begin()
+        start, used = time.perf_counter(), time.thread_time()
+        app.draw()
+        work.append(1000 * (time.thread_time() - used))
+        times.append(1000 * (time.perf_counter() - start))
+    times.sort()
+    work.sort()
+    return {
+        "median_ms": round(times[len(times) // 2], 3),
+        "p99_ms": round(times[int(len(times) * 0.99)], 3),
+        "worst_ms": round(times[-1], 3),
+        "work_median_ms": round(work[len(work) // 2], 3),
+        "work_p99_ms": round(work[int(len(work) * 0.99)], 3),
+        "work_worst_ms": round(work[-1], 3),
+    }
+
+
+def measure_load(app: App, seconds: float) -> float:
+    """Share of a core, %, that playing takes at 60 pictures a second."""
+    clock = pygame.time.Clock()
+    started, used = time.perf_counter(), time.process_time()
+    last = pygame.time.get_ticks()
+    while time.perf_counter() - started < seconds:
+        now = pygame.time.get_ticks()
+        app.frame(now - last)
+        last = now
+        screen = app.top
+        if isinstance(screen, LevelScreen) and screen.phase is not Phase.PLAY and screen.after_end > 60:
+            screen.retry()
+            screen.begin()
+        clock.tick(60)
+    return 100 * (time.process_time() - used) / (time.perf_counter() - started)
+
+
+def main() -> int:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--display", action="store_true", help="use the real display")
+    parser.add_argument("--level", type=Path, help="measure on this level")
+    parser.add_argument("--pictures", type=int, default=3000)
+    parser.add_argument("--seconds", type=float, default=8.0)
+    parser.add_argument("--json", action="store_true")
+    arguments = parser.parse_args()
+    level = load_levels(arguments.level)[0].level if arguments.level else busy_level()
+    app = App(Options(show_keys=True), Restless(), size=SIZE)
+    course = SingleLevel("busy", level)
+    course.best = 1, bytes(2 if k % 90 < 60 else 1 for k in range(600))
+    started = time.perf_counter()
+    screen = LevelScreen(app, course)
+    app.push(screen)
+    app.frame(0)
+    result = {"things": float(len(level.records)), "level_to_play_ms": round(1000 * (time.perf_counter() - started), 1)}
+    screen.begin()
+    result |= measure_drawing(app, screen, arguments.pictures)
+    started = time.perf_counter()
+    screen.retry()
+    app.frame(0)
+    result["retry_ms"] = round(1000 * (time.perf_counter() - started), 2)
+    screen.begin()
+    result["core_percent"] = round(measure_load(app, arguments.seconds), 1)
+    print(json.dumps(result) if arguments.json else "\n".join(f"{key:18} {value}" for key, value in result.items()))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
