@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import inf
+from time import monotonic
 
 import pygame
 
@@ -11,7 +13,7 @@ from ninja_game.play.default_bindings import ACTIONS, MENU_KEYS, MENU_PAD
 from ninja_game.play.gamepad import Gamepads, pad_label
 from ninja_game.play.key_names import key_label, key_name, learn_label, scancode_named, scancode_of
 
-TAP_MS = 60
+TAP_SECONDS = 0.06
 """A jump key that went down and up between two ticks still counts in the next one, if it is not older than this."""
 
 MOVES = (("left", LEFT), ("right", RIGHT), ("jump", JUMP))
@@ -31,7 +33,7 @@ class Bindings:
         self.pads = Gamepads(dead_zone)
         self.pad_used = False
         self._keys_down: set[int] = set()
-        self._tapped = 0
+        self._tapped = -inf
         self.bind(keys or {}, pad or {})
 
     def bind(self, keys: Inputs, pad: Inputs) -> None:
@@ -66,16 +68,16 @@ class Bindings:
         for bit, names in self._move_pad:
             if pads & names:
                 bits |= bit
-        if self._tapped and pygame.time.get_ticks() - self._tapped <= TAP_MS:
+        if monotonic() - self._tapped <= TAP_SECONDS:
             bits |= JUMP
-        self._tapped = 0
+        self._tapped = -inf
         return bits
 
     def actions(self, event: pygame.Event) -> tuple[str, ...]:
         """All the actions that an event presses; repetitions by the keyboard do not count."""
         found = self._pressed(event, down=True)
         if "jump" in found:
-            self._tapped = pygame.time.get_ticks()
+            self._tapped = monotonic()
         return found
 
     def releases(self, event: pygame.Event) -> tuple[str, ...]:

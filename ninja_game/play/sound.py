@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from math import isfinite
 from pathlib import Path
 from random import Random
+from time import monotonic
 
 import pygame
 
@@ -24,8 +25,8 @@ LOUDEST = 99
 PAN = 0.35
 """How much softer the far side gets for a sound at the stage's edge."""
 
-CORPSE_PAUSE_MS = 60
-"""Between two thuds of a corpse."""
+CORPSE_PAUSE = 0.06
+"""Seconds between two thuds of a corpse."""
 
 
 class Sound:
@@ -42,7 +43,7 @@ class Sound:
         self._sounds: dict[str, pygame.mixer.Sound | None] = {}
         self._world: World | None = None
         self._machines: list[Thing] = []
-        self._corpse_at = 0
+        self._corpse_at = 0.0
         self.works = _open_mixer()
         self.preload(path.stem for path in sorted(folder.glob("*.wav")))
 
@@ -66,8 +67,8 @@ class Sound:
 
     def corpse(self, speed: float) -> None:
         """A part of the corpse hit something, at ``speed`` px/tick into it (presentation.md §4)."""
-        now = pygame.time.get_ticks()
-        if now - self._corpse_at < CORPSE_PAUSE_MS:
+        now = monotonic()
+        if now - self._corpse_at < CORPSE_PAUSE:
             return
         for slowest, names in CORPSE:
             if speed > slowest:

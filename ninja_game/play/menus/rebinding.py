@@ -27,7 +27,8 @@ LABEL_SHARE = 0.4
 def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
     """The widgets of a page. ``device``: "keys" or "pad"."""
     actions = [name for name in ACTIONS if device == "keys" or ACTIONS[name].pad or name in ("quit", "skip", "boss")]
-    table = BindingTable(screen, device, actions)
+    # The same one again after a press was taken, so that the selection stays.
+    table = screen.tables.setdefault(device, BindingTable(screen, device, actions))
     widgets: list[Widget] = [
         table,
         Button((216, 478, 260, 30), "All as they were at first", lambda: screen.change(**{device: {}})),

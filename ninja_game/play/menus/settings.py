@@ -9,7 +9,7 @@ import pygame
 
 from ninja_game.play.canvas import WIDTH
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.rebinding import binding_widgets
+from ninja_game.play.menus.rebinding import BindingTable, binding_widgets
 from ninja_game.play.menus.text_entry import TextEntry
 from ninja_game.play.menus.widgets import Button, Choice, Label, Slider, Widget
 from ninja_game.play.palette import FLAVOURS, PALETTES
@@ -37,6 +37,7 @@ class SettingsScreen(MenuScreen):
         super().__init__(app)
         self.page = PAGES[0]
         self.message = ""
+        self.tables: dict[str, BindingTable] = {}
 
     def build(self) -> Sequence[Widget]:
         """The pages, and the present page's widgets."""

@@ -1,0 +1,117 @@
+"""Keys are places, pads have names, several inputs mean one action, and no stick flutters."""
+
+from __future__ import annotations
+
+import pygame
+import pytest
+
+from ninja_game.play.bindings import Bindings
+from ninja_game.play.default_bindings import ACTIONS, MENU_KEYS
+from ninja_game.play.gamepad import FULL_AXIS, Gamepads
+from ninja_game.play.key_names import SCANCODES, key_label, key_name, learn_label, scancode_named
+
+
+@pytest.fixture
+def bindings() -> Bindings:
+    pygame.display.init()
+    pygame.display.set_mode((10, 10))
+    return Bindings()
+
+
+def key(name: str, kind: int = pygame.KEYDOWN, *, layout: int = 0) -> pygame.Event:
+    return pygame.Event(kind, key=layout, scancode=SCANCODES[name], mod=0, unicode="")
+
+
+def axis(value: float, number: int = pygame.CONTROLLER_AXIS_LEFTX, pad: int = 5) -> pygame.Event:
+    return pygame.Event(pygame.CONTROLLERAXISMOTION, instance_id=pad, axis=number, value=round(value * FULL_AXIS))
+
+
+def test_names_of_keys_and_scancodes_belong_together() -> None:
+    assert all(scancode_named(key_name(code)) == code for code in SCANCODES.values())
+    assert scancode_named("scancode-300") == 300
+    assert scancode_named("no such key") is None
+
+
+def test_every_default_and_menu_key_exists() -> None:
+    names = {name for action in ACTIONS.values() for name in action.keys} | set(MENU_KEYS)
+    assert names <= set(SCANCODES)
+
+
+def test_binding_is_a_place_whatever_the_layout_prints_there(bindings: Bindings) -> None:
+    # On a French keyboard the place of A types Q.
+    press = key("a", layout=pygame.K_q)
+    assert "left" in bindings.actions(press)
+    learn_label(press)
+    assert key_label("a") == "Q"
+    learn_label(key("a", layout=pygame.K_a))
+    assert key_label("a") == "A"
+
+
+def test_one_key_may_mean_several_actions(bindings: Bindings) -> None:
+    assert set(bindings.actions(key("r"))) == {"retry", "replay"}
+    assert set(bindings.releases(key("period", pygame.KEYUP))) == {"step", "frame_forward"}
+
+
+def test_changed_action_loses_its_defaults_and_others_stay(bindings: Bindings) -> None:
+    bindings.bind({"jump": ("x", "kp_plus", "unknown")}, {})
+    assert "jump" in bindings.actions(key("x"))
+    assert "jump" in bindings.actions(key("kp_plus"))
+    assert "jump" not in bindings.actions(key("z"))
+    assert "left" in bindings.actions(key("left"))
+    assert bindings.name("jump") == "X"
+
+
+def test_menu_keys_cannot_be_taken_away(bindings: Bindings) -> None:
+    bindings.bind(dict.fromkeys(ACTIONS, ()), dict.fromkeys(ACTIONS, ()))
+    assert bindings.menu(key("return")) == "confirm"
+    assert bindings.menu(key("up")) == "up"
+    assert bindings.name("jump") == "(no key)"
+
+
+def test_stick_presses_beyond_the_dead_zone_and_does_not_flutter(bindings: Bindings) -> None:
+    assert bindings.actions(axis(-0.3)) == ()
+    assert "left" in bindings.actions(axis(-0.4))
+    assert bindings.held() == 1
+    assert bindings.releases(axis(-0.32)) == ()
+    assert "left" in bindings.releases(axis(-0.2))
+    assert bindings.held() == 0
+
+
+def test_stick_thrown_across_releases_one_side_and_presses_the_other() -> None:
+    pads = Gamepads(0.35)
+    pads.changes(axis(-1.0))
+    assert sorted(pads.changes(axis(1.0))) == [("leftx+", True), ("leftx-", False)]
+
+
+def test_same_event_asked_twice_counts_once(bindings: Bindings) -> None:
+    event = pygame.Event(pygame.CONTROLLERBUTTONDOWN, instance_id=5, button=pygame.CONTROLLER_BUTTON_A)
+    assert bindings.actions(event) == bindings.actions(event)
+    assert "jump" in bindings.actions(event)
+    assert bindings.menu(event) == "confirm"
+
+
+def test_pad_that_is_pulled_out_lets_go_of_everything(bindings: Bindings) -> None:
+    bindings.actions(axis(1.0))
+    assert bindings.held() == 2
+    assert "right" in bindings.releases(pygame.Event(pygame.JOYDEVICEREMOVED, instance_id=5))
+    assert bindings.held() == 0
+
+
+def test_hats_and_axes_of_unknown_pads_work_too(bindings: Bindings) -> None:
+    hat = pygame.Event(pygame.JOYHATMOTION, instance_id=9, hat=0, value=(-1, 0))
+    assert "left" in bindings.actions(hat)
+    assert "right" in bindings.actions(pygame.Event(pygame.JOYAXISMOTION, instance_id=9, axis=0, value=0.9))
+    assert "jump" in bindings.actions(pygame.Event(pygame.JOYBUTTONDOWN, instance_id=9, button=0))
+
+
+def test_tap_between_two_ticks_still_jumps_once(bindings: Bindings) -> None:
+    bindings.actions(key("z"))
+    assert bindings.held() == 4
+    assert bindings.held() == 0
+
+
+def test_labels_follow_the_device_used_last(bindings: Bindings) -> None:
+    bindings.actions(axis(1.0))
+    assert bindings.name("jump") == "A"
+    bindings.actions(key("z"))
+    assert bindings.name("jump") == "Shift"

@@ -1,0 +1,53 @@
+"""Every page of the help shows what it tells."""
+
+from __future__ import annotations
+
+import pytest
+
+from ninja_game.errors import LevelError
+from ninja_game.play.menus.demonstrations import Page, read_pages, room_level, strokes
+from ninja_game.play.menus.help import HelpScreen
+from ninja_game.sim.level_data import KIND_NAMES
+from ninja_game.simulation import Simulation
+from tests.play.menus.stage import Stage
+
+PAGES = read_pages()
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.title)
+def test_demonstration_contains_what_it_should_show(page: Page) -> None:
+    run = Simulation(page.level)
+    happened = set()
+    for frame in page.inputs:
+        run.step_frame(frame)
+        happened |= {event.name for event in run.events}
+    assert set(page.shows) <= happened
+    assert ("died" in page.shows) == (run.outcome == "dead")
+
+
+def test_every_kind_of_object_has_a_page() -> None:
+    shown = {record.kind for page in PAGES for record in page.level.records}
+    assert shown == set(range(len(KIND_NAMES)))
+
+
+def test_wrong_strokes_and_rooms_are_named() -> None:
+    with pytest.raises(LevelError, match="x5"):
+        strokes("r3 x5")
+    with pytest.raises(LevelError):
+        room_level(["@..,.."], ["nonsense 5,5"])
+
+
+def test_every_page_plays_and_loops(stage: Stage) -> None:
+    screen = stage.open("Help")
+    assert isinstance(screen, HelpScreen)
+    for index, page in enumerate(PAGES):
+        screen.list._select(index)
+        assert screen.demonstration is not None
+        first = screen.demonstration.simulation
+        stage.frames(3)
+        for _ in range(len(page.inputs) + 70):
+            screen.update(25)
+        assert screen.demonstration.simulation is not first
+    screen.list._select(len(PAGES))
+    stage.frames(2)
+    assert screen.demonstration is None
