@@ -26,15 +26,6 @@ jobs_option = click.option(
 )
 
 
-def workers(memory: str, jobs: int | None) -> dict[str, Any]:
-    """How many workers of which sort: compiled code leaves the interpreter's lock, plain code needs processes."""
-    from ninja_game.compile_cache import choose_memory
-    from ninja_game.session.workers import default_jobs
-
-    processes = memory == "both" or choose_memory(memory) == "plain"
-    return {"jobs": jobs or default_jobs(), "processes": processes}
-
-
 def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
     """The same items; if they take long and a person watches, with a bar on stderr that counts them."""
     if not sys.stderr.isatty():

@@ -9,26 +9,18 @@ import sys
 from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, NamedTuple
+from typing import IO, TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.run_options import jobs_option, memory_option, with_progress, workers
+from ninja_game.cli.run_options import jobs_option, memory_option, with_progress
 
 if TYPE_CHECKING:
-    from ninja_game.formats.recording import Recording
+    from ninja_game.many.tracing import Traced
     from ninja_game.session.trace_files import FiledTrace
 
 SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 """A comment like this names the section of the specification that a recording is about."""
-
-
-class Traced(NamedTuple):
-    """A trace, the file of its recording and the comment there."""
-
-    file: str
-    comment: str
-    trace: FiledTrace
 
 
 @click.command()
@@ -84,7 +76,7 @@ def command(
         "ticks": ticks, "after": after or 0, "memory": memory,
         "objects": objects or digests or against is not None, "events": table and memory != "compiled",
     }  # fmt: skip
-    traces = Traces(files, record, options, workers("plain" if options["events"] else memory, jobs))
+    traces = Traces(files, record=record, jobs=jobs, **options)
     different = 0
     if digests:
         for traced in traces:
@@ -101,17 +93,16 @@ def command(
 class Traces:
     """The traces of all recordings, one after the other; what cannot be read is told on stderr and counted."""
 
-    def __init__(
-        self, files: Sequence[Path], record: int | None, options: dict[str, Any], workers: dict[str, Any]
-    ) -> None:
-        from ninja_game.session.sources import for_each_recording
+    def __init__(self, files: Sequence[Path], **options: Any) -> None:
+        from ninja_game.many.tracing import trace_all
 
-        traced = for_each_recording(partial(_trace, options), files, record=record, **workers)
-        self.items = with_progress(traced, "traces")
+        self.items = with_progress(trace_all(files, **options), "traces")
         self.count = 0
         self.unreadable = 0
 
     def __iter__(self) -> Iterator[Traced]:
+        from ninja_game.many.tracing import Traced
+
         for item in self.items:
             if isinstance(item, Traced):
                 self.count += 1
@@ -119,14 +110,6 @@ class Traces:
             else:
                 self.unreadable += 1
                 click.echo(f"ninja-game: {item.message}", err=True)
-
-
-def _trace(options: dict[str, Any], recording: Recording) -> Traced:
-    from ninja_game.session.trace import trace_recording
-    from ninja_game.session.trace_files import FiledTrace
-
-    run = trace_recording(recording, **options)
-    return Traced(recording.file, recording.comment, FiledTrace(recording.record, recording.name, run))
 
 
 def _digests(traced: Traced) -> dict[str, Any]:

@@ -7,6 +7,7 @@ exactly once, and what comes out does not depend on who did it.
 
 from __future__ import annotations
 
+import signal
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
@@ -77,8 +78,9 @@ class Local:
     def _start(self) -> Executor:
         if not self._processes:
             return ThreadPoolExecutor(self._count)
-        # Not fork: a child that inherits the locks of our threads may wait for ever.
-        return ProcessPoolExecutor(self._count, get_context("spawn"))
+        # Not fork: a child that inherits the locks of our threads may wait for ever. Ctrl-C goes to all processes of a
+        # terminal; one that it hits between two jobs would keep the pool from ending, so only we listen to it.
+        return ProcessPoolExecutor(self._count, get_context("spawn"), _ignore_interrupts)
 
     @property
     def count(self) -> int:
@@ -101,6 +103,10 @@ class Local:
     def close(self) -> None:
         """Let the workers go."""
         self._executor.shutdown(cancel_futures=True)
+
+
+def _ignore_interrupts() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 class Cluster:

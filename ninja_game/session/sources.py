@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
-from typing import TypeVar
 
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.formats.files import load_replays
@@ -15,10 +13,7 @@ from ninja_game.formats.level_file import read_level_file
 from ninja_game.formats.named_level import is_level_file, parse_levels
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.text_file import read_text, text_files
-from ninja_game.session.workers import ordered_map
 from ninja_game.simulation import Body
-
-R = TypeVar("R")
 
 
 @dataclass(frozen=True)
@@ -74,29 +69,3 @@ def holds_only_levels(text: str, file: str = "") -> bool:
         return not is_level_file(text) or not any(record.demo for record in read_level_file(text))
     except (NinjaGameError, OSError):
         return False
-
-
-def for_each_recording(
-    function: Callable[[Recording], R],
-    paths: Iterable[Path],
-    *,
-    record: int | None = None,
-    jobs: int = 1,
-    processes: bool = False,
-) -> Iterator[R | Unreadable]:
-    """``function`` of every recording, on ``jobs`` workers, in order; its own errors become Unreadable too.
-
-    ``record``: only this one of each file.
-    """
-    found = recordings_in(paths)
-    wanted = (item for item in found if record is None or isinstance(item, Unreadable) or item.record == record)
-    yield from ordered_map(partial(_guarded, function), wanted, jobs=jobs, processes=processes)
-
-
-def _guarded(function: Callable[[Recording], R], recording: Recording | Unreadable) -> R | Unreadable:
-    if isinstance(recording, Unreadable):
-        return recording
-    try:
-        return function(recording)
-    except NinjaGameError as error:
-        return Unreadable(str(error))

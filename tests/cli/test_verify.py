@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
+import subprocess
+import sys
 from hashlib import sha256
 from pathlib import Path
 
@@ -146,6 +150,19 @@ def test_compiled_memory_without_numba_is_an_error_in_words(walk: Path) -> None:
     result = verify(walk, memory="compiled")
     assert result.exit_code == 2
     assert "Numba" in result.stderr
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a terminal's Ctrl-C is another thing there")
+def test_interrupt_ends_the_program_and_its_workers(tmp_path: Path) -> None:
+    path = write_records(tmp_path / "many.txt", *((f"run {k}", WALK, running(9)) for k in range(20_000)))
+    words = [sys.executable, "-m", "ninja_game", "verify", "--memory", "plain", "--jobs", "2", "--json", str(path)]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True) as program:
+        assert program.stdout
+        program.stdout.readline()
+        os.killpg(program.pid, signal.SIGINT)
+        _, errors = program.communicate(timeout=60)
+    assert program.returncode == 130
+    assert errors.decode().strip() == "ninja-game: interrupted"
 
 
 def test_no_file_is_wrong_usage(tmp_path: Path) -> None:
