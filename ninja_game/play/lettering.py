@@ -1,4 +1,4 @@
-"""Text, crisp at any window size: rendered at the scaled size and kept while it is used."""
+"""Text, crisp at any window size: drawn at the scaled size and kept while it is used."""
 
 from __future__ import annotations
 
@@ -7,9 +7,12 @@ from collections import OrderedDict
 import pygame
 
 from ninja_game.play.canvas import Canvas, Colour
+from ninja_game.play.stroke_font import StrokeFont
 
 _KEPT = 400
-"""Rendered texts kept; a changing time adds one a picture."""
+"""Texts kept; a changing time adds one a picture."""
+
+_SHARE_LEFT = {"left": 0.0, "centre": 0.5, "right": 1.0}
 
 
 class Lettering:
@@ -17,26 +20,23 @@ class Lettering:
 
     def __init__(self, canvas: Canvas) -> None:
         self.canvas = canvas
-        self._fonts: dict[tuple[int, bool], pygame.font.Font] = {}
-        self._kept: OrderedDict[tuple[str, int, tuple[int, ...], bool], pygame.Surface] = OrderedDict()
+        self._fonts: dict[tuple[float, bool], StrokeFont] = {}
+        self._kept: OrderedDict[tuple[str, float, tuple[int, ...], bool], pygame.Surface] = OrderedDict()
 
-    def _font(self, px: int, bold: bool) -> pygame.font.Font:
-        """The font at a size in px. Kept here and not for good: it dies with pygame."""
-        key = px, bold
+    def _font(self, size: float, bold: bool) -> StrokeFont:
+        key = size, bold
         if key not in self._fonts:
             if not pygame.font.get_init():
                 pygame.font.init()
-            self._fonts[key] = pygame.font.Font(None, px)
-            self._fonts[key].set_bold(bold)
+            self._fonts[key] = StrokeFont(max(5.0, size * self.canvas.scale), bold=bold)
         return self._fonts[key]
 
     def rendered(self, text: str, size: float, colour: Colour, *, bold: bool = False) -> pygame.Surface:
-        """The picture of a text, ``size`` logical px high."""
-        px = max(6, round(size * self.canvas.scale * FONT_SCALE))
-        key = text, px, tuple(pygame.Color(colour)), bold
+        """The picture of a text in letters of some size, logical px."""
+        key = text, size, tuple(pygame.Color(colour)), bold
         found = self._kept.get(key)
         if found is None:
-            found = self._font(px, bold).render(text, True, colour)
+            found = self._font(size, bold).render(text, colour)
             self._kept[key] = found
             if len(self._kept) > _KEPT:
                 self._kept.popitem(last=False)
@@ -46,8 +46,7 @@ class Lettering:
 
     def width(self, text: str, size: float, *, bold: bool = False) -> float:
         """Width of a text in logical px."""
-        px = max(6, round(size * self.canvas.scale * FONT_SCALE))
-        return self._font(px, bold).size(text)[0] / self.canvas.scale
+        return self._font(size, bold).width(text) / self.canvas.scale
 
     def draw(
         self, surface: pygame.Surface | None, text: str, x: float, y: float, size: float, colour: Colour,
@@ -61,9 +60,3 @@ class Lettering:
         if surface is not None:
             surface.blit(picture, rect)
         return rect
-
-
-FONT_SCALE = 1.35
-"""The font's size in px for letters 1 px high."""
-
-_SHARE_LEFT = {"left": 0.0, "centre": 0.5, "right": 1.0}
