@@ -64,13 +64,13 @@ class Chart:
         plt.close(figure)
 
 
-def seconds_per(function: Callable[[], object]) -> float:
+def seconds_per(function: Callable[[], object], rounds: int = ROUNDS) -> float:
     """Seconds that one call takes: the best of several rounds, since what disturbs a round only ever slows it down."""
     function()
     calls, took = 1, 0.0
     while (took := _seconds(function, calls)) < ROUND_SECONDS:
         calls = max(calls * 2, int(calls * ROUND_SECONDS / max(took, 1e-9)))
-    return min(took, *(_seconds(function, calls) for _ in range(ROUNDS))) / calls
+    return min(took, *(_seconds(function, calls) for _ in range(rounds))) / calls
 
 
 def _seconds(function: Callable[[], object], calls: int) -> float:
