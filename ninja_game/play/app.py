@@ -3,38 +3,27 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from contextlib import suppress
-from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 import pygame
 
-from ninja_game.errors import LevelError
 from ninja_game.play.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.play.controls import Controls, Keyboard
 from ninja_game.play.ear import Ear, Silence
 from ninja_game.play.options import Options
 from ninja_game.play.palette import PALETTES
 from ninja_game.play.screen import Screen, ScreenStack
-from ninja_game.play.start import prepare
 from ninja_game.play.theme import Theme
-from ninja_game.simulation import Body, Simulation
+from ninja_game.simulation import Body
 
 if TYPE_CHECKING:
-    from ninja_game.formats.named_level import NamedLevel
-    from ninja_game.play.course import Course
     from ninja_game.play.level_screen import LevelScreen
     from ninja_game.session.player_data import PlayerData
 
 TITLE = "ninja-game"
 FALLBACK_RATE = 60
 """Pictures per second where the display does not say its rate."""
-
-MAIN_MENU = "ninja_game.play.menus.main_menu"
-COURSES = "ninja_game.play.menus.courses"
 
 
 class Panels(Protocol):
@@ -175,9 +164,18 @@ class App:
         if "fullscreen" in actions:
             self.options.fullscreen = not self.options.fullscreen
             self.apply_options()
+        elif "boss" in actions:
+            self._hide_the_game()
         elif "screenshot" in actions:
             self.save_screenshot(free_name(Path.cwd(), "ninja-game", ".png"))
         self.top.handle(event)
+
+    def _hide_the_game(self) -> None:
+        """Show something dull; the same key comes back."""
+        from ninja_game.play.boss_screen import BossScreen
+
+        if not isinstance(self.top, BossScreen):
+            self.push(BossScreen(self))
 
     def draw(self) -> None:
         """Draw the screens that are seen and show what changed."""
@@ -237,6 +235,8 @@ def main(
     Raises NinjaGameError for a file that cannot be read.
     """
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    from ninja_game.play.launch import first_screen, prepared_app
+
     # Read before a window opens: what is wrong with a file is said in the terminal.
     first = first_screen(level_path, replay_path, body=body, practice=practice)
     app = prepared_app(size)
@@ -248,68 +248,3 @@ def main(
     finally:
         pygame.quit()
     return 0
-
-
-def prepared_app(size: tuple[int, int] | None = None) -> App:
-    """The app with options, controls, sound and records as the player's settings have them."""
-    ready = prepare()
-    app = App(ready.options, ready.controls, ready.ear, size=size)
-    app.player = ready.player
-    return app
-
-
-def first_screen(
-    level_path: str | None, replay_path: str | None, *, body: Body, practice: bool
-) -> Callable[[App], Screen]:
-    """What makes the first screen. Files are read here, before a window opens."""
-    if replay_path:
-        from ninja_game.formats.files import load_replays
-
-        recordings = load_replays(replay_path)
-
-        def watch(app: App) -> Screen:
-            from ninja_game.play.replay_screen import ReplayScreen
-
-            return ReplayScreen(app, recordings)
-
-        return watch
-    if level_path is None and _is_there(MAIN_MENU):
-        return _main_menu
-    from ninja_game.session.bundled import bundled_levels
-
-    path = Path(level_path) if level_path else next(iter(bundled_levels()), None)
-    if path is None:
-        raise LevelError("no levels come with this copy of the game", hint="name a level: ninja-game play LEVEL")
-    from ninja_game.formats.files import load_levels
-
-    named = load_levels(path)[0]
-    # A level that cannot be played is told of here, too.
-    Simulation(named.level, body=body)
-
-    def play(app: App) -> Screen:
-        from ninja_game.play.level_screen import LevelScreen
-
-        return LevelScreen(app, _course(app, named, body, practice=practice))
-
-    return play
-
-
-def _course(app: App, named: NamedLevel, body: Body, *, practice: bool) -> Course:
-    """A level with the player's records, where menus and records are there; else by itself."""
-    from ninja_game.play.course import SingleLevel
-
-    if app.player is not None and body == "circle" and not practice and _is_there(COURSES):
-        course: Course = import_module(COURSES).course_for(app, named)
-        return course
-    return SingleLevel(named.name, named.level, body=body, practice=practice)
-
-
-def _main_menu(app: App) -> Screen:
-    screen: Screen = import_module(MAIN_MENU).MainMenu(app)
-    return screen
-
-
-def _is_there(module: str) -> bool:
-    with suppress(ModuleNotFoundError):
-        return find_spec(module) is not None
-    return False

@@ -10,7 +10,7 @@ WIDTH, HEIGHT = 792, 600
 """Logical size of the stage, px."""
 
 Point = tuple[float, float]
-Colour = tuple[int, int, int] | tuple[int, int, int, int] | pygame.Color
+Colour = str | tuple[int, int, int] | tuple[int, int, int, int] | pygame.Color
 
 
 class Canvas:

@@ -17,6 +17,16 @@ _BAR_PER_TICK = 1200.0 / LIFETIME
 _WARNING_TICKS = 1800
 
 
+_FILL_SHARE = 0.05
+"""Share of what the bar lacks that fills in per picture, at least; always so before play starts."""
+
+
+def followed(shown: float, true: float, *, filling: bool) -> float:
+    """The lifetime to show in the next picture: it follows the true one softly, so that gold fills in."""
+    share = _FILL_SHARE if filling else (1 - max(0.0, shown) / LIFETIME) ** 2
+    return shown + (true - shown) * min(1.0, max(_FILL_SHARE, share))
+
+
 _KEYS = (
     (0, 1, ((-3, 0), (2, -4), (2, 4))),
     (20, 4, ((0, -4), (4, 2), (-4, 2))),

@@ -9,6 +9,8 @@ import pygame
 
 from ninja_game.play.course import Course
 from ninja_game.play.ghosts import Ghost
+from ninja_game.play.hud import followed
+from ninja_game.play.level_keys import act
 from ninja_game.play.level_view import LevelView
 from ninja_game.play.level_writing import write_over
 from ninja_game.play.overlays import Overlays
@@ -18,14 +20,11 @@ from ninja_game.play.run_clock import RunClock
 from ninja_game.play.screen import Screen
 from ninja_game.session.attempt import Attempt
 from ninja_game.sim.level_data import GOLD
-from ninja_game.sim.rules import LIFETIME
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
 
 _NOTICE_MS = 4000
-_FILL_SHARE = 0.05
-"""Share of the missing bar that fills per picture before play starts (presentation.md §7)."""
 
 
 class LevelScreen(Screen):
@@ -123,6 +122,11 @@ class LevelScreen(Screen):
             self.app.ear.quiet()
             self._start(following)
 
+    def skip(self) -> None:
+        """In practice a level may be left out."""
+        if self.course.practice:
+            self.onward()
+
     def quit(self) -> None:
         """Leave the level."""
         screen = self.course.leaving()
@@ -149,57 +153,21 @@ class LevelScreen(Screen):
         use_tools(self, actions, self.app.controls.releases(event))
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == 1 and self.phase is not Phase.PLAY:
             actions = (*actions, "confirm")
-        for action in actions:
-            if self._act(action):
-                break
+        act(self, actions)
 
-    def _act(self, action: str) -> bool:
-        """Do what an action means in this phase; whether it meant anything."""
-        before = self.phase
-        if action == "ghost":
-            self.app.options.show_ghost = not self.app.options.show_ghost
-            return True
-        if self.overlays.toggle(action):
-            self.redraw = True
-            return True
-        if before is Phase.PLAY:
-            return self._act_in_play(action)
-        if action == "quit" or (action == "back" and before is not Phase.PAUSED):
-            self.quit()
-        elif action == "confirm" or (before is Phase.PAUSED and action in {"pause", "back"}):
-            {Phase.READY: self.begin, Phase.PAUSED: self.resume, Phase.DEAD: self.retry, Phase.PASSED: self.onward}[
-                before
-            ]()
-        elif action == "replay" and self._may_watch():
-            self.watch_replay()
-        elif action == "retry" and before is not Phase.READY:
-            self.retry()
-        elif action == "skip" and self.course.practice:
-            self.onward()
-        else:
-            return False
-        return True
-
-    def _may_watch(self) -> bool:
+    @property
+    def may_watch(self) -> bool:
+        """Whether the attempt can be watched: passed, or dead for a while and not by the player's own hand."""
         if self.phase is Phase.PASSED:
             return True
         return self.phase is Phase.DEAD and self.after_end > DEATH_PAUSE and not self.attempt.own_hand
 
-    def _act_in_play(self, action: str) -> bool:
-        if action in {"pause", "back"}:
-            self.pause()
-        elif action == "retry":
-            self.retry()
-        elif action == "suicide":
-            chance = self.chance
-            self.attempt.give_up(chance.random(), chance.uniform(-5, 5), -6 * chance.random())
-            self.view.killed()
-            self._note_end()
-        elif action == "skip" and self.course.practice:
-            self.onward()
-        else:
-            return False
-        return True
+    def give_up(self) -> None:
+        """The suicide key: an explosion or a shot, thrown at random (game.md §2)."""
+        chance = self.chance
+        self.attempt.give_up(chance.random(), chance.uniform(-5, 5), -6 * chance.random())
+        self.view.killed()
+        self._note_end()
 
     def put_back(self) -> None:
         """The attempt is at another moment: so is everything that shows it."""
@@ -232,7 +200,9 @@ class LevelScreen(Screen):
                 tick_ms = SLOW_TICK_MS if self.practice.slow else self.app.options.tick_ms
                 self.run_ticks(self.clock.ticks_due(real_ms, tick_ms))
         if self.attempt.outcome != "exit":
-            self._follow_lifetime()
+            self.shown_lifetime = followed(
+                self.shown_lifetime, self.attempt.lifetime, filling=self.phase is Phase.READY
+            )
 
     def _wait_for_move(self) -> None:
         """Any move begins; keys that were down before do not count until they are pressed again."""
@@ -280,12 +250,6 @@ class LevelScreen(Screen):
             self.view.jumped()
             self.phase = Phase.PLAY if self.attempt.outcome == "running" else self.phase
             self.redraw = True
-
-    def _follow_lifetime(self) -> None:
-        """The bar follows the true lifetime softly, so that gold fills in (presentation.md §7)."""
-        missing = self.attempt.lifetime - self.shown_lifetime
-        share = _FILL_SHARE if self.phase is Phase.READY else (1 - max(0.0, self.shown_lifetime) / LIFETIME) ** 2
-        self.shown_lifetime += missing * min(1.0, max(_FILL_SHARE, share))
 
     # --- picture ---
 

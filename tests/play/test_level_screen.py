@@ -241,3 +241,40 @@ def test_tools_do_nothing_outside_practice(stage: tuple[App, ScriptedControls], 
     frames(app, 5)
     assert screen.attempt.simulation.tick == 35
     assert not screen.attempt.practised
+
+
+def test_a_key_for_both_retry_and_replay_replays_where_it_can(
+    stage: tuple[App, ScriptedControls], recording: Recording
+) -> None:
+    app, controls = stage
+    screen = open_level(app, recording)
+    press("confirm")
+    frames(app, 5)
+    press("retry", "replay")
+    frames(app)
+    assert phase_of(screen) is Phase.READY
+    play_to_the_end(app, controls, screen, recording)
+    press("retry", "replay")
+    frames(app)
+    assert isinstance(app.top, ReplayScreen)
+
+
+def test_the_boss_sees_a_sheet_of_figures(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
+    app, _ = stage
+    screen = open_level(app, recording)
+    press("confirm")
+    frames(app, 20)
+    tick = screen.attempt.simulation.tick
+    press("boss")
+    frames(app, 30)
+    assert app.top is not screen
+    assert app.surface.get_at((700, 580))[:3] != app.theme.palette.tile[:3]
+    press("boss")
+    frames(app, 2)
+    assert app.top is screen
+    assert tick <= screen.attempt.simulation.tick <= tick + 2, "time stood still"
+    press("boss")
+    frames(app, 2)
+    press("quit")
+    frames(app)
+    assert not app.running

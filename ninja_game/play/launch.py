@@ -1,0 +1,78 @@
+"""What the program begins with: its first screen, and the app as the player's settings have it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from ninja_game.errors import LevelError
+from ninja_game.formats.named_level import NamedLevel
+from ninja_game.play.app import App
+from ninja_game.play.course import Course, SingleLevel
+from ninja_game.play.screen import Screen
+from ninja_game.play.start import prepare
+from ninja_game.simulation import Body, Simulation
+
+
+def prepared_app(size: tuple[int, int] | None = None) -> App:
+    """The app with options, controls, sound and records as the player's settings have them."""
+    ready = prepare()
+    app = App(ready.options, ready.controls, ready.ear, size=size)
+    app.player = ready.player
+    return app
+
+
+def first_screen(
+    level_path: str | None, replay_path: str | None, *, body: Body, practice: bool
+) -> Callable[[App], Screen]:
+    """What makes the first screen. Files are read here, before a window opens; screens are imported when needed.
+
+    Raises NinjaGameError for a file that cannot be read or a level that cannot be played.
+    """
+    if replay_path:
+        return _replays(replay_path)
+    if level_path is None:
+        return _main_menu
+    from ninja_game.formats.files import load_levels
+
+    named = load_levels(level_path)[0]
+    try:
+        Simulation(named.level, body=body)
+    except LevelError as error:
+        error.file, error.line = named.file, named.line
+        raise
+
+    def play(app: App) -> Screen:
+        from ninja_game.play.level_screen import LevelScreen
+
+        return LevelScreen(app, _course(app, named, body, practice=practice))
+
+    return play
+
+
+def _replays(path: str) -> Callable[[App], Screen]:
+    from ninja_game.formats.files import load_replays
+
+    recordings = load_replays(Path(path))
+
+    def watch(app: App) -> Screen:
+        from ninja_game.play.replay_screen import ReplayScreen
+
+        return ReplayScreen(app, recordings)
+
+    return watch
+
+
+def _main_menu(app: App) -> Screen:
+    from ninja_game.play.menus.main_menu import MainMenu
+
+    return MainMenu(app)
+
+
+def _course(app: App, named: NamedLevel, body: Body, *, practice: bool) -> Course:
+    """A level with the player's records; with another body, or in practice, by itself."""
+    if app.player is None or body != "circle" or practice:
+        return SingleLevel(named.name, named.level, body=body, practice=practice)
+    from ninja_game.play.menus.courses import course_for
+
+    return course_for(app, named)
