@@ -52,7 +52,7 @@ def ninja(x: float = 60.0, y: float = 230.0) -> Record:
 
 
 SCENES = (
-    Scene("spawn-in-the-middle-of-rock", room({(3, 5): 1}, ninja(84.0, 132.0)), STILL * 20),
+    Scene("spawn-in-the-middle-of-rock", room({(3, 5): 1}, ninja(84.0, 131.85)), STILL * 20),
     Scene("spawn-in-an-odd-half-tile", room({(3, 5): 70}, ninja(80.0, 131.0)), RIGHT * 40),
     Scene("stand-on-a-tile-that-is-never-solid", room({(3, 9): -1}, ninja(84.0, 200.0)), RIGHT * 40),
     Scene("the-last-ninja-plays", room({}, ninja(60.0, 60.0), ninja(150.0, 230.0)), RIGHT * 30),
@@ -93,6 +93,7 @@ SCENES = (
         for k, movement in enumerate((-1.0, 0.5, 7.0, math.nan))
     ]), RIGHT * 80),
     Scene("a-guard-over-a-hole", room({}, ninja(200.0, 110.0), Record(FLOOR_GUARD, (84.0, 110.0, 1.0))), RIGHT * 50),
+    Scene("sight-through-an-exact-corner", room({(3, 3): 1}, ninja(206.0, 230.0), Record(TURRET, (62.0, 86.0))), STILL * 60),
     Scene("a-turret-off-the-grid", room({}, ninja(), Record(TURRET, (-50.0, 230.0))), STILL * 120),
     Scene("a-rocket-from-off-the-grid", room({}, ninja(), Record(LAUNCHER, (-60.0, 100.0))), STILL * 120),
     Scene("a-switch-opens-for-a-dead-ninja", room(
