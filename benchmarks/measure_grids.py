@@ -21,15 +21,22 @@ QUERIES = 16_384
 """So many that the processor cannot learn their branches by heart, as it does with a few hundred."""
 
 
+def walk(random: np.random.Generator, low: float, high: float) -> Any:
+    """One coordinate of queries that move as a ninja does: steps of at most a fifth of a cell, within bounds."""
+    path = np.cumsum(random.uniform(-0.2, 0.2, QUERIES)) % (2 * (high - low))
+    return low + np.minimum(path, 2 * (high - low) - path)
+
+
 class Arena:
-    """``count`` objects in an arena as large as keeps one object a cell, filed in both grids; some queries."""
+    """``count`` objects in an arena as large as keeps one object a cell, filed in both grids; queries well inside."""
 
     def __init__(self, count: int, seed: int = 1) -> None:
         random = np.random.default_rng(seed)
         self.columns = max(2, round(count**0.5))
         low, high = arena.RADIUS + 0.1, self.columns - arena.RADIUS - 0.1
         self.x, self.y = random.uniform(low, high, (2, count + 1))
-        self.qx, self.qy = random.uniform(low, high, (2, QUERIES))
+        self.qx, self.qy = (walk(random, 1.0, self.columns - 1.0) for _ in range(2))
+        self.jump_x, self.jump_y = random.uniform(1.0, self.columns - 1.0, (2, QUERIES))
         self.dx, self.dy = random.uniform(-0.1, 0.1, (2, count + 1))
         self.heads, self.entries = np.zeros((2, (self.columns + 2) ** 2), np.int64)
         self.nexts, self.prevs, self.cells, self.low, self.high, self.stamps = np.zeros((6, count + 1), np.int64)
@@ -43,6 +50,7 @@ class Arena:
         motion = self.columns, self.x, self.y, self.dx, self.dy
         self.calls: dict[str, Any] = {
             "loose": partial(call["loose_queries"], *loose, self.qx, self.qy),
+            "jumps": partial(call["loose_queries"], *loose, self.jump_x, self.jump_y),
             "normal": partial(
                 call["normal_queries"], self.columns, self.x, self.y, self.entries, self.entry_nexts, self.stamps,
                 self.qx, self.qy,
@@ -68,7 +76,12 @@ def queries() -> Chart:
     library = c_library()
     for count in NUMBERS:
         here = Arena(count)
-        names = {"loose": "nine cells", "normal": "normal grid", "brute": "every object"}
+        names = {
+            "loose": "nine cells",
+            "normal": "normal grid",
+            "brute": "every object",
+            "jumps": "nine cells, anywhere",
+        }
         for call, series in names.items():
             chart.add(series, count, seconds_per(here.calls[call]) / QUERIES * 1e9)
         if library:
