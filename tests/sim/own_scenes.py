@@ -93,7 +93,7 @@ SCENES = (
         for k, movement in enumerate((-1.0, 0.5, 7.0, math.nan))
     ]), RIGHT * 80),
     Scene("a-guard-over-a-hole", room({}, ninja(200.0, 110.0), Record(FLOOR_GUARD, (84.0, 110.0, 1.0))), RIGHT * 50),
-    Scene("sight-through-an-exact-corner", room({(3, 3): 1}, ninja(206.0, 230.0), Record(TURRET, (62.0, 86.0))), STILL * 60),
+    Scene("sight-past-a-corner", room({(3, 3): 1}, ninja(206.0, 230.0), Record(TURRET, (62.0, 86.0))), STILL * 60),
     Scene("a-turret-off-the-grid", room({}, ninja(), Record(TURRET, (-50.0, 230.0))), STILL * 120),
     Scene("a-rocket-from-off-the-grid", room({}, ninja(), Record(LAUNCHER, (-60.0, 100.0))), STILL * 120),
     Scene("a-switch-opens-for-a-dead-ninja", room(
