@@ -27,8 +27,8 @@ from ninja_game.sim.level_data import LevelData
 RECORDS = 64
 """Records a piece at most: enough that sending it is cheap beside running it."""
 
-LEVELS_KEPT = 64
-"""Levels that are kept read: recordings of one level stand together."""
+LEVELS_KEPT = 512
+"""Levels that are kept read, some 10 MB: recordings of one level often stand near each other."""
 
 Result = Verdict | Unreadable
 
