@@ -13,23 +13,25 @@ import sys
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
+sys.path.insert(0, str(ROOT))
 
-from ninja_game.formats.demo import parse_demo  # noqa: E402
-from ninja_game.formats.files import load_levels  # noqa: E402
-from ninja_game.formats.level_string import parse_level_string  # noqa: E402
-from ninja_game.many.solver import Task, solve  # noqa: E402
+from ninja_game.formats.demo import parse_demo
+from ninja_game.formats.files import load_levels
+from ninja_game.formats.level_string import parse_level_string
+from ninja_game.many.solver import Task, compiled_kernels, solve
+from ninja_game.many.solver_replay import VerifiedRun
 
 EPISODES = ("00", "10", "20", "30", "40", "50", "60", "70", "80", "90")
 
 
 def tasks(arguments: argparse.Namespace) -> Iterator[tuple[str, Task]]:
     """Name and task of everything in the table."""
-    from reference import levels, recordings
+    from tests.reference import levels, recordings
 
     base = {"seconds": arguments.seconds, "jobs": arguments.jobs}
     if arguments.improve:
@@ -50,7 +52,7 @@ def tasks(arguments: argparse.Namespace) -> Iterator[tuple[str, Task]]:
 
 def people(source: str) -> dict[str, int]:
     """End tick of the shortest speedrun of a source on each level."""
-    from reference import recordings
+    from tests.reference import recordings
 
     best: dict[str, int] = {}
     for run in recordings():
@@ -61,13 +63,14 @@ def people(source: str) -> dict[str, int]:
 
 def solve_all(arguments: argparse.Namespace) -> None:
     """Solve what is not in the file yet."""
+    compiled_kernels()
     done = {row["level"] for row in rows(arguments.file)}
     for name, task in tasks(arguments):
         if name in done or (arguments.only and name not in arguments.only.split(",")):
             continue
         found: list[float] = []
         began = time.monotonic()
-        run = solve(task, on_better=lambda _, found=found, began=began: found.append(time.monotonic() - began))
+        run = solve(task, on_better=partial(_note, found, began))
         row: dict[str, Any] = {"level": name, "end_tick": run.end_tick if run else -1, "seconds": task.seconds}
         row |= {"first_s": round(found[0], 2) if found else -1, "last_s": round(found[-1], 2) if found else -1}
         if task.first:
@@ -75,6 +78,11 @@ def solve_all(arguments: argparse.Namespace) -> None:
         with arguments.file.open("a", encoding="utf-8") as file:
             file.write(json.dumps(row) + "\n")
         print(row, people("rta").get(name), flush=True)
+
+
+def _note(found: list[float], began: float, _: VerifiedRun) -> None:
+    """Note after how many seconds a better run was found."""
+    found.append(time.monotonic() - began)
 
 
 def rows(file: Path) -> list[dict[str, Any]]:
@@ -104,7 +112,7 @@ def print_table(file: Path, *, improve: bool) -> None:
         print(f"| {name} | {shown} | {fastest.get(name, '')} | {ratio} | {tas.get(name, '')} | {row['first_s']} |")
     if ratios:
         solved = sum(row["end_tick"] >= 0 for row in rows(file))
-        print(f"\nsolved {solved} of {len(rows(file))}; median ratio {statistics.median(ratios):.3f} over {len(ratios)}; ")
+        print(f"\nsolved {solved} of {len(rows(file))}; median ratio {statistics.median(ratios):.3f} of {len(ratios)};")
         print(f"below 1.0 on {sum(ratio < 1.0 for ratio in ratios)}, at most 1.0 on {sum(r <= 1.0 for r in ratios)}")
 
 

@@ -75,7 +75,9 @@ def retrace(levels: Any, worlds: Any, words: Any, keys: Any, path: Any, checkpoi
 
 
 @fast
-def try_run(level: Any, w: Any, keys: Any, path: Any, start: int, shift: int, limit: int, leash: float, ticks: int) -> int:
+def try_run(
+    level: Any, w: Any, keys: Any, path: Any, start: int, shift: int, limit: int, leash: float, ticks: int
+) -> int:
     """Play the trial run from tick ``start`` on; the ticks played. It is given up far from the current run's path."""
     trial = keys[TRIAL_ROW]
     for k in range(start, limit):
@@ -93,14 +95,15 @@ def try_run(level: Any, w: Any, keys: Any, path: Any, start: int, shift: int, li
 
 @entry_point
 def climb(
-    levels: Any, worlds: Any, words: Any, keys: Any, path: Any, checkpoints: Any, counters: Any, scores: Any, budget: int
-) -> None:
+    levels: Any, worlds: Any, words: Any, keys: Any, path: Any, checkpoints: Any, counters: Any, scores: Any,
+    budget: int,
+) -> None:  # fmt: skip
     """Try edits of the current run until about ``budget`` ticks were played.
 
     ``keys`` (3 rows, uint8): the best, the current and the trial run, one byte a tick without trigger bit; ``path``
     (px) and ``checkpoints`` belong to the current run, see ``retrace``.
     """
-    base, work_words = words
+    work_words = words[1]
     level = levels[0]
     w = worlds[1]
     stop = counters[PLAYED] + budget

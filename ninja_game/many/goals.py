@@ -67,11 +67,11 @@ class Goals:
             if kind == EXIT:
                 switch = things[int(thing["partner"])]
                 exits.append(
-                    Switchable(slot, False, False, x, y, float(switch["x"]), float(switch["y"]), ())  # noqa: FBT003
+                    Switchable(slot, False, False, x, y, float(switch["x"]), float(switch["y"]), ())
                 )
             elif kind == DOOR and int(thing["mechanism"]) != AUTOMATIC:
                 trap = int(thing["mechanism"]) != LOCKED
-                doors.append(Switchable(slot, True, trap, x, y, x, y, _bars(int(thing["edge_1"]))))  # noqa: FBT003
+                doors.append(Switchable(slot, True, trap, x, y, x, y, _bars(int(thing["edge_1"]))))
             elif kind == GOLD:
                 gold.append((slot, x, y))
             elif kind == MINE:
@@ -103,18 +103,18 @@ class Goals:
                 sources.append((exit_.switch_x, exit_.switch_y, rest + 30.0))
         here = point_at(x, y)
         visited: set[int] = set()
-        further = 0.0
         while True:
             field = widened(self._field(costs, sources))
             if field[here] < UNREACHED:
-                return field + np.float32(further)
+                return field
             imagined = widened(self._field(dear, sources))
             door = self._first_door(imagined, here, stage)
             if door is None or door.slot in visited:
-                return imagined + np.float32(further)
+                return imagined
             visited.add(door.slot)
-            further += 100.0
-            sources = [(door.switch_x, door.switch_y, 0.0)]
+            # First to its switch; from there on as imagined, which goes down by a lot once the door is open.
+            rest = min(float(imagined[point_at(door.switch_x, door.switch_y)]), 5000.0)
+            sources = [(door.switch_x, door.switch_y, rest)]
 
     def _field(self, costs: Costs, sources: list[tuple[float, float, float]]) -> Field:
         field = np.full(POINTS, UNREACHED, np.float32)

@@ -57,12 +57,12 @@ def draw(counters: Any) -> int:
     x ^= (x >> 7) & 0x01FFFFFFFFFFFFFF
     x ^= x << 17
     counters[RANDOM] = x
-    return (x >> 20) & 0x7FFFFFFF
+    return int((x >> 20) & 0x7FFFFFFF)
 
 
 @fast
 def keep_state(words: Any, base: Any, node: Any, pool: Any, counters: Any) -> bool:
-    """Store the words that differ from the start (and the first); False if the pool is empty (the node is left without a state)."""
+    """Store the first word and those that differ from the start; False, and nothing stored, if the pool is empty."""
     chunk_next, chunk_index, chunk_value = pool
     first = -1
     chunk = -1

@@ -43,10 +43,10 @@ def key_of(w: World, stage: int, gold: int, parameters: Any) -> int:
     speed = parameters[SPEED_STEP]
     x = int((n.x + parameters[SHIFT_X]) / cell) & 511
     y = int((n.y + parameters[SHIFT_Y]) / cell) & 511
-    vx = int(floor((n.x - n.px + parameters[SHIFT_VX]) / speed)) & 255
-    vy = int(floor((n.y - n.py + parameters[SHIFT_VY]) / speed)) & 255
+    vx = floor((n.x - n.px + parameters[SHIFT_VX]) / speed) & 255
+    vy = floor((n.y - n.py + parameters[SHIFT_VY]) / speed) & 255
     key = x | y << 9 | vx << 18 | vy << 26 | state_class(w) << 34 | (stage & 511) << 37 | (gold & 0xFFFF) << 46
-    return key + 1
+    return int(key + 1)
 
 
 @fast
@@ -68,4 +68,4 @@ def is_news(entry: Any, tick: int, parameters: Any) -> bool:
     """
     if entry.visits == 0 or tick < entry.first:
         return True
-    return entry.visits < parameters[REVISITS] and tick >= entry.last + parameters[PATIENCE]
+    return bool(entry.visits < parameters[REVISITS] and tick >= entry.last + parameters[PATIENCE])

@@ -10,13 +10,14 @@ from dataclasses import dataclass
 
 from ninja_game.many.search_run import Resolution
 
-WORK_PER_SECOND = 5_000_000
+WORK_PER_SECOND = 3_000_000
 """What one thread is expected to do; plans are made with this number, never with the clock."""
 SEARCH_COST = 2.0
 
 FIND = (
-    (Resolution(), 4_000_000),
+    (Resolution(), 8_000_000),
     (Resolution(cell=8.0, speed=0.5, macro=8, weight=1.5), 12_000_000),
+    (Resolution(cell=12.0, speed=1.0, macro=6, weight=1.2, visits=20, patience=12), 12_000_000),
     (Resolution(cell=12.0, speed=0.7, weight=2.0, visits=10), 16_000_000),
     (Resolution(cell=6.0, speed=0.5, macro=4, weight=2.0), 20_000_000),
     (Resolution(cell=9.0, speed=0.6, macro=6, weight=1.0, visits=4, patience=60), 30_000_000),
@@ -44,7 +45,7 @@ COOLING = (6.0, 4.0, 2.5, 1.2, 0.4)
 class Shares:
     """How a solver's work is divided: until which part of all work it looks for other routes."""
 
-    vary_until: float = 0.45
+    vary_until: float = 0.4
     first_climb: int = 8_000_000
     long_climb: int = 30_000_000
 
@@ -55,4 +56,4 @@ def find_order(job: int) -> Iterator[tuple[Resolution, int, int]]:
     while True:
         resolution, ticks = FIND[turn % len(FIND)]
         yield resolution, ticks, turn
-        turn += 1 if job == 0 else 2
+        turn += 1 if job == 0 else 3

@@ -1,0 +1,108 @@
+"""`ninja-game check`: certify levels - whether they can be passed, how fast, and what is odd."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ninja_game.cli.solver_options import (
+    NOT_FOUND,
+    TICKS_PER_SECOND,
+    body_option,
+    default_threads,
+    gold_option,
+    progress_line,
+    saver,
+    search_jobs_option,
+    seconds_option,
+    seed_option,
+)
+
+if TYPE_CHECKING:
+    from ninja_game.formats.named_level import NamedLevel
+    from ninja_game.many.solver_replay import VerifiedRun
+
+
+@click.command()
+@click.argument("levels", metavar="LEVEL...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
+@gold_option
+@seconds_option(10.0)
+@seed_option
+@search_jobs_option
+@body_option
+@click.option(
+    "--replays", metavar="FOLDER", type=click.Path(file_okay=False, path_type=Path),
+    help="Keep the runs that were found in this folder.",
+)  # fmt: skip
+@click.option("--json", "as_json", is_flag=True, help="One JSON object a level, for programs.")
+@click.pass_context
+def command(
+    ctx: click.Context,
+    /,
+    levels: Sequence[Path],
+    replays: Path | None,
+    as_json: bool,
+    jobs: int | None,
+    **wish: Any,
+) -> None:
+    """Certify levels: whether they can be passed, how fast, and what is odd.
+
+    LEVEL is a file of levels or a folder. A level is solvable if a run to the exit was found (it is kept with
+    --replays); not finding one in the time proves nothing. The par time is that of the best run found.
+
+    Exit code 0: all are solvable; 1: for some no run was found; 2: something cannot be read.
+
+    \b
+    Examples:
+      ninja-game check levels/
+      ninja-game check my-level.txt --seconds 60 --replays certificates/
+    """
+    from ninja_game.formats.files import load_levels
+    from ninja_game.many.solver import Task, solve
+
+    chosen = [level for path in levels for level in load_levels(path)]
+    if replays:
+        replays.mkdir(parents=True, exist_ok=True)
+    missing = 0
+    for level in chosen:
+        task = Task(level.level, jobs=default_threads(jobs), **wish)
+        where = replays / f"{Path(level.file).stem}-{level.record}.replay.txt" if replays else None
+        with progress_line() as report:
+            run = solve(task, report=report, on_better=saver(where, level.name) if where else None)
+        missing += run is None
+        if as_json:
+            click.echo(json.dumps(_facts(level, run, where, task.seconds)))
+        else:
+            click.echo(_row(level, run, task.seconds))
+    if not as_json:
+        click.echo(f"{len(chosen)} levels, {len(chosen) - missing} solvable, {missing} not solved in the time")
+    ctx.exit(NOT_FOUND if missing else 0)
+
+
+def _row(level: NamedLevel, run: VerifiedRun | None, seconds: float) -> str:
+    """A level in a line, and a line for each warning."""
+    if run is None:
+        mark, par = click.style("??      ", fg="yellow"), f"no run found in {seconds:g} s"
+    else:
+        mark = click.style("solvable", fg="green")
+        par = f"par {run.end_tick / TICKS_PER_SECOND:7.3f} s  {run.end_tick:>5} ticks  {run.gold:>3} gold"
+    row = f"{mark} {par}  {level.name}  {level.file}:{level.record}"
+    return "\n         ".join([row, *(f"warning: {warning}" for warning in level.warnings)])
+
+
+def _facts(level: NamedLevel, run: VerifiedRun | None, where: Path | None, seconds: float) -> dict[str, Any]:
+    """A level's certificate for programs."""
+    from ninja_game.formats.level_string import level_digest
+
+    facts: dict[str, Any] = {
+        "file": level.file, "record": level.record, "name": level.name, "level_digest": level_digest(level.level),
+        "solvable": True if run else None, "seconds_searched": seconds, "warnings": level.warnings,
+    }  # fmt: skip
+    if run:
+        facts |= {"par_ticks": run.end_tick, "par_seconds": run.end_tick / TICKS_PER_SECOND, "gold": run.gold}
+        facts |= {"run_digest": run.digest, "replay": str(where) if where else None}
+    return facts

@@ -1,0 +1,82 @@
+"""`ninja-game improve`: shorten a run that exists."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ninja_game.cli.solver_options import (
+    check_gold,
+    default_threads,
+    gold_option,
+    progress_line,
+    saver,
+    search_jobs_option,
+    seconds_option,
+    seed_option,
+    time_text,
+)
+
+if TYPE_CHECKING:
+    from ninja_game.many.solver_replay import VerifiedRun
+
+
+@click.command()
+@click.argument("replay", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
+@click.option(
+    "--level", "level_path", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="The level, if the recording does not hold it.",
+)  # fmt: skip
+@gold_option
+@seconds_option(60.0)
+@seed_option
+@search_jobs_option
+@click.option(
+    "-o", "--output", metavar="REPLAY", required=True, type=click.Path(dir_okay=False, path_type=Path),
+    help="Where the best run so far is kept.",
+)  # fmt: skip
+def command(
+    replay: Path, record: int | None, level_path: Path | None, output: Path, jobs: int | None, **wish: Any
+) -> None:
+    """Shorten a run that exists.
+
+    REPLAY is a replay of ours or a recording $name#author#comment#level#demo#. The run must reach the exit. The best
+    run so far is always in the output file; every run is played again from the start by the plain memory before it is
+    written. It needs Numba (the extra `fast`).
+
+    \b
+    Examples:
+      ninja-game improve first.replay.txt -o shorter.replay.txt
+      ninja-game improve demos.txt --record 3 --seconds 300 -o shorter.replay.txt
+    """
+    from ninja_game.cli.solver_options import choose_level
+    from ninja_game.formats.files import load_replays
+    from ninja_game.many.solver import Task, solve
+
+    level = choose_level(level_path, None).level if level_path else None
+    recordings = load_replays(replay, level=level)
+    if record is not None:
+        recordings = [recording for recording in recordings if recording.record == record]
+        if not recordings:
+            raise click.UsageError(f"{replay}: there is no record {record}")
+    if len(recordings) > 1:
+        raise click.UsageError(f"{replay} holds {len(recordings)} recordings; choose one with --record")
+    recording = recordings[0]
+    body = recording.replay.body if recording.replay else "circle"
+    first = recording.inputs(recording.ticks)
+    task = Task(recording.level, body=body, first=first, jobs=default_threads(jobs), **wish)  # type: ignore[arg-type]
+    check_gold(task)
+    before: list[int] = []
+    save = saver(output, recording.name)
+
+    def keep(found: VerifiedRun) -> None:
+        before.append(found.end_tick)
+        save(found)
+
+    with progress_line() as report:
+        run = solve(task, report=report, on_better=keep)
+    assert run is not None  # noqa: S101 - the first run is one
+    click.echo(f"{output}: {time_text(run.end_tick)}, {before[0] - run.end_tick} ticks shorter, {run.gold} gold")

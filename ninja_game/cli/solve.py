@@ -1,0 +1,64 @@
+"""`ninja-game solve`: find a run to the exit, then shorten it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from ninja_game.cli.solver_options import (
+    NOT_FOUND,
+    body_option,
+    check_gold,
+    choose_level,
+    default_threads,
+    gold_option,
+    progress_line,
+    saver,
+    search_jobs_option,
+    seconds_option,
+    seed_option,
+    time_text,
+)
+
+
+@click.command()
+@click.argument("level", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.option("--record", type=click.IntRange(min=0), help="Which of a file's levels, counted from 0.")
+@gold_option
+@seconds_option(60.0)
+@seed_option
+@search_jobs_option
+@body_option
+@click.option(
+    "-o", "--output", metavar="REPLAY", required=True, type=click.Path(dir_okay=False, path_type=Path),
+    help="Where the best run so far is kept.",
+)  # fmt: skip
+@click.pass_context
+def command(
+    ctx: click.Context, /, level: Path, record: int | None, output: Path, jobs: int | None, **wish: Any
+) -> None:
+    """Find a run to the exit, then shorten it.
+
+    The best run so far is always in REPLAY, so that the search can be stopped at any time (Ctrl-C). Every run is played
+    again from the start by the plain memory before it is written. It needs Numba (the extra `fast`).
+
+    Exit code 0: a run was found; 1: none in the time; 2: bad input.
+
+    \b
+    Examples:
+      ninja-game solve levels/01-first-steps.txt -o first.replay.txt
+      ninja-game solve userlevels.txt --record 17 --gold all --seconds 300 -o gold.replay.txt
+    """
+    from ninja_game.many.solver import Task, solve
+
+    chosen = choose_level(level, record)
+    task = Task(chosen.level, jobs=default_threads(jobs), **wish)
+    check_gold(task)
+    with progress_line() as report:
+        run = solve(task, report=report, on_better=saver(output, chosen.name))
+    if run is None:
+        click.echo(f"no run to the exit found in {task.seconds:g} s; more time or another --seed may find one")
+        ctx.exit(NOT_FOUND)
+    click.echo(f"{output}: {time_text(run.end_tick)}, {run.gold} gold")

@@ -1,0 +1,126 @@
+"""What the commands that search have in common: options, a line of progress, one result."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from ninja_game.formats.named_level import NamedLevel
+    from ninja_game.many.solver import Progress, Task
+    from ninja_game.many.solver_replay import VerifiedRun
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+TICKS_PER_SECOND = 40
+NOT_FOUND = 1
+"""Exit code of a search that found nothing."""
+
+
+class GoldCount(click.ParamType):  # type: ignore[type-arg, unused-ignore]
+    """``all`` (-1) or a number of pieces."""
+
+    name = "all|N"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """The number; usage error for anything else."""
+        if isinstance(value, int):
+            return value
+        if value == "all":
+            return -1
+        if not str(value).isdecimal():
+            self.fail(f"{value!r} is neither 'all' nor a whole number", param, ctx)
+        return int(value)
+
+
+gold_option = click.option(
+    "--gold", type=GoldCount(), default=0, show_default=True, help="Collect this much gold on the way."
+)
+
+
+def seconds_option(default: float) -> Callable[[F], F]:
+    """How long to search."""
+    return click.option(
+        "--seconds", type=click.FloatRange(min=0.1), default=default, show_default=True, help="Stop after this time."
+    )
+
+
+seed_option = click.option(
+    "--seed", type=click.IntRange(min=0), default=1, show_default=True,
+    help="With one job, the same seed does the same work in the same order.",
+)  # fmt: skip
+search_jobs_option = click.option("--jobs", type=click.IntRange(min=1), help="Threads. [default: one a core]")
+body_option = click.option(
+    "--body", type=click.Choice(["circle", "box"]), default="circle", show_default=True, help="The ninja's body."
+)
+
+
+def default_threads(jobs: int | None) -> int:
+    """As many as asked for, else one a core."""
+    return jobs or os.cpu_count() or 1
+
+
+def choose_level(path: Path, record: int | None) -> NamedLevel:
+    """The level of a file; of several the one with that record number. Usage error if that is none or not one."""
+    from ninja_game.formats.files import load_levels
+
+    levels = load_levels(path)
+    if record is not None:
+        levels = [level for level in levels if level.record == record]
+        if not levels:
+            raise click.UsageError(f"{path}: there is no record {record}")
+    if len(levels) > 1:
+        raise click.UsageError(f"{path} holds {len(levels)} levels; choose one with --record")
+    return levels[0]
+
+
+def check_gold(task: Task) -> None:
+    """Usage error if more gold is asked for than there is."""
+    from dataclasses import replace
+
+    there = replace(task, gold=-1).gold_wanted
+    if task.gold > there:
+        raise click.UsageError(f"--gold {task.gold}: the level holds {there} pieces of gold")
+
+
+@contextmanager
+def progress_line() -> Iterator[Callable[[Progress], None] | None]:
+    """A line on stderr that says how the search stands; nothing where nobody watches."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.live import Live
+    from rich.text import Text
+
+    with Live(console=Console(stderr=True), transient=True, refresh_per_second=8) as live:
+        yield lambda progress: live.update(Text(progress_text(progress)))
+
+
+def progress_text(progress: Progress) -> str:
+    """Best run, worlds explored and speed in a line."""
+    best = time_text(progress.best) if progress.best >= 0 else "none yet"
+    speed = progress.ticks / progress.seconds / 1e6 if progress.seconds > 0 else 0.0
+    return (
+        f"{progress.doing:<10} {progress.seconds:5.0f} s   best {best}   "
+        f"{progress.worlds:,} worlds   {speed:.1f} million ticks/s"
+    )
+
+
+def time_text(end_tick: int) -> str:
+    """A run's length in ticks and seconds."""
+    return f"{end_tick} ticks ({end_tick / TICKS_PER_SECOND:.3f} s)"
+
+
+def saver(path: Path, name: str) -> Callable[[VerifiedRun], None]:
+    """A function that writes each better run to a file."""
+    from ninja_game.many.solver_replay import replay_of, save_replay
+
+    return lambda run: save_replay(path, replay_of(run, name=name, author="ninja-game solve"))
