@@ -1,0 +1,30 @@
+"""Attract mode goes from replay to replay, rests with reduced motion, and changes nothing in the player's records."""
+
+from __future__ import annotations
+
+from ninja_game.play.menus.main_menu import MainMenu
+from tests.play.menus.stage import Stage
+
+
+def test_one_replay_follows_another(stage: Stage) -> None:
+    menu = stage.top()
+    assert isinstance(menu, MainMenu)
+    names = set()
+    for _ in range(3000):
+        menu.attract.update(500)
+        names.add(menu.attract.name)
+        if menu.attract.shown > 4:
+            break
+    assert menu.attract.shown > 4
+    assert len(names) > 3
+    assert not stage.player.records.replays()
+
+
+def test_reduced_motion_shows_a_still_picture(stage: Stage) -> None:
+    menu = stage.top()
+    assert isinstance(menu, MainMenu)
+    stage.app.options.reduced_motion = True
+    assert menu.attract.view is not None
+    tick = menu.attract.view.simulation.tick
+    stage.frames(20)
+    assert menu.attract.view.simulation.tick == tick
