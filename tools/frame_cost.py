@@ -31,6 +31,8 @@ from ninja_game.play.course import SingleLevel
 from ninja_game.play.level_screen import LevelScreen
 from ninja_game.play.options import Options
 from ninja_game.play.phase import Phase
+from ninja_game.play.replay_screen import ReplayScreen
+from ninja_game.play.take import Take
 from ninja_game.sim.level_data import (
     BOUNCE_BLOCK,
     DRONE,
@@ -126,6 +128,28 @@ def measure_drawing(app: App, screen: LevelScreen, pictures: int) -> dict[str, f
     }
 
 
+def measure_seek(app: App, level: LevelData, ticks: int = 3000) -> dict[str, float]:
+    """Going to ticks of a long replay at random, the picture of it included, ms."""
+    frames = bytes(1 + number // 37 % 2 for number in range(ticks))
+    viewer = ReplayScreen(app, [Take("long", level, frames)])
+    # The ninja of these keys may die early: the rest of the run is made here as the viewer makes it when it opens.
+    viewer.playback.end = viewer.playback.length = ticks
+    while viewer.playback.simulation.tick < ticks:
+        viewer.playback.step()
+    app.push(viewer)
+    app.frame(0)
+    chance = Random(5)
+    times = []
+    for _ in range(150):
+        start = time.thread_time()
+        viewer.seek(chance.randrange(ticks))
+        app.draw()
+        times.append(1000 * (time.thread_time() - start))
+    app.pop()
+    times.sort()
+    return {"seek_median_ms": round(times[75], 1), "seek_worst_ms": round(times[-1], 1)}
+
+
 def measure_load(app: App, seconds: float) -> float:
     """Share of a core, %, that playing takes at 60 pictures a second."""
     clock = pygame.time.Clock()
@@ -168,6 +192,7 @@ def main() -> int:
     app.frame(0)
     result["retry_ms"] = round(1000 * (time.perf_counter() - started), 2)
     screen.begin()
+    result |= measure_seek(app, level)
     result["core_percent"] = round(measure_load(app, arguments.seconds), 1)
     print(json.dumps(result) if arguments.json else "\n".join(f"{key:18} {value}" for key, value in result.items()))
     return 0

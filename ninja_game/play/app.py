@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
@@ -57,7 +58,7 @@ class App:
         self.player: PlayerData | None = None
         self.panels: Panels | None = None
         self.running = True
-        self.screenshot_to: str | None = None
+        self.frame_ms = 0.0
         self._size = size or fitting_size()
         self._fullscreen = self.options.fullscreen
         self.surface = self._open_window()
@@ -141,6 +142,7 @@ class App:
 
     def frame(self, real_ms: int) -> None:
         """One turn of the loop: events, time, picture."""
+        started = time.perf_counter()
         for event in pygame.event.get():
             self._handle(event)
             if not (self.running and self.stack):
@@ -149,6 +151,7 @@ class App:
             screen.update(real_ms)
         if self.stack:
             self.draw()
+        self.frame_ms = 1000 * (time.perf_counter() - started)
 
     def _handle(self, event: pygame.Event) -> None:
         """Deal with what concerns the window; everything goes to the top screen."""

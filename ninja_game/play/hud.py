@@ -69,6 +69,12 @@ class Hud:
         rect = self.theme.text(surface, name, 24, 583, size=9, colour=colour)
         return rect.union(self.theme.text(surface, gold, 768, 583, size=9, colour=colour, align="right"))
 
+    def frame_time(self, surface: pygame.Surface, ms: float) -> pygame.Rect:
+        """What the last turn of the loop took, in the corner."""
+        colour = self.theme.palette.on_tile
+        rect = self.theme.text(surface, f"{ms:.1f} ms", 768, 566, size=8, colour=colour, align="right")
+        return rect.inflate(self.theme.canvas.px(12), 2)
+
     def message(self, surface: pygame.Surface, title: str, lines: Sequence[str], *, y: float = 232) -> pygame.Rect:
         """A panel in the middle: a title and lines under it."""
         theme = self.theme

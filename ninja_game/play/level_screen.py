@@ -19,6 +19,7 @@ from ninja_game.play.practice import REWIND_TICKS, SLOW_TICK_MS, Practice, use_t
 from ninja_game.play.run_clock import RunClock
 from ninja_game.play.screen import Screen
 from ninja_game.session.attempt import Attempt
+from ninja_game.session.statistics import SELF, killer_of
 from ninja_game.sim.level_data import GOLD
 
 if TYPE_CHECKING:
@@ -58,6 +59,7 @@ class LevelScreen(Screen):
         self._held_before = self.app.controls.held()
         self.last_frame = 0
         self.after_end = 0
+        self.killer = ""
         self._ghosts()
         self.view.jumped()
         self.redraw = True
@@ -236,6 +238,7 @@ class LevelScreen(Screen):
                 self.notices = self.course.passed(self.attempt)
             else:
                 self.phase = Phase.DEAD
+                self.killer = SELF if self.attempt.own_hand else killer_of(self.attempt.simulation.world)
                 self.course.died(self.attempt)
             self.redraw = True
         elif self.phase in {Phase.DEAD, Phase.PASSED}:

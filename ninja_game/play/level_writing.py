@@ -9,6 +9,7 @@ import pygame
 from ninja_game.play.hud import Hud
 from ninja_game.play.phase import DEATH_PAUSE, Phase
 from ninja_game.session.scoring import seconds_text
+from ninja_game.session.statistics import SELF
 
 if TYPE_CHECKING:
     from ninja_game.play.level_screen import LevelScreen
@@ -21,6 +22,8 @@ def write_over(screen: LevelScreen, surface: pygame.Surface) -> list[pygame.Rect
     practice = "Practice" + (", slow motion" if screen.practice.slow else "")
     bar = hud.label(surface, practice) if attempt.practice else hud.time_bar(surface, screen.shown_lifetime)
     written = [bar, hud.level_name(surface, screen.course.title, f"gold {attempt.gold} / {screen.all_gold}")]
+    if screen.app.options.show_frame_time:
+        written.append(hud.frame_time(surface, screen.app.frame_ms))
     if screen.app.options.show_keys:
         written.append(hud.keys(surface, screen.last_frame))
     if screen.notices:
@@ -49,13 +52,21 @@ def _message(screen: LevelScreen) -> tuple[str, list[str]] | None:
     return None
 
 
+def _epitaph(screen: LevelScreen) -> str:
+    """What happened, in a few words."""
+    if screen.attempt.own_hand:
+        return "As you wish."
+    if screen.killer != SELF:
+        return f"Killed by a {screen.killer}."
+    return "Out of time." if screen.attempt.lifetime <= 0 else "That was too hard a landing."
+
+
 def _hint(screen: LevelScreen) -> str:
     """The line of this phase; '' if it has none."""
     key = screen.app.controls.name
     if screen.phase is Phase.READY:
         return f"{key('confirm')} or any move to begin"
     if screen.phase is Phase.DEAD and screen.after_end > DEATH_PAUSE:
-        if screen.attempt.own_hand:
-            return f"As you wish. {key('confirm')} to try again"
-        return f"{key('confirm')} to try again    {key('replay')}: watch the replay    {key('quit')}: leave"
+        again = f"{_epitaph(screen)}    {key('confirm')}: try again"
+        return f"{again}    {key('replay')}: watch it" if screen.may_watch else again
     return ""
