@@ -24,6 +24,7 @@ from ninja_game.sim.level_data import GOLD, MINE, NINJA, TILES, LevelData, Recor
 from ninja_game.simulation import Simulation
 
 WORLDS = 1024
+RESIDENT = 64
 TICKS = 64
 NUMBERS = (10, 30, 100, 300, 1000, 3000, 10_000)
 ENTRY_POINTS = game_kernels
@@ -158,7 +159,7 @@ def resident_bytes() -> int:
 
 
 def memory() -> Chart:
-    """Memory of a world against the objects in its level: what it uses, and what a batch of 256 makes resident."""
+    """Memory of a world against the objects in its level: what it uses, and what each of a batch makes resident."""
     chart = Chart("memory-against-objects", "Memory of a world", "objects in the level", "KiB")
     for count in NUMBERS:
         level = scattered(count)
@@ -166,9 +167,9 @@ def memory() -> Chart:
         grown = []
         for _ in range(3):
             before = resident_bytes()
-            batch = Batch(level, 256, memory="compiled", threads=1)
-            batch.run(np.zeros((40, 256), np.uint8))
-            grown.append((resident_bytes() - before) / 256 / 1024)
+            batch = Batch(level, RESIDENT, memory="compiled", threads=1)
+            batch.run(np.zeros((40, RESIDENT), np.uint8))
+            grown.append((resident_bytes() - before) / RESIDENT / 1024)
             del batch
-        chart.add("resident, of 256", count, max(median(grown), 0.01))
+        chart.add(f"resident, of {RESIDENT}", count, max(median(grown), 0.01))
     return chart

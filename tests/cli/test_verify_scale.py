@@ -1,0 +1,84 @@
+"""`ninja-game verify` on archives: reports, journals, workers, clusters; `ninja-game bench --scaling`."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from ninja_game.cli.main import cli
+from ninja_game.compile_cache import compiled_available
+from tests.cli.samples import SPIKED, WALK, WALK_END, running, write_records
+
+
+def verify(*words: str | Path) -> Result:
+    """`ninja-game verify --memory plain WORDS…`."""
+    return CliRunner().invoke(cli, ["verify", "--memory", "plain", *map(str, words)])
+
+
+@pytest.fixture
+def archive(tmp_path: Path) -> Path:
+    """A folder of two good recordings, a bad one, and rubbish."""
+    folder = tmp_path / "archive"
+    folder.mkdir()
+    write_records(folder / "a.txt", ("Walk", WALK, running(WALK_END)), ("Mine", SPIKED, running(60)))
+    write_records(folder / "b.txt", ("Walk", WALK, running(WALK_END)))
+    (folder / "c.txt").write_text("nonsense")
+    return folder
+
+
+def test_a_report_in_json_has_results_and_summary(archive: Path, tmp_path: Path) -> None:
+    result = verify(archive, "-q", "--report", tmp_path / "report.json")
+    assert result.exit_code == 2
+    report = json.loads((tmp_path / "report.json").read_text())
+    assert [entry.get("outcome", "unreadable") for entry in report["results"]] == ["exit", "dead", "exit", "unreadable"]
+    assert report["summary"]["recordings"] == 3
+    assert report["summary"]["failed"] == report["summary"]["unreadable"] == 1
+    assert report["summary"]["outcomes"] == {"dead": 1, "exit": 2}
+
+
+def test_a_report_is_else_the_table_of_the_terminal(archive: Path, tmp_path: Path) -> None:
+    result = verify(archive, "--report", tmp_path / "report.txt")
+    lines = (tmp_path / "report.txt").read_text().splitlines()
+    assert [line for line in lines if not line.startswith("??")] == result.stdout.splitlines()
+    assert sum(line.startswith("??") for line in lines) == 1
+
+
+def test_resuming_tells_the_same(archive: Path, tmp_path: Path) -> None:
+    journal = tmp_path / "journal"
+    first = verify(archive, "--resume", journal, "--jobs", "2", "--workers", "threads")
+    again = verify(archive, "--resume", journal)
+    assert first.stdout == again.stdout == verify(archive).stdout
+    assert len(journal.read_text().splitlines()) == 1 + 3
+
+
+def test_a_file_that_is_no_journal_is_left_alone(archive: Path, tmp_path: Path) -> None:
+    (tmp_path / "notes").write_text("mine\n")
+    result = verify(archive, "--resume", tmp_path / "notes")
+    assert result.exit_code == 2
+    assert "not a journal" in result.stderr
+    assert (tmp_path / "notes").read_text() == "mine\n"
+
+
+def test_a_cluster_without_dask_is_an_error_in_words(archive: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    result = verify(archive, "--cluster", "tcp://127.0.0.1:1")
+    assert result.exit_code == 2
+    assert "ninja-game[cluster]" in result.stderr
+
+
+@pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+def test_scaling_writes_a_table_for_each_chart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from benchmarks import charts
+
+    monkeypatch.setattr(charts, "ROUND_SECONDS", 0.0001)
+    monkeypatch.setattr(charts, "ROUNDS", 1)
+    path = write_records(tmp_path / "walk.txt", ("Walk", WALK, running(WALK_END)))
+    result = CliRunner().invoke(cli, ["bench", str(path), "--scaling", str(tmp_path / "charts"), "--only", "ray"])
+    assert result.exit_code == 0, result.stderr
+    lines = (tmp_path / "charts" / "ray-against-length.csv").read_text().splitlines()
+    assert lines[0] == "series,cells crossed,ns a ray"
+    assert len(lines) > 10
