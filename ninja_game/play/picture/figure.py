@@ -61,18 +61,26 @@ def paint_trunk(s: Sketch, colour: pygame.Color, pose: Pose) -> None:
     s.disc(colour, *pose.head, HEAD)
 
 
-def paint_band(s: Sketch, colour: pygame.Color, pose: Pose, facing: int, velocity: Point) -> None:
-    """A headband with two ends that trail behind the motion."""
-    hx, hy = pose.head
-    back = hx - HEAD * 0.9 * facing
-    s.stroke(colour, (back, hy - 0.5), (hx + HEAD * 0.85 * facing, hy - 0.9), 1.1)
+def band_ends(head: Point, shoulder: Point) -> tuple[Point, Point]:
+    """Where a headband crosses the outline of a head that goes on where the neck ends: left and right of it."""
+    ux, uy = head[0] - shoulder[0], head[1] - shoulder[1]
+    length = (ux * ux + uy * uy) ** 0.5 or 1.0
+    ux, uy = ux / length, uy / length
+    x, y = head[0] + 0.75 * ux, head[1] + 0.75 * uy
+    return (x + 2.2 * uy, y - 2.2 * ux), (x - 2.2 * uy, y + 2.2 * ux)
+
+
+def paint_tails(s: Sketch, colour: pygame.Color, pose: Pose, facing: int, velocity: Point) -> None:
+    """The two ends of the headband, which trail behind the motion."""
+    left, right = band_ends(pose.head, pose.shoulder)
+    knot = left if facing > 0 else right
     for k, drop in ((1.0, 0.2), (0.75, 1.6)):
         fx = -facing * 2.6 - velocity[0] * 0.75
         fy = drop + 0.9 - velocity[1] * 0.6
         length = (fx * fx + fy * fy) ** 0.5
         scale = k * min(1.0, 6.0 / length)
-        middle = back + fx * scale * 0.5, hy - 0.4 + fy * scale * 0.5 - 0.6
-        s.path(colour, [(back, hy - 0.4), middle, (back + fx * scale, hy - 0.4 + fy * scale)], 0.9)
+        middle = knot[0] + fx * scale * 0.5, knot[1] + fy * scale * 0.5 - 0.6
+        s.path(colour, [knot, middle, (knot[0] + fx * scale, knot[1] + fy * scale)], 0.9)
 
 
 def ninja_sprite(
@@ -84,9 +92,8 @@ def ninja_sprite(
     shown = pose.moved(offset[0] / scale, offset[1] / scale)
     far = mixed(colour, palette.background, 0.22)
     if banded:
-        paint_band(s, palette.band, shown, facing, velocity)
+        paint_tails(s, palette.band, shown, facing, velocity)
     paint_limbs(s, colour, far, shown, facing)
     if banded:
-        head = shown.head
-        s.stroke(palette.band, (head[0] - 2.1 * facing, head[1] - 0.6), (head[0] + 2.1 * facing, head[1] - 0.9), 1.1)
+        s.stroke(palette.band, *band_ends(shown.head, shown.shoulder), 1.1)
     return s.finish(alpha)

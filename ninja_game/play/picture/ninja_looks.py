@@ -6,7 +6,7 @@ import pygame
 
 from ninja_game.play.canvas import Point
 from ninja_game.play.palette import mixed
-from ninja_game.play.picture.figure import HEAD, ninja_sprite, paint_arm, paint_leg
+from ninja_game.play.picture.figure import HEAD, band_ends, ninja_sprite, paint_arm, paint_leg
 from ninja_game.play.picture.ninja_motion import NinjaMotion
 from ninja_game.play.picture.ragdoll import PELVIS, SHOULDER, TRUNK, Ragdoll
 from ninja_game.play.picture.sketch import Sketch
@@ -67,7 +67,7 @@ def _draw_parts(
             s.stroke(shade, places[SHOULDER], places[PELVIS], 3.4, 2.5)
             s.stroke(shade, places[SHOULDER], (hx, hy), 1.6)
             s.disc(shade, hx, hy, HEAD)
-            s.stroke(stage.palette.band, (hx - 2, hy - 0.5), (hx + 2, hy - 0.8), 1.1)
+            s.stroke(stage.palette.band, *band_ends((hx, hy), places[SHOULDER]), 1.1)
         elif k in {0, 4}:
             paint_arm(s, shade, a, b, doll.facing)
         else:
