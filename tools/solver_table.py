@@ -69,9 +69,10 @@ def solve_all(arguments: argparse.Namespace) -> None:
         if name in done or (arguments.only and name not in arguments.only.split(",")):
             continue
         found: list[float] = []
-        began = time.monotonic()
+        began, cpu = time.monotonic(), time.process_time()
         run = solve(task, on_better=partial(_note, found, began))
         row: dict[str, Any] = {"level": name, "end_tick": run.end_tick if run else -1, "seconds": task.seconds}
+        row["cpu_s"] = round(time.process_time() - cpu, 1)
         row |= {"first_s": round(found[0], 2) if found else -1, "last_s": round(found[-1], 2) if found else -1}
         if task.first:
             row["before"] = len(task.first) - 1
@@ -100,7 +101,7 @@ def print_table(file: Path, *, improve: bool) -> None:
         better = sum(row["end_tick"] < row["before"] for row in rows(file))
         print(f"\n{better} of {len(rows(file))} shortened")
         return
-    print("| level | solver | people | ratio | tool-assisted | first run after, s |\n|---|---|---|---|---|---|")
+    print("| level | solver | people | ratio | tool-assisted | first run after, s | CPU used, s |\n|---|---|---|---|---|---|---|")
     ratios = []
     for row in rows(file):
         name, ticks = row["level"], row["end_tick"]
@@ -109,7 +110,7 @@ def print_table(file: Path, *, improve: bool) -> None:
             ratios.append(ticks / fastest[name])
             ratio = f"{ratios[-1]:.3f}"
         shown = ticks if ticks >= 0 else "-"
-        print(f"| {name} | {shown} | {fastest.get(name, '')} | {ratio} | {tas.get(name, '')} | {row['first_s']} |")
+        print(f"| {name} | {shown} | {fastest.get(name, '')} | {ratio} | {tas.get(name, '')} | {row['first_s']} | {row['cpu_s']} |")
     if ratios:
         solved = sum(row["end_tick"] >= 0 for row in rows(file))
         print(f"\nsolved {solved} of {len(rows(file))}; median ratio {statistics.median(ratios):.3f} of {len(ratios)};")

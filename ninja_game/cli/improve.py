@@ -17,6 +17,7 @@ from ninja_game.cli.solver_options import (
     seconds_option,
     seed_option,
     time_text,
+    work_option,
 )
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 )  # fmt: skip
 @gold_option
 @seconds_option(60.0)
+@work_option
 @seed_option
 @search_jobs_option
 @click.option(

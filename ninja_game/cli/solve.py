@@ -20,6 +20,7 @@ from ninja_game.cli.solver_options import (
     seconds_option,
     seed_option,
     time_text,
+    work_option,
 )
 
 
@@ -28,6 +29,7 @@ from ninja_game.cli.solver_options import (
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's levels, counted from 0.")
 @gold_option
 @seconds_option(60.0)
+@work_option
 @seed_option
 @search_jobs_option
 @body_option
@@ -59,6 +61,6 @@ def command(
     with progress_line() as report:
         run = solve(task, report=report, on_better=saver(output, chosen.name))
     if run is None:
-        click.echo(f"no run to the exit found in {task.seconds:g} s; more time or another --seed may find one")
+        click.echo("no run to the exit found; more time or another --seed may find one")
         ctx.exit(NOT_FOUND)
     click.echo(f"{output}: {time_text(run.end_tick)}, {run.gold} gold")

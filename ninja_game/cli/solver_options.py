@@ -52,6 +52,10 @@ def seconds_option(default: float) -> Callable[[F], F]:
     )
 
 
+work_option = click.option(
+    "--ticks", "work", type=click.IntRange(min=0), default=0, metavar="N",
+    help="Stop after about N simulated ticks a job instead: with one job, always the same result.",
+)  # fmt: skip
 seed_option = click.option(
     "--seed", type=click.IntRange(min=0), default=1, show_default=True,
     help="With one job, the same seed does the same work in the same order.",

@@ -11,6 +11,7 @@ from typing import Any
 from ninja_game.many.macros import HELD_BIT
 from ninja_game.sim.memory import fast
 
+ALL_KEYS = 7
 RANDOM_STATE = 0
 """Index of the random state among a climb's counters."""
 
@@ -46,7 +47,7 @@ def stretch(keys: Any, length: int, tick: int, count: int) -> None:
 def overwrite(keys: Any, length: int, start: int, end: int, mask: int, value: int) -> None:
     """Set some keys in the ticks from start to before end."""
     for k in range(max(start, 0), min(end, length)):
-        keys[k] = (keys[k] & ~mask) | value
+        keys[k] = (keys[k] & (ALL_KEYS - mask)) | value
 
 
 @fast

@@ -127,7 +127,7 @@ class _Job:
         self.shares = Shares()
         self.start = Start(compiled, task.level, box=task.body == "box")
         self._search: Search | None = None
-        self._turn = 0
+        self._turn = 2 * number
         self._climbs = 0
 
     def run(self) -> None:
@@ -236,14 +236,14 @@ def solve(
     """The best run to the exit that was found in the time, None if there is none.
 
     ``report`` is called a few times a second, ``on_better`` with every verified run that is shorter than those before.
-    ``task.first`` is a run to start from: then it is only improved. Raises LevelError for a level that cannot be
-    played, MemoryUnavailableError without Numba, UnverifiedRunError for a first run that does not reach the exit.
+    ``task.first`` is a run to start from: then it is only improved, and is itself the first that ``on_better`` gets.
+    Raises LevelError for a level that cannot be played, MemoryUnavailableError without Numba, UnverifiedRunError for a
+    first run that does not reach the exit.
     """
     compiled = compiled_kernels()
-    shared = _Shared(task, report)
+    shared = _Shared(task, report, on_better=on_better)
     if task.first:
         shared.offer(_with_plain_triggers(task))
-    shared.on_better = on_better
     jobs = [_Job(compiled, shared, number) for number in range(task.jobs)]
     if len(jobs) == 1:
         jobs[0].run()

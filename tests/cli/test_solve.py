@@ -1,0 +1,109 @@
+"""`ninja-game solve`, `improve` and `check`: files, exit codes, messages."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from ninja_game.cli.main import cli
+from ninja_game.formats.level_string import parse_level_string
+from ninja_game.formats.replay import parse_replay
+from ninja_game.runs import run_level
+from tests.cli.samples import NO_NINJA, SPIKED, WALK, WALK_END, running, write_records
+
+pytest.importorskip("numba")
+
+CLOSED_IN = "0" * 23 * 5 + "1" * 23 + "0" * 23 * 25 + "|5^60,566!11^400,566,330,566"
+
+
+def command(*words: str | Path) -> Result:
+    """`ninja-game WORDS…`."""
+    return CliRunner().invoke(cli, [*map(str, words)])
+
+
+def level_file(folder: Path, text: str, name: str = "level.txt") -> Path:
+    """A file with one in-game string."""
+    path = folder / name
+    path.write_text(text + "\n", "utf-8")
+    return path
+
+
+def test_solve_writes_a_replay_that_passes(tmp_path: Path) -> None:
+    out = tmp_path / "out.replay.txt"
+    result = command("solve", level_file(tmp_path, WALK), "--ticks", "300000", "--jobs", "1", "-o", out)
+    assert result.exit_code == 0
+    assert f"{WALK_END} ticks" in result.stdout
+    replay = parse_replay(out.read_text("utf-8"))
+    run = run_level(parse_level_string(WALK), replay.inputs, memory="plain")
+    assert (run.outcome, run.end_tick) == ("exit", WALK_END)
+
+
+def test_solve_says_when_it_found_nothing(tmp_path: Path) -> None:
+    out = tmp_path / "out.replay.txt"
+    result = command("solve", level_file(tmp_path, CLOSED_IN), "--ticks", "300000", "--jobs", "1", "-o", out)
+    assert result.exit_code == 1
+    assert "no run to the exit found" in result.stdout
+    assert not out.exists()
+
+
+def test_improve_shortens_a_recording(tmp_path: Path) -> None:
+    slow = write_records(tmp_path / "slow.txt", ("Slow", WALK, f"40:{'0|' * 2}{'35791394|' * 4}"))
+    out = tmp_path / "out.replay.txt"
+    result = command("improve", slow, "--ticks", "300000", "--jobs", "1", "-o", out)
+    assert result.exit_code == 0, result.stderr
+    assert "14 ticks shorter" in result.stdout
+    assert parse_replay(out.read_text("utf-8")).final_tick == WALK_END
+
+
+def test_improve_wants_a_run_to_the_exit(tmp_path: Path) -> None:
+    dead = write_records(tmp_path / "dead.txt", ("Dead", SPIKED, running(60)))
+    result = command("improve", dead, "-o", tmp_path / "out.txt")
+    assert result.exit_code == 2
+    assert "does not reach the exit: dead after" in result.stderr
+
+
+def test_check_certifies_and_keeps_replays(tmp_path: Path) -> None:
+    level_file(tmp_path, WALK, "good.txt")
+    level_file(tmp_path, CLOSED_IN, "shut.txt")
+    runs = tmp_path / "runs"
+    result = command("check", tmp_path, "--ticks", "300000", "--jobs", "1", "--replays", runs, "--json")
+    assert result.exit_code == 1
+    good, shut = (json.loads(line) for line in result.stdout.splitlines())
+    assert (good["solvable"], good["par_ticks"]) == (True, WALK_END)
+    assert shut["solvable"] is None
+    assert [path.name for path in runs.iterdir()] == ["good-0.replay.txt"]
+    result = command("check", tmp_path / "good.txt", "--ticks", "300000", "--jobs", "1")
+    assert result.exit_code == 0
+    assert "solvable par   0.575 s" in result.stdout
+
+
+@pytest.mark.parametrize(
+    "words, message",
+    [
+        (["solve", "level.txt"], "Missing option '-o'"),
+        (["solve", "level.txt", "--gold", "some", "-o", "x"], "'some' is neither 'all' nor a whole number"),
+        (["solve", "level.txt", "--gold", "7", "-o", "x"], "the level holds 1 pieces of gold"),
+        (["solve", "two.txt", "-o", "x"], "holds 2 levels; choose one with --record"),
+        (["solve", "two.txt", "--record", "9", "-o", "x"], "there is no record 9"),
+        (["solve", "empty.txt", "-o", "x"], "no ninja"),
+        (["solve", "missing.txt", "-o", "x"], "does not exist"),
+        (["solve", "noise.txt", "-o", "x"], "not a level in any format"),
+        (["improve", "level.txt", "-o", "x"], "no recording"),
+        (["improve", "two.txt", "-o", "x"], "holds 2 recordings; choose one with --record"),
+        (["check", "noise.txt"], "not a level in any format"),
+    ],
+)
+def test_bad_requests_are_explained(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: list[str], message: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    level_file(tmp_path, WALK)
+    level_file(tmp_path, NO_NINJA, "empty.txt")
+    level_file(tmp_path, "noise", "noise.txt")
+    write_records(tmp_path / "two.txt", ("A", WALK, running(25)), ("B", WALK, running(25)))
+    result = command(*words)
+    assert result.exit_code == 2
+    assert message in " ".join(result.stderr.split())
