@@ -8,6 +8,7 @@ exactly once, and what comes out does not depend on who did it.
 from __future__ import annotations
 
 import signal
+import logging
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
@@ -125,6 +126,8 @@ class Cluster:
                 "a cluster needs Dask distributed; install the extra 'cluster' (pip install 'ninja-game[cluster]')"
             ) from None
         self.lost: tuple[type[BaseException], ...] = (KilledWorker,)
+        # What it has to say comes as exceptions.
+        logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
         try:
             connect: Any = Client
             self._client = connect(address, timeout="10s", set_as_default=False)
