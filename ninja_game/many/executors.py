@@ -7,8 +7,8 @@ exactly once, and what comes out does not depend on who did it.
 
 from __future__ import annotations
 
-import signal
 import logging
+import signal
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
