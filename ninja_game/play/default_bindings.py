@@ -49,7 +49,7 @@ ACTIONS: dict[str, Action] = {
 MENU_KEYS: dict[str, str] = {
     "left": "left", "right": "right", "up": "up", "down": "down", "return": "confirm", "kp_enter": "confirm",
     "space": "confirm", "escape": "back", "backspace": "back", "pageup": "page_up", "pagedown": "page_down",
-    "home": "first", "end": "last", "tab": "next", "delete": "delete",
+    "home": "first", "end": "last", "delete": "delete",
 }  # fmt: skip
 """Keys in menus; they cannot be rebound, so that nobody locks themselves out."""
 

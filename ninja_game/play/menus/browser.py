@@ -46,7 +46,7 @@ class Browser(MenuScreen):
         self.bests: dict[str, SavedReplay] = {}
         self.list = ListView(
             (44, 112, 376, 8 * ROW), ROW, self._draw_row, self._play, empty="No level has these words",
-            hint="Enter plays; Tab goes to the buttons",
+            hint="Enter plays; right leads to the buttons, up to the search",
         )  # fmt: skip
         self.entry_field = TextEntry((44, 66, 236, 32), "Search name or author", "", self._search)
 

@@ -53,7 +53,7 @@ class MenuScreen(Screen):
         return player
 
     def build(self) -> Sequence[Widget]:
-        """The widgets, in the order of the Tab key."""
+        """The widgets; the first that can have it gets the focus."""
         raise NotImplementedError
 
     def enter(self) -> None:

@@ -29,7 +29,7 @@ ENTRIES = {
     "Settings": SettingsScreen,
     "Help": HelpScreen,
 }
-DIRECTIONS = ("down", "down", "right", "up", "left", "left", "up", "right", "tab", "pagedown", "pageup", "end", "home")
+DIRECTIONS = ("down", "down", "right", "up", "left", "left", "up", "right", "pagedown", "pageup", "end", "home")
 
 
 @pytest.mark.parametrize("entry", ENTRIES)
