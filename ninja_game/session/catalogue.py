@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import NamedTuple
 
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.formats.files import load_levels
@@ -71,6 +72,7 @@ class Catalogue:
     def __init__(self, folder: Path | None = None) -> None:
         self.folder = folder
         self.problems: list[str] = []
+        self._read: dict[Path, _ReadFile] = {}
 
     @cached_property
     def bundled(self) -> dict[str, NamedLevel]:
@@ -98,10 +100,29 @@ class Catalogue:
         return entries + self.own()
 
     def own(self) -> list[Entry]:
-        """The levels in the player's folder as it is now; broken files become ``problems``."""
+        """The levels in the player's folder as it is now; broken files become ``problems``.
+
+        Files that have not changed since they were last asked for are not read again.
+        """
         if self.folder is None or not self.folder.is_dir():
             return []
-        return [Entry(level, "yours") for level in self._load(text_files(self.folder))]
+        return [entry for file in text_files(self.folder) for entry in self._entries_of(file)]
+
+    def _entries_of(self, file: Path) -> list[Entry]:
+        """The levels of one file of the player's."""
+        try:
+            state = file.stat()
+        except OSError:
+            return []
+        stamp = state.st_mtime_ns, state.st_size
+        known = self._read.get(file)
+        if known is None or known.stamp != stamp:
+            before = len(self.problems)
+            entries = [Entry(level, "yours") for level in self._load([file])]
+            known = self._read[file] = _ReadFile(stamp, entries, self.problems[before:])
+        else:
+            self.problems += known.problems
+        return known.entries
 
     def _load(self, files: Iterable[Path]) -> list[NamedLevel]:
         found: list[NamedLevel] = []
@@ -113,6 +134,14 @@ class Catalogue:
             except OSError as error:
                 self.problems.append(f"{file.name}: {error.strerror}")
         return found
+
+
+class _ReadFile(NamedTuple):
+    """What was found in a file, and when it had been changed last."""
+
+    stamp: tuple[int, int]
+    entries: list[Entry]
+    problems: list[str]
 
 
 def read_episodes(listing: Path, levels: dict[str, NamedLevel]) -> list[Episode]:

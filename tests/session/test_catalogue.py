@@ -42,6 +42,18 @@ def test_broken_file_is_named_and_the_others_stay(tmp_path: Path) -> None:
     assert "b.txt" in catalogue.problems[0]
 
 
+def test_unchanged_file_is_read_once_and_a_changed_one_again(tmp_path: Path) -> None:
+    file = tmp_path / "mine.txt"
+    file.write_text(write_level_string(short_level()))
+    (tmp_path / "broken.txt").write_text("ninja-game level 1\nnonsense")
+    catalogue = Catalogue(tmp_path)
+    first = catalogue.own()
+    assert catalogue.own()[0] is first[0]
+    assert len(catalogue.problems) == 2
+    file.write_text(write_level_string(short_level(1, gold=1)))
+    assert catalogue.own()[0].digest != first[0].digest
+
+
 @pytest.mark.parametrize(
     "text",
     [
