@@ -24,7 +24,8 @@ from tools.rule_changes import CHANGES, Change
 
 ALLOWED = 5
 COPIED = ("ninja_game", "tests", "levels", "pyproject.toml", "README.md")
-TESTS = ("tests/sim", "-x", "-q", "-k", "not compiled", "-p", "no:cacheprovider")
+FILES = [f"tests/sim/test_{name}.py" for name in ("golden", "check_values", "edges", "properties")]
+TESTS = (*FILES, "-x", "-q", "-k", "not compiled and not memories", "-p", "no:cacheprovider")
 
 
 def scratch_copy(folder: Path) -> None:
@@ -62,11 +63,7 @@ def unnoticed(change: Change | None) -> bool:
         if change:
             apply(change, folder)
         command = [sys.executable, "-m", "pytest", *TESTS]
-        try:
-            done = subprocess.run(command, cwd=folder, capture_output=True, timeout=300, check=False)
-        except subprocess.TimeoutExpired:
-            return False
-        return done.returncode == 0
+        return subprocess.run(command, cwd=folder, capture_output=True, check=False).returncode == 0
 
 
 def main(names: list[str]) -> int:

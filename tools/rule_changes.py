@@ -51,7 +51,7 @@ CHANGES = (
     Change("ray-corner-order", "rays.py", "        if tx < ty:\n            t = tx", "        if tx <= ty:\n            t = tx"),
     Change("box-pulls-back", "box.py", "        a = ox if dx < 0.0 else -ox\n", "        a = -ox if dx < 0.0 else ox\n"),
     # The ninja.
-    Change("crush-notes-contact", "contacts.py", "        kill(w, CRUSHED, 0.0, 0.0, n.x, n.y)\n        return\n", "        kill(w, CRUSHED, 0.0, 0.0, n.x, n.y)\n"),
+    Change("ceiling-is-no-floor", "contacts.py", "    elif my < 0.0:", "    elif my != 0.0:"),
     Change("third-floor-contact", "contacts.py", "        if n.contacts == 0:", "        if n.contacts != 1:"),
     Change("floor-normal-kept", "ninja.py", "if not (n.first_x == n.floor_x and n.first_y == n.floor_y):", "if n.contacts:"),
     Change("probe-without-wall-only", "ninja.py", "if n.in_air and not n.near_wall:", "if n.in_air:"),
