@@ -51,6 +51,7 @@ class App:
     ) -> None:
         pygame.display.init()
         pygame.font.init()
+        prefer_shared_memory()
         self.options = options or Options()
         self.controls: Controls = controls or Keyboard()
         self.ear: Ear = ear or Silence()
@@ -202,6 +203,16 @@ class App:
     def save_screenshot(self, path: Path) -> None:
         """The picture as it is, as a PNG file."""
         pygame.image.save(self.surface, str(path))
+
+
+def prefer_shared_memory() -> None:
+    """Under X11 show pictures through shared memory instead of OpenGL, unless the environment says otherwise.
+
+    Only the px that changed are sent then; through OpenGL the whole window goes to the card in every picture, and
+    without a card that costs 20 ms (measured with tools/frame_cost.py --display).
+    """
+    if pygame.display.get_driver() == "x11":
+        os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
 
 
 def fitting_size() -> tuple[int, int]:
