@@ -40,6 +40,10 @@ class PlayerData:
         self.messages += store.messages
         return store
 
+    def open_records(self) -> None:
+        """Open the database now, so that ``messages`` says what is wrong with it before anyone needs it."""
+        assert self.store  # noqa: S101 - opening is what asking does
+
     @cached_property
     def records(self) -> Records:
         """Personal bests and replays."""

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.errors import LevelError
+from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.formats.files import load_levels
 from ninja_game.play.level_screen import LevelScreen
 from ninja_game.play.menus.courses import LevelCourse
 from ninja_game.play.menus.list_view import ListView
@@ -17,6 +19,7 @@ from ninja_game.play.menus.thumbnails import Thumbnails
 from ninja_game.play.menus.watching import watch
 from ninja_game.play.menus.widgets import Area, Button, Choice, Widget, counted, fit
 from ninja_game.play.theme import Theme
+from ninja_game.session.atomic_file import write_atomically
 from ninja_game.session.catalogue import Entry
 from ninja_game.session.records import SavedReplay
 from ninja_game.session.scoring import seconds_text
@@ -70,6 +73,31 @@ class Browser(MenuScreen):
         watch_best = Button((SIDE, 510, 320, 32), "Watch your best", self._watch)
         sort = Choice((288, 66, 132, 32), "", SORTS, lambda: self.sort, self._sort, hint="How the list is sorted")
         return [self.list, self.entry_field, sort, play, practice, watch_best]
+
+    def handle(self, event: pygame.Event) -> None:
+        """A file dropped on the window is copied into the player's folder; coming back to the window looks again."""
+        if event.type == pygame.DROPFILE:
+            self._take_in(Path(event.file))
+        elif event.type == pygame.WINDOWFOCUSGAINED:
+            self.enter()
+            self.redraw = True
+        else:
+            super().handle(event)
+
+    def _take_in(self, file: Path) -> None:
+        """Copy a file of levels into the player's folder, unless it is none."""
+        folder = self.player.catalogue.folder
+        try:
+            load_levels(file)
+            if folder is None or (folder / file.name).exists():
+                self.message = f"There is a {file.name} already"
+            else:
+                write_atomically(folder / file.name, file.read_bytes())
+                self.enter()
+                self.message = ""
+        except (NinjaGameError, OSError) as error:
+            self.message = str(error)
+        self.redraw = True
 
     # --- which ---
 

@@ -19,11 +19,23 @@ if TYPE_CHECKING:
 YOUR_BEST = "your best"
 
 
-def best_ghost(player: PlayerData, entry: Entry) -> list[GhostRun]:
-    """The personal best of a level, as a ghost that runs along; none without one."""
-    best = player.records.level_best(entry.digest)
-    replay = player.records.replay(best.id) if best else None
-    return [GhostRun(YOUR_BEST, replay.inputs)] if replay else []
+class BestGhost:
+    """The personal best of a level as a ghost; read again only when there is another one, since every retry asks."""
+
+    def __init__(self, player: PlayerData, entry: Entry) -> None:
+        self.player = player
+        self.entry = entry
+        self._id = -1
+        self._runs: list[GhostRun] = []
+
+    def runs(self) -> list[GhostRun]:
+        """The ghost; none without a best."""
+        best = self.player.records.level_best(self.entry.digest)
+        if best is not None and best.id != self._id:
+            replay = self.player.records.replay(best.id)
+            self._runs = [GhostRun(YOUR_BEST, replay.inputs)] if replay else []
+            self._id = best.id
+        return self._runs
 
 
 class LevelCourse:
@@ -39,10 +51,11 @@ class LevelCourse:
         self.level = entry.named.level
         self.lifetime = self._run.lifetime
         self.practice = practice
+        self._best = BestGhost(player, entry)
 
     def ghosts(self) -> list[GhostRun]:
         """The personal best."""
-        return best_ghost(self.player, self.entry)
+        return self._best.runs()
 
     def passed(self, attempt: Attempt) -> list[str]:
         """Save; what to tell the player about it."""
@@ -76,10 +89,11 @@ class EpisodeCourse:
         self.practice = run.practice
         self._passed: Attempt | None = None
         self._notices: list[str] = []
+        self._best = BestGhost(run.data, run.entry)
 
     def ghosts(self) -> list[GhostRun]:
         """The personal best of this level."""
-        return best_ghost(self.run.data, self.entry)
+        return self._best.runs()
 
     def passed(self, attempt: Attempt) -> list[str]:
         """Save; what to tell the player about it."""

@@ -31,6 +31,7 @@ class MainMenu(MenuScreen):
         self.attract = Attract(app)
         self._message_ms = MESSAGE_MS
         app.panels = Panels(app)
+        self.player.open_records()
 
     def build(self) -> Sequence[Widget]:
         """One button for each screen."""

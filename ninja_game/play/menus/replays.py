@@ -10,16 +10,20 @@ import pygame
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.files import load_replays
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay import write_replay
 from ninja_game.formats.text_file import text_files
+from ninja_game.play.app import free_name
 from ninja_game.play.menus.list_view import ListView
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question
 from ninja_game.play.menus.watching import watch, watch_recording
 from ninja_game.play.menus.widgets import Area, Widget, fit
 from ninja_game.play.theme import Theme
+from ninja_game.session.atomic_file import write_atomically
 from ninja_game.session.bundled import bundled_replays
 from ninja_game.session.records import SavedReplay
 from ninja_game.session.scoring import seconds_text
+from ninja_game.session.user_folder import EXPORTS
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
@@ -27,6 +31,9 @@ if TYPE_CHECKING:
 ROW = 34
 FILES_SHOWN = 300
 """Recordings read from the player's folder at most."""
+
+
+HINT = "Enter: watch it. Delete: remove a saved one. E: write it as a text file, to share"
 
 
 class Row(NamedTuple):
@@ -52,7 +59,8 @@ class ReplaysScreen(MenuScreen):
         self._files: list[Row] | None = None
         self.list = ListView((44, 96, 712, 13 * ROW), ROW, self._draw_row, self._watch)
         self.list.empty = "No replays yet"
-        self.list.hint = "Enter: watch it. Delete: remove a saved one"
+        self.list.hint = HINT
+        self.message = ""
 
     def build(self) -> Sequence[Widget]:
         """The list, the newest records first, then files."""
@@ -85,13 +93,36 @@ class ReplaysScreen(MenuScreen):
         else:
             watch(self.app, [self.player.records.replay(source.id)])
 
+    def handle(self, event: pygame.Event) -> None:
+        """The export key writes a text file."""
+        if "export" in self.app.controls.actions(event) and self.rows:
+            self._export(self.rows[self.list.index])
+        else:
+            super().handle(event)
+
+    def _export(self, row: Row) -> None:
+        """Write a replay into the player's folder of exports."""
+        source = row.source
+        replay = source.replay if isinstance(source, Recording) else self.player.records.replay(source.id)
+        if replay is None:
+            self.message = "Only replays of this game can be written"
+        else:
+            stem = "".join(char if char.isalnum() else "-" for char in row.text.lower()).strip("-") or "replay"
+            file = free_name(self.player.folder / EXPORTS, stem, ".replay.txt")
+            try:
+                write_atomically(file, write_replay(replay))
+                self.message = f"Written: {file}"
+            except (OSError, NinjaGameError) as error:
+                self.message = str(error)
+        self.redraw = True
+
     def act(self, action: str) -> None:
         """Delete asks first; all else as in other menus."""
         source = self.rows[self.list.index].source if self.rows else None
         if action == "delete" and isinstance(source, SavedReplay):
             number = source.id
             if number in {best.id for best in self.player.records.level_bests().values()}:
-                self.list.hint = "This is a personal best; it stays"
+                self.message = "This is a personal best; it stays"
                 self.redraw = True
                 return
             forget = self.player.records.forget_replay
@@ -112,8 +143,8 @@ class ReplaysScreen(MenuScreen):
         for x, text, align in ((54, "Level", "left"), (340, "Player", "left"), (598, "Result", "right"),
                                (734, "From", "right")):  # fmt: skip
             theme.text(surface, text, x, 72, size=10.5, colour=palette.faint, align=align)
-        if self.problems:
-            theme.text(surface, f"{self.problems} files cannot be read", 44, 545, size=10, colour=palette.bad)
+        message = self.message or (f"{self.problems} files cannot be read" if self.problems else "")
+        theme.text(surface, fit(theme, message, 712, 10), 44, 545, size=10, colour=palette.faint)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         row = self.rows[index]

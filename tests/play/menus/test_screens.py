@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pygame
 import pytest
 
+from ninja_game.formats.files import load_replays
 from ninja_game.play.level_screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episode_grid import EpisodeGrid
@@ -215,3 +218,34 @@ def test_replay_of_the_game_is_watched(stage: Stage) -> None:
     stage.frames(10)
     stage.press("escape")
     assert isinstance(stage.top(), ReplaysScreen)
+
+
+def test_damaged_files_are_told_of_in_the_menu(tmp_path: Path) -> None:
+    (tmp_path / "records.sqlite").write_bytes(b"rubbish" * 500)
+    (tmp_path / "settings.toml").write_text("not [ toml")
+    stage = Stage(tmp_path)
+    assert len(stage.player.messages) == 2
+    assert isinstance(stage.top(), MainMenu)
+    stage.frames(3)
+    stage.close()
+
+
+def test_file_dropped_on_the_window_is_taken_in(stage: Stage, tmp_path: Path) -> None:
+    browser = stage.open("Levels")
+    assert isinstance(browser, Browser)
+    file = tmp_path / "dropped.txt"
+    file.write_text("0" * 713 + "|5^100,566!11^160,564,130,564")
+    pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(file)))
+    stage.frames(2)
+    assert "dropped" in [entry.title for entry in browser.shown]
+    pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(tmp_path / "settings.toml")))
+    stage.frames(2)
+    assert browser.message
+
+
+def test_replay_is_written_as_a_text_to_share(stage: Stage) -> None:
+    stage.open("Replays")
+    stage.press("e")
+    written = list((stage.player.folder / "exports").glob("*.replay.txt"))
+    assert len(written) == 1
+    assert load_replays(written[0])[0].replay
