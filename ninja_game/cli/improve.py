@@ -16,6 +16,8 @@ from ninja_game.cli.solver_options import (
     search_jobs_option,
     seconds_option,
     seed_option,
+    smooth_option,
+    smoothed_run,
     time_text,
     work_option,
 )
@@ -36,12 +38,19 @@ if TYPE_CHECKING:
 @work_option
 @seed_option
 @search_jobs_option
+@smooth_option
 @click.option(
     "-o", "--output", metavar="REPLAY", required=True, type=click.Path(dir_okay=False, path_type=Path),
     help="Where the best run so far is kept.",
 )  # fmt: skip
 def command(
-    replay: Path, record: int | None, level_path: Path | None, output: Path, jobs: int | None, **wish: Any
+    replay: Path,
+    record: int | None,
+    level_path: Path | None,
+    output: Path,
+    jobs: int | None,
+    smooth: int | None,
+    **wish: Any,
 ) -> None:
     """Shorten a run that exists.
 
@@ -81,4 +90,7 @@ def command(
     with progress_line() as report:
         run = solve(task, report=report, on_better=keep)
     assert run is not None  # noqa: S101 - the first run is one
+    if smooth is not None:
+        run = smoothed_run(run, smooth)
+        save(run)
     click.echo(f"{output}: {time_text(run.end_tick)}, {before[0] - run.end_tick} ticks shorter, {run.gold} gold")

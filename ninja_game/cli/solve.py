@@ -19,6 +19,8 @@ from ninja_game.cli.solver_options import (
     search_jobs_option,
     seconds_option,
     seed_option,
+    smooth_option,
+    smoothed_run,
     time_text,
     work_option,
 )
@@ -32,6 +34,7 @@ from ninja_game.cli.solver_options import (
 @work_option
 @seed_option
 @search_jobs_option
+@smooth_option
 @body_option
 @click.option(
     "-o", "--output", metavar="REPLAY", required=True, type=click.Path(dir_okay=False, path_type=Path),
@@ -39,7 +42,14 @@ from ninja_game.cli.solver_options import (
 )  # fmt: skip
 @click.pass_context
 def command(
-    ctx: click.Context, /, level: Path, record: int | None, output: Path, jobs: int | None, **wish: Any
+    ctx: click.Context,
+    /,
+    level: Path,
+    record: int | None,
+    output: Path,
+    jobs: int | None,
+    smooth: int | None,
+    **wish: Any,
 ) -> None:
     """Find a run to the exit, then shorten it.
 
@@ -58,9 +68,13 @@ def command(
     chosen = choose_level(level, record)
     task = Task(chosen.level, jobs=default_threads(jobs), **wish)
     check_gold(task)
+    save = saver(output, chosen.name)
     with progress_line() as report:
-        run = solve(task, report=report, on_better=saver(output, chosen.name))
+        run = solve(task, report=report, on_better=save)
     if run is None:
         click.echo("no run to the exit found; more time or another --seed may find one")
         ctx.exit(NOT_FOUND)
+    if smooth is not None:
+        run = smoothed_run(run, smooth)
+        save(run)
     click.echo(f"{output}: {time_text(run.end_tick)}, {run.gold} gold")

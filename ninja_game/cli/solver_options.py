@@ -56,6 +56,10 @@ work_option = click.option(
     "--ticks", "work", type=click.IntRange(min=0), default=0, metavar="N",
     help="Stop after about N simulated ticks a job instead: with one job, always the same result.",
 )  # fmt: skip
+smooth_option = click.option(
+    "--smooth", type=click.IntRange(min=0), metavar="N",
+    help="In the end make the run look played: few key changes, at most N ticks longer.",
+)  # fmt: skip
 seed_option = click.option(
     "--seed", type=click.IntRange(min=0), default=1, show_default=True,
     help="With one job, the same seed does the same work in the same order.",
@@ -121,6 +125,15 @@ def progress_text(progress: Progress) -> str:
 def time_text(end_tick: int) -> str:
     """A run's length in ticks and seconds."""
     return f"{end_tick} ticks ({end_tick / TICKS_PER_SECOND:.3f} s)"
+
+
+def smoothed_run(run: VerifiedRun, price: int) -> VerifiedRun:
+    """The run with fewer key changes, verified; at most ``price`` ticks longer and with no less gold."""
+    from ninja_game.many.smoothing import smoothed
+    from ninja_game.many.solver_replay import verified_run
+
+    inputs = smoothed(run.level, run.inputs, body=run.body, gold=run.gold, price=price)
+    return verified_run(run.level, inputs, body=run.body, gold=run.gold)
 
 
 def saver(path: Path, name: str) -> Callable[[VerifiedRun], None]:

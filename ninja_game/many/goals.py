@@ -66,9 +66,7 @@ class Goals:
             x, y = float(thing["x"]), float(thing["y"])
             if kind == EXIT:
                 switch = things[int(thing["partner"])]
-                exits.append(
-                    Switchable(slot, False, False, x, y, float(switch["x"]), float(switch["y"]), ())
-                )
+                exits.append(Switchable(slot, False, False, x, y, float(switch["x"]), float(switch["y"]), ()))
             elif kind == DOOR and int(thing["mechanism"]) != AUTOMATIC:
                 trap = int(thing["mechanism"]) != LOCKED
                 doors.append(Switchable(slot, True, trap, x, y, x, y, _bars(int(thing["edge_1"]))))

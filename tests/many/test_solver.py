@@ -12,6 +12,7 @@ from ninja_game.sim.level_data import LevelData
 pytest.importorskip("numba")
 
 from ninja_game.many.macros import HELD_BIT, TRIGGERED_BIT
+from ninja_game.many.smoothing import rows_of, smoothed
 from ninja_game.many.solver import Progress, Task, solve
 from ninja_game.many.solver_replay import UnverifiedRunError, VerifiedRun, replay_of, verified_run
 
@@ -129,3 +130,11 @@ def test_the_replay_says_what_was_played() -> None:
     replay = replay_of(verified_run(WALK, bytes([2] * 40)), name="Walk")
     assert (replay.final_tick, replay.outcome, replay.gold) == (WALK_TICKS, "exit", 1)
     assert len(replay.inputs) == WALK_TICKS + 1
+
+
+def test_smoothing_leaves_out_keys_that_do_nothing() -> None:
+    fidgety = bytes(1 if tick % 7 == 3 else 2 for tick in range(60))
+    run = verified_run(WALK, fidgety)
+    smooth = verified_run(WALK, smoothed(WALK, run.inputs))
+    assert smooth.end_tick <= run.end_tick
+    assert rows_of(smooth.inputs) == [(2, smooth.end_tick + 1)]
