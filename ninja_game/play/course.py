@@ -22,13 +22,14 @@ class GhostRun:
 
 
 class Course(Protocol):
-    """A level in its context: single, of an episode, a time trial."""
+    """A level in its context: single, of an episode, a time trial. ``lesson``: the keys are told at its start."""
 
     title: str
     level: LevelData
     body: Body
     lifetime: int
     practice: bool
+    lesson: bool
 
     def ghosts(self) -> list[GhostRun]:
         """The recordings that run along."""
@@ -57,6 +58,7 @@ class SingleLevel:
         self.body: Body = body
         self.lifetime = lifetime
         self.practice = practice
+        self.lesson = False
         self.best: tuple[int, bytes] | None = None
 
     def ghosts(self) -> list[GhostRun]:

@@ -65,7 +65,10 @@ def _hint(screen: LevelScreen) -> str:
     """The line of this phase; '' if it has none."""
     key = screen.app.controls.name
     if screen.phase is Phase.READY:
-        return f"{key('confirm')} or any move to begin"
+        begin = f"{key('confirm')} or any move to begin"
+        if not screen.course.lesson:
+            return begin
+        return f"{key('left')} and {key('right')}: run    {key('jump')}: jump, hold it to jump higher    {begin}"
     if screen.phase is Phase.DEAD and screen.after_end > DEATH_PAUSE:
         again = f"{_epitaph(screen)}    {key('confirm')}: try again"
         return f"{again}    {key('replay')}: watch it" if screen.may_watch else again

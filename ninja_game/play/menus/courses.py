@@ -19,6 +19,11 @@ if TYPE_CHECKING:
 YOUR_BEST = "your best"
 
 
+def _is_new(player: PlayerData) -> bool:
+    """Whether the player has passed no level yet."""
+    return not player.statistics.played().passes
+
+
 class BestGhost:
     """The personal best of a level as a ghost; read again only when there is another one, since every retry asks."""
 
@@ -51,6 +56,7 @@ class LevelCourse:
         self.level = entry.named.level
         self.lifetime = self._run.lifetime
         self.practice = practice
+        self.lesson = _is_new(player)
         self._best = BestGhost(player, entry)
 
     def ghosts(self) -> list[GhostRun]:
@@ -89,6 +95,7 @@ class EpisodeCourse:
         self.practice = run.practice
         self._passed: Attempt | None = None
         self._notices: list[str] = []
+        self.lesson = _is_new(run.data)
         self._best = BestGhost(run.data, run.entry)
 
     def ghosts(self) -> list[GhostRun]:

@@ -23,6 +23,7 @@ def test_first_episode_is_played_to_its_end(stage: Stage) -> None:
         level = stage.top()
         assert isinstance(level, LevelScreen)
         assert level.course.title.startswith(f"Episode 0 Level {number - 1}")
+        assert level.course.lesson == (number == 1)
         level.begin()
         stage.play_replay(number)
         assert level.phase is Phase.PASSED
