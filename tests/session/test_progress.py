@@ -146,3 +146,8 @@ def test_deaths_are_counted_by_killer(tmp_path: Path) -> None:
     deaths = data.statistics.deaths()
     assert (deaths["mine"], deaths[SELF], sum(deaths.values())) == (2, 1, 3)
     assert data.statistics.played(run.entry.digest).deaths == 3
+
+
+def test_levels_of_an_episode_count_only_from_the_episode_reached(progress: Progress) -> None:
+    progress.level_passed((3, 0), legitimate=True)
+    assert progress.columns[0].beaten == (0, 0)

@@ -81,9 +81,9 @@ class Attract:
             else:
                 self._until = 0
 
-    def draw(self, surface: pygame.Surface, *, whole: bool = False) -> None:
-        """Draw the replay as it is now."""
+    def draw(self, surface: pygame.Surface, *, whole: bool = False) -> list[pygame.Rect] | None:
+        """Draw the replay as it is now; the px that changed, None for all."""
         if self.view is None:
             surface.fill(self.app.theme.palette.background)
-            return
-        self.view.draw(surface, self._clock.fraction, whole=whole)
+            return None
+        return self.view.draw(surface, self._clock.fraction, whole=whole)

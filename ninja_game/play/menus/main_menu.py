@@ -75,7 +75,7 @@ class MainMenu(MenuScreen):
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
         """The replay, and the menu over it."""
-        self.attract.draw(surface, whole=self.redraw)
+        changed = self.attract.draw(surface, whole=self.redraw)
         canvas, theme = self.app.canvas, self.app.theme
         x, y, w, h = PANEL
         rect = canvas.fill_rect(surface, theme.palette.background, x, y, w, h, 6)
@@ -87,10 +87,11 @@ class MainMenu(MenuScreen):
         self.draw_widgets(surface)
         foot = canvas.rect(0, HEIGHT - 24, WIDTH, 24)
         self._draw_foot(surface)
+        written = [rect.inflate(4, 4), foot]
         if self.attract.view is not None:
-            self.attract.view.also_covered(rect.inflate(4, 4))
-            self.attract.view.also_covered(foot)
-        return None
+            for each in written:
+                self.attract.view.also_covered(each)
+        return None if changed is None else changed + written
 
     def _draw_foot(self, surface: pygame.Surface) -> None:
         """The hint, or what went wrong when the game started."""
