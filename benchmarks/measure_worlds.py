@@ -25,7 +25,8 @@ from ninja_game.simulation import Simulation
 
 WORLDS = 1024
 RESIDENT = 64
-PLACES = 16
+PLACES = 8
+PASSES = 3
 TICKS = 64
 NUMBERS = (10, 30, 100, 300, 1000, 3000, 10_000)
 ENTRY_POINTS = game_kernels
@@ -100,12 +101,18 @@ def objects() -> Chart:
     """The ninja's query in the game's own grid against the objects in the level."""
     chart = Chart("ninja-query-against-objects", "The ninja's object query", "objects in the level", "ns a query")
     ways = {"nine cells": ("query_nine_cells", 1000), "every object": ("query_every_thing", 10)}
-    for count in NUMBERS:
-        # Some addresses suit the processor's caches better than others: the best of several places in memory.
-        worlds = [load_compiled(kernels(), scattered(count), False)[1] for _ in range(PLACES)]
-        for series, (name, rounds) in ways.items():
-            calls = [partial(kernels()[name], world, rounds) for world in worlds]
-            chart.add(series, count, min(seconds_per(call, rounds=3) for call in calls) / rounds * 1e9)
+    # Some addresses suit the processor's caches better than others, and a shared processor is slower for seconds at a
+    # time: the best of several places in memory and of several passes.
+    worlds = {count: [load_compiled(kernels(), scattered(count), False)[1] for _ in range(PLACES)] for count in NUMBERS}
+    best: dict[tuple[int, str], float] = {}
+    for number in range(PLACES * PASSES):
+        for count in NUMBERS:
+            for series, (name, rounds) in ways.items():
+                call = partial(kernels()[name], worlds[count][number % PLACES], rounds)
+                seconds = seconds_per(call, rounds=1) / rounds
+                best[count, series] = min(seconds, best.get((count, series), seconds))
+    for (count, series), seconds in best.items():
+        chart.add(series, count, seconds * 1e9)
     return chart
 
 
