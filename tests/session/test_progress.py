@@ -77,6 +77,9 @@ def test_unlocks_are_announced_once() -> None:
     assert new_unlocks(store, 0, 10) == []
     assert new_unlocks(store, 1, 10) == ["New ninja colour unlocked"]
     assert new_unlocks(store, 1, 10) == []
+    # Fewer columns, because episodes were added: what was announced stays announced.
+    assert new_unlocks(store, 0, 10) == []
+    assert new_unlocks(store, 1, 10) == []
     assert "Overclock unlocked" in new_unlocks(store, 6, 10)
     assert "Any ninja colour unlocked" in new_unlocks(store, 10, 10)
 
