@@ -119,11 +119,13 @@ class Search:
     def _call(self, name: str, budget: int) -> Any:
         memory, start, goals = self.memory, self.start, self.goals
         return self._kernels[name](
-            start.levels, start.worlds, (start.base, start.node_words, start.work_words), memory.nodes, memory.table,
-            memory.links, (memory.chunk_next, memory.chunk_index, memory.chunk_value), memory.buckets, memory.counters,
-            memory.parameters, memory.stages, memory.stage_places, memory.fields,
-            (goals.slots, len(goals.switches), goals.gold_slots), self._gold_fields,
-            self._guide, memory.guided_by, budget,
+            (start.levels, start.worlds, (start.base, start.node_words, start.work_words)),
+            (memory.nodes, memory.table, memory.links, (memory.chunk_next, memory.chunk_index, memory.chunk_value),
+             memory.buckets, memory.counters, memory.parameters),
+            (memory.stages, memory.stage_places, memory.fields),
+            (goals.slots, len(goals.switches), goals.gold_slots, self._gold_fields),
+            (self._guide, memory.guided_by),
+            budget,
         )  # fmt: skip
 
     def _fill_fields(self) -> None:
