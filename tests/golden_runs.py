@@ -23,7 +23,7 @@ AFTERMATH = 150
 """Ticks beyond a replay's end that are part of its golden run."""
 CROWDED = 240
 """How many crowded levels there are; every eighth is played by the box."""
-REVEALING = (252, 297, 417, 460, 852, 886, 970, 1863, 2030, 2357, 2485, 2759, 2906, 2986)
+REVEALING = (252, 297, 417, 460, 464, 545, 645, 852, 886, 970, 1066, 1508, 1863, 2030, 2357, 2485, 2759, 2906, 2986)
 """More of them: in these shows what seldom shows (order of the nine cells, places in lists, …)."""
 
 

@@ -51,6 +51,21 @@ def ninja(x: float = 60.0, y: float = 230.0) -> Record:
     return Record(NINJA, (x, y))
 
 
+STAIRCASE = {
+    (1, 6): 1,
+    (1, 7): 1,
+    (1, 8): 1,
+    (1, 9): 1,
+    (2, 7): 1,
+    (2, 8): 1,
+    (2, 9): 1,
+    (3, 8): 1,
+    (3, 9): 1,
+    (4, 9): 1,
+}
+SLOPE = STAIRCASE | {(2, 6): 2, (3, 7): 2, (4, 8): 2, (5, 9): 2}
+"""A slope down to the right, from the second column to the floor."""
+
 SCENES = (
     Scene("spawn-in-the-middle-of-rock", room({(3, 5): 1}, ninja(84.0, 131.85)), STILL * 20),
     Scene("spawn-in-an-odd-half-tile", room({(3, 5): 70}, ninja(80.0, 131.0)), RIGHT * 40),
@@ -102,6 +117,9 @@ SCENES = (
     Scene("a-pad-brings-back-to-life", room(
         {}, ninja(), Record(LAUNCH_PAD, (97.0, 234.0, 0.0, -1.0)), Record(MINE, (93.25, 230.0))
     ), RIGHT * 90),
+    Scene("off-a-slope-nobody-falls-to-death", room(
+        SLOPE, ninja(60.0, 130.0), Record(LAUNCH_PAD, (96.0, 176.0, 1.8, 1.8))
+    ), STILL * 60),
     Scene("a-win-in-mid-launch", room(
         {}, ninja(), Record(EXIT, (95.0, 214.8, 60.0, 230.0)), Record(LAUNCH_PAD, (97.0, 234.0, 0.0, -1.0))
     ), RIGHT * 90),
