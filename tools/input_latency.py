@@ -1,19 +1,21 @@
-"""From a key to the picture: what the game adds, measured in a real window (X11; Xvfb will do).
+"""How long from a key press to the picture that shows it, measured through a real X server.
 
-    xvfb-run -s "-screen 0 1700x1300x24" python tools/input_latency.py
+    python3 tools/input_latency.py --presses 200
 
-A thread presses keys through the X server at random moments. Stages, each from the moment of the press: the event
-reaches the program, the first tick that samples it ends, the first picture that shows it is in the window.
-`docs/input-latency.md` holds the budget.
+Starts Xvfb, plays a level at 60 pictures a second, and presses the jump key at random moments through the server
+(XTEST), as a keyboard driver would. Three moments are noted for each press: the press itself, the tick that samples it,
+the end of the picture after that tick. What keyboard and display add is in docs/input-latency.md.
 """
 
 from __future__ import annotations
 
 import argparse
+import ctypes
+import ctypes.util
 import os
-import shutil
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 from pathlib import Path
@@ -26,105 +28,123 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 import pygame
 
+from ninja_game.formats.level_string import parse_level_string
 from ninja_game.play.app import App
-from ninja_game.play.controls import Keyboard
+from ninja_game.play.bindings import Bindings
+from ninja_game.play.controls import JUMP
 from ninja_game.play.course import SingleLevel
 from ninja_game.play.level_screen import LevelScreen
-from ninja_game.play.options import Options
-from ninja_game.play.phase import Phase
-from ninja_game.sim.level_data import LevelData, Record
+from ninja_game.play.start import prepare
 
-SIZE = (1584, 1200)
-
-
-class Presser(threading.Thread):
-    """Presses and releases the left and right keys through `xdotool`; ``pressed_at`` is the last press's time."""
-
-    def __init__(self, count: int) -> None:
-        super().__init__(daemon=True)
-        self.count = count
-        self.pressed_at = 0.0
-        self.done = False
-        self._tool = subprocess.Popen(["xdotool", "-"], stdin=subprocess.PIPE, text=True)
-
-    def _send(self, line: str) -> None:
-        assert self._tool.stdin
-        self._tool.stdin.write(line + "\n")
-        self._tool.stdin.flush()
-
-    def run(self) -> None:
-        """One press every third of a second or so, at no fixed phase of ticks or pictures."""
-        chance = Random(7)
-        for number in range(self.count):
-            key = "Right" if number % 2 else "Left"
-            time.sleep(0.25 + 0.1 * chance.random())
-            self.pressed_at = time.perf_counter()
-            self._send(f"keydown {key}")
-            time.sleep(0.15)
-            self._send(f"keyup {key}")
-        time.sleep(0.3)
-        self.done = True
-        if self._tool.stdin:
-            self._tool.stdin.close()
-        self._tool.wait(5)
+RATE = 60
+LEVEL = parse_level_string("0" * 713 + "|5^300,566!11^500,564,600,564")
+KEYSYM_Z = 0x7A
 
 
-def measure(app: App, screen: LevelScreen, count: int, rate: int) -> dict[str, list[float]]:
-    """Times of each stage in ms."""
-    presser = Presser(count)
-    stages: dict[str, list[float]] = {"event": [], "tick": [], "picture": []}
-    clock = pygame.time.Clock()
-    last, seen, state = pygame.time.get_ticks(), 0.0, ""
-    presser.start()
-    while not presser.done:
-        for event in pygame.event.get():
-            if event.type == pygame.KEYDOWN and presser.pressed_at != seen:
-                seen, state = presser.pressed_at, "waiting"
-                stages["event"].append(1000 * (time.perf_counter() - seen))
-        now = pygame.time.get_ticks()
-        before = screen.attempt.simulation.tick
-        screen.update(now - last)
-        last = now
-        if state == "waiting" and screen.attempt.simulation.tick > before and screen.last_frame:
-            state = "ticked"
-            stages["tick"].append(1000 * (time.perf_counter() - seen))
-        app.draw()
-        if state == "ticked":
-            state = ""
-            stages["picture"].append(1000 * (time.perf_counter() - seen))
-        clock.tick(rate)
-    return stages
+class Keys:
+    """Presses keys through an X server, without a window of its own."""
+
+    def __init__(self) -> None:
+        self.x11 = ctypes.CDLL(ctypes.util.find_library("X11") or "libX11.so.6")
+        self.xtst = ctypes.CDLL(ctypes.util.find_library("Xtst") or "libXtst.so.6")
+        self.x11.XOpenDisplay.restype = ctypes.c_void_p
+        self.display = ctypes.c_void_p(self.x11.XOpenDisplay(None))
+        self.code = self.x11.XKeysymToKeycode(self.display, ctypes.c_ulong(KEYSYM_Z))
+
+    def send(self, *, down: bool) -> float:
+        """Press or release; when that was."""
+        now = time.perf_counter()
+        self.xtst.XTestFakeKeyEvent(self.display, self.code, int(down), ctypes.c_ulong(0))
+        self.x11.XFlush(self.display)
+        return now
 
 
-def main() -> int:
-    """Measure and print."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--presses", type=int, default=60)
-    parser.add_argument("--rate", type=int, default=60, help="pictures a second")
-    arguments = parser.parse_args()
-    if not shutil.which("xdotool") or not os.environ.get("DISPLAY"):
-        print("needs xdotool and an X display: see above", file=sys.stderr)
-        return 2
-    app = App(Options(), Keyboard(), size=SIZE)
-    level = LevelData((0,) * 713, (Record(5, (396.0, 566.0)),))
-    screen = LevelScreen(app, SingleLevel("latency", level, practice=True))
-    app.push(screen)
-    app.frame(0)
-    screen.begin()
-    assert screen.phase is Phase.PLAY
-    # The keys go to the window that has the focus.
-    window = pygame.display.get_wm_info()["window"]
-    subprocess.run(["xdotool", "windowfocus", "--sync", str(window)], check=False, timeout=10)
-    for name, times in measure(app, screen, arguments.presses, arguments.rate).items():
-        times.sort()
-        if times:
-            print(
-                f"{name:8} n {len(times):3}   median {times[len(times) // 2]:5.1f}   "
-                f"p95 {times[int(len(times) * 0.95)]:5.1f}   worst {times[-1]:5.1f} ms"
-            )
-    pygame.quit()
-    return 0
+class NotingBindings(Bindings):
+    """The game's bindings, which note when a jump was first seen held."""
+
+    sampled: float | None = None
+    waiting = False
+
+    def held(self) -> int:
+        """What is held, with the moment of the first jump after ``waiting`` was set."""
+        bits = super().held()
+        if bits & JUMP and self.waiting:
+            self.waiting = False
+            self.sampled = time.perf_counter()
+        return bits
+
+
+def start_server() -> subprocess.Popen[bytes]:
+    """A virtual X server; its number is in DISPLAY then."""
+    reading, writing = os.pipe()
+    command = ["Xvfb", "-displayfd", str(writing), "-screen", "0", "1024x768x24"]
+    server = subprocess.Popen(command, pass_fds=[writing], stderr=subprocess.DEVNULL)
+    os.close(writing)
+    with os.fdopen(reading) as pipe:
+        os.environ["DISPLAY"] = f":{pipe.readline().strip()}"
+    os.environ["SDL_VIDEODRIVER"] = "x11"
+    return server
+
+
+def press_at_random(
+    keys: Keys, controls: NotingBindings, presses: int, times: list[float], done: threading.Event
+) -> None:
+    """The player: in a thread of its own, so that presses come at any moment of the game's loop."""
+    chance = Random(1)
+    for _ in range(presses):
+        time.sleep(0.25 + 0.1 * chance.random())
+        controls.waiting = True
+        times.append(keys.send(down=True))
+        time.sleep(0.12)
+        keys.send(down=False)
+    time.sleep(0.3)
+    done.set()
+
+
+def measure(presses: int) -> list[tuple[float, float]]:
+    """Of each press: ms until it was sampled, ms until the picture after that."""
+    with tempfile.TemporaryDirectory() as home:
+        ready = prepare(Path(home))
+        controls = NotingBindings()
+        app = App(ready.options, controls, ready.ear, size=(792, 600))
+        screen = LevelScreen(app, SingleLevel("latency", LEVEL))
+        app.push(screen)
+        screen.begin()
+        times: list[float] = []
+        found: list[tuple[float, float]] = []
+        done = threading.Event()
+        threading.Thread(target=press_at_random, args=(Keys(), controls, presses, times, done), daemon=True).start()
+        clock = pygame.time.Clock()
+        while not done.is_set():
+            app.frame(clock.tick(RATE))
+            shown = time.perf_counter()
+            if controls.sampled is not None:
+                found.append((1000 * (controls.sampled - times[-1]), 1000 * (shown - times[-1])))
+                controls.sampled = None
+        app.stack.clear()
+        pygame.quit()
+    return found
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", maxsplit=1)[0])
+    parser.add_argument("--presses", type=int, default=200)
+    presses = parser.parse_args().presses
+    server = start_server()
+    try:
+        found = measure(presses)
+    finally:
+        server.terminate()
+        server.wait()
+    print(f"{len(found)} of {presses} presses were sampled")
+    for what, column in (("press to sample", 0), ("press to picture", 1)):
+        sorted_ms = sorted(row[column] for row in found)
+        middle, late = sorted_ms[len(sorted_ms) // 2], sorted_ms[int(len(sorted_ms) * 0.95)]
+        print(
+            f"{what:16}  median {middle:5.1f} ms   95 % {late:5.1f} ms   mean {sum(sorted_ms) / len(sorted_ms):5.1f} ms"
+        )
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

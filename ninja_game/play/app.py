@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
@@ -70,7 +71,10 @@ class App:
 
     def _open_window(self) -> pygame.Surface:
         flags = pygame.FULLSCREEN if self._fullscreen else pygame.RESIZABLE
-        surface = pygame.display.set_mode((0, 0) if self._fullscreen else self._size, flags)
+        with warnings.catch_warnings():
+            # Where no window manager runs, leaving full screen keeps the size: any size will do.
+            warnings.simplefilter("ignore", RuntimeWarning)
+            surface = pygame.display.set_mode((0, 0) if self._fullscreen else self._size, flags)
         pygame.display.set_caption(TITLE)
         return surface
 

@@ -14,7 +14,7 @@ from ninja_game.simulation import Body
 
 @dataclass(frozen=True)
 class GhostRun:
-    """A recording that runs along: ``frames``, one byte a tick as in demos; ``colour`` "#rrggbb" or the palette's."""
+    """A recording that runs along: ``frames``, a byte a tick as in demos; ``colour`` "#rrggbb" or the palette's."""
 
     label: str
     frames: bytes

@@ -9,19 +9,15 @@ from ninja_game.play.phase import Phase
 if TYPE_CHECKING:
     from ninja_game.play.level_screen import LevelScreen
 
+_END = {"export": "keep_replay", "retry": "retry", "back": "quit", "quit": "quit"}
+"""What dead and passed have in common."""
+
 DEEDS: dict[Phase, dict[str, str]] = {
     Phase.READY: {"confirm": "begin", "back": "quit", "quit": "quit", "skip": "skip"},
     Phase.PLAY: {"pause": "pause", "back": "pause", "retry": "retry", "suicide": "give_up", "skip": "skip"},
-    Phase.PAUSED: {
-        "confirm": "resume",
-        "pause": "resume",
-        "back": "resume",
-        "retry": "retry",
-        "quit": "quit",
-        "skip": "skip",
-    },
-    Phase.DEAD: {"confirm": "retry", "retry": "retry", "back": "quit", "quit": "quit", "skip": "skip"},
-    Phase.PASSED: {"confirm": "onward", "retry": "retry", "back": "quit", "quit": "quit"},
+    Phase.PAUSED: {"confirm": "resume", "pause": "resume", "back": "resume", "retry": "retry", "quit": "quit"},
+    Phase.DEAD: {"confirm": "retry", "skip": "skip"} | _END,
+    Phase.PASSED: {"confirm": "onward"} | _END,
 }
 """The method of the screen that each action calls in each phase; the other actions do nothing there."""
 

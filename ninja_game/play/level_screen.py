@@ -145,6 +145,13 @@ class LevelScreen(Screen):
         take = Take(self.course.title, self.course.level, bytes(self.attempt.frames), self.course.body)
         self.app.push(ReplayScreen(self.app, [take]))
 
+    def keep_replay(self) -> None:
+        """Put this run among the player's replays, whatever it is worth."""
+        player = self.app.player
+        if player is not None:
+            player.records.keep_replay(self.attempt.replay(self.course.title, player.settings.name))
+            self.tell("Replay kept")
+
     # --- events ---
 
     def handle(self, event: pygame.Event) -> None:

@@ -52,6 +52,14 @@ def _message(screen: LevelScreen) -> tuple[str, list[str]] | None:
     return None
 
 
+def _tools(screen: LevelScreen) -> str:
+    """The practice tools and their keys."""
+    key = screen.app.controls.name
+    tools = (("quick_save", "save"), ("quick_load", "load"), ("rewind", "rewind"), ("slow", "slow"), ("step", "step"))
+    named = [f"{key(action)}: {name}" for action, name in tools]
+    return "    ".join([*named, f"{key('overlay_hitboxes')} to {key('overlay_cells')}: look inside"])
+
+
 def _epitaph(screen: LevelScreen) -> str:
     """What happened, in a few words."""
     if screen.attempt.own_hand:
@@ -66,6 +74,8 @@ def _hint(screen: LevelScreen) -> str:
     key = screen.app.controls.name
     if screen.phase is Phase.READY:
         begin = f"{key('confirm')} or any move to begin"
+        if screen.course.practice:
+            return f"{begin}    {_tools(screen)}"
         if not screen.course.lesson:
             return begin
         return f"{key('left')} and {key('right')}: run    {key('jump')}: jump, hold it to jump higher    {begin}"

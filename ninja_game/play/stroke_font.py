@@ -110,7 +110,8 @@ class StrokeFont:
         width = max(_FINE, self._weight * zoom)
         for line in strokes(character):
             points = [(left + x * zoom, top + y * zoom) for x, y in line]
-            radius = width / 2 * (1.25 if len(points) == 1 else 1)
+            # Small dots would be lost.
+            radius = max(width * 0.66, 0.85 * _FINE) if len(points) == 1 else width / 2
             for point in points:
                 pygame.draw.circle(fine, colour, point, radius)
             for a, b in pairwise(points):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ninja_game.formats.frames import HELD, TRIGGERED, Demo
+from ninja_game.formats.frames import HELD, MAX_FRAMES, TRIGGERED, Demo
 from ninja_game.formats.replay import Replay
 from ninja_game.session.scoring import level_score
 from ninja_game.sim.death import kill
@@ -126,9 +126,10 @@ class Attempt:
     # --- recordings ---
 
     def demo(self) -> Demo:
-        """The recording in N's form; a death's claims one frame less than it has (game.md §4.3)."""
-        dead = self.outcome == "dead"
-        return Demo(bytes(self.frames), max(0, len(self.frames) - dead))
+        """The recording in N's form: of a death, or of more than N records, it claims one frame less (game.md §4)."""
+        frames = bytes(self.frames[:MAX_FRAMES])
+        closed = self.outcome == "dead" or len(self.frames) > MAX_FRAMES
+        return Demo(frames, max(0, len(frames) - closed))
 
     def replay(self, name: str = "", author: str = "") -> Replay:
         """The recording in our form: run again from its inputs, so that it holds what really comes of them."""
