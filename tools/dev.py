@@ -23,7 +23,7 @@ VENV = ROOT / ".venv"
 STAMP = VENV / "ninja-game-install.json"
 CACHES = (".pytest_cache", ".mypy_cache", ".ruff_cache", ".import_linter_cache", ".hypothesis", "build", "dist")
 SOURCES = ("ninja_game", "tests", "tools", "benchmarks")
-DEVELOPMENT = ("cluster", "dev", "fast")
+DEVELOPMENT = ("cluster", "dev", "fast", "film", "plots")
 
 
 def fail(message: str) -> int:
