@@ -1,8 +1,8 @@
 """How long from a key press to the picture that shows it, measured through a real X server.
 
-    python3 tools/input_latency.py --presses 200
+    python3 tools/input_latency.py --presses 200 --rate 60
 
-Starts Xvfb, plays a level at 60 pictures a second, and presses the jump key at random moments through the server
+Starts Xvfb, plays a level, and presses the jump key at random moments through the server
 (XTEST), as a keyboard driver would. Three moments are noted for each press: the press itself, the tick that samples it,
 the end of the picture after that tick. What keyboard and display add is in docs/input-latency.md.
 """
@@ -36,7 +36,6 @@ from ninja_game.play.course import SingleLevel
 from ninja_game.play.level_screen import LevelScreen
 from ninja_game.play.start import prepare
 
-RATE = 60
 LEVEL = parse_level_string("0" * 713 + "|5^300,566!11^500,564,600,564")
 KEYSYM_Z = 0x7A
 
@@ -101,7 +100,7 @@ def press_at_random(
     done.set()
 
 
-def measure(presses: int) -> list[tuple[float, float]]:
+def measure(presses: int, rate: int) -> list[tuple[float, float]]:
     """Of each press: ms until it was sampled, ms until the picture after that."""
     with tempfile.TemporaryDirectory() as home:
         ready = prepare(Path(home))
@@ -116,7 +115,7 @@ def measure(presses: int) -> list[tuple[float, float]]:
         threading.Thread(target=press_at_random, args=(Keys(), controls, presses, times, done), daemon=True).start()
         clock = pygame.time.Clock()
         while not done.is_set():
-            app.frame(clock.tick(RATE))
+            app.frame(clock.tick(rate))
             shown = time.perf_counter()
             if controls.sampled is not None:
                 found.append((1000 * (controls.sampled - times[-1]), 1000 * (shown - times[-1])))
@@ -130,10 +129,12 @@ def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", maxsplit=1)[0])
     parser.add_argument("--presses", type=int, default=200)
-    presses = parser.parse_args().presses
+    parser.add_argument("--rate", type=int, default=60, help="pictures a second")
+    options = parser.parse_args()
+    presses = options.presses
     server = start_server()
     try:
-        found = measure(presses)
+        found = measure(presses, options.rate)
     finally:
         server.terminate()
         server.wait()

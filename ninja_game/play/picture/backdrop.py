@@ -10,6 +10,7 @@ from ninja_game.play.picture.fixture_looks import SETTLED_TICKS, Look, fixture_l
 from ninja_game.play.picture.motions import Motions
 from ninja_game.play.picture.sketch import Sprite
 from ninja_game.play.picture.sprite_book import SpriteBook
+from ninja_game.play.picture.stage import is_near
 from ninja_game.play.picture.tile_shapes import tile_picture
 from ninja_game.sim.level_data import GOLD, MINE
 from ninja_game.sim.rules import STRIDE
@@ -73,7 +74,7 @@ class Backdrop:
         blits = []
         rect: pygame.Rect | None = None
         for key, x, y in looks:
-            if not (abs(x) < 4000 and abs(y) < 4000):
+            if not is_near(x, y):
                 continue
             sprite = self._book.sprite(key)
             px, py = self._local(x, y)

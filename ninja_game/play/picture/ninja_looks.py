@@ -10,11 +10,13 @@ from ninja_game.play.picture.figure import HEAD, band_ends, ninja_sprite, paint_
 from ninja_game.play.picture.ninja_motion import NinjaMotion
 from ninja_game.play.picture.ragdoll import PELVIS, SHOULDER, TRUNK, Ragdoll
 from ninja_game.play.picture.sketch import Sketch
-from ninja_game.play.picture.stage import Stage
+from ninja_game.play.picture.stage import Stage, is_near
 
 
 def draw_ninja(stage: Stage, motion: NinjaMotion, at: Point, fraction: float, colour: pygame.Color) -> None:
     """The living ninja about a point."""
+    if not is_near(*at):
+        return
     px, py = stage.canvas.exact(*at)
     offset = px - round(px), py - round(py)
     sprite = ninja_sprite(
@@ -52,6 +54,8 @@ def _draw_parts(
     at: Point, colour: pygame.Color,
 ) -> None:  # fmt: skip
     """Some sticks of the corpse in one small drawing about a point."""
+    if not is_near(*at):
+        return
     reach = 8.0 + max(
         max(abs(joints[end][axis] - at[axis]) for end in doll.sticks[k][:2] for axis in (0, 1)) for k in sticks
     )
