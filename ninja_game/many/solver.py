@@ -71,7 +71,7 @@ class _Job:
         """The search of this job, made when it is first needed."""
         if self._search is None:
             task = self.shared.task
-            nodes = int(min(2_500_000, max(100_000, task.work_planned / 40)))
+            nodes = int(min(1_500_000, max(100_000, task.work_planned / 40)))
             goals = Goals(self.kernels, self.start.levels, self.start.worlds)
             memory = SearchMemory(nodes, nodes)
             self._search = Search(self.kernels, self.start, goals, memory, task.gold_wanted)
