@@ -18,6 +18,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.play.hud import Hud
 from ninja_game.play.level_view import LevelView
 from ninja_game.play.options import Options
+from ninja_game.play.palette import PALETTES, ROLES, Palette, mixed
 from ninja_game.play.scene import Sheet
 from ninja_game.play.take import Playback, Take
 
@@ -29,6 +30,8 @@ VIDEO_SIZE = (1584, 1200)
 _TAIL = 40
 """Ticks after the end that a film shows."""
 _RATE = 40
+_LONG_FILM = 600
+"""Pictures beyond which a GIF leaves every second one out."""
 
 
 def film_pictures(take: Take, size: tuple[int, int], options: Options | None = None) -> Iterator[pygame.Surface]:
@@ -87,19 +90,40 @@ def _write_gif(take: Take, path: Path, options: Options | None, report: Report) 
     except ImportError:
         raise NinjaGameError("GIFs need Pillow: pip install 'ninja-game[film]'") from None
 
+    colours = Image.new("P", (1, 1))
+    colours.putpalette(film_colours(PALETTES[(options or Options()).palette]))
+    # Pillow holds a whole film in memory: a long one has a picture every second tick.
+    every = 2 if film_length(Playback(take)) > _LONG_FILM else 1
+
     def images() -> Iterator[Any]:
         for number, picture in enumerate(film_pictures(take, GIF_SIZE, options)):
             if not report(number):
                 return
-            image = Image.frombytes("RGB", GIF_SIZE, pygame.image.tobytes(picture, "RGB"))
-            yield image.quantize(64, dither=Image.Dither.NONE)
+            if number % every == 0:
+                image = Image.frombytes("RGB", GIF_SIZE, pygame.image.tobytes(picture, "RGB"))
+                yield image.quantize(palette=colours, dither=Image.Dither.NONE)
 
-    # A GIF counts hundredths of a second: two pictures share the half hundredth of a tick.
     frames = images()
     first = next(frames)
     rest = list(frames)
-    durations = [20 if number % 2 else 30 for number in range(len(rest) + 1)]
+    # A GIF counts hundredths of a second: two single ticks share the half hundredth.
+    durations = [50 if every == 2 else 20 if number % 2 else 30 for number in range(len(rest) + 1)]
     first.save(path, save_all=True, append_images=rest, duration=durations, loop=0, optimize=False)
+
+
+def film_colours(palette: Palette) -> list[int]:
+    """The 256 colours of a film, as red, green, blue, …: those of the palette and what lies between them at edges.
+
+    The same ones in every picture, so that nothing flickers.
+    """
+    roles = [getattr(palette, role) for role in ROLES]
+    found = [*roles]
+    for share in (0.33, 0.66):
+        found += [mixed(colour, palette.background, share) for colour in roles]
+    found += [mixed(colour, palette.outline, 0.5) for colour in roles]
+    found += [mixed(palette.tile, palette.background, k / 12) for k in range(1, 12)]
+    found += [mixed(palette.tile, palette.on_tile, k / 6) for k in range(1, 6)]
+    return [channel for colour in found[:256] for channel in colour[:3]]
 
 
 def _write_video(take: Take, path: Path, options: Options | None, report: Report) -> None:
