@@ -51,16 +51,16 @@ class Worlds(Protocol):
 
 
 def block_of(count: int, tables: Sequence[int]) -> Records:
-    """Zeroed records for worlds with room for the largest of these numbers of slots."""
-    # Two at least: an array of one counts as contiguous, another type and another compile.
-    return new_worlds(max(count, 2), max(tables))[:count]
+    """Zeroed records for worlds with room for the largest of these numbers of slots; two at least.
+
+    An array of one counts as contiguous, which is another type and another compile.
+    """
+    return new_worlds(max(count, 2), max(tables))
 
 
 def bytes_of(records: Records) -> NDArray[np.uint8]:
     """The states in a block as a matrix of bytes, a row a world, without events; a view."""
-    stride = records.strides[0]
-    whole = np.ndarray((len(records), stride), np.uint8, records.base.base, 0)  # type: ignore[union-attr]
-    return whole[:, STATE_START:]
+    return np.ndarray((len(records), records.strides[0]), np.uint8, records.base)[:, STATE_START:]
 
 
 class CompiledWorlds:
@@ -84,8 +84,9 @@ class CompiledWorlds:
                 np.array(table.values, np.float64).reshape(-1, 9),
                 int(box),
             )
-        self.records = block_of(count, slots)
-        self._bytes, self._fresh_bytes = bytes_of(self.records), bytes_of(self._fresh)
+        self._block = block_of(count, slots)
+        self.records = self._block[:count]
+        self._bytes, self._fresh_bytes = bytes_of(self._block), bytes_of(self._fresh)
 
     def load(self, worlds: Numbers, levels: Numbers) -> None:
         """Start worlds afresh, each in the level of that number."""
@@ -96,7 +97,7 @@ class CompiledWorlds:
         entry = self._kernels["run_worlds"]
 
         def work(first: int, last: int) -> int:
-            return int(entry(self._levels, level_of, self.records, frames, first, last, int(stop)))
+            return int(entry(self._levels, level_of, self._block, frames, first, last, int(stop)))
 
         return crew(threads).share(work, len(self.records), len(frames))
 
@@ -132,8 +133,9 @@ class PlainWorlds:
         self._box = box
         self._states = [load_plain(levels[0], box) for _ in range(count)]
         self._playing = [0] * count
-        self.records = block_of(count, [record_table(level).slots for level in levels])
-        self._shown = bytes_of(self.records)
+        block = block_of(count, [record_table(level).slots for level in levels])
+        self.records = block[:count]
+        self._shown = bytes_of(block)
 
     def load(self, worlds: Numbers, levels: Numbers) -> None:
         """Start worlds afresh, each in the level of that number."""

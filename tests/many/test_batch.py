@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import threading
+from typing import Any
 
 import numpy as np
 import pytest
 
 from ninja_game import LevelData, Simulation, parse_level
-from ninja_game.compile_cache import MemoryUnavailableError, compiled_available, compiled_sources
+from ninja_game.compile_cache import MemoryUnavailableError, compiled_available, compiled_sources, kernels
 from ninja_game.many.batch import Batch
 from ninja_game.many.crew import Crew
 from ninja_game.sim.layout import THING
@@ -63,6 +64,14 @@ def test_the_number_of_threads_changes_nothing() -> None:
     digests = [[batch.digest(index) for index in range(0, 900, 7)] for batch in batches]
     assert digests[0] == digests[1] == digests[2]
     assert np.array_equal(batches[0].objects, batches[1].objects)
+
+
+@needs_numba
+def test_batches_of_all_sizes_share_one_compiled_function() -> None:
+    for count in (1, 2, 5):
+        Batch(LEVELS, count, memory="compiled").step([0] * count)
+    entry: Any = kernels()["run_worlds"]
+    assert len(entry.signatures) == 1
 
 
 @needs_numba
