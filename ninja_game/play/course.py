@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
+from ninja_game.errors import LevelError
 from ninja_game.play.screen import Screen
 from ninja_game.session.attempt import Attempt
 from ninja_game.sim.level_data import LevelData
 from ninja_game.sim.rules import LIFETIME
-from ninja_game.simulation import Body
+from ninja_game.simulation import Body, Simulation
 
 
 @dataclass(frozen=True)
@@ -83,3 +85,51 @@ class SingleLevel:
     def leaving(self) -> Screen | None:
         """Back to where we came from."""
         return None
+
+
+def _is_playable(course: Course) -> bool:
+    """Whether the course's level can be loaded; files may hold levels without a ninja."""
+    try:
+        Simulation(course.level, body=course.body)
+    except LevelError:
+        return False
+    return True
+
+
+class InOrder:
+    """The levels of a file, one after the other; after the last one the first again. ``courses``: makes each."""
+
+    def __init__(self, courses: Sequence[Callable[[], Course]], number: int = 0) -> None:
+        self._courses = courses
+        self._number = number
+        self._course = courses[number]()
+        self.title = self._course.title
+        self.level = self._course.level
+        self.body = self._course.body
+        self.lifetime = self._course.lifetime
+        self.practice = self._course.practice
+        self.lesson = self._course.lesson
+
+    def ghosts(self) -> list[GhostRun]:
+        """Those of the present level."""
+        return self._course.ghosts()
+
+    def passed(self, attempt: Attempt) -> list[str]:
+        """The present level's."""
+        return self._course.passed(attempt)
+
+    def died(self, attempt: Attempt) -> None:
+        """The present level's."""
+        self._course.died(attempt)
+
+    def onward(self) -> Course | None:
+        """The next level of the file that can be played."""
+        for step in range(1, len(self._courses) + 1):
+            following = InOrder(self._courses, (self._number + step) % len(self._courses))
+            if _is_playable(following):
+                return following
+        return None
+
+    def leaving(self) -> Screen | None:
+        """The present level's."""
+        return self._course.leaving()

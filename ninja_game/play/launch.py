@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.play.app import App
-from ninja_game.play.course import Course, SingleLevel
+from ninja_game.play.course import Course, InOrder, SingleLevel
 from ninja_game.play.screen import Screen
 from ninja_game.play.start import prepare
 from ninja_game.simulation import Body, Simulation
@@ -35,19 +36,25 @@ def first_screen(
         return _main_menu
     from ninja_game.formats.files import load_levels
 
-    named = load_levels(level_path)[0]
+    levels = load_levels(level_path)
+    _check(levels[0], body)
+
+    def play(app: App) -> Screen:
+        from ninja_game.play.level_screen import LevelScreen
+
+        courses = [partial(_course, app, named, body, practice=practice) for named in levels]
+        return LevelScreen(app, InOrder(courses) if len(courses) > 1 else courses[0]())
+
+    return play
+
+
+def _check(named: NamedLevel, body: Body) -> None:
+    """Raise LevelError, naming the place, for a level that cannot be played."""
     try:
         Simulation(named.level, body=body)
     except LevelError as error:
         error.file, error.line = named.file, named.line
         raise
-
-    def play(app: App) -> Screen:
-        from ninja_game.play.level_screen import LevelScreen
-
-        return LevelScreen(app, _course(app, named, body, practice=practice))
-
-    return play
 
 
 def _replays(path: str) -> Callable[[App], Screen]:

@@ -10,7 +10,7 @@ import pytest
 from ninja_game.formats.files import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
-from ninja_game.play.course import SingleLevel
+from ninja_game.play.course import InOrder, SingleLevel
 from ninja_game.play.level_screen import LevelScreen
 from ninja_game.play.phase import DEATH_PAUSE, Phase
 from ninja_game.play.replay_screen import ReplayScreen
@@ -278,3 +278,17 @@ def test_the_boss_sees_a_sheet_of_figures(stage: tuple[App, ScriptedControls], r
     press("quit")
     frames(app)
     assert not app.running
+
+
+def test_the_levels_of_a_file_follow_each_other(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
+    app, controls = stage
+    courses = [lambda name=name: SingleLevel(name, recording.level) for name in ("one", "two")]
+    screen = LevelScreen(app, InOrder(courses))
+    app.push(screen)
+    frames(app)
+    for title in ("two", "one"):
+        play_to_the_end(app, controls, screen, recording)
+        press("confirm")
+        frames(app)
+        assert screen.course.title == title
+        assert phase_of(screen) is Phase.READY
