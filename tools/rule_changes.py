@@ -67,7 +67,7 @@ CHANGES = (
     Change("think-every-fourth", "world.py", "if w.think_counter > 2:", "if w.think_counter > 1:"),
     Change("think-counter-stands", "world.py", "    if w.thinker:\n        if w.think_counter", "    if w.thinker or w.think_counter:\n        if w.think_counter"),
     Change("idle-turret", "death.py", "            o.think = TURRET_WAITING\n            end_think(w, o, slot)\n", "            o.think = TURRET_WAITING\n"),
-    Change("idle-guard", "death.py", "            o.routine = GUARD_IDLE\n            end_update(w, o, slot)\n", "            end_update(w, o, 0)\n"),
+    Change("idle-guard", "death.py", "            o.routine = GUARD_IDLE\n            end_update(w, o, slot)\n", "            o.routine = GUARD_IDLE\n"),
     Change("idle-doors", "death.py", "        elif kind == DOOR:\n            unfile(w, o)\n", ""),
     Change("contact-pass-off", "death.py", "    w.contacts_off = 1\n", ""),
     # Things.

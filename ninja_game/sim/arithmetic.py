@@ -1,4 +1,4 @@
-"""Division as IEEE 754 has it, for the few degenerate places where the specification wants ±∞ and NaN (world.md §0)."""
+"""Numbers as the original has them: division by zero (world.md §0), flags (objects.md §2.1)."""
 
 from __future__ import annotations
 
@@ -16,3 +16,9 @@ def div(a: float, b: float) -> float:
             return -INF
         return NAN
     return a / b
+
+
+@fast
+def is_set(value: float) -> bool:
+    """A flag: any number but 0 and NaN."""
+    return value < 0.0 or value > 0.0

@@ -82,6 +82,9 @@ EDGE_OF_FACES = [OFF, INTERESTING, SOLID, OFF, INTERESTING, SOLID, OFF, INTEREST
 
 STEP = [1, STRIDE, -1, -STRIDE]
 """From a cell to its neighbour right, down, left, up: add this to the grid index."""
+UNIT_X = [1.0, 0.0, -1.0, 0.0]
+UNIT_Y = [0.0, 1.0, 0.0, -1.0]
+"""The unit vector of each direction number."""
 
 CENTRE_X = [0.0] * (STRIDE * 27)
 CENTRE_Y = [0.0] * (STRIDE * 27)

@@ -51,18 +51,7 @@ def ninja(x: float = 60.0, y: float = 230.0) -> Record:
     return Record(NINJA, (x, y))
 
 
-STAIRCASE = {
-    (1, 6): 1,
-    (1, 7): 1,
-    (1, 8): 1,
-    (1, 9): 1,
-    (2, 7): 1,
-    (2, 8): 1,
-    (2, 9): 1,
-    (3, 8): 1,
-    (3, 9): 1,
-    (4, 9): 1,
-}
+STAIRCASE = {(column, row): 1 for column in range(1, 5) for row in range(5 + column, 10)} | {(1, 6): 1}
 SLOPE = STAIRCASE | {(2, 6): 2, (3, 7): 2, (4, 8): 2, (5, 9): 2}
 """A slope down to the right, from the second column to the floor."""
 

@@ -2,15 +2,63 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import sqrt
 
+from ninja_game.sim.arithmetic import is_set
 from ninja_game.sim.events import DOOR_CLOSED, DOOR_OPENED, LOCK_OPENED, TRAP_CLOSED, emit
-from ninja_game.sim.grid import unfile
+from ninja_game.sim.grid import cell_index, file, unfile
 from ninja_game.sim.memory import fast
-from ninja_game.sim.rules import AUTOMATIC_DOOR_OPEN, AUTOMATIC_DOOR_RADIUS, DOOR_SWITCH_RADIUS, RADIUS, SOLID
+from ninja_game.sim.rules import (
+    AUTOMATIC_DOOR_OPEN,
+    AUTOMATIC_DOOR_RADIUS,
+    DOOR_SWITCH_RADIUS,
+    DOWN,
+    HALF,
+    LEFT,
+    RADIUS,
+    RIGHT,
+    SOLID,
+    STRIDE,
+    UP,
+)
 from ninja_game.sim.schedule import end_update, start_update
 from ninja_game.sim.schema import Door, World
-from ninja_game.sim.states import AUTOMATIC, LOCKED
+from ninja_game.sim.states import AUTOMATIC, LOCKED, TRAP
+from ninja_game.sim.tiles import CENTRE_X, CENTRE_Y, EXISTS
+
+
+@fast
+def create_door(w: World, o: Door, slot: int, p: Sequence[float]) -> None:
+    """Find the two edges, remember what they are, file, then close (a trap door: leave open)."""
+    cell_1 = cell_index(p[4] + p[7], p[5] + p[8])
+    cell_2 = 0
+    if cell_1:
+        cell_2 = cell_1 + STRIDE if p[2] == 1.0 else cell_1 + 1
+        if not EXISTS[cell_2]:
+            cell_2 = 0
+    side_1 = DOWN if p[2] == 1.0 else RIGHT
+    side_2 = UP if p[2] == 1.0 else LEFT
+    if cell_1:
+        o.stored_1 = w.edges[4 * cell_1 + side_1]
+        # An odd "vertical" flag stores the right side's states but writes P1's lower and P2's upper edge (quirk).
+        o.edge_1 = 4 * cell_1 + (RIGHT if p[2] == 0.0 else DOWN)
+    if cell_2:
+        o.stored_2 = w.edges[4 * cell_2 + side_2]
+        o.edge_2 = 4 * cell_2 + (LEFT if p[2] == 0.0 else UP)
+    o.mechanism = AUTOMATIC
+    if is_set(p[6]):
+        o.mechanism = LOCKED
+    elif is_set(p[3]):
+        o.mechanism = TRAP
+    if o.mechanism == AUTOMATIC:
+        o.x = 0.0
+        o.y = 0.0
+        if cell_1:
+            o.x = CENTRE_X[cell_1] + (0.0 if p[2] == 1.0 else HALF)
+            o.y = CENTRE_Y[cell_1] + (HALF if p[2] == 1.0 else 0.0)
+    file(w, o, slot)
+    write_edges(w, o, o.mechanism != TRAP)
 
 
 @fast

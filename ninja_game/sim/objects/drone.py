@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from ninja_game.sim.arithmetic import is_set
 from ninja_game.sim.events import CHASE_STARTED, emit
-from ninja_game.sim.grid import refile
+from ninja_game.sim.grid import cell_at, link, refile
 from ninja_game.sim.memory import fast
-from ninja_game.sim.rules import CELL, OFF
+from ninja_game.sim.rules import CELL, DRONE_SPEED, OFF
+from ninja_game.sim.schedule import start_think, start_update
 from ninja_game.sim.schema import Drone, World
 from ninja_game.sim.states import (
     ALTERNATING,
     MOVEMENT_BELOW,
+    MOVEMENT_BEYOND,
     NO_DIRECTION,
     NO_NUMBER,
     PSEUDO_RANDOM,
@@ -17,15 +22,65 @@ from ninja_game.sim.states import (
     SURFACE_CW,
     WANDER_CCW,
     WANDER_CW,
+    WEAPON_CHAINGUN,
+    WEAPON_LASER,
+    WEAPON_UNKNOWN,
+    WEAPON_ZAP,
 )
-from ninja_game.sim.tiles import CENTRE_X, CENTRE_Y, COLUMN, ROW, STEP
-
-UNIT_X = [1.0, 0.0, -1.0, 0.0]
-UNIT_Y = [0.0, 1.0, 0.0, -1.0]
+from ninja_game.sim.tiles import CENTRE_X, CENTRE_Y, COLUMN, ROW, STEP, UNIT_X, UNIT_Y
 
 ROTATIONS = [1, 0, 3, 2, 3, 0, 1, 2, 0, 1, 3, 2, 0, 3, 1, 2]
 """Order in which directions are tried, four for each movement 0-3."""
 LIST_A, LIST_B = WANDER_CW, WANDER_CCW
+
+
+@fast
+def create_drone(w: World, o: Drone, slot: int, p: Sequence[float]) -> None:
+    """Filed where the record says, then snapped to that cell's centre; the first update chooses a goal."""
+    cell = cell_at(o.x, o.y)
+    link(w, o, slot, cell)
+    o.filed = 1
+    start_update(w, o, slot)
+    o.x = o.goal_x = CENTRE_X[cell]
+    o.y = o.goal_y = CENTRE_Y[cell]
+    o.end_x = 4.0
+    o.end_y = 5.0
+    o.direction = direction_code(p[5])
+    o.movement = MOVEMENT_BELOW if p[2] < 2.0 else MOVEMENT_BEYOND
+    for movement in range(6):
+        if p[2] == movement:
+            o.movement = movement
+    o.weapon = WEAPON_UNKNOWN
+    o.speed = DRONE_SPEED
+    if p[4] == WEAPON_ZAP:
+        o.weapon = WEAPON_ZAP
+        o.speed = DRONE_SPEED * 2.0
+        if is_set(p[3]):
+            o.seeker = 1
+    elif p[4] == WEAPON_LASER:
+        o.weapon = WEAPON_LASER
+        o.speed = DRONE_SPEED * 0.5
+        start_think(w, o, slot)
+    elif p[4] == WEAPON_CHAINGUN:
+        o.weapon = WEAPON_CHAINGUN
+        o.speed = DRONE_SPEED * 0.75
+        start_think(w, o, slot)
+
+
+@fast
+def direction_code(value: float) -> int:
+    """A drone's first direction as a small number that behaves the same: 0-3, else outside but equal modulo 4.
+
+    The remainder of the original has the sign of the dividend; -4…-7 stand for everything below -3.
+    """
+    if not -1e15 < value < 1e15 or value != int(value):
+        return NO_NUMBER
+    direction = int(value)
+    if direction > 3:
+        return 4 + direction % 4
+    if direction < -3:
+        return -4 - (-direction) % 4
+    return direction
 
 
 @fast

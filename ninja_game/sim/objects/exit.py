@@ -9,7 +9,22 @@ from ninja_game.sim.events import EXIT_OPENED, emit
 from ninja_game.sim.grid import file
 from ninja_game.sim.memory import fast
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS, SWITCH_RADIUS
-from ninja_game.sim.schema import Exit, Switch, World
+from ninja_game.sim.schema import SWITCH, Exit, Switch, Thing, World
+
+
+@fast
+def create_switch(w: World, o: Thing, slot: int, x: float, y: float) -> None:
+    """An exit files only its switch, which has no id: it takes a slot behind those of the ids."""
+    switch_slot = w.used
+    w.used = switch_slot + 1
+    switch = w.things[switch_slot]
+    switch.kind = SWITCH
+    switch.id = -1
+    switch.x = x
+    switch.y = y
+    switch.partner = slot
+    o.partner = switch_slot
+    file(w, switch, switch_slot)
 
 
 @fast

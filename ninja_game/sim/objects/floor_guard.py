@@ -6,12 +6,51 @@ from math import sqrt
 
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import GUARD_STARTED, emit
-from ninja_game.sim.grid import refile
+from ninja_game.sim.grid import cell_at, file, refile
 from ninja_game.sim.memory import fast
-from ninja_game.sim.rules import GUARD_RADIUS, GUARD_SPEED, RADIUS
-from ninja_game.sim.schema import FloorGuard, World
+from ninja_game.sim.rules import DOWN, GUARD_RADIUS, GUARD_SPEED, HALF, RADIUS, SOLID
+from ninja_game.sim.schedule import start_update
+from ninja_game.sim.schema import INERT, FloorGuard, Level, World
 from ninja_game.sim.states import ELECTRIC, GUARD_CHASE, GUARD_IDLE
-from ninja_game.sim.tiles import COLUMN, ROW
+from ninja_game.sim.tiles import CENTRE_X, CENTRE_Y, COLUMN, ROW, UNDEFINED_ID
+
+
+@fast
+def empty_for_guard(level: Level, cell: int) -> bool:
+    """A floor guard's scan stops at tile ids above 0; a malformed id below 0 is not one."""
+    return level.tiles[cell] == 0 or level.tiles[cell] == UNDEFINED_ID
+
+
+@fast
+def create_guard(level: Level, w: World, o: FloorGuard, slot: int) -> None:
+    """Scan the corridor (floor edges as they are at this moment of loading) and the sight range along the row.
+
+    In column 0 or 32 or outside the grid the original hangs while loading; here such a guard is inert.
+    """
+    cell = cell_at(o.x, o.y)
+    if cell == 0 or COLUMN[cell] == 0 or COLUMN[cell] == 32:
+        o.kind = INERT
+        return
+    file(w, o, slot)
+    start_update(w, o, slot)
+    o.facing = 1.0
+    o.y = CENTRE_Y[cell] + HALF - 6.0
+    k = cell + 1
+    while empty_for_guard(level, k) and w.edges[4 * k + DOWN] == SOLID:
+        k += 1
+    o.high_x = CENTRE_X[k] - HALF - 6.0
+    k = cell
+    while empty_for_guard(level, k) and w.edges[4 * k + DOWN] == SOLID:
+        k -= 1
+    o.low_x = CENTRE_X[k] + HALF + 6.0
+    k = cell + 1
+    while empty_for_guard(level, k):
+        k += 1
+    o.high = COLUMN[k - 1]
+    k = cell - 1
+    while empty_for_guard(level, k):
+        k -= 1
+    o.low = COLUMN[k + 1]
 
 
 @fast

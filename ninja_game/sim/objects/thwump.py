@@ -5,12 +5,53 @@ from __future__ import annotations
 from ninja_game.sim.contacts import push
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import THWUMP_FELL, THWUMP_LANDED, emit
-from ninja_game.sim.grid import refile
+from ninja_game.sim.grid import cell_at, file, refile
 from ninja_game.sim.memory import fast
-from ninja_game.sim.rules import RADIUS, THWUMP_FALL, THWUMP_HALF, THWUMP_RISE, THWUMP_SIGHT
-from ninja_game.sim.schema import Thwump, World
+from ninja_game.sim.rules import CELL, RADIUS, THWUMP_FALL, THWUMP_HALF, THWUMP_RISE, THWUMP_SIGHT
+from ninja_game.sim.schedule import start_update
+from ninja_game.sim.schema import Level, Thwump, World
 from ninja_game.sim.states import ELECTRIC, THWUMP_MOVE, THWUMP_REST
-from ninja_game.sim.tiles import COLUMN, ROW
+from ninja_game.sim.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW, STEP, UNIT_X, UNIT_Y
+
+
+@fast
+def create_thwump(level: Level, w: World, o: Thwump, slot: int, direction: float) -> None:
+    """Scan the free cells ahead: the goal is 9 px beyond the centre of the last one. Edges and doors are ignored."""
+    file(w, o, slot)
+    start_update(w, o, slot)
+    o.anchor_x = o.x
+    o.anchor_y = o.y
+    o.speed = THWUMP_FALL
+    o.sign = 1.0
+    o.face_x = 1.0
+    o.low = 1
+    o.high = 0
+    for side in range(4):
+        if direction == side:
+            o.face_x = UNIT_X[side]
+            o.face_y = UNIT_Y[side]
+            cell = o.cell
+            goal = o.x if o.face_y == 0.0 else o.y
+            start = goal
+            sign = o.face_x + o.face_y
+            if cell:
+                ahead = cell + STEP[side]
+                while EXISTS[ahead] and level.tiles[ahead] == 0:
+                    goal = goal + sign * CELL
+                    ahead += STEP[side]
+            goal = goal + sign * THWUMP_HALF
+            o.fall_x = o.x
+            o.fall_y = o.y
+            if o.face_y == 0.0:
+                o.fall_x = goal - (start - CENTRE_X[cell])
+                near = COLUMN[cell]
+                far = COLUMN[cell_at(o.fall_x, o.fall_y)]
+            else:
+                o.fall_y = goal - (start - CENTRE_Y[cell])
+                near = ROW[cell]
+                far = ROW[cell_at(o.fall_x, o.fall_y)]
+            o.low = near if near < far else far
+            o.high = far if near < far else near
 
 
 @fast
