@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 FIRST_REPEAT_MS, REPEAT_MS = 350, 70
 """A direction that is held repeats: when first, and then how often."""
 
+LONGEST_STEP_MS = 50
+"""More than this in one picture is a stall."""
+
 DIRECTIONS = {"left": (-1, 0), "right": (1, 0), "up": (0, -1), "down": (0, 1)}
 REPEATING = frozenset({*DIRECTIONS, "page_up", "page_down"})
 
@@ -180,11 +183,10 @@ class MenuScreen(Screen):
         """Repeat a direction that is held."""
         if not self._repeat:
             return
-        self._repeat_in -= real_ms
+        # A stall is not a long press: the release may be waiting behind it.
+        self._repeat_in -= min(real_ms, LONGEST_STEP_MS)
         if self._repeat_in <= 0:
-            self._repeat_in += REPEAT_MS
-            if self._repeat_in <= 0:
-                self._repeat_in = REPEAT_MS
+            self._repeat_in = REPEAT_MS
             self.act(self._repeat)
 
     def leave(self) -> None:

@@ -109,6 +109,16 @@ def test_held_direction_repeats(stage: Stage) -> None:
     assert menu.widgets.index(menu.focus) == place != 1
 
 
+def test_stall_during_a_short_press_does_not_repeat_it(stage: Stage) -> None:
+    menu = stage.top()
+    assert isinstance(menu, MainMenu)
+    pygame.event.post(pygame.Event(pygame.KEYDOWN, key=pygame.K_DOWN, scancode=pygame.KSCAN_DOWN, mod=0, unicode=""))
+    stage.frames(2, ms=1500)
+    pygame.event.post(pygame.Event(pygame.KEYUP, key=pygame.K_DOWN, scancode=pygame.KSCAN_DOWN, mod=0, unicode=""))
+    stage.frames(2)
+    assert menu.focus is menu.widgets[1]
+
+
 def test_every_page_of_the_settings_shows(stage: Stage) -> None:
     screen = stage.open("Settings")
     assert isinstance(screen, SettingsScreen)
