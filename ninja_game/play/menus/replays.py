@@ -33,6 +33,7 @@ FILES_SHOWN = 300
 """Recordings read from the player's folder at most."""
 
 
+OUTCOMES = {"exit": "passed", "dead": "death", "running": "unfinished"}
 HINT = "Enter: watch it. Delete: remove a saved one. E: write it as a text file, to share"
 
 
@@ -164,14 +165,14 @@ class ReplaysScreen(MenuScreen):
 
 def _row_of(saved: SavedReplay) -> Row:
     passed = saved.outcome == "exit"
-    what = seconds_text(saved.score) if passed else saved.outcome
+    what = seconds_text(saved.score) if passed else OUTCOMES[saved.outcome]
     return Row(saved.name or "nameless", saved.player, what, saved.made_at[:16].replace("T", "  "), passed, saved)
 
 
 def _row_of_recording(recording: Recording, when: str) -> Row:
     replay = recording.replay
     if replay is not None:
-        outcome = {"exit": "passed", "dead": "death", "running": "unfinished"}[replay.outcome]
+        outcome = OUTCOMES[replay.outcome]
     else:
         outcome = "recording"
     return Row(recording.name or "nameless", recording.author, f"{outcome}, {seconds_text(recording.ticks)} s", when,
