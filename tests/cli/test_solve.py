@@ -9,12 +9,14 @@ import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game.cli.main import cli
+from ninja_game.compile_cache import compiled_available
 from ninja_game.formats.level_string import parse_level_string
 from ninja_game.formats.replay import parse_replay
 from ninja_game.runs import run_level
 from tests.cli.samples import NO_NINJA, SPIKED, WALK, WALK_END, running, write_records
 
-pytest.importorskip("numba")
+if not compiled_available():
+    pytest.skip("Numba is not installed", allow_module_level=True)
 
 CLOSED_IN = "0" * 23 * 5 + "1" * 23 + "0" * 23 * 25 + "|5^60,566!11^400,566,330,566"
 

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import pytest
 
+from ninja_game.compile_cache import compiled_available
 from ninja_game.errors import LevelError
 from ninja_game.formats.level_string import parse_level_string
 from ninja_game.runs import run_level
 from ninja_game.sim.level_data import LevelData
 
-pytest.importorskip("numba")
+if not compiled_available():
+    pytest.skip("Numba is not installed", allow_module_level=True)
 
 from ninja_game.many.macros import HELD_BIT, TRIGGERED_BIT
 from ninja_game.many.smoothing import rows_of, smoothed

@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from ninja_game.compile_cache import compiled_available, kernels
 from ninja_game.formats.level_string import parse_level_string
 from ninja_game.sim.level_data import LevelData
 
-pytest.importorskip("numba")
+if not compiled_available():
+    pytest.skip("Numba is not installed", allow_module_level=True)
 
-from ninja_game.compile_cache import kernels
 from ninja_game.many import search as _search  # noqa: F401 - registers the kernels
 from ninja_game.many.distance_field import UNREACHED, point_at
 from ninja_game.many.edits import cut, edit, overwrite, shift_boundary, shift_pulse, stretch
