@@ -33,6 +33,9 @@ from ninja_game.sim.level_data import LevelData
 LONGEST_LIFE = 0.25
 """Seconds after which a child is killed at the latest."""
 
+PATIENCE = 10.0
+"""Seconds to wait for a child's first save."""
+
 Fact = tuple[str, str, int]
 """What was saved ("best", "replay", "volume", "progress"), its key, its number."""
 
@@ -68,14 +71,19 @@ def play(folder: str, seed: int, pipe: Connection) -> None:
         pipe.send(("progress", "0", data.progress.columns[0].beaten[0] * 5 + data.progress.columns[0].beaten[1]))
 
 
-def life(folder: Path, seed: int, seconds: float) -> list[Fact]:
-    """Let a child live for so long, kill it; what it said was saved."""
+def life(folder: Path, seed: int, seconds: float, *, settled: bool) -> list[Fact]:
+    """Let a child live for so long, kill it; what it said was saved.
+
+    ``settled``: the time counts from its first save, else from its birth, so that opening the files is interrupted too.
+    """
     methods = multiprocessing.get_all_start_methods()
     context: Any = multiprocessing.get_context("fork" if "fork" in methods else "spawn")
     ours, theirs = context.Pipe(duplex=False)
     child = context.Process(target=play, args=(str(folder), seed, theirs), daemon=True)
     child.start()
     theirs.close()
+    if settled:
+        ours.poll(PATIENCE)
     time.sleep(seconds)
     child.kill()
     child.join()
@@ -122,7 +130,8 @@ def kill_test(kills: int, seed: int, folder: Path, *, report: bool = False) -> t
         home = folder / str(number // 10)
         if number % 10 == 0:
             said, volume = {}, None
-        facts = life(home, chance.randrange(2**31), chance.random() * LONGEST_LIFE)
+        seconds = chance.random() * LONGEST_LIFE
+        facts = life(home, chance.randrange(2**31), seconds, settled=number % 4 > 0)
         told += len(facts)
         for kind, key, value in facts:
             if kind == "volume":
