@@ -17,7 +17,8 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.text_entry import TextEntry
 from ninja_game.play.menus.thumbnails import Thumbnails
 from ninja_game.play.menus.watching import watch
-from ninja_game.play.menus.widgets import Area, Button, Choice, Widget, counted, fit
+from ninja_game.play.menus.widgets import Area, Button, Choice, Widget
+from ninja_game.play.menus.wording import counted, fit
 from ninja_game.play.theme import Theme
 from ninja_game.session.atomic_file import write_atomically
 from ninja_game.session.catalogue import Entry

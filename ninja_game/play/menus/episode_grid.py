@@ -13,7 +13,8 @@ from ninja_game.play.menus.list_view import BAR, ListView
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import Thumbnails
-from ninja_game.play.menus.widgets import Area, Choice, Widget, counted, fit
+from ninja_game.play.menus.widgets import Area, Choice, Widget
+from ninja_game.play.menus.wording import counted, fit
 from ninja_game.play.start import apply_settings
 from ninja_game.play.theme import Theme
 from ninja_game.session.catalogue import Episode

@@ -14,7 +14,8 @@ from ninja_game.play.level_view import LevelView
 from ninja_game.play.menus.demonstrations import Page, read_pages
 from ninja_game.play.menus.list_view import ListView
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.widgets import Area, Button, Widget, wrapped
+from ninja_game.play.menus.widgets import Area, Button, Widget
+from ninja_game.play.menus.wording import wrapped
 from ninja_game.play.run_clock import RunClock
 from ninja_game.play.theme import Theme
 from ninja_game.simulation import Simulation

@@ -12,7 +12,8 @@ from ninja_game.play.canvas import HEIGHT, WIDTH
 from ninja_game.play.menus.attract import Attract
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Panels, Question
-from ninja_game.play.menus.widgets import Area, Button, Widget, fit
+from ninja_game.play.menus.widgets import Area, Button, Widget
+from ninja_game.play.menus.wording import fit
 from ninja_game.play.screen import Screen
 
 if TYPE_CHECKING:

@@ -11,7 +11,8 @@ from ninja_game.play.default_bindings import ACTIONS
 from ninja_game.play.gamepad import pad_label
 from ninja_game.play.key_names import key_label
 from ninja_game.play.menus.list_view import ListView
-from ninja_game.play.menus.widgets import TEXT, Area, Button, Slider, Widget, fit
+from ninja_game.play.menus.widgets import TEXT, Area, Button, Slider, Widget
+from ninja_game.play.menus.wording import fit
 from ninja_game.play.screen import Screen
 from ninja_game.play.theme import Theme
 

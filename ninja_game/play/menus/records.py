@@ -10,7 +10,8 @@ import pygame
 from ninja_game.play.menus.list_view import ListView
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.watching import watch
-from ninja_game.play.menus.widgets import Area, Widget, fit
+from ninja_game.play.menus.widgets import Area, Widget
+from ninja_game.play.menus.wording import fit
 from ninja_game.play.theme import Theme
 from ninja_game.session.scoring import TICK_MS, seconds_text
 

@@ -17,7 +17,8 @@ from ninja_game.play.menus.list_view import ListView
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question
 from ninja_game.play.menus.watching import watch, watch_recording
-from ninja_game.play.menus.widgets import Area, Widget, fit
+from ninja_game.play.menus.widgets import Area, Widget
+from ninja_game.play.menus.wording import fit
 from ninja_game.play.theme import Theme
 from ninja_game.session.atomic_file import write_atomically
 from ninja_game.session.bundled import bundled_replays

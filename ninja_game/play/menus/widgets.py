@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 
 import pygame
 
+from ninja_game.play.menus.wording import fit
 from ninja_game.play.theme import Theme
 
 Area = tuple[float, float, float, float]
@@ -243,33 +244,3 @@ class Slider(Widget):
         canvas.fill_rect(surface, palette.panel_edge, left, y + h / 2 - 1.5, width, 3, 1.5)
         canvas.fill_rect(surface, palette.accent, left, y + h / 2 - 1.5, max(knob - left, 1), 3, 1.5)
         canvas.circle(surface, palette.accent if focused else palette.faint, (knob, y + h / 2), 5)
-
-
-def fit(theme: Theme, text: str, width: float, size: float) -> str:
-    """The text, shortened by dots to fit a width."""
-    if theme.width(text, size) <= width:
-        return text
-    while text and theme.width(text + "...", size) > width:
-        text = text[:-1]
-    return text.rstrip() + "..."
-
-
-def wrapped(theme: Theme, text: str, width: float, size: float) -> list[str]:
-    """The text in lines that fit a width."""
-    lines: list[str] = []
-    for word in text.split():
-        longer = f"{lines[-1]} {word}" if lines else word
-        if lines and theme.width(longer, size) <= width:
-            lines[-1] = longer
-        else:
-            lines.append(word)
-    return lines
-
-
-def counted(number: int, one: str, more: str) -> str:
-    """A number with its noun.
-
-    >>> counted(1, "try", "tries"), counted(2, "try", "tries")
-    ('1 try', '2 tries')
-    """
-    return f"{number} {one if number == 1 else more}"
