@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import os
 import re
+import shutil
 import sys
 from functools import cache
 from importlib.util import find_spec
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
     from ninja_game.sim.compiled import Compiler, Kernels
 
 Memory = Literal["plain", "compiled"]
+
+KEPT_VERSIONS = 5
+"""How many versions of the sources keep their compiled code."""
 
 _REGISTERS = re.compile(rb"^@(fast|entry_point)$", re.MULTILINE)
 _IMPORTS = re.compile(rb"ninja_game\.many\.(\w+)")
@@ -80,6 +84,16 @@ def source_digest() -> str:
     return digest.hexdigest()[:16]
 
 
+def forget_old_code(folder: Path) -> None:
+    """Remove what older sources left behind, but for the newest few; what cannot be removed stays."""
+    try:
+        kept = sorted(folder.iterdir(), key=lambda path: path.stat().st_mtime, reverse=True)[:KEPT_VERSIONS]
+        for path in set(folder.iterdir()) - set(kept):
+            shutil.rmtree(path, ignore_errors=True)
+    except OSError:
+        return
+
+
 def kernels() -> Kernels:
     """Compiled entry points of all modules imported so far, by name. Raises MemoryUnavailableError without Numba."""
     return _compiler().kernels()
@@ -92,8 +106,9 @@ def _compiler() -> Compiler:
     if "numba" not in sys.modules:
         from platformdirs import user_cache_path
 
-        folder = user_cache_path("ninja-game") / "compiled" / source_digest()
-        os.environ.setdefault("NUMBA_CACHE_DIR", str(folder))
+        folder = user_cache_path("ninja-game") / "compiled"
+        os.environ.setdefault("NUMBA_CACHE_DIR", str(folder / source_digest()))
+        forget_old_code(folder)
     from ninja_game.sim.compiled import Compiler
 
     return Compiler()
