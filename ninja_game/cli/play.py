@@ -52,7 +52,7 @@ def command(
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     import pygame
 
-    from ninja_game.play.app import main
+    from ninja_game.play.launch import main
 
     try:
         code = main(

@@ -6,7 +6,7 @@ import os
 import time
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import pygame
 
@@ -15,24 +15,14 @@ from ninja_game.play.controls import Controls, Keyboard
 from ninja_game.play.ear import Ear, Silence
 from ninja_game.play.options import Options
 from ninja_game.play.palette import PALETTES
-from ninja_game.play.screen import Screen, ScreenStack
+from ninja_game.play.screen import TITLE, Panels, Screen, ScreenStack
 from ninja_game.play.theme import Theme
-from ninja_game.simulation import Body
 
 if TYPE_CHECKING:
-    from ninja_game.play.level_screen import LevelScreen
     from ninja_game.session.player_data import PlayerData
 
-TITLE = "ninja-game"
 FALLBACK_RATE = 60
 """Pictures per second where the display does not say its rate."""
-
-
-class Panels(Protocol):
-    """Screens that menus lay over a level; without them a level shows plain messages."""
-
-    def pause(self, level: LevelScreen) -> Screen | None:
-        """A panel to choose from while the level is paused."""
 
 
 class App:
@@ -59,6 +49,7 @@ class App:
         self.stack = ScreenStack()
         self.player: PlayerData | None = None
         self.panels: Panels | None = None
+        self.hiding: type[Screen] | None = None
         self.running = True
         self.frame_ms = 0.0
         self._size = size or fitting_size()
@@ -180,10 +171,8 @@ class App:
 
     def _hide_the_game(self) -> None:
         """Show something dull; the same key comes back."""
-        from ninja_game.play.boss_screen import BossScreen
-
-        if not isinstance(self.top, BossScreen):
-            self.push(BossScreen(self))
+        if self.hiding and not isinstance(self.top, self.hiding):
+            self.push(self.hiding(self))
 
     def draw(self) -> None:
         """Draw the screens that are seen and show what changed."""
@@ -233,36 +222,3 @@ def free_name(folder: Path, stem: str, suffix: str) -> Path:
     while (folder / f"{stem}-{number}{suffix}").exists():
         number += 1
     return folder / f"{stem}-{number}{suffix}"
-
-
-def main(
-    level_path: str | None = None,
-    *,
-    body: Body = "circle",
-    frames: int | None = None,
-    screenshot: str | None = None,
-    size: tuple[int, int] | None = None,
-    replay_path: str | None = None,
-    practice: bool = False,
-) -> int:
-    """Play: the program `ninja-game play`. Gives the exit code.
-
-    ``level_path``: a file of levels; without one the main menu. ``replay_path``: watch the recordings of a file.
-    ``frames``: end after so many pictures. ``screenshot``: write the last picture to this PNG file.
-
-    Raises NinjaGameError for a file that cannot be read.
-    """
-    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
-    from ninja_game.play.launch import first_screen, prepared_app
-
-    # Read before a window opens: what is wrong with a file is said in the terminal.
-    first = first_screen(level_path, replay_path, body=body, practice=practice)
-    app = prepared_app(size)
-    try:
-        app.push(first(app))
-        app.run(frames)
-        if screenshot:
-            app.save_screenshot(Path(screenshot))
-    finally:
-        pygame.quit()
-    return 0

@@ -6,7 +6,7 @@ from random import Random
 
 import pygame
 
-from ninja_game.play.screen import Screen
+from ninja_game.play.screen import TITLE, Screen
 
 _PAPER, _LINE, _HEAD, _INK = "#ffffff", "#d0d4da", "#eef0f3", "#3a3f47"
 _ROWS, _ROW_HEIGHT, _TOP = 24, 22.0, 48.0
@@ -23,8 +23,6 @@ class BossScreen(Screen):
 
     def leave(self) -> None:
         """Call the window by its name again."""
-        from ninja_game.play.app import TITLE
-
         pygame.display.set_caption(TITLE)
 
     def handle(self, event: pygame.Event) -> None:

@@ -2,17 +2,52 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
+import pygame
+
 from ninja_game.errors import LevelError
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.play.app import App
+from ninja_game.play.boss_screen import BossScreen
 from ninja_game.play.course import Course, InOrder, SingleLevel
 from ninja_game.play.screen import Screen
 from ninja_game.play.start import prepare
 from ninja_game.simulation import Body, Simulation
+
+
+def main(
+    level_path: str | None = None,
+    *,
+    body: Body = "circle",
+    frames: int | None = None,
+    screenshot: str | None = None,
+    size: tuple[int, int] | None = None,
+    replay_path: str | None = None,
+    practice: bool = False,
+) -> int:
+    """Play: the program `ninja-game play`. Gives the exit code.
+
+    ``level_path``: a file of levels; without one the main menu. ``replay_path``: watch the recordings of a file.
+    ``frames``: end after so many pictures. ``screenshot``: write the last picture to this PNG file.
+
+    Raises NinjaGameError for a file that cannot be read.
+    """
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    # Read before a window opens: what is wrong with a file is said in the terminal.
+    first = first_screen(level_path, replay_path, body=body, practice=practice)
+    app = prepared_app(size)
+    try:
+        app.push(first(app))
+        app.run(frames)
+        if screenshot:
+            app.save_screenshot(Path(screenshot))
+    finally:
+        pygame.quit()
+    return 0
 
 
 def prepared_app(size: tuple[int, int] | None = None) -> App:
@@ -20,6 +55,7 @@ def prepared_app(size: tuple[int, int] | None = None) -> App:
     ready = prepare()
     app = App(ready.options, ready.controls, ready.ear, size=size)
     app.player = ready.player
+    app.hiding = BossScreen
     return app
 
 

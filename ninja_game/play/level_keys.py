@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
+from ninja_game.play.level_play import LevelPlay
 from ninja_game.play.phase import Phase
-
-if TYPE_CHECKING:
-    from ninja_game.play.level_screen import LevelScreen
 
 _END = {"export": "keep_replay", "retry": "retry", "back": "quit", "quit": "quit"}
 """What dead and passed have in common."""
@@ -22,7 +18,7 @@ DEEDS: dict[Phase, dict[str, str]] = {
 """The method of the screen that each action calls in each phase; the other actions do nothing there."""
 
 
-def act(screen: LevelScreen, actions: tuple[str, ...]) -> None:
+def act(screen: LevelPlay, actions: tuple[str, ...]) -> None:
     """Do the first thing that the pressed actions mean. Of a key that retries and replays, replaying comes first."""
     if "replay" in actions and screen.may_watch:
         screen.watch_replay()
@@ -37,3 +33,26 @@ def act(screen: LevelScreen, actions: tuple[str, ...]) -> None:
         else:
             continue
         return
+
+
+def use_tools(screen: LevelPlay, pressed: tuple[str, ...], released: tuple[str, ...]) -> None:
+    """What keys mean for the tools: some act at once, some while they are held. Only where the course is practice."""
+    tools = screen.practice
+    if not screen.course.practice or screen.phase not in {Phase.PLAY, Phase.DEAD, Phase.PASSED}:
+        return
+    if "quick_save" in pressed:
+        tools.quick_save()
+        screen.tell(f"Saved: {screen.app.controls.name('quick_load')} comes back to this moment")
+    elif "quick_load" in pressed and tools.quick_load():
+        screen.put_back()
+    elif "step" in pressed:
+        tools.stepping = True
+        screen.run_ticks(1)
+    if "rewind" in pressed or "rewind" in released:
+        tools.rewinding = "rewind" in pressed
+        tools.stepping = tools.stepping and not tools.rewinding
+        screen.clock.reset()
+    if "slow" in pressed or "slow" in released:
+        tools.slow = "slow" in pressed
+        tools.stepping = False
+        screen.redraw = True

@@ -169,7 +169,7 @@ class LevelView:
         self._draw_moving(surface, fraction)
         self._cover_by_tiles(surface)
         if self.overlays is not None:
-            self.overlays.draw(self.stage, self)
+            self.overlays.draw(self.stage, self.simulation)
         surface.set_clip(None)
         changed = self._covered + self.stage.covered + mended
         self._covered = self.stage.covered

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import pygame
 
 from ninja_game.play.hud import Hud
+from ninja_game.play.level_play import LevelPlay
 from ninja_game.play.phase import DEATH_PAUSE, Phase
 from ninja_game.session.scoring import seconds_text
 from ninja_game.session.statistics import SELF
 
-if TYPE_CHECKING:
-    from ninja_game.play.level_screen import LevelScreen
 
-
-def write_over(screen: LevelScreen, surface: pygame.Surface) -> list[pygame.Rect]:
+def write_over(screen: LevelPlay, surface: pygame.Surface) -> list[pygame.Rect]:
     """Time bar, name, notices, message; the px that they cover."""
     hud = Hud(screen.app.theme)
     attempt = screen.attempt
@@ -37,7 +33,7 @@ def write_over(screen: LevelScreen, surface: pygame.Surface) -> list[pygame.Rect
     return written
 
 
-def _message(screen: LevelScreen) -> tuple[str, list[str]] | None:
+def _message(screen: LevelPlay) -> tuple[str, list[str]] | None:
     """Title and lines of the message of this phase; None if it has none."""
     key = screen.app.controls.name
     if screen.phase is Phase.PAUSED and screen.app.top is screen:
@@ -52,7 +48,7 @@ def _message(screen: LevelScreen) -> tuple[str, list[str]] | None:
     return None
 
 
-def _tools(screen: LevelScreen) -> str:
+def _tools(screen: LevelPlay) -> str:
     """The practice tools and their keys."""
     key = screen.app.controls.name
     tools = (("quick_save", "save"), ("quick_load", "load"), ("rewind", "rewind"), ("slow", "slow"), ("step", "step"))
@@ -60,7 +56,7 @@ def _tools(screen: LevelScreen) -> str:
     return "    ".join([*named, f"{key('overlay_hitboxes')} to {key('overlay_cells')}: look inside"])
 
 
-def _epitaph(screen: LevelScreen) -> str:
+def _epitaph(screen: LevelPlay) -> str:
     """What happened, in a few words."""
     if screen.attempt.own_hand:
         return "As you wish."
@@ -69,7 +65,7 @@ def _epitaph(screen: LevelScreen) -> str:
     return "Out of time." if screen.attempt.lifetime <= 0 else "That was too hard a landing."
 
 
-def _hint(screen: LevelScreen) -> str:
+def _hint(screen: LevelPlay) -> str:
     """The line of this phase; '' if it has none."""
     key = screen.app.controls.name
     if screen.phase is Phase.READY:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import pygame
 
@@ -17,9 +16,7 @@ from ninja_game.sim.rules import INTERESTING, OFF, RADIUS, STRIDE
 from ninja_game.sim.schema import Thing, World
 from ninja_game.sim.states import WEAPON_ZAP
 from ninja_game.sim.tiles import CENTRE_X, CENTRE_Y, EXISTS
-
-if TYPE_CHECKING:
-    from ninja_game.play.level_view import LevelView
+from ninja_game.simulation import Simulation
 
 HIT_BOXES, GRID, EDGES, RAYS, CELLS = (
     "overlay_hitboxes", "overlay_grid", "overlay_edges", "overlay_rays", "overlay_cells",
@@ -45,17 +42,17 @@ class Overlays:
         self.on ^= {action}
         return True
 
-    def draw(self, stage: Stage, view: LevelView) -> None:
+    def draw(self, stage: Stage, simulation: Simulation) -> None:
         """Draw what is on over the stage."""
         if not self.on:
             return
-        world = view.simulation.world
+        world = simulation.world
         if self.on & {GRID, EDGES}:
             self._draw_sheet(stage, world)
         if CELLS in self.on:
             _draw_cells(stage, world)
         if RAYS in self.on:
-            _draw_rays(stage, view)
+            _draw_rays(stage, simulation)
         if HIT_BOXES in self.on:
             for shape in hit_shapes(world):
                 _draw_shape(stage, shape)
@@ -136,9 +133,9 @@ def touched_cells(x: float, y: float, cell: int) -> list[int]:
     return cells
 
 
-def _draw_rays(stage: Stage, view: LevelView) -> None:
+def _draw_rays(stage: Stage, simulation: Simulation) -> None:
     """From everything that looks for the ninja: to it where it is seen, to the tile in the way where not."""
-    world, level = view.simulation.world, view.simulation.static
+    world, level = simulation.world, simulation.static
     n = world.ninja
     for slot in range(1, world.ids + 1):
         o = world.things[slot]

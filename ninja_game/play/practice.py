@@ -2,14 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from ninja_game.play.phase import Phase
 from ninja_game.play.timeline import Timeline
 from ninja_game.session.attempt import Attempt, Moment
-
-if TYPE_CHECKING:
-    from ninja_game.play.level_screen import LevelScreen
 
 SLOW_TICK_MS = 100
 """A tick in slow motion: a quarter of the speed."""
@@ -58,26 +52,3 @@ class Practice:
         self.timeline.seek(target, attempt.frames)
         self.timeline.forget_after(target)
         attempt.rewound()
-
-
-def use_tools(screen: LevelScreen, pressed: tuple[str, ...], released: tuple[str, ...]) -> None:
-    """What keys mean for the tools: some act at once, some while they are held. Only where the course is practice."""
-    tools = screen.practice
-    if not screen.course.practice or screen.phase not in {Phase.PLAY, Phase.DEAD, Phase.PASSED}:
-        return
-    if "quick_save" in pressed:
-        tools.quick_save()
-        screen.tell(f"Saved: {screen.app.controls.name('quick_load')} comes back to this moment")
-    elif "quick_load" in pressed and tools.quick_load():
-        screen.put_back()
-    elif "step" in pressed:
-        tools.stepping = True
-        screen.run_ticks(1)
-    if "rewind" in pressed or "rewind" in released:
-        tools.rewinding = "rewind" in pressed
-        tools.stepping = tools.stepping and not tools.rewinding
-        screen.clock.reset()
-    if "slow" in pressed or "slow" in released:
-        tools.slow = "slow" in pressed
-        tools.stepping = False
-        screen.redraw = True

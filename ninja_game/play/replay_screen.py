@@ -21,7 +21,7 @@ from ninja_game.play.screen import Screen
 from ninja_game.play.take import Playback, Take, take_of
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
+    from ninja_game.play.screen import Host
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 _NORMAL = SPEEDS.index(1.0)
@@ -35,7 +35,7 @@ _STILL_MS = 500
 class ReplayScreen(Screen):
     """Shows a recording. Others on the same level run along as ghosts."""
 
-    def __init__(self, app: App, takes: Sequence[Take | Recording]) -> None:
+    def __init__(self, app: Host, takes: Sequence[Take | Recording]) -> None:
         super().__init__(app)
         self.takes = [take if isinstance(take, Take) else take_of(take) for take in takes]
         self.clock = RunClock()

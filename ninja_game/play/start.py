@@ -14,7 +14,7 @@ from ninja_game.session.player_data import PlayerData
 from ninja_game.session.settings import Settings
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
+    from ninja_game.play.screen import Host
 
 SOUNDS = "sounds"
 
@@ -46,7 +46,7 @@ def fill_options(options: Options, settings: Settings) -> None:
             setattr(options, field.name, getattr(settings, field.name))
 
 
-def apply_settings(app: App, settings: Settings) -> str:
+def apply_settings(app: Host, settings: Settings) -> str:
     """Take, save and show changed settings; a message if they could not be saved, else ''."""
     player = app.player
     assert player is not None  # noqa: S101 - screens that change settings have it

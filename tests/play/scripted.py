@@ -8,6 +8,7 @@ from contextlib import contextmanager
 import pygame
 
 from ninja_game.play.app import App
+from ninja_game.play.boss_screen import BossScreen
 from ninja_game.play.options import Options
 
 PRESS = pygame.USEREVENT + 1
@@ -57,6 +58,7 @@ def scripted_app(
     """An app without a display, sound or player."""
     controls = ScriptedControls()
     app = App(options or Options(), controls, size=size)
+    app.hiding = BossScreen
     pygame.event.clear()
     try:
         yield app, controls

@@ -17,7 +17,7 @@ from ninja_game.session.bundled import bundled_replays
 from ninja_game.simulation import Simulation
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
+    from ninja_game.play.screen import Host
 
 REST_TICKS = 130
 """How long a replay goes on after its end or a death."""
@@ -26,7 +26,7 @@ REST_TICKS = 130
 class Attract:
     """Plays replays for ever in a shuffled order, silently. ``shown``: how many were begun."""
 
-    def __init__(self, app: App, *, seed: int | None = None) -> None:
+    def __init__(self, app: Host, *, seed: int | None = None) -> None:
         self.app = app
         self.shown = 0
         self._clock = RunClock()

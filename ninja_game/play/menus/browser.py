@@ -26,7 +26,7 @@ from ninja_game.session.records import SavedReplay
 from ninja_game.session.scoring import seconds_text
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
+    from ninja_game.play.screen import Host
 
 ROW = 54
 PICTURE = 60
@@ -39,7 +39,7 @@ class Browser(MenuScreen):
 
     title = "Levels"
 
-    def __init__(self, app: App) -> None:
+    def __init__(self, app: Host) -> None:
         super().__init__(app)
         self.thumbnails = Thumbnails(app)
         self.search = ""

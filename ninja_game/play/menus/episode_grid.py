@@ -22,7 +22,7 @@ from ninja_game.session.progress import CHEATED, COLUMNS, EPISODES_PER_COLUMN, L
 from ninja_game.session.scoring import seconds_text
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
+    from ninja_game.play.screen import Host
 
 CELL = 31
 GRID: Area = (44, 92, CELL * COLUMNS + BAR + 4, CELL * EPISODES_PER_COLUMN)
@@ -36,7 +36,7 @@ class EpisodeGrid(MenuScreen):
 
     title = "Episodes"
 
-    def __init__(self, app: App) -> None:
+    def __init__(self, app: Host) -> None:
         super().__init__(app)
         self.thumbnails = Thumbnails(app)
         self.grid = ListView(GRID, CELL, self._draw_cell, self._play, columns=COLUMNS, selected=self._selected)

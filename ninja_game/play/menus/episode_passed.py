@@ -2,31 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
 
 import pygame
 
 from ninja_game.play.canvas import WIDTH
+from ninja_game.play.course import Course
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.thumbnails import Thumbnails
 from ninja_game.play.menus.widgets import Button, Widget
+from ninja_game.play.screen import Host
+from ninja_game.session.catalogue import Episode
+from ninja_game.session.player_data import PlayerData
 from ninja_game.session.playthrough import EpisodeRun
 from ninja_game.session.scoring import seconds_text
 
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
-    from ninja_game.session.catalogue import Episode
-
 PICTURE = 132
+
+CourseOf = Callable[[Host, PlayerData, Episode], Course]
+"""What makes the course of an episode."""
 
 
 class EpisodePassed(MenuScreen):
     """Shown after an episode's last level. Space goes on to the next episode."""
 
-    def __init__(self, app: App, run: EpisodeRun, notices: Sequence[str]) -> None:
+    def __init__(self, app: Host, run: EpisodeRun, notices: Sequence[str], course_of: CourseOf) -> None:
         super().__init__(app)
         self.run = run
+        self.course_of = course_of
         self.notices = list(notices)
         self.title = f"Episode {run.episode.number} passed"
         self.thumbnails = Thumbnails(app)
@@ -50,10 +53,9 @@ class EpisodePassed(MenuScreen):
     def go_on(self) -> None:
         """The next episode."""
         from ninja_game.play.level_screen import LevelScreen
-        from ninja_game.play.menus.courses import episode_course
 
         if self.next_episode is not None:
-            self.app.replace(LevelScreen(self.app, episode_course(self.app, self.player, self.next_episode)))
+            self.app.replace(LevelScreen(self.app, self.course_of(self.app, self.player, self.next_episode)))
 
     def watch(self) -> None:
         """The replays of the episode's best run."""

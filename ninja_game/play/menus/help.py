@@ -21,7 +21,7 @@ from ninja_game.play.theme import Theme
 from ninja_game.simulation import Simulation
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
+    from ninja_game.play.screen import Host
 
 WINDOW: Area = (240, 66, 504, 288)
 """Where the demonstration is seen: that much of the stage, at its own scale."""
@@ -42,7 +42,7 @@ class HelpScreen(MenuScreen):
 
     title = "Help"
 
-    def __init__(self, app: App) -> None:
+    def __init__(self, app: Host) -> None:
         super().__init__(app)
         self.pages = read_pages()
         self.topics = [page.title for page in self.pages] + [KEYS_TITLE]
@@ -138,7 +138,7 @@ class HelpScreen(MenuScreen):
 class Demonstration:
     """A page's room with its inputs, again and again, drawn on a sheet of its own of which a part is shown."""
 
-    def __init__(self, app: App, page: Page) -> None:
+    def __init__(self, app: Host, page: Page) -> None:
         self.app = app
         self.page = page
         self.clock = RunClock()

@@ -17,7 +17,7 @@ from ninja_game.play.menus.wording import fit
 from ninja_game.play.screen import Screen
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
+    from ninja_game.play.screen import Host
 
 PANEL: Area = (44, 96, 232, 420)
 TITLE = "NINJA"
@@ -27,7 +27,7 @@ MESSAGE_MS = 12_000
 class MainMenu(MenuScreen):
     """Where the game begins and where every way back ends."""
 
-    def __init__(self, app: App) -> None:
+    def __init__(self, app: Host) -> None:
         super().__init__(app)
         self.attract = Attract(app)
         self._message_ms = MESSAGE_MS

@@ -16,7 +16,7 @@ from ninja_game.play.screen import Screen
 from ninja_game.play.sound import Sound
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
+    from ninja_game.play.screen import Host
     from ninja_game.session.player_data import PlayerData
 
 FIRST_REPEAT_MS, REPEAT_MS = 350, 70
@@ -40,7 +40,7 @@ class MenuScreen(Screen):
     title = ""
     foot = "Arrows move, Enter chooses, Esc goes back"
 
-    def __init__(self, app: App) -> None:
+    def __init__(self, app: Host) -> None:
         super().__init__(app)
         self.widgets: list[Widget] = []
         self.focus: Widget | None = None

@@ -12,7 +12,7 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.widgets import Button, Widget
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
+    from ninja_game.play.screen import Host
 
 PANEL_WIDTH = 300
 ROW = 40
@@ -23,7 +23,7 @@ class Panel(MenuScreen):
 
     see_through = True
 
-    def __init__(self, app: App, title: str) -> None:
+    def __init__(self, app: Host, title: str) -> None:
         super().__init__(app)
         self.title = title
 
@@ -63,7 +63,7 @@ class Panel(MenuScreen):
 class Question(Panel):
     """Asks before something is done that cannot be undone."""
 
-    def __init__(self, app: App, title: str, yes: str, action: Callable[[], object]) -> None:
+    def __init__(self, app: Host, title: str, yes: str, action: Callable[[], object]) -> None:
         super().__init__(app, title)
         self._yes = yes
         self._action = action
@@ -93,7 +93,7 @@ class Playing(Protocol):
 class PausePanel(Panel):
     """The game waits. Space, the pause key or Esc go on."""
 
-    def __init__(self, app: App, playing: Playing) -> None:
+    def __init__(self, app: Host, playing: Playing) -> None:
         super().__init__(app, "Paused")
         self.playing = playing
 
@@ -132,7 +132,7 @@ class PausePanel(Panel):
 class Panels:
     """The panels that the screen of a level asks for."""
 
-    def __init__(self, app: App) -> None:
+    def __init__(self, app: Host) -> None:
         self.app = app
 
     def pause(self, playing: Playing) -> PausePanel:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any, Protocol
 
 import pygame
 
@@ -13,11 +13,24 @@ from ninja_game.play.key_names import key_label
 from ninja_game.play.menus.list_view import ListView
 from ninja_game.play.menus.widgets import TEXT, Area, Button, Slider, Widget
 from ninja_game.play.menus.wording import fit
-from ninja_game.play.screen import Screen
+from ninja_game.play.screen import Host, Screen
 from ninja_game.play.theme import Theme
+from ninja_game.session.player_data import PlayerData
 
-if TYPE_CHECKING:
-    from ninja_game.play.menus.settings import SettingsScreen
+
+class Rebinder(Protocol):
+    """The screen on which inputs are changed; it keeps a table for each device."""
+
+    app: Host
+    tables: dict[str, BindingTable]
+
+    @property
+    def player(self) -> PlayerData:
+        """The player whose settings they are."""
+
+    def change(self, **values: Any) -> None:
+        """Save other settings and show them."""
+
 
 SLOTS = 4
 ROW = 30
@@ -25,7 +38,7 @@ LIST: Area = (216, 72, 540, 13 * ROW)
 LABEL_SHARE = 0.4
 
 
-def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
+def binding_widgets(screen: Rebinder, device: str) -> list[Widget]:
     """The widgets of a page. ``device``: "keys" or "pad"."""
     actions = [name for name in ACTIONS if device == "keys" or ACTIONS[name].pad or name in ("quit", "skip", "boss")]
     # The same one again after a press was taken, so that the selection stays.
@@ -39,7 +52,7 @@ def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
     return widgets
 
 
-def _dead_zone(screen: SettingsScreen) -> Slider:
+def _dead_zone(screen: Rebinder) -> Slider:
     pads = screen.app.controls.pads.count if isinstance(screen.app.controls, Bindings) else 0
     return Slider(
         (216, 514, 540, 30), "Dead zone of sticks", (0.05, 0.95, 0.05), lambda: screen.player.settings.dead_zone,
@@ -51,7 +64,7 @@ def _dead_zone(screen: SettingsScreen) -> Slider:
 class BindingTable(ListView):
     """One row an action, one cell an input. Left and right choose the cell, Enter waits for a press, Delete clears."""
 
-    def __init__(self, screen: SettingsScreen, device: str, actions: list[str]) -> None:
+    def __init__(self, screen: Rebinder, device: str, actions: list[str]) -> None:
         super().__init__(LIST, ROW, self._draw_action, self._capture)
         self.screen = screen
         self.device = device

@@ -16,7 +16,7 @@ from ninja_game.play.theme import Theme
 from ninja_game.session.scoring import TICK_MS, seconds_text
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
+    from ninja_game.play.screen import Host
 
 ROW = 30
 SIDE, SIDE_WIDTH = 528, 228
@@ -37,7 +37,7 @@ class RecordsScreen(MenuScreen):
 
     title = "Records"
 
-    def __init__(self, app: App) -> None:
+    def __init__(self, app: Host) -> None:
         super().__init__(app)
         self.rows: list[Row] = []
         self.list = ListView((44, 92, 468, 15 * ROW), ROW, self._draw_row, self._watch, hint="Enter: watch it")

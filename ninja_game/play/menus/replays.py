@@ -27,7 +27,7 @@ from ninja_game.session.scoring import seconds_text
 from ninja_game.session.user_folder import EXPORTS
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
+    from ninja_game.play.screen import Host
 
 ROW = 34
 FILES_SHOWN = 300
@@ -54,7 +54,7 @@ class ReplaysScreen(MenuScreen):
 
     title = "Replays"
 
-    def __init__(self, app: App) -> None:
+    def __init__(self, app: Host) -> None:
         super().__init__(app)
         self.rows: list[Row] = []
         self.problems = 0

@@ -17,7 +17,7 @@ from ninja_game.play.start import apply_settings
 from ninja_game.session.unlocks import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
+    from ninja_game.play.screen import Host
 
 PAGES = ("Picture", "Sound", "Play", "Keyboard", "Gamepad")
 SWITCH = [("off", False), ("on", True)]
@@ -33,7 +33,7 @@ class SettingsScreen(MenuScreen):
 
     title = "Settings"
 
-    def __init__(self, app: App) -> None:
+    def __init__(self, app: Host) -> None:
         super().__init__(app)
         self.page = PAGES[0]
         self.message = ""
