@@ -45,13 +45,15 @@ class RunResult:
     """What came of a run, up to and including the tick of the first exit contact or death.
 
     ``outcome``: "exit", "dead" or "running"; ``end_tick``: the tick of that contact or death, -1 while running;
-    ``positions``: float64 (ticks, 2), px, the ninja after each tick; ``states``: uint8 (ticks,).
+    ``positions``: float64 (ticks, 2), px, the ninja after each tick; ``states``: uint8 (ticks,). ``digest``: of the
+    world after the last tick, where it was asked for.
     """
 
     outcome: str
     gold: int
     positions: NDArray[np.float64]
     states: NDArray[np.uint8]
+    digest: str = ""
 
     @property
     def ticks(self) -> int:
@@ -74,14 +76,16 @@ class RunResult:
         return hashlib.sha256(self.positions.astype("<f8").tobytes()).hexdigest()
 
 
-def run_level(level: LevelData, frames: bytes, *, body: Body = "circle", memory: str = "auto") -> RunResult:
+def run_level(
+    level: LevelData, frames: bytes, *, body: Body = "circle", memory: str = "auto", digest: bool = False
+) -> RunResult:
     """Run a level with one input a tick until the first exit contact or death, or to the end of ``frames``.
 
     ``frames``: one byte a tick, 1 left + 2 right + 4 jump held + 8 jump triggered (``Demo.inputs`` gives them).
-    Raises LevelError for a level that cannot be played.
+    ``digest``: tell the digest of the world at the end too. Raises LevelError for a level that cannot be played.
     """
     if choose_memory(memory) == "compiled":
-        return _run_compiled(level, frames, body)
+        return _run_compiled(level, frames, body, digest=digest)
     static, w = load_plain(level, body == "box")
     n = w.ninja
     places: list[float] = []
@@ -93,18 +97,21 @@ def run_level(level: LevelData, frames: bytes, *, body: Body = "circle", memory:
         if w.outcome:
             break
     positions = np.array(places, np.float64).reshape(-1, 2)
-    return RunResult(OUTCOME_NAMES[w.outcome], w.gold, positions, np.frombuffer(bytes(states), np.uint8))
+    end = world_digest(w) if digest else ""
+    return RunResult(OUTCOME_NAMES[w.outcome], w.gold, positions, np.frombuffer(bytes(states), np.uint8), end)
 
 
-def _run_compiled(level: LevelData, frames: bytes, body: Body) -> RunResult:
+def _run_compiled(level: LevelData, frames: bytes, body: Body, *, digest: bool) -> RunResult:
     from ninja_game.sim.compiled import load_compiled
+    from ninja_game.sim.layout import plain_copy
 
     levels, worlds = load_compiled(kernels(), level, body == "box")
     positions = np.empty((len(frames), 2))
     states = np.empty(len(frames), np.uint8)
     ticks = kernels()["run_world"](levels, worlds, 0, np.frombuffer(frames, np.uint8), positions, states)
     outcome, gold = OUTCOME_NAMES[int(worlds["outcome"][0])], int(worlds["gold"][0])
-    return RunResult(outcome, gold, positions[:ticks], states[:ticks])
+    end = world_digest(plain_copy(worlds, 0)) if digest else ""
+    return RunResult(outcome, gold, positions[:ticks], states[:ticks], end)
 
 
 def record_replay(
