@@ -1,7 +1,7 @@
 """Compiled kernels, once per process, with their machine code kept in the user's cache folder.
 
 Numba's own cache notices a change only in the file of an entry point, so the folder is named after a digest of all
-sources with compiled functions. Numba reads that name when it is first imported and never again.
+sources with compiled functions. Numba reads that name when it is first imported.
 """
 
 from __future__ import annotations
@@ -101,13 +101,16 @@ def kernels() -> Kernels:
 
 @cache
 def _compiler() -> Compiler:
-    """The compiler of this process; tells Numba where its cache is before Numba is imported."""
+    """The compiler of this process; tells Numba where its cache is, also where something has imported Numba before."""
     choose_memory("compiled")
-    if "numba" not in sys.modules:
+    if "NUMBA_CACHE_DIR" not in os.environ:
         from platformdirs import user_cache_path
 
         folder = user_cache_path("ninja-game") / "compiled"
-        os.environ.setdefault("NUMBA_CACHE_DIR", str(folder / source_digest()))
+        os.environ["NUMBA_CACHE_DIR"] = str(folder / source_digest())
+        if "numba" in sys.modules:
+            # Numba has read the environment already: it would keep code beside the sources, and run old rules.
+            sys.modules["numba"].config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]
         forget_old_code(folder)
     from ninja_game.sim.compiled import Compiler
 

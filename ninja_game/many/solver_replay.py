@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.formats.level_string import level_digest
 from ninja_game.formats.replay import Replay, write_replay
+from ninja_game.runs import record_replay
 from ninja_game.session.atomic_file import write_atomically
 from ninja_game.sim.level_data import LevelData
 from ninja_game.simulation import Body, Simulation
@@ -55,18 +55,7 @@ def verified_run(level: LevelData, inputs: bytes, *, body: Body = "circle", gold
 
 def replay_of(run: VerifiedRun, *, name: str = "", author: str = "") -> Replay:
     """A replay that holds its level."""
-    return Replay(
-        inputs=run.inputs,
-        final_tick=run.end_tick,
-        outcome="exit",
-        gold=run.gold,
-        digest=run.digest,
-        name=name,
-        author=author,
-        body=run.body,
-        level_digest=level_digest(run.level),
-        level=run.level,
-    )
+    return record_replay(run.level, run.inputs, body=run.body, name=name, author=author)
 
 
 def save_replay(path: Path, replay: Replay) -> None:
