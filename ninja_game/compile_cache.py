@@ -14,6 +14,7 @@ import sys
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
+from threading import Lock
 from typing import TYPE_CHECKING, Literal
 
 from ninja_game.errors import NinjaGameError
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
     from ninja_game.sim.compiled import Compiler, Kernels
 
 Memory = Literal["plain", "compiled"]
+
+_LOCK = Lock()
+"""One thread at a time imports Numba and makes twins."""
 
 KEPT_VERSIONS = 5
 """How many versions of the sources keep their compiled code."""
@@ -95,8 +99,12 @@ def forget_old_code(folder: Path) -> None:
 
 
 def kernels() -> Kernels:
-    """Compiled entry points of all modules imported so far, by name. Raises MemoryUnavailableError without Numba."""
-    return _compiler().kernels()
+    """Compiled entry points of all modules imported so far, by name; any thread may ask.
+
+    Raises MemoryUnavailableError without Numba.
+    """
+    with _LOCK:
+        return _compiler().kernels()
 
 
 @cache

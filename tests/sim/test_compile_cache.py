@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -39,6 +41,22 @@ def test_the_digest_follows_the_sources(tmp_path: Path, monkeypatch: pytest.Monk
     assert source_digest() == before
     (tmp_path / "sim" / "rule.py").write_text("x = 1\n", encoding="utf-8")
     assert source_digest() != before
+
+
+@pytest.mark.skipif(not compile_cache.compiled_available(), reason="Numba is not installed")
+@pytest.mark.parametrize("first", ["", "import numba; "])
+def test_threads_may_ask_for_kernels_at_once_whoever_imported_numba(first: str) -> None:
+    program = (
+        f"{first}from concurrent.futures import ThreadPoolExecutor as Pool\n"
+        "from ninja_game.compile_cache import kernels\n"
+        "with Pool(8) as pool: tables = list(pool.map(lambda _: kernels(), range(8)))\n"
+        "import numba, os\n"
+        "assert numba.config.CACHE_DIR == os.environ['NUMBA_CACHE_DIR'], numba.config.CACHE_DIR\n"
+        "print(len({id(table['run_world']) for table in tables}))\n"
+    )
+    environment = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
+    done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=False)
+    assert (done.stdout, done.stderr) == ("1\n", "")
 
 
 def test_without_numba_auto_is_plain_and_compiled_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
