@@ -18,6 +18,7 @@ from threading import Lock
 from typing import TYPE_CHECKING, Literal
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.sim.memory import REGISTERED
 
 if TYPE_CHECKING:
     from ninja_game.sim.compiled import Compiler, Kernels
@@ -26,6 +27,8 @@ Memory = Literal["plain", "compiled"]
 
 _LOCK = Lock()
 """One thread at a time imports Numba and makes twins."""
+_TABLES: dict[int, Kernels] = {}
+"""The kernels by how many functions were registered when they were made."""
 
 KEPT_VERSIONS = 5
 """How many versions of the sources keep their compiled code."""
@@ -103,8 +106,11 @@ def kernels() -> Kernels:
 
     Raises MemoryUnavailableError without Numba.
     """
-    with _LOCK:
-        return _compiler().kernels()
+    known = _TABLES.get(len(REGISTERED))
+    if known is None:
+        with _LOCK:
+            known = _TABLES[len(REGISTERED)] = _compiler().kernels()
+    return known
 
 
 @cache
