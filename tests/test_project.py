@@ -34,7 +34,7 @@ def test_readme_names_only_commands_that_exist() -> None:
     overview = subprocess.run(
         [sys.executable, ROOT / "tools/dev.py", "--help"], capture_output=True, text=True, check=True
     )
-    known = set(re.findall(r"^  (\w+)  +\S", overview.stdout, re.MULTILINE))
+    known = set(re.findall(r"^  ([\w-]+)  +\S", overview.stdout, re.MULTILINE))
     tools = {words[0] for words in commands_in(readme, "python3 tools/dev.py")}
     assert {"play", "test"} <= tools <= known
 
