@@ -174,7 +174,7 @@ def golden(rest: Sequence[str]) -> int:
 
 
 def change_rules(rest: Sequence[str]) -> int:
-    """Test the tests: break about sixty rules, one at a time, and tell which breaks no test notices."""
+    """Test the tests: break about seventy rules, one at a time, and tell which breaks no test notices."""
     install(DEVELOPMENT)
     return run(venv_script("python"), ROOT / "tools" / "change_rules.py", *rest)
 
@@ -220,7 +220,7 @@ def main(words: Sequence[str]) -> int:
         return 0
     if name in COMMANDS:
         return COMMANDS[name](rest)
-    table = "\n".join(f"  {name:<12} {describe(name).splitlines()[0]}" for name in COMMANDS)
+    table = "\n".join(f"  {name:<13} {describe(name).splitlines()[0]}" for name in COMMANDS)
     overview = f"usage: tools/dev.py COMMAND …\n\n{(__doc__ or '').strip()}\n\n{table}"
     if name in ("", "-h", "--help", "help"):
         print(overview)
