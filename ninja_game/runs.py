@@ -13,7 +13,6 @@ import hashlib
 import struct
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import isnan
 from typing import Any
 
 import numpy as np
@@ -22,11 +21,12 @@ from numpy.typing import NDArray
 from ninja_game.compile_cache import choose_memory, kernels
 from ninja_game.formats.level_string import level_digest
 from ninja_game.formats.replay import WAYPOINT_TICKS, Replay, Waypoint
+from ninja_game.sim.arithmetic import clean
 from ninja_game.sim.digest import world_digest
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.level_data import KIND_NAMES, NINJA, LevelData
 from ninja_game.sim.plain import load_plain
-from ninja_game.sim.rules import GOLD_BONUS, LIFETIME, NAN
+from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.schema import INERT, World
 from ninja_game.sim.states import OUTCOME_NAMES, STATE_NAMES
 from ninja_game.sim.traces import is_traced, place_of, status_of
@@ -92,7 +92,7 @@ def run_level(
     states = bytearray()
     for frame in frames:
         step(static, w, frame)
-        places += (_clean(n.x), _clean(n.y))
+        places += (clean(n.x), clean(n.y))
         states.append(n.state)
         if w.outcome:
             break
@@ -136,7 +136,7 @@ def record_replay(
     for tick, frame in enumerate(frames):
         step(static, w, frame)
         if tick % WAYPOINT_TICKS == WAYPOINT_TICKS - 1:
-            waypoints.append(Waypoint(tick, _clean(w.ninja.x), _clean(w.ninja.y), STATE_NAMES[w.ninja.state]))
+            waypoints.append(Waypoint(tick, clean(w.ninja.x), clean(w.ninja.y), STATE_NAMES[w.ninja.state]))
         if w.outcome:
             break
     return Replay(
@@ -193,10 +193,10 @@ def trace_level(
     pack_ninja, pack_thing = struct.Struct("<4d2i").pack, struct.Struct("<2di").pack
     for frame in frames:
         step(static, w, frame)
-        ninja += pack_ninja(_clean(n.x), _clean(n.y), _clean(n.px), _clean(n.py), n.state, w.gold)
+        ninja += pack_ninja(clean(n.x), clean(n.y), clean(n.px), clean(n.py), n.state, w.gold)
         for slot in slots:
             x, y = place_of(w, slot)
-            things += pack_thing(_clean(x), _clean(y), status_of(w, slot))
+            things += pack_thing(clean(x), clean(y), status_of(w, slot))
         if events:
             names.append(" ".join(EVENT_NAMES[event.kind] for event in w.events[: w.event_count]))
     rows = np.frombuffer(bytes(things), THING_RECORD).reshape(len(frames), len(slots))
@@ -225,8 +225,3 @@ def traced_slots(w: World) -> list[int]:
 def _columns(w: World, slots: list[int]) -> tuple[tuple[int, ...], tuple[str, ...]]:
     """Ids and kinds of the objects in these slots."""
     return tuple(w.things[slot].id for slot in slots), tuple(KIND_NAMES[w.things[slot].kind] for slot in slots)
-
-
-def _clean(value: float) -> float:
-    """A number as traces write it: no -0.0, one NaN."""
-    return NAN if isnan(value) else value + 0.0

@@ -11,7 +11,6 @@ import click
 
 from ninja_game.cli.solver_options import (
     NOT_FOUND,
-    TICKS_PER_SECOND,
     body_option,
     default_threads,
     gold_option,
@@ -22,6 +21,7 @@ from ninja_game.cli.solver_options import (
     seed_option,
     work_option,
 )
+from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel

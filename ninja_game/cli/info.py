@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from ninja_game.formats.files import NamedLevel, Recording
 
-TICKS_PER_SECOND = 40
 PIPE_WIDTH = 160
 
 

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from ninja_game.sim.rules import TICKS_PER_SECOND
+
 if TYPE_CHECKING:
     from pathlib import Path
 
@@ -19,7 +21,6 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-TICKS_PER_SECOND = 40
 NOT_FOUND = 1
 """Exit code of a search that found nothing."""
 

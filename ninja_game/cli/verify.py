@@ -11,13 +11,13 @@ from typing import IO, TYPE_CHECKING
 import click
 
 from ninja_game.cli.run_options import jobs_option, with_progress
+from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
     from ninja_game.many.pieces import Result
     from ninja_game.many.verification import Tally
     from ninja_game.session.verify import Verdict
 
-TICKS_PER_SECOND = 40
 FAILED = 1
 
 

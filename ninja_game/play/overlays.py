@@ -11,6 +11,7 @@ from ninja_game.play.hit_shapes import HitShape, hit_shapes
 from ninja_game.play.palette import Palette
 from ninja_game.play.picture.stage import Stage
 from ninja_game.sim.level_data import DRONE, LAUNCHER, TURRET
+from ninja_game.sim.objects.contact import NINE_CELLS
 from ninja_game.sim.rays import ray_tiles, sees
 from ninja_game.sim.rules import INTERESTING, OFF, RADIUS, STRIDE
 from ninja_game.sim.schema import Thing, World
@@ -22,9 +23,6 @@ HIT_BOXES, GRID, EDGES, RAYS, CELLS = (
     "overlay_hitboxes", "overlay_grid", "overlay_edges", "overlay_rays", "overlay_cells",
 )  # fmt: skip
 OVERLAY_ACTIONS = (HIT_BOXES, GRID, EDGES, RAYS, CELLS)
-
-_NINE = (0, STRIDE, STRIDE + 1, STRIDE - 1, -1, -STRIDE - 1, 1, -STRIDE + 1, -STRIDE)
-"""The cells that the ninja asks for things, in their order (objects.md §3)."""
 
 
 class Overlays:
@@ -111,7 +109,7 @@ def _draw_cells(stage: Stage, world: World) -> None:
     """The nine cells that are asked for things; stronger, the cells whose tiles the body touches; things' own cells."""
     n = world.ninja
     if EXISTS[n.cell]:
-        for offset in _NINE:
+        for offset in NINE_CELLS:
             _tint(stage, stage.palette.switch, 40, n.cell + offset)
         for cell in touched_cells(n.x, n.y, n.cell):
             _tint(stage, stage.palette.accent, 70, cell, 2)

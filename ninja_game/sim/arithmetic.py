@@ -22,3 +22,11 @@ def div(a: float, b: float) -> float:
 def is_set(value: float) -> bool:
     """A flag: any number but 0 and NaN."""
     return value < 0.0 or value > 0.0
+
+
+@fast
+def clean(value: float) -> float:
+    """A number as traces write it: no -0.0, one NaN."""
+    if value != value:
+        return NAN
+    return value + 0.0

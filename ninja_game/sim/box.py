@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 from ninja_game.sim.arithmetic import div
+from ninja_game.sim.circle_blocks import AXIS, NONE, SHAPED
 from ninja_game.sim.contacts import push_from_tile
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory import fast
@@ -28,8 +29,6 @@ from ninja_game.sim.tiles import (
     THIN_67,
     UNDEFINED,
 )
-
-NONE, AXIS, SHAPED = 0, 1, 2
 
 BOX_HALF = RADIUS
 """Half width and half height of the ninja as a box, px."""

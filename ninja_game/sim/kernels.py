@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from ninja_game.sim.arithmetic import clean
 from ninja_game.sim.loader import populate
-from ninja_game.sim.memory import entry_point, fast
-from ninja_game.sim.rules import NAN
+from ninja_game.sim.memory import entry_point
 from ninja_game.sim.schema import Level, World
 from ninja_game.sim.tiles import set_edges
 from ninja_game.sim.traces import place_of, status_of
@@ -70,14 +70,6 @@ def race_world(levels: Sequence[Level], worlds: Sequence[World], index: int, fra
         if w.outcome:
             return tick + 1
     return len(frames)
-
-
-@fast
-def clean(value: float) -> float:
-    """A number as traces write it: no -0.0, one NaN."""
-    if value != value:
-        return NAN
-    return value + 0.0
 
 
 @entry_point

@@ -16,7 +16,6 @@ OUTCOME_NAMES = ("running", "exit", "dead")
 
 # Kill types (objects.md §9; the chaingun's bullet and the crushed have numbers of ours).
 ELECTRIC, EXPLOSIVE, WEAK_BULLET, HARD_BULLET, FALL, LASER, BULLET, CRUSHED = range(8)
-KILL_NAMES = ("electric", "explosive", "weak bullet", "hard bullet", "fall", "laser", "bullet", "crushed")
 
 # Routines of the things; 0 is always the one a thing starts with.
 THWUMP_REST, THWUMP_MOVE = 0, 1
