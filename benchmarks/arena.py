@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ninja_game.sim.memory import entry_point, fast
+from ninja_game.sim.memory.declare import entry_point, fast
 
 RADIUS = 0.4
 REACH = 0.8

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+from ninja_game.sim.collision.ray_shapes import ray_tile
+from ninja_game.sim.collision.rays import cast
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
-from ninja_game.sim.memory import entry_point
-from ninja_game.sim.objects.contact import touch, touch_things
-from ninja_game.sim.ray_shapes import ray_tile
-from ninja_game.sim.rays import cast
+from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.objects.object_query import touch, touch_things
 from ninja_game.sim.rules import DOWN, RIGHT, SOLID, STRIDE
-from ninja_game.sim.tiles import CENTRE_X, CENTRE_Y
 
 
 @entry_point

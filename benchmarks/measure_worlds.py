@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 
 from benchmarks import game_kernels
 from benchmarks.charts import Chart, seconds_per
+from ninja_game.batch.batch import Batch
+from ninja_game.batch.thread_pool import cores
 from ninja_game.compile_cache import kernels
 from ninja_game.formats.recording import Recording
-from ninja_game.many.batch import Batch
-from ninja_game.many.crew import cores
-from ninja_game.sim.compiled import load_compiled
-from ninja_game.sim.layout import used_bytes
-from ninja_game.sim.level_data import GOLD, MINE, NINJA, TILES, LevelData, Record
+from ninja_game.sim.level import GOLD, MINE, NINJA, TILES, LevelData, Record
+from ninja_game.sim.memory.compiled import load_compiled
+from ninja_game.sim.memory.layout import used_bytes
 from ninja_game.simulation import Simulation
 
 WORLDS = 1024

@@ -18,33 +18,33 @@ from typing import TYPE_CHECKING, Any
 from ninja_game.errors import DemoError, FormatError, LevelError, NinjaGameError, ReplayError
 
 if TYPE_CHECKING:
-    from ninja_game.formats.files import load_level, load_levels, load_replays
-    from ninja_game.formats.level_string import parse_level_string as parse_level
-    from ninja_game.formats.replay import Replay, parse_replay, write_replay
-    from ninja_game.runs import RunResult, RunTrace, record_replay, run_level, trace_level
-    from ninja_game.session.verify import Verdict, verify_recording
-    from ninja_game.sim.level_data import LevelData
+    from ninja_game.formats.load import load_level, load_levels, load_replays
+    from ninja_game.formats.n14.level_string import parse_level_string as parse_level
+    from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
+    from ninja_game.runs.run import RunResult, RunTrace, record_replay, run_level, trace_level
+    from ninja_game.runs.verify import Verdict, verify_recording
+    from ninja_game.sim.level import LevelData
     from ninja_game.simulation import Simulation
 
 __version__ = "0.1.0"
 
 _HOMES = {
-    "LevelData": ("ninja_game.sim.level_data", "LevelData"),
-    "Replay": ("ninja_game.formats.replay", "Replay"),
-    "RunResult": ("ninja_game.runs", "RunResult"),
-    "RunTrace": ("ninja_game.runs", "RunTrace"),
+    "LevelData": ("ninja_game.sim.level", "LevelData"),
+    "Replay": ("ninja_game.formats.replay.text", "Replay"),
+    "RunResult": ("ninja_game.runs.run", "RunResult"),
+    "RunTrace": ("ninja_game.runs.run", "RunTrace"),
     "Simulation": ("ninja_game.simulation", "Simulation"),
-    "Verdict": ("ninja_game.session.verify", "Verdict"),
-    "load_level": ("ninja_game.formats.files", "load_level"),
-    "load_levels": ("ninja_game.formats.files", "load_levels"),
-    "load_replays": ("ninja_game.formats.files", "load_replays"),
-    "parse_level": ("ninja_game.formats.level_string", "parse_level_string"),
-    "parse_replay": ("ninja_game.formats.replay", "parse_replay"),
-    "record_replay": ("ninja_game.runs", "record_replay"),
-    "run_level": ("ninja_game.runs", "run_level"),
-    "trace_level": ("ninja_game.runs", "trace_level"),
-    "verify_recording": ("ninja_game.session.verify", "verify_recording"),
-    "write_replay": ("ninja_game.formats.replay", "write_replay"),
+    "Verdict": ("ninja_game.runs.verify", "Verdict"),
+    "load_level": ("ninja_game.formats.load", "load_level"),
+    "load_levels": ("ninja_game.formats.load", "load_levels"),
+    "load_replays": ("ninja_game.formats.load", "load_replays"),
+    "parse_level": ("ninja_game.formats.n14.level_string", "parse_level_string"),
+    "parse_replay": ("ninja_game.formats.replay.text", "parse_replay"),
+    "record_replay": ("ninja_game.runs.run", "record_replay"),
+    "run_level": ("ninja_game.runs.run", "run_level"),
+    "trace_level": ("ninja_game.runs.run", "trace_level"),
+    "verify_recording": ("ninja_game.runs.verify", "verify_recording"),
+    "write_replay": ("ninja_game.formats.replay.text", "write_replay"),
 }
 
 __all__ = [

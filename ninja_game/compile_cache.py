@@ -18,10 +18,10 @@ from threading import Lock
 from typing import TYPE_CHECKING, Literal
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.sim.memory import REGISTERED
+from ninja_game.sim.memory.declare import REGISTERED
 
 if TYPE_CHECKING:
-    from ninja_game.sim.compiled import Compiler, Kernels
+    from ninja_game.sim.memory.compiled import Compiler, Kernels
 
 Memory = Literal["plain", "compiled"]
 
@@ -34,7 +34,7 @@ KEPT_VERSIONS = 5
 """How many versions of the sources keep their compiled code."""
 
 _REGISTERS = re.compile(rb"^@(fast|entry_point)$", re.MULTILINE)
-_IMPORTS = re.compile(rb"ninja_game\.many\.(\w+)")
+_IMPORTS = re.compile(rb"ninja_game\.(?:batch|solver)\.(\w+)")
 
 
 class MemoryUnavailableError(NinjaGameError):
@@ -68,10 +68,11 @@ def choose_memory(memory: str) -> Memory:
 def compiled_sources() -> list[Path]:
     """Every source file that goes into the machine code, so that an edit elsewhere compiles nothing anew.
 
-    All of ``sim``; of ``many`` the files that register functions, and what those import from there.
+    All of ``sim``; of ``batch`` and ``solver`` the files that register functions, and what those import from there.
     """
     package = Path(__file__).parent
-    texts = {path.stem: path.read_bytes() for path in (package / "many").glob("*.py")}
+    paths = {path.stem: path for folder in ("batch", "solver") for path in (package / folder).glob("*.py")}
+    texts = {name: path.read_bytes() for name, path in paths.items()}
     found = {name for name, text in texts.items() if _REGISTERS.search(text)}
     waiting = list(found)
     while waiting:
@@ -79,7 +80,7 @@ def compiled_sources() -> list[Path]:
         new = imported & texts.keys() - found
         found |= new
         waiting += new
-    return sorted((package / "sim").rglob("*.py")) + [package / "many" / f"{name}.py" for name in sorted(found)]
+    return sorted((package / "sim").rglob("*.py")) + [paths[name] for name in sorted(found)]
 
 
 def source_digest() -> str:
@@ -126,6 +127,6 @@ def _compiler() -> Compiler:
             # Numba has read the environment already: it would keep code beside the sources, and run old rules.
             sys.modules["numba"].config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]
         forget_old_code(folder)
-    from ninja_game.sim.compiled import Compiler
+    from ninja_game.sim.memory.compiled import Compiler
 
     return Compiler()

@@ -22,12 +22,12 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from ninja_game.compile_cache import choose_memory, kernels
-from ninja_game.formats.frames import HELD, LEFT, RIGHT, TRIGGERED
 from ninja_game.sim.digest import differences, world_digest
 from ninja_game.sim.events import EVENT_NAMES
-from ninja_game.sim.level_data import KIND_NAMES, LevelData
-from ninja_game.sim.plain import load_plain, restore_plain, save_plain
-from ninja_game.sim.schema import Level, World
+from ninja_game.sim.inputs import HELD, LEFT, RIGHT, TRIGGERED
+from ninja_game.sim.level import KIND_NAMES, LevelData
+from ninja_game.sim.memory.plain import load_plain, restore_plain, save_plain
+from ninja_game.sim.memory.schema import Level, World
 from ninja_game.sim.states import OUTCOME_NAMES, STATE_NAMES
 from ninja_game.sim.traces import is_traced, place_of, status_of
 from ninja_game.sim.world import step
@@ -117,8 +117,8 @@ class Simulation:
         if self.memory == "plain":
             self._level, self._world = load_plain(self.level, self.body == "box")
             return
-        from ninja_game.sim.compiled import load_compiled
-        from ninja_game.sim.layout import state_view
+        from ninja_game.sim.memory.compiled import load_compiled
+        from ninja_game.sim.memory.layout import state_view
 
         self._kernels = kernels()
         self._levels, self._worlds = load_compiled(self._kernels, self.level, self.body == "box")
@@ -129,7 +129,7 @@ class Simulation:
         """The whole state as plain objects; of the plain memory the world itself, of the compiled one a copy."""
         if self.memory == "plain":
             return self._world
-        from ninja_game.sim.layout import plain_copy
+        from ninja_game.sim.memory.layout import plain_copy
 
         return plain_copy(self._worlds, 0)
 

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pygame
 
-from ninja_game.play.level_screen import LevelScreen
+from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.panels import PausePanel
 from ninja_game.play.menus.settings import SettingsScreen
-from tests.play.menus.stage import Stage
+from tests.support.menu_driver import Stage
 
 SIZE = (1188, 900)
 

@@ -19,13 +19,13 @@ sys.path.insert(0, str(ROOT))
 
 import pygame
 
-from ninja_game.play.canvas import Canvas
-from ninja_game.play.palette import PALETTES, Palette
-from ninja_game.play.picture.dances import DANCES
-from ninja_game.play.picture.figure import ninja_sprite
-from ninja_game.play.picture.pose import FALL, FLOAT, RISE, SKID, SLIDE, STAND, Pose, run_pose
-from ninja_game.play.picture.sprite_book import Key, SpriteBook
-from ninja_game.play.theme import Theme
+from ninja_game.play.ui.canvas import Canvas
+from ninja_game.play.ui.palette import PALETTES, Palette
+from ninja_game.play.ui.theme import Theme
+from ninja_game.play.view.ninja.dances import DANCES
+from ninja_game.play.view.ninja.figure import ninja_sprite
+from ninja_game.play.view.ninja.pose import FALL, FLOAT, RISE, SKID, SLIDE, STAND, Pose, run_pose
+from ninja_game.play.view.sprites.sprite_book import Key, SpriteBook
 
 SCALE = 3.0
 CELL = 150, 138

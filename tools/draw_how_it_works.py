@@ -8,15 +8,15 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from ninja_game.formats.level_string import parse_level_string
-from ninja_game.play.picture.tile_shapes import outline
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.play.view.sprites.tile_shapes import outline
+from ninja_game.sim.collision.rays import ray_tiles
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW
 from ninja_game.sim.grid import cell_at
-from ninja_game.sim.objects.contact import NINE_CELLS
-from ninja_game.sim.plain import load_plain
-from ninja_game.sim.rays import ray_tiles
+from ninja_game.sim.memory.plain import load_plain
+from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.objects.object_query import NINE_CELLS
 from ninja_game.sim.rules import OFF, RADIUS, STRIDE
-from ninja_game.sim.schema import Level, World
-from ninja_game.sim.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW
 from tools.svg import BLUE, FAINT, GOLD, GREEN, INK, PAPER, RED, SOLID, Picture, Point
 
 PICTURES = ROOT / "docs" / "pictures"

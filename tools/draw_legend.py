@@ -9,8 +9,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from ninja_game.formats.ascii_legend import TILE_CHARS, TILE_FAMILIES, TILE_OF_CHAR
-from ninja_game.sim.tiles import (
+from ninja_game.formats.ascii.legend import TILE_CHARS, TILE_FAMILIES, TILE_OF_CHAR
+from ninja_game.sim.collision.tiles import (
     CONCAVE,
     CONVEX,
     FULL,

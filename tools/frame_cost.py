@@ -24,16 +24,16 @@ os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 
 import pygame
 
-from ninja_game.formats.files import load_levels
+from ninja_game.formats.load import load_levels
 from ninja_game.play.app import App
-from ninja_game.play.controls import Keyboard
-from ninja_game.play.course import SingleLevel
-from ninja_game.play.level_screen import LevelScreen
+from ninja_game.play.input.controls import Keyboard
+from ninja_game.play.level.context import SingleLevel
+from ninja_game.play.level.phase import Phase
+from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.options import Options
-from ninja_game.play.phase import Phase
-from ninja_game.play.replay_screen import ReplayScreen
-from ninja_game.play.take import Take
-from ninja_game.sim.level_data import (
+from ninja_game.play.replay.playback import Take
+from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.sim.level import (
     BOUNCE_BLOCK,
     DRONE,
     EXIT,

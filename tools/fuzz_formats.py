@@ -20,16 +20,16 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.formats.ascii_level import parse_ascii_level, write_ascii_level
-from ninja_game.formats.demo import parse_demo, write_demo
-from ninja_game.formats.legacy_demo import write_legacy_demo
-from ninja_game.formats.level_file import read_level_file
-from ninja_game.formats.level_string import level_digest, parse_level_string, write_level_string
-from ninja_game.formats.level_warnings import level_warnings
+from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
+from ninja_game.formats.n14.demo import parse_demo, write_demo
+from ninja_game.formats.n14.legacy_demo import write_legacy_demo
+from ninja_game.formats.n14.level_file import read_level_file
+from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.named_level import parse_levels
 from ninja_game.formats.numbers import format_exact, parse_number
 from ninja_game.formats.recording import parse_replays
-from ninja_game.formats.replay import Replay, parse_replay, write_replay
+from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
+from ninja_game.levels.warnings import level_warnings
 
 SLOW_S = 1.0
 
@@ -104,7 +104,7 @@ def seeds(*, reference: bool) -> list[str]:
         *[path.read_text(encoding="utf-8") for path in sorted(ROOT.glob("tests/replays/*.txt"))],
     ]
     if reference:
-        from tests import reference as data
+        from tests.support import reference as data
 
         texts += [f"$###{run.data}#{run.demo}#" for run in data.random_runs()[::10]]
         texts += [scene.data for scene in data.scenes()[::5]]

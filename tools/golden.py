@@ -7,7 +7,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from tests.golden_runs import GOLDEN, write_golden_files
+from tests.support.golden_runs import GOLDEN, write_golden_files
 
 if __name__ == "__main__":
     write_golden_files()

@@ -28,12 +28,12 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 import pygame
 
-from ninja_game.formats.level_string import parse_level_string
+from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.play.app import App
-from ninja_game.play.bindings import Bindings
-from ninja_game.play.controls import JUMP
-from ninja_game.play.course import SingleLevel
-from ninja_game.play.level_screen import LevelScreen
+from ninja_game.play.input.bindings import Bindings
+from ninja_game.play.input.controls import JUMP
+from ninja_game.play.level.context import SingleLevel
+from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.start import prepare
 
 LEVEL = parse_level_string("0" * 713 + "|5^300,566!11^500,564,600,564")

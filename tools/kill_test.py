@@ -22,13 +22,13 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from ninja_game.formats.level_string import level_digest, parse_level_string
+from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.session.attempt import Attempt
-from ninja_game.session.catalogue import Entry
-from ninja_game.session.player_data import PlayerData
-from ninja_game.session.playthrough import LevelRun
-from ninja_game.sim.level_data import LevelData
+from ninja_game.player.attempt import Attempt
+from ninja_game.player.catalogue import Entry
+from ninja_game.player.player_data import PlayerData
+from ninja_game.player.playthrough import LevelRun
+from ninja_game.sim.level import LevelData
 
 LONGEST_LIFE = 0.25
 """Seconds after which a child is killed at the latest."""

@@ -30,7 +30,7 @@ COLUMNS = (
 
 def machine_kind() -> str:
     """What figures may be compared: system, processor and number of cores, as a file name; no names of machines."""
-    from ninja_game.many.crew import cores
+    from ninja_game.batch.thread_pool import cores
 
     processor = platform.processor() or platform.machine()
     about = Path("/proc/cpuinfo")
@@ -52,10 +52,10 @@ def figures() -> dict[str, Any]:
     import numba
 
     from benchmarks.measure_worlds import WORLDS, batch_speed
-    from ninja_game.formats.files import load_replays
-    from ninja_game.many.crew import cores
-    from ninja_game.session.benchmark import run_benchmark
-    from ninja_game.session.bundled import bundled_replays
+    from ninja_game.batch.thread_pool import cores
+    from ninja_game.files.resources import bundled_replays
+    from ninja_game.formats.load import load_replays
+    from ninja_game.runs.benchmark import run_benchmark
 
     recordings = [recording for file in bundled_replays() for recording in load_replays(file)]
     batch = [batch_speed(recordings, WORLDS, cores()) for _ in range(3)]

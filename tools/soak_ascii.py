@@ -15,12 +15,12 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.formats.ascii_legend import SYMBOLS, TILE_CHARS
-from ninja_game.formats.ascii_level import parse_ascii_level, write_ascii_level
-from ninja_game.formats.level_string import parse_level_string, write_level_string
-from ninja_game.formats.level_warnings import level_warnings
-from ninja_game.formats.object_writer import same_record
-from tests.reference import fuzz, levels, random_runs, reference_folder, scenes
+from ninja_game.formats.ascii.legend import SYMBOLS, TILE_CHARS
+from ninja_game.formats.ascii.object_writer import same_record
+from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
+from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
+from ninja_game.levels.warnings import level_warnings
+from tests.support.reference import fuzz, levels, random_runs, reference_folder, scenes
 
 ALPHABET = TILE_CHARS + "".join(symbol.char for symbol in SYMBOLS) + '0123456789.,;:|"\\\n -px?'
 

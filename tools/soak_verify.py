@@ -25,10 +25,10 @@ FOLDER_SIZE = 1000
 
 def make_archive(folder: Path, count: int, source: Path | None) -> None:
     """``count`` files of one recording each, a thousand a folder, every 997th broken."""
-    from ninja_game.formats.files import load_replays
-    from ninja_game.formats.level_file import read_level_file
-    from ninja_game.formats.replay import write_replay
-    from ninja_game.session.bundled import bundled_replays
+    from ninja_game.files.resources import bundled_replays
+    from ninja_game.formats.load import load_replays
+    from ninja_game.formats.n14.level_file import read_level_file
+    from ninja_game.formats.replay.text import write_replay
 
     if source:
         records = read_level_file(source.read_text("utf-8"))

@@ -20,18 +20,18 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
 
-from ninja_game.formats.demo import parse_demo
-from ninja_game.formats.files import load_levels
-from ninja_game.formats.level_string import parse_level_string
-from ninja_game.many.solver import Task, compiled_kernels, solve
-from ninja_game.many.solver_replay import VerifiedRun
+from ninja_game.formats.load import load_levels
+from ninja_game.formats.n14.demo import parse_demo
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.solver.certificate import VerifiedRun
+from ninja_game.solver.solve import Task, compiled_kernels, solve
 
 EPISODES = ("00", "10", "20", "30", "40", "50", "60", "70", "80", "90")
 
 
 def tasks(arguments: argparse.Namespace) -> Iterator[tuple[str, Task]]:
     """Name and task of everything in the table."""
-    from tests.reference import levels, recordings
+    from tests.support.reference import levels, recordings
 
     base = {"seconds": arguments.seconds, "jobs": arguments.jobs}
     if arguments.improve:
@@ -52,7 +52,7 @@ def tasks(arguments: argparse.Namespace) -> Iterator[tuple[str, Task]]:
 
 def people(source: str) -> dict[str, int]:
     """End tick of the shortest speedrun of a source on each level."""
-    from tests.reference import recordings
+    from tests.support.reference import recordings
 
     best: dict[str, int] = {}
     for run in recordings():

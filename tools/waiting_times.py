@@ -27,8 +27,8 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 import pygame
 
 from ninja_game.play.app import App
-from ninja_game.play.level_screen import LevelScreen
-from ninja_game.play.menus.courses import LevelCourse
+from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menus.level_contexts import LevelCourse
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.start import prepare
 

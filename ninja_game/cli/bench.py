@@ -55,9 +55,9 @@ def command(files: Sequence[Path], quick: bool, as_json: bool, scaling: Path | N
       ninja-game bench demos.txt --quick --json
       ninja-game bench --scaling charts/
     """
-    from ninja_game.formats.files import load_replays
-    from ninja_game.session.benchmark import run_benchmark
-    from ninja_game.session.bundled import bundled_replays
+    from ninja_game.files.resources import bundled_replays
+    from ninja_game.formats.load import load_replays
+    from ninja_game.runs.benchmark import run_benchmark
 
     recordings = [recording for file in files or bundled_replays() for recording in load_replays(file)]
     if not recordings:
@@ -82,7 +82,7 @@ def _scale(recordings: Sequence[Recording], folder: Path, only: str) -> None:
     from importlib import import_module
 
     from ninja_game.compile_cache import choose_memory
-    from ninja_game.session.bundled import PACKAGE
+    from ninja_game.files.resources import PACKAGE
 
     choose_memory("compiled")
     if not (PACKAGE.parent / "benchmarks" / "scaling.py").is_file():

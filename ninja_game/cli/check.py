@@ -25,7 +25,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
-    from ninja_game.many.solver_replay import VerifiedRun
+    from ninja_game.solver.certificate import VerifiedRun
 
 
 @click.command()
@@ -63,8 +63,8 @@ def command(
       ninja-game check levels/
       ninja-game check my-level.txt --seconds 60 --replays certificates/
     """
-    from ninja_game.formats.files import load_levels
-    from ninja_game.many.solver import Task, solve
+    from ninja_game.formats.load import load_levels
+    from ninja_game.solver.solve import Task, solve
 
     chosen = [level for path in levels for level in load_levels(path)]
     if replays:
@@ -98,7 +98,7 @@ def _row(level: NamedLevel, run: VerifiedRun | None) -> str:
 
 def _facts(level: NamedLevel, run: VerifiedRun | None, where: Path | None) -> dict[str, Any]:
     """A level's certificate for programs."""
-    from ninja_game.formats.level_string import level_digest
+    from ninja_game.formats.n14.level_string import level_digest
 
     facts: dict[str, Any] = {
         "file": level.file, "record": level.record, "name": level.name, "level_digest": level_digest(level.level),

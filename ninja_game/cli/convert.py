@@ -12,7 +12,7 @@ import click
 from ninja_game.errors import LevelError
 
 if TYPE_CHECKING:
-    from ninja_game.formats.files import NamedLevel
+    from ninja_game.formats.load import NamedLevel
 
 FORMS = ("ascii", "string", "file")
 STANDARD_STREAM = "-"
@@ -43,7 +43,7 @@ def command(source: Path, target: str, form: str | None, legend: bool) -> None:
       ninja-game convert my-levels/first.txt first.nlevel
       ninja-game convert first.nlevel -
     """
-    from ninja_game.formats.files import load_levels
+    from ninja_game.formats.load import load_levels
 
     levels = load_levels(source)
     form = form or _form_for(target, levels)
@@ -67,7 +67,7 @@ def _is_folder(target: str) -> bool:
 
 
 def _ascii_text(level: NamedLevel, legend: bool) -> str:
-    from ninja_game.formats.ascii_level import write_ascii_level
+    from ninja_game.formats.ascii.reader import write_ascii_level
 
     return write_ascii_level(
         level.level, name=level.name, author=level.author, comment=level.comment, legend=legend
@@ -76,8 +76,8 @@ def _ascii_text(level: NamedLevel, legend: bool) -> str:
 
 def _level_file_text(levels: Sequence[NamedLevel]) -> str:
     """All levels as one level file of N."""
-    from ninja_game.formats.level_file import LevelRecord, write_level_file
-    from ninja_game.formats.level_string import write_level_string
+    from ninja_game.formats.n14.level_file import LevelRecord, write_level_file
+    from ninja_game.formats.n14.level_string import write_level_string
 
     return write_level_file(
         LevelRecord(level.name, level.author, level.comment, write_level_string(level.level)) for level in levels
@@ -86,14 +86,14 @@ def _level_file_text(levels: Sequence[NamedLevel]) -> str:
 
 def _strings_text(levels: Sequence[NamedLevel]) -> str:
     """All levels as in-game strings, one a line."""
-    from ninja_game.formats.level_string import write_level_string
+    from ninja_game.formats.n14.level_string import write_level_string
 
     return "".join(write_level_string(level.level) + "\n" for level in levels)
 
 
 def _write(target: str, text: str) -> None:
     """Write one file, or to the terminal."""
-    from ninja_game.session.atomic_file import write_atomically
+    from ninja_game.files.writing import write_atomically
 
     if target == STANDARD_STREAM:
         click.echo(text, nl=False)
@@ -103,7 +103,7 @@ def _write(target: str, text: str) -> None:
 
 def _write_folder(folder: Path, levels: Sequence[NamedLevel], legend: bool) -> None:
     """Write one readable file a level, named after its place and its name."""
-    from ninja_game.session.atomic_file import write_atomically
+    from ninja_game.files.writing import write_atomically
 
     if folder.exists() and not folder.is_dir():
         raise LevelError(

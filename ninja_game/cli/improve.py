@@ -23,7 +23,7 @@ from ninja_game.cli.solver_options import (
 )
 
 if TYPE_CHECKING:
-    from ninja_game.many.solver_replay import VerifiedRun
+    from ninja_game.solver.certificate import VerifiedRun
 
 
 @click.command()
@@ -64,8 +64,8 @@ def command(
       ninja-game improve demos.txt --record 3 --seconds 300 -o shorter.replay.txt
     """
     from ninja_game.cli.solver_options import choose_level
-    from ninja_game.formats.files import load_replays
-    from ninja_game.many.solver import Task, solve
+    from ninja_game.formats.load import load_replays
+    from ninja_game.solver.solve import Task, solve
 
     level = choose_level(level_path, None).level if level_path else None
     recordings = load_replays(replay, level=level)

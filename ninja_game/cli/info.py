@@ -17,7 +17,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from ninja_game.formats.files import NamedLevel, Recording
+    from ninja_game.formats.load import NamedLevel, Recording
 
 PIPE_WIDTH = 160
 
@@ -41,7 +41,7 @@ def command(files: Sequence[Path], record: int | None, picture: bool | None, as_
     """
     from rich.console import Console
 
-    from ninja_game.formats.files import load_levels
+    from ninja_game.formats.load import load_levels
 
     # A pipe has no width; a table cut to 80 columns is of no use to whoever reads it.
     console = Console(highlight=False, width=None if sys.stdout.isatty() else PIPE_WIDTH)
@@ -63,8 +63,8 @@ def command(files: Sequence[Path], record: int | None, picture: bool | None, as_
 
 def _recordings(file: Path) -> list[Recording]:
     """The recordings in a file or folder; none where it holds levels only."""
-    from ninja_game.formats.files import load_replays
-    from ninja_game.formats.text_file import text_files
+    from ninja_game.files.reading import text_files
+    from ninja_game.formats.load import load_replays
 
     found = []
     for part in text_files(file):
@@ -77,14 +77,14 @@ def _recordings(file: Path) -> list[Recording]:
 
 def _counts(level: NamedLevel) -> Counter[str]:
     """How many objects of each kind."""
-    from ninja_game.sim.level_data import KIND_NAMES
+    from ninja_game.sim.level import KIND_NAMES
 
     return Counter(KIND_NAMES[record.kind] for record in level.level.records if record.kind >= 0)
 
 
 def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
     """Everything about a level, for programs."""
-    from ninja_game.formats.level_string import level_digest
+    from ninja_game.formats.n14.level_string import level_digest
 
     facts: dict[str, Any] = {
         "file": level.file, "record": level.record, "line": level.line, "form": level.form, "name": level.name,

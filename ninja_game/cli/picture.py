@@ -7,8 +7,9 @@ from operator import itemgetter
 
 from rich.text import Text
 
-from ninja_game.formats.ascii_legend import symbol_chars
-from ninja_game.sim.level_data import (
+from ninja_game.formats.ascii.legend import symbol_chars
+from ninja_game.sim.collision.rays import solid_at
+from ninja_game.sim.level import (
     BOUNCE_BLOCK,
     COLUMNS,
     DOOR,
@@ -27,9 +28,8 @@ from ninja_game.sim.level_data import (
     LevelData,
 )
 from ninja_game.sim.loader import grid_tiles
-from ninja_game.sim.rays import solid_at
+from ninja_game.sim.memory.schema import Level
 from ninja_game.sim.rules import CELL
-from ninja_game.sim.schema import Level
 
 COLOURS = {
     GOLD: "bright_yellow",

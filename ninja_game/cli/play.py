@@ -52,7 +52,7 @@ def command(
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     import pygame
 
-    from ninja_game.play.launch import main
+    from ninja_game.play.main import main
 
     try:
         code = main(
@@ -65,7 +65,7 @@ def command(
 
 def _path_of(level: str) -> str:
     """The file that LEVEL means."""
-    from ninja_game.session.bundled import bundled_levels
+    from ninja_game.files.resources import bundled_levels
 
     if Path(level).exists():
         return level

@@ -63,7 +63,7 @@ def command(
       ninja-game solve levels/01-first-steps.txt -o first.replay.txt
       ninja-game solve userlevels.txt --record 17 --gold all --seconds 300 -o gold.replay.txt
     """
-    from ninja_game.many.solver import Task, solve
+    from ninja_game.solver.solve import Task, solve
 
     chosen = choose_level(level, record)
     task = Task(chosen.level, jobs=default_threads(jobs), **wish)

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ninja_game.formats.named_level import NamedLevel
-    from ninja_game.many.solver import Progress, Task
-    from ninja_game.many.solver_replay import VerifiedRun
+    from ninja_game.solver.certificate import VerifiedRun
+    from ninja_game.solver.solve import Progress, Task
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -78,7 +78,7 @@ def default_threads(jobs: int | None) -> int:
 
 def choose_level(path: Path, record: int | None) -> NamedLevel:
     """The level of a file; of several the one with that record number. Usage error if that is none or not one."""
-    from ninja_game.formats.files import load_levels
+    from ninja_game.formats.load import load_levels
 
     levels = load_levels(path)
     if record is not None:
@@ -130,8 +130,8 @@ def time_text(end_tick: int) -> str:
 
 def smoothed_run(run: VerifiedRun, price: int) -> VerifiedRun:
     """The run with fewer key changes, verified; at most ``price`` ticks longer and with no less gold."""
-    from ninja_game.many.smoothing import smoothed
-    from ninja_game.many.solver_replay import verified_run
+    from ninja_game.solver.certificate import verified_run
+    from ninja_game.solver.smoothing import smoothed
 
     inputs = smoothed(run.level, run.inputs, body=run.body, gold=run.gold, price=price)
     return verified_run(run.level, inputs, body=run.body, gold=run.gold)
@@ -139,6 +139,6 @@ def smoothed_run(run: VerifiedRun, price: int) -> VerifiedRun:
 
 def saver(path: Path, name: str) -> Callable[[VerifiedRun], None]:
     """A function that writes each better run to a file."""
-    from ninja_game.many.solver_replay import replay_of, save_replay
+    from ninja_game.solver.certificate import replay_of, save_replay
 
     return lambda run: save_replay(path, replay_of(run, name=name, author="ninja-game solve"))

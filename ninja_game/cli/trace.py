@@ -16,8 +16,8 @@ import click
 from ninja_game.cli.run_options import jobs_option, memory_option, with_progress
 
 if TYPE_CHECKING:
-    from ninja_game.many.tracing import Traced
-    from ninja_game.session.trace_files import FiledTrace
+    from ninja_game.runs.trace_files import FiledTrace
+    from ninja_game.verification.archive_tracing import Traced
 
 SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 """A comment like this names the section of the specification that a recording is about."""
@@ -94,14 +94,14 @@ class Traces:
     """The traces of all recordings, one after the other; what cannot be read is told on stderr and counted."""
 
     def __init__(self, files: Sequence[Path], **options: Any) -> None:
-        from ninja_game.many.tracing import trace_all
+        from ninja_game.verification.archive_tracing import trace_all
 
         self.items = with_progress(trace_all(files, **options), "traces")
         self.count = 0
         self.unreadable = 0
 
     def __iter__(self) -> Iterator[Traced]:
-        from ninja_game.many.tracing import Traced
+        from ninja_game.verification.archive_tracing import Traced
 
         for item in self.items:
             if isinstance(item, Traced):
@@ -114,7 +114,7 @@ class Traces:
 
 def _digests(traced: Traced) -> dict[str, Any]:
     """The digests of a run, for programs."""
-    from ninja_game.session.trace import trace_digests
+    from ninja_game.runs.trace import trace_digests
 
     file, _, (record, name, run) = traced
     digests = trace_digests(run)
@@ -126,8 +126,8 @@ def _digests(traced: Traced) -> dict[str, Any]:
 
 def _compare(traces: Traces, against: Path) -> int:
     """How many runs differ from the trace in ``against``; each is told with its first difference."""
-    from ninja_game.session.trace import first_difference
-    from ninja_game.session.trace_files import read_traces
+    from ninja_game.runs.trace import first_difference
+    from ninja_game.runs.trace_files import read_traces
 
     expected = {trace.record: trace.run for trace in read_traces(against)}
     different = 0
@@ -144,8 +144,8 @@ def _compare(traces: Traces, against: Path) -> int:
 
 def _write(traces: Traces, output: Path | None) -> None:
     """Write the table: to the terminal, to a .npz file, or as CSV to any other file."""
-    from ninja_game.session.atomic_file import write_atomically
-    from ninja_game.session.trace_files import write_csv, write_npz
+    from ninja_game.files.writing import write_atomically
+    from ninja_game.runs.trace_files import write_csv, write_npz
 
     runs = (traced.trace for traced in traces)
     if output is None:
@@ -157,7 +157,7 @@ def _write(traces: Traces, output: Path | None) -> None:
 
 
 def _fill_csv(runs: Iterator[FiledTrace], file: IO[bytes]) -> None:
-    from ninja_game.session.trace_files import write_csv
+    from ninja_game.runs.trace_files import write_csv
 
     text = io.TextIOWrapper(file, "utf-8", newline="")
     write_csv(runs, text)

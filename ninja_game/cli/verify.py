@@ -14,9 +14,9 @@ from ninja_game.cli.run_options import jobs_option, with_progress
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
-    from ninja_game.many.pieces import Result
-    from ninja_game.many.verification import Tally
-    from ninja_game.session.verify import Verdict
+    from ninja_game.runs.verify import Verdict
+    from ninja_game.verification.chunks import Result
+    from ninja_game.verification.verify_many import Tally
 
 FAILED = 1
 
@@ -72,8 +72,8 @@ def command(
       ninja-game verify archive/ -q --resume archive.journal --report archive.json
       ninja-game verify archive/ -q --cluster tcp://10.0.0.5:8786
     """
-    from ninja_game.many.verification import Tally, verify_all
-    from ninja_game.session.sources import Unreadable
+    from ninja_game.runs.recording_reader import Unreadable
+    from ninja_game.verification.verify_many import Tally, verify_all
 
     tally = Tally()
     processes = None if workers is None else workers == "processes"
@@ -103,8 +103,8 @@ def command(
 
 def _reported(results: Iterable[Result], report: Path, stack: ExitStack) -> Iterator[Result]:
     """The same results, written to a report as they pass."""
-    from ninja_game.many.verification import write_report
-    from ninja_game.session.atomic_file import open_atomically
+    from ninja_game.files.writing import open_atomically
+    from ninja_game.verification.verify_many import write_report
 
     out = stack.enter_context(open_atomically(report))
     return write_report(results, out) if report.suffix.lower() == ".json" else _write_table(results, out)
@@ -112,8 +112,8 @@ def _reported(results: Iterable[Result], report: Path, stack: ExitStack) -> Iter
 
 def _write_table(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
     """The same results, written as a table as they pass."""
-    from ninja_game.many.verification import Tally
-    from ninja_game.session.sources import Unreadable
+    from ninja_game.runs.recording_reader import Unreadable
+    from ninja_game.verification.verify_many import Tally
 
     tally = Tally()
     for result in results:

@@ -9,12 +9,12 @@ from functools import cached_property
 from pathlib import Path
 
 from ninja_game.errors import LevelError, ReplayError
-from ninja_game.formats.ascii_level import is_ascii_level, parse_ascii_level
-from ninja_game.formats.level_file import MARKER, LevelRecord, read_level_file
-from ninja_game.formats.level_string import level_digest, parse_level_string, tidy_level_string
-from ninja_game.formats.replay import Replay, is_replay, parse_replay
-from ninja_game.formats.text_file import read_text
-from ninja_game.sim.level_data import TILES, LevelData
+from ninja_game.files.reading import read_text
+from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level
+from ninja_game.formats.n14.level_file import MARKER, LevelRecord, read_level_file
+from ninja_game.formats.n14.level_string import level_digest, parse_level_string, tidy_level_string
+from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
+from ninja_game.sim.level import TILES, LevelData
 
 # What the object half of an in-game string is made of, odd numbers included.
 _OBJECTS = re.compile(r"[0-9.,^!+\-xeENa \t]+")
@@ -45,7 +45,7 @@ class NamedLevel:
     @cached_property
     def warnings(self) -> list[str]:
         """What is legal but odd in the level."""
-        from ninja_game.formats.level_warnings import level_warnings
+        from ninja_game.levels.warnings import level_warnings
 
         return level_warnings(self.level)
 

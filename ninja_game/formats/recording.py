@@ -7,14 +7,14 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ninja_game.errors import DemoError, ReplayError
-from ninja_game.formats.ascii_level import is_ascii_level
-from ninja_game.formats.demo import parse_demo
-from ninja_game.formats.frames import Demo
-from ninja_game.formats.level_file import LevelRecord, is_demo, read_level_file
-from ninja_game.formats.level_string import parse_level_string
+from ninja_game.formats.ascii.reader import is_ascii_level
+from ninja_game.formats.n14.demo import parse_demo
+from ninja_game.formats.n14.level_file import LevelRecord, is_demo, read_level_file
+from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.named_level import is_level_file, level_of_replay
-from ninja_game.formats.replay import Replay, is_replay, parse_replay
-from ninja_game.sim.level_data import LevelData
+from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
+from ninja_game.sim.inputs import Demo
+from ninja_game.sim.level import LevelData
 
 
 @dataclass(frozen=True)

@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.canvas import HEIGHT, WIDTH, Canvas
-from ninja_game.play.controls import Controls, Keyboard
-from ninja_game.play.ear import Ear, Silence
+from ninja_game.play.audio.output import Ear, Silence
+from ninja_game.play.input.controls import Controls, Keyboard
 from ninja_game.play.options import Options
-from ninja_game.play.palette import PALETTES
 from ninja_game.play.screen import TITLE, Panels, Screen, ScreenStack
-from ninja_game.play.theme import Theme
+from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
+from ninja_game.play.ui.palette import PALETTES
+from ninja_game.play.ui.theme import Theme
 
 if TYPE_CHECKING:
-    from ninja_game.session.player_data import PlayerData
+    from ninja_game.player.player_data import PlayerData
 
 FALLBACK_RATE = 60
 """Pictures per second where the display does not say its rate."""

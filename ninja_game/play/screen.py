@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import pygame
 
-from ninja_game.play.canvas import Canvas
-from ninja_game.play.controls import Controls
-from ninja_game.play.ear import Ear
+from ninja_game.play.audio.output import Ear
+from ninja_game.play.input.controls import Controls
 from ninja_game.play.options import Options
-from ninja_game.play.theme import Theme
+from ninja_game.play.ui.canvas import Canvas
+from ninja_game.play.ui.theme import Theme
 
 if TYPE_CHECKING:
-    from ninja_game.session.player_data import PlayerData
+    from ninja_game.player.player_data import PlayerData
 
 TITLE = "ninja-game"
 """What the window is called."""

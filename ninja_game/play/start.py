@@ -6,12 +6,12 @@ from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from ninja_game.play.bindings import Bindings
+from ninja_game.files.resources import data_folder
+from ninja_game.play.audio.player import Sound
+from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.options import Options
-from ninja_game.play.sound import Sound
-from ninja_game.session.bundled import data_folder
-from ninja_game.session.player_data import PlayerData
-from ninja_game.session.settings import Settings
+from ninja_game.player.player_data import PlayerData
+from ninja_game.player.settings import Settings
 
 if TYPE_CHECKING:
     from ninja_game.play.screen import Host

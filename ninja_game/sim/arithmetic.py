@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.memory import fast
+from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.rules import INF, NAN
 
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from ninja_game.sim.events import CHAINGUN_OFF, DIED, LASER_OFF, WON, emit
 from ninja_game.sim.grid import unfile
-from ninja_game.sim.level_data import DOOR, DRONE, EXIT, FLOOR_GUARD, GOLD, LAUNCHER, TURRET
-from ninja_game.sim.memory import fast
+from ninja_game.sim.level import DOOR, DRONE, EXIT, FLOOR_GUARD, GOLD, LAUNCHER, TURRET
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Drone, World
 from ninja_game.sim.schedule import end_think, end_update
-from ninja_game.sim.schema import Drone, World
 from ninja_game.sim.states import (
     CELEBRATING,
     DEAD,

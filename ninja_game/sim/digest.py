@@ -12,11 +12,10 @@ from collections.abc import Iterator
 from operator import attrgetter
 from typing import Any
 
-from ninja_game.sim.level_data import KIND_NAMES
-from ninja_game.sim.memory import fields_of
-from ninja_game.sim.plain import WORLD_SCALARS
-from ninja_game.sim.rules import NAN
-from ninja_game.sim.schema import (
+from ninja_game.sim.level import KIND_NAMES
+from ninja_game.sim.memory.declare import fields_of
+from ninja_game.sim.memory.plain import WORLD_SCALARS
+from ninja_game.sim.memory.schema import (
     BounceBlock,
     Door,
     Drone,
@@ -35,6 +34,7 @@ from ninja_game.sim.schema import (
     Turret,
     World,
 )
+from ninja_game.sim.rules import NAN
 
 KIND_CLASSES: tuple[type, ...] = (
     Gold, BounceBlock, LaunchPad, Turret, FloorGuard, Header, Drone,

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.memory import fast
-from ninja_game.sim.schema import MAX_EVENTS, World
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import MAX_EVENTS, World
 
 # The ninja.
 JUMPED, WALL_JUMPED, LANDED, LAUNCHED, DIED, WON = range(6)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.memory import fast
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Header, World
 from ninja_game.sim.rules import CELL, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
-from ninja_game.sim.schema import Header, World
 
 
 @fast

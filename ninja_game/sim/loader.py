@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from ninja_game.errors import LevelError
-from ninja_game.sim.creation import create
+from ninja_game.sim.collision.tiles import ODD_HALF_ID, UNDEFINED_ID
 from ninja_game.sim.grid import cell_at
-from ninja_game.sim.level_data import COLUMNS, EXIT, NINJA, ROWS, VALUE_COUNTS, LevelData
-from ninja_game.sim.memory import fast
+from ninja_game.sim.level import COLUMNS, EXIT, NINJA, ROWS, VALUE_COUNTS, LevelData
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import CAPACITY, INERT, Level, Ninja, World
+from ninja_game.sim.objects.creation import create
 from ninja_game.sim.rules import DRAG, GRAVITY, STRIDE
-from ninja_game.sim.schema import CAPACITY, INERT, Level, Ninja, World
-from ninja_game.sim.tiles import ODD_HALF_ID, UNDEFINED_ID
 
 
 def grid_tiles(data: LevelData) -> list[int]:

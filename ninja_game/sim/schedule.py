@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.memory import fast
-from ninja_game.sim.schema import Header, World
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Header, World
 
 
 @fast

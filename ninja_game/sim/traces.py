@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.level_data import (
+from ninja_game.sim.level import (
     BOUNCE_BLOCK,
     DOOR,
     DRONE,
@@ -15,8 +15,8 @@ from ninja_game.sim.level_data import (
     THWUMP,
     TURRET,
 )
-from ninja_game.sim.memory import fast
-from ninja_game.sim.schema import INERT, World
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import INERT, World
 from ninja_game.sim.states import AUTOMATIC, LAUNCHER_FLIGHT, THWUMP_REST
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.level_data import BOUNCE_BLOCK, DOOR, DRONE, FLOOR_GUARD, LAUNCHER, THWUMP, TURRET
-from ninja_game.sim.memory import fast
-from ninja_game.sim.ninja import tick_ninja
+from ninja_game.sim.level import BOUNCE_BLOCK, DOOR, DRONE, FLOOR_GUARD, LAUNCHER, THWUMP, TURRET
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.ninja.tick import tick_ninja
 from ninja_game.sim.objects.bounce_block import think_block, update_block
 from ninja_game.sim.objects.door import update_door
 from ninja_game.sim.objects.drone import move_drone
@@ -13,7 +14,6 @@ from ninja_game.sim.objects.floor_guard import update_guard
 from ninja_game.sim.objects.launcher import think_launcher, update_launcher
 from ninja_game.sim.objects.thwump import update_thwump
 from ninja_game.sim.objects.turret import think_turret, update_turret
-from ninja_game.sim.schema import Level, World
 from ninja_game.sim.states import DEAD, DRONE_MOVE
 
 

@@ -10,8 +10,8 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.compile_cache import compiled_available
-from ninja_game.session import benchmark
-from tests.cli.samples import WALK, running, write_records
+from ninja_game.runs import benchmark
+from tests.support.samples import WALK, running, write_records
 
 
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
@@ -38,7 +38,7 @@ def test_without_numba_the_plain_figures_remain(tmp_path: Path, monkeypatch: pyt
 
 
 def test_no_recordings_is_an_error_in_words(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ninja_game.session.bundled.bundled_replays", list)
+    monkeypatch.setattr("ninja_game.files.resources.bundled_replays", list)
     result = CliRunner().invoke(cli, ["bench"])
     assert result.exit_code == 2
     assert result.stderr.startswith("ninja-game: the game's own replays are not here")

@@ -8,8 +8,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game.cli.main import cli
-from ninja_game.formats.files import load_levels
-from tests.cli.samples import SPIKED, WALK, write_records
+from ninja_game.formats.load import load_levels
+from tests.support.samples import SPIKED, WALK, write_records
 
 
 def convert(*words: str | Path) -> Result:

@@ -10,8 +10,8 @@ from click.testing import CliRunner, Result
 
 from ninja_game.cli.main import cli
 from ninja_game.cli.picture import level_picture
-from ninja_game.formats.level_string import parse_level_string
-from tests.cli.samples import NO_NINJA, SPIKED, WALK, running, write_records
+from ninja_game.formats.n14.level_string import parse_level_string
+from tests.support.samples import NO_NINJA, SPIKED, WALK, running, write_records
 
 
 def info(*words: str | Path) -> Result:

@@ -12,7 +12,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game.cli.main import cli
-from ninja_game.session.bundled import bundled_levels
+from ninja_game.files.resources import bundled_levels
 
 
 @pytest.fixture
@@ -24,7 +24,7 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> list[dict[str, Any]]:
         noted.append({"level_path": level_path, **named})
         return 0
 
-    monkeypatch.setitem(sys.modules, "ninja_game.play.launch", SimpleNamespace(main=main))
+    monkeypatch.setitem(sys.modules, "ninja_game.play.main", SimpleNamespace(main=main))
     return noted
 
 
@@ -67,7 +67,7 @@ def test_no_display_is_an_error_in_words(monkeypatch: pytest.MonkeyPatch) -> Non
     def main(_: str | None, **__: Any) -> int:
         raise pygame.error("no available video device")
 
-    monkeypatch.setitem(sys.modules, "ninja_game.play.launch", SimpleNamespace(main=main))
+    monkeypatch.setitem(sys.modules, "ninja_game.play.main", SimpleNamespace(main=main))
     result = play()
     assert result.exit_code == 2
     assert result.stderr == "ninja-game: the window cannot be opened: no available video device\n"

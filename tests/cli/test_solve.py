@@ -10,10 +10,10 @@ from click.testing import CliRunner, Result
 
 from ninja_game.cli.main import cli
 from ninja_game.compile_cache import compiled_available
-from ninja_game.formats.level_string import parse_level_string
-from ninja_game.formats.replay import parse_replay
-from ninja_game.runs import run_level
-from tests.cli.samples import NO_NINJA, SPIKED, WALK, WALK_END, running, write_records
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.replay.text import parse_replay
+from ninja_game.runs.run import run_level
+from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, running, write_records
 
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)

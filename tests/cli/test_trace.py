@@ -12,8 +12,8 @@ from click.testing import CliRunner, Result
 
 from ninja_game import parse_level, trace_level
 from ninja_game.cli.main import cli
-from ninja_game.session.trace import trace_digests
-from tests.cli.samples import SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
+from ninja_game.runs.trace import trace_digests
+from tests.support.samples import SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
 
 
 def trace(*words: str | Path) -> Result:

@@ -16,7 +16,7 @@ from click.testing import CliRunner, Result
 from ninja_game import parse_level, run_level
 from ninja_game.cli.main import cli
 from ninja_game.compile_cache import compiled_available
-from tests.cli.samples import NO_NINJA, SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
+from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
 
 
 def verify(*words: str | Path, memory: str = "plain") -> Result:

@@ -11,7 +11,7 @@ from click.testing import CliRunner, Result
 
 from ninja_game.cli.main import cli
 from ninja_game.compile_cache import compiled_available
-from tests.cli.samples import SPIKED, WALK, WALK_END, running, write_records
+from tests.support.samples import SPIKED, WALK, WALK_END, running, write_records
 
 
 def verify(*words: str | Path) -> Result:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii_level import parse_ascii_level
-from ninja_game.formats.problems import LevelTextError
+from ninja_game.formats.ascii.problems import LevelTextError
+from ninja_game.formats.ascii.reader import parse_ascii_level
 
 EMPTY = "." * 31
 

@@ -7,7 +7,7 @@ from collections import Counter
 
 import pytest
 
-from ninja_game.formats.ascii_legend import (
+from ninja_game.formats.ascii.legend import (
     ODD_TILE,
     PAD_DIGITS,
     PAD_NORMALS,
@@ -18,9 +18,20 @@ from ninja_game.formats.ascii_legend import (
     legend_text,
     visible_parts,
 )
-from ninja_game.formats.ascii_level import parse_ascii_level
-from ninja_game.sim.level_data import KIND_NAMES, LAUNCH_PAD, VALUE_COUNTS, Record
-from ninja_game.sim.tiles import CONCAVE, CONVEX, SHAPE, SIGN_X, SIGN_Y, SLOPE_45, THICK_22, THICK_67, THIN_22, THIN_67
+from ninja_game.formats.ascii.reader import parse_ascii_level
+from ninja_game.sim.collision.tiles import (
+    CONCAVE,
+    CONVEX,
+    SHAPE,
+    SIGN_X,
+    SIGN_Y,
+    SLOPE_45,
+    THICK_22,
+    THICK_67,
+    THIN_22,
+    THIN_67,
+)
+from ninja_game.sim.level import KIND_NAMES, LAUNCH_PAD, VALUE_COUNTS, Record
 
 CLASSES = (SLOPE_45, THIN_22, THICK_22, THIN_67, THICK_67, CONCAVE, CONVEX)
 OPEN_SIDES = (

@@ -10,13 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.formats.ascii_legend import SYMBOLS, TILE_CHARS, visible_parts
-from ninja_game.formats.ascii_level import is_ascii_level, parse_ascii_level, write_ascii_level
-from ninja_game.formats.ascii_writer import picture_rows
-from ninja_game.formats.level_string import parse_level_string
-from ninja_game.formats.object_writer import same_record
-from ninja_game.sim.level_data import GOLD, NINJA, TILES, VALUE_COUNTS, LevelData, Record
-from tests.reference import fuzz, levels, random_runs, scenes
+from ninja_game.formats.ascii.legend import SYMBOLS, TILE_CHARS, visible_parts
+from ninja_game.formats.ascii.object_writer import same_record
+from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level, write_ascii_level
+from ninja_game.formats.ascii.writer import picture_rows
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.sim.level import GOLD, NINJA, TILES, VALUE_COUNTS, LevelData, Record
+from tests.support.reference import fuzz, levels, random_runs, scenes
 
 EMPTY = "|" + "." * 31 + "|"
 ODD_NUMBERS = (math.nan, math.inf, -math.inf, -0.0, 0.0, 1e300, 5e-324, 0.1, 0.7071067811865468, 408.15000000000003)

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 
 from ninja_game.errors import DemoError
-from ninja_game.formats.demo import parse_demo, write_demo
-from ninja_game.formats.frames import MAX_FRAMES, Demo
-from tests.formats.strategies import demos
+from ninja_game.formats.n14.demo import parse_demo, write_demo
+from ninja_game.sim.inputs import MAX_FRAMES, Demo
+from tests.support.strategies import demos
 
 
 def test_a_word_holds_seven_frames_the_first_in_the_lowest_bits() -> None:

@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 from ninja_game.errors import DemoError, LevelError, NinjaGameError, ReplayError
-from ninja_game.formats.ascii_level import write_ascii_level
-from ninja_game.formats.files import load_levels, load_replays
-from ninja_game.formats.level_file import LevelRecord, write_level_file
-from ninja_game.formats.level_string import level_digest, parse_level_string
+from ninja_game.formats.ascii.reader import write_ascii_level
+from ninja_game.formats.load import load_levels, load_replays
+from ninja_game.formats.n14.level_file import LevelRecord, write_level_file
+from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.named_level import parse_levels
-from ninja_game.formats.replay import Replay, write_replay
+from ninja_game.formats.replay.text import Replay, write_replay
 
 TEXT = "0" * 713 + "|5^60,540!0^396,300!11^708,540,396,540"
 OTHER = "0" * 712 + "1|5^84,540"

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ninja_game.errors import DemoError
-from ninja_game.formats.demo import parse_demo
-from ninja_game.formats.frames import HELD, TRIGGERED, Demo
-from ninja_game.formats.legacy_demo import parse_legacy_demo, write_legacy_demo
+from ninja_game.formats.n14.demo import parse_demo
+from ninja_game.formats.n14.legacy_demo import parse_legacy_demo, write_legacy_demo
+from ninja_game.sim.inputs import HELD, TRIGGERED, Demo
 
 
 def demo_of(keys: str) -> Demo:

@@ -7,10 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.level_file import LevelRecord, read_level_file, write_level_file
-from ninja_game.formats.level_string import parse_level_string, write_level_string
-from ninja_game.sim.level_data import FLOOR_GUARD, NINJA
-from tests.formats.strategies import demos, proper_levels, words
+from ninja_game.formats.n14.level_file import LevelRecord, read_level_file, write_level_file
+from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
+from ninja_game.sim.level import FLOOR_GUARD, NINJA
+from tests.support.strategies import demos, proper_levels, words
 
 TILES = ("1" + "0" * 21 + "1") * 31
 LEVEL = TILES + "|5^60,540!0^396,300!11^708,540,396,540"

@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii_legend import SYMBOLS, TILE_CHARS
-from ninja_game.formats.ascii_level import parse_ascii_level
-from ninja_game.formats.level_warnings import level_warnings
-from ninja_game.formats.object_forms import DOORS, FORMS, MOVEMENTS, SIDES
-from ninja_game.formats.object_lines import read_object_line
+from ninja_game.formats.ascii.legend import SYMBOLS, TILE_CHARS
+from ninja_game.formats.ascii.object_forms import DOORS, FORMS, MOVEMENTS, SIDES
+from ninja_game.formats.ascii.object_lines import read_object_line
+from ninja_game.formats.ascii.reader import parse_ascii_level
+from ninja_game.levels.warnings import level_warnings
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 DOC = (ROOT / "docs" / "level-format.md").read_text(encoding="utf-8")

@@ -9,14 +9,14 @@ import pytest
 from hypothesis import given
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.level_string import (
+from ninja_game.formats.n14.level_string import (
     level_digest,
     parse_level_string,
     tidy_level_string,
     write_level_string,
 )
-from ninja_game.sim.level_data import DRONE, GOLD, NINJA, TILES, LevelData, Record
-from tests.formats.strategies import odd_levels, proper_levels
+from ninja_game.sim.level import DRONE, GOLD, NINJA, TILES, LevelData, Record
+from tests.support.strategies import odd_levels, proper_levels
 
 EMPTY = "0" * TILES
 

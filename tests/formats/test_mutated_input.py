@@ -9,14 +9,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ninja_game.errors import FormatError
-from ninja_game.formats.demo import parse_demo, write_demo
-from ninja_game.formats.level_file import read_level_file
-from ninja_game.formats.level_string import level_digest, parse_level_string, write_level_string
+from ninja_game.formats.n14.demo import parse_demo, write_demo
+from ninja_game.formats.n14.level_file import read_level_file
+from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.named_level import parse_levels
 from ninja_game.formats.numbers import format_exact, format_number, parse_number
 from ninja_game.formats.recording import parse_replays
-from ninja_game.formats.replay import Replay, parse_replay, write_replay
-from tests.formats.strategies import mutations_of
+from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
+from tests.support.strategies import mutations_of
 
 LEVEL = "1" * 23 + "0" * 690 + "|5^60,540!2^60,564,0.707106781186547,-1!6^60,60,0,1,0,2!0^396,NaN!11^708,540,396,540"
 DEMO = "902:35791394|35791394|115483170|0"

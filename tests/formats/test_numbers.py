@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ninja_game.formats.numbers import format_exact, format_number, parse_number
-from tests.formats.strategies import decimal_texts
+from tests.support.strategies import decimal_texts
 
 
 @pytest.mark.parametrize(

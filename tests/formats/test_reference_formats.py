@@ -6,15 +6,15 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from ninja_game.formats.demo import parse_demo, write_demo
-from ninja_game.formats.frames import Demo
-from ninja_game.formats.legacy_demo import parse_legacy_demo, write_legacy_demo
-from ninja_game.formats.level_file import LevelRecord, read_level_file, write_level_file
-from ninja_game.formats.level_string import level_digest, parse_level_string, write_level_string
+from ninja_game.formats.n14.demo import parse_demo, write_demo
+from ninja_game.formats.n14.legacy_demo import parse_legacy_demo, write_legacy_demo
+from ninja_game.formats.n14.level_file import LevelRecord, read_level_file, write_level_file
+from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.recording import parse_replays
-from ninja_game.formats.replay import Replay, parse_replay, write_replay
-from ninja_game.sim.level_data import NINJA, VALUE_COUNTS
-from tests import reference
+from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
+from ninja_game.sim.inputs import Demo
+from ninja_game.sim.level import NINJA, VALUE_COUNTS
+from tests.support import reference
 
 Named = tuple[str, str, str]
 """Name, in-game string, demo."""

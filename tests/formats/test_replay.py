@@ -11,11 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ninja_game.errors import DemoError, ReplayError
-from ninja_game.formats.level_string import level_digest, parse_level_string
-from ninja_game.formats.replay import Replay, is_replay, parse_replay, write_replay
-from ninja_game.formats.replay_inputs import read_inputs, write_inputs
-from ninja_game.sim.level_data import LevelData, Record
-from tests.formats.strategies import inputs, replays
+from ninja_game.formats.n14.level_string import level_digest, parse_level_string
+from ninja_game.formats.replay.input_runs import read_inputs, write_inputs
+from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
+from ninja_game.sim.level import LevelData, Record
+from tests.support.strategies import inputs, replays
 
 LEVEL = parse_level_string("0" * 713 + "|5^60,540!11^708,540,396,540")
 REPLAY = Replay(bytes([2, 2, 14, 6, 0]), 9, "exit", 3, name="A walk", level_path="../levels/hill.txt", digest="0f" * 32)
@@ -180,7 +180,7 @@ def test_the_example_of_the_page_is_a_replay(root: Path) -> None:
 
 
 def test_the_page_names_every_header(root: Path) -> None:
-    from ninja_game.formats.replay_headers import KEYS
+    from ninja_game.formats.replay.headers import KEYS
 
     page = (root / "docs" / "replay-format.md").read_text(encoding="utf-8")
     assert [key for key in KEYS if f"`{key}`" not in page and f"`{key}:`" not in page] == []

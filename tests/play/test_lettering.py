@@ -5,10 +5,10 @@ from __future__ import annotations
 import pygame
 import pytest
 
-from ninja_game.play.canvas import Canvas
-from ninja_game.play.glyphs import GLYPHS
-from ninja_game.play.lettering import Lettering
-from ninja_game.play.stroke_font import StrokeFont, strokes
+from ninja_game.play.ui.canvas import Canvas
+from ninja_game.play.ui.glyphs import GLYPHS
+from ninja_game.play.ui.lettering import Lettering
+from ninja_game.play.ui.stroke_font import StrokeFont, strokes
 
 
 @pytest.fixture(autouse=True)

@@ -7,15 +7,15 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game.formats.files import load_replays
+from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
-from ninja_game.play.course import InOrder, SingleLevel
-from ninja_game.play.level_screen import LevelScreen
-from ninja_game.play.phase import DEATH_PAUSE, Phase
-from ninja_game.play.replay_screen import ReplayScreen
+from ninja_game.play.level.context import InOrder, SingleLevel
+from ninja_game.play.level.phase import DEATH_PAUSE, Phase
+from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.sim.rules import LIFETIME
-from tests.play.scripted import ScriptedControls, frames, press, release, scripted_app
+from tests.support.scripted import ScriptedControls, frames, press, release, scripted_app
 
 REPLAY = Path(__file__).parent.parent / "replays" / "01-first-steps.replay.txt"
 

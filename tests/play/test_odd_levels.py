@@ -5,12 +5,12 @@ from __future__ import annotations
 import pygame
 import pytest
 
-from ninja_game.formats.level_string import parse_level_string
-from ninja_game.play.level_view import LevelView
-from ninja_game.play.overlays import OVERLAY_ACTIONS, Overlays
-from ninja_game.play.palette import PALETTES
-from ninja_game.play.picture.thumbnail import thumbnail
-from ninja_game.play.scene import Sheet
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.play.ui.palette import PALETTES
+from ninja_game.play.view.level_view import LevelView
+from ninja_game.play.view.overlays import OVERLAY_ACTIONS, Overlays
+from ninja_game.play.view.render_context import Sheet
+from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.sim.death import kill
 from ninja_game.sim.states import EXPLOSIVE
 from ninja_game.simulation import Simulation

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pygame
 import pytest
 
-from ninja_game.play.palette import PALETTES, ROLES, Palette
-from ninja_game.play.picture.registry import DRAWINGS
-from ninja_game.play.picture.sprite_book import SpriteBook
-from ninja_game.session.settings import PALETTES as OFFERED
+from ninja_game.play.ui.palette import PALETTES, ROLES, Palette
+from ninja_game.play.view.sprites.registry import DRAWINGS
+from ninja_game.play.view.sprites.sprite_book import SpriteBook
+from ninja_game.player.settings import PALETTES as OFFERED
 
 STATES: dict[str, tuple[object, ...]] = {
     "mine": (), "turret": (0,), "thwump": (0, 0), "guard": (0, 0), "drone": (0, 0, 0, 0),

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from random import Random
 
-from ninja_game.play.picture.pose import STAND
-from ninja_game.play.picture.ragdoll import STICKS, Ragdoll
-from ninja_game.sim.level_data import LevelData, Record
-from ninja_game.sim.rays import solid_at
+from ninja_game.play.view.ninja.pose import STAND
+from ninja_game.play.view.ninja.ragdoll import STICKS, Ragdoll
+from ninja_game.sim.collision.rays import solid_at
+from ninja_game.sim.level import LevelData, Record
 from ninja_game.sim.states import BULLET, EXPLOSIVE
 from ninja_game.simulation import Simulation
 

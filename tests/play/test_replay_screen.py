@@ -9,12 +9,12 @@ import pygame
 import pytest
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.formats.files import load_replays
-from ninja_game.play.export import export_film, film_length
-from ninja_game.play.replay_screen import SPEEDS, ReplayScreen
-from ninja_game.play.take import AFTERMATH, Playback, Take, take_of
+from ninja_game.formats.load import load_replays
+from ninja_game.play.replay.export import export_film, film_length
+from ninja_game.play.replay.playback import AFTERMATH, Playback, Take, take_of
+from ninja_game.play.replay.screen import SPEEDS, ReplayScreen
 from ninja_game.simulation import Simulation
-from tests.play.scripted import frames, press, scripted_app
+from tests.support.scripted import frames, press, scripted_app
 
 REPLAYS = Path(__file__).parent.parent / "replays"
 TAKE = take_of(load_replays(REPLAYS / "08-the-works.replay.txt")[0])

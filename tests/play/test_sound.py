@@ -9,9 +9,9 @@ import numpy as np
 import pygame
 import pytest
 
-from ninja_game.formats.level_string import parse_level_string
-from ninja_game.play.sound import Sound
-from ninja_game.play.sound_table import BY_DEATH, BY_EVENT, CORPSE, LOOPS, OTHER_DEATH, loop_levels
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.play.audio.player import Sound
+from ninja_game.play.audio.table import BY_DEATH, BY_EVENT, CORPSE, LOOPS, OTHER_DEATH, loop_levels
 from ninja_game.simulation import Simulation
 from tools.make_sounds import RECIPES, samples
 

@@ -7,13 +7,13 @@ from typing import NamedTuple
 import pygame
 import pytest
 
-from ninja_game.play.canvas import Canvas
-from ninja_game.play.palette import PALETTES
-from ninja_game.play.picture.backdrop import Backdrop
-from ninja_game.play.picture.sprite_book import SpriteBook
-from ninja_game.play.picture.tile_shapes import tile_picture
-from ninja_game.sim.level_data import LevelData, Record
-from ninja_game.sim.rays import solid_at
+from ninja_game.play.ui.canvas import Canvas
+from ninja_game.play.ui.palette import PALETTES
+from ninja_game.play.view.sprites.backdrop import Backdrop
+from ninja_game.play.view.sprites.sprite_book import SpriteBook
+from ninja_game.play.view.sprites.tile_shapes import tile_picture
+from ninja_game.sim.collision.rays import solid_at
+from ninja_game.sim.level import LevelData, Record
 from ninja_game.simulation import Simulation
 
 CLASSIC = PALETTES["classic"]

@@ -6,16 +6,16 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game.formats.files import load_replays
-from ninja_game.play.course import GhostRun, SingleLevel
-from ninja_game.play.level_screen import LevelScreen
-from ninja_game.play.level_view import LevelView
+from ninja_game.formats.load import load_replays
+from ninja_game.play.level.context import GhostRun, SingleLevel
+from ninja_game.play.level.phase import Phase
+from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.options import Options
-from ninja_game.play.overlays import OVERLAY_ACTIONS
-from ninja_game.play.phase import Phase
-from ninja_game.play.scene import Sheet
+from ninja_game.play.view.level_view import LevelView
+from ninja_game.play.view.overlays import OVERLAY_ACTIONS
+from ninja_game.play.view.render_context import Sheet
 from ninja_game.simulation import Simulation
-from tests.play.scripted import frames, press, release, scripted_app
+from tests.support.scripted import frames, press, release, scripted_app
 
 REPLAYS = sorted((Path(__file__).parent.parent / "replays").glob("*.replay.txt"))
 AFTER = 60
@@ -89,7 +89,7 @@ def test_looking_only_reads() -> None:
     view = LevelView(sheet, seen, chance=5)
     import pygame
 
-    from ninja_game.play.ghosts import Ghost
+    from ninja_game.play.level.ghosts import Ghost
 
     surface = pygame.Surface((396, 300))
     view.ghosts = [Ghost(GhostRun("ghost", b""), recording.level, "circle")]

@@ -11,11 +11,11 @@ import pytest
 
 from ninja_game.errors import LevelError
 from ninja_game.play.app import App, fitting_size, free_name
-from ninja_game.play.canvas import Canvas
-from ninja_game.play.launch import main
-from ninja_game.play.run_clock import RunClock
+from ninja_game.play.level.run_clock import RunClock
+from ninja_game.play.main import main
 from ninja_game.play.screen import Screen
-from tests.play.scripted import frames, scripted_app
+from ninja_game.play.ui.canvas import Canvas
+from tests.support.scripted import frames, scripted_app
 
 ROOT = Path(__file__).parent.parent.parent
 LEVEL = str(ROOT / "levels" / "01-first-steps.txt")
@@ -54,7 +54,7 @@ def test_a_broken_level_is_told_before_a_window_opens(tmp_path: Path) -> None:
 
 def test_playing_needs_neither_numba_nor_numpy(tmp_path: Path) -> None:
     program = (
-        "import sys; from ninja_game.play.launch import main\n"
+        "import sys; from ninja_game.play.main import main\n"
         f"main({LEVEL!r}, frames=3)\n"
         "assert 'numba' not in sys.modules\n"
         "assert 'numpy' not in sys.modules\n"

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from ninja_game.formats.frames import HELD, LEFT, RIGHT, TRIGGERED
-from ninja_game.formats.level_string import parse_level_string
-from ninja_game.sim.box import collide_box
-from ninja_game.sim.circle import collide_circle
-from ninja_game.sim.plain import load_plain
-from ninja_game.sim.rays import ray_box, ray_tiles, sees
-from ninja_game.sim.schema import Level, World
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.sim.collision.box import collide_box
+from ninja_game.sim.collision.circle import collide_circle
+from ninja_game.sim.collision.rays import ray_box, ray_tiles, sees
+from ninja_game.sim.inputs import HELD, LEFT, RIGHT, TRIGGERED
+from ninja_game.sim.memory.plain import load_plain
+from ninja_game.sim.memory.schema import Level, World
 from ninja_game.simulation import Simulation
 
 EMPTY = "0" * 713
@@ -61,7 +61,7 @@ def test_box_ends_where_the_page_says(
     end: tuple[float, float],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("ninja_game.sim.box.BOX_HALF", half)
+    monkeypatch.setattr("ninja_game.sim.collision.box.BOX_HALF", half)
     level, w = world_with(tile, 100, 100)
     w.ninja.x, w.ninja.y = start
     collide_box(level, w)

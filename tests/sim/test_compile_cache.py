@@ -33,11 +33,11 @@ def test_a_missing_folder_is_no_error(tmp_path: Path) -> None:
 
 
 def test_the_digest_follows_the_sources(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for folder in ("sim", "many"):
+    for folder in ("sim", "batch", "solver"):
         (tmp_path / folder).mkdir()
     monkeypatch.setattr(compile_cache, "__file__", str(tmp_path / "compile_cache.py"))
     before = source_digest()
-    (tmp_path / "many" / "no_rule.py").write_text("x = 1\n", encoding="utf-8")
+    (tmp_path / "batch" / "no_rule.py").write_text("x = 1\n", encoding="utf-8")
     assert source_digest() == before
     (tmp_path / "sim" / "rule.py").write_text("x = 1\n", encoding="utf-8")
     assert source_digest() != before

@@ -6,11 +6,11 @@ import math
 
 import pytest
 
+from ninja_game.sim.collision.tiles import COLUMN, EXISTS, ODD_HALF_ID, ROW, SHAPE, STEP, UNDEFINED_ID
 from ninja_game.sim.grid import cell_at, cell_index
-from ninja_game.sim.level_data import NINJA, LevelData, Record
-from ninja_game.sim.plain import load_plain
+from ninja_game.sim.level import NINJA, LevelData, Record
+from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.rules import INTERESTING, OFF, SOLID, STRIDE
-from ninja_game.sim.tiles import COLUMN, EXISTS, ODD_HALF_ID, ROW, SHAPE, STEP, UNDEFINED_ID
 
 FACES = {  # up, down, left, right, as world.md lists them
     **{tile: "pFFp" for first in (2, 6, 10, 18, 26) for tile in (first,)},

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.golden_runs import FILES, difference, golden_rows
-from tests.sim.memories import BOTH
+from tests.support.golden_runs import FILES, difference, golden_rows
+from tests.support.memories import BOTH
 
 
 @pytest.mark.parametrize("memory", BOTH)

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from ninja_game.compile_cache import compiled_available
-from ninja_game.sim.compiled import Compiler, load_compiled
-from ninja_game.sim.layout import LEVEL, STATE_START, THING, WORLD, dtype_of, new_worlds, state_view, used_bytes
-from ninja_game.sim.memory import ENTRY_POINTS, REGISTERED, f8, fields_of, part
-from ninja_game.sim.schema import CAPACITY, Header, Thing
-from tests.sim.crowded import crowded_frames, crowded_level
+from ninja_game.sim.memory.compiled import Compiler, load_compiled
+from ninja_game.sim.memory.declare import ENTRY_POINTS, REGISTERED, f8, fields_of, part
+from ninja_game.sim.memory.layout import LEVEL, STATE_START, THING, WORLD, dtype_of, new_worlds, state_view, used_bytes
+from ninja_game.sim.memory.schema import CAPACITY, Header, Thing
+from tests.support.crowded import crowded_frames, crowded_level
 
 needs_numba = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 

@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from ninja_game.compile_cache import compiled_available
 from ninja_game.errors import LevelError
-from ninja_game.sim.level_data import GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS, LevelData, Record
+from ninja_game.sim.level import GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS, LevelData, Record
 from ninja_game.simulation import BODIES, Body, Simulation
-from tests.sim.crowded import crowded_frames, crowded_level
-from tests.sim.memories import BOTH
+from tests.support.crowded import crowded_frames, crowded_level
+from tests.support.memories import BOTH
 
 seeds = st.integers(0, 2**32)
 bodies = st.sampled_from(BODIES)

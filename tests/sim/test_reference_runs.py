@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from tests import reference
-from tests.sim.comparing import digest_difference, run_difference, trace_of
-from tests.sim.memories import BOTH
+from tests.support import reference
+from tests.support.comparing import digest_difference, run_difference, trace_of
+from tests.support.memories import BOTH
 
 PARTS = 8
 """Each table is tested in parts, so that two processes share the work."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from tests import reference
-from tests.sim.comparing import scene_difference
-from tests.sim.memories import BOTH
+from tests.support import reference
+from tests.support.comparing import scene_difference
+from tests.support.memories import BOTH
 
 RULES = sorted({scene.rule for scene in reference.scenes()}) if reference.reference_folder() else []
 

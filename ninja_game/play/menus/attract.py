@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.formats.files import load_replays
+from ninja_game.files.resources import bundled_replays
+from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
-from ninja_game.play.level_view import LevelView
-from ninja_game.play.run_clock import RunClock
-from ninja_game.session.bundled import bundled_replays
+from ninja_game.play.level.run_clock import RunClock
+from ninja_game.play.view.level_view import LevelView
 from ninja_game.simulation import Simulation
 
 if TYPE_CHECKING:

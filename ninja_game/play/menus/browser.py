@@ -9,21 +9,21 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.formats.files import load_levels
-from ninja_game.play.level_screen import LevelScreen
-from ninja_game.play.menus.courses import LevelCourse
-from ninja_game.play.menus.list_view import ListView
+from ninja_game.files.writing import write_atomically
+from ninja_game.formats.load import load_levels
+from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menus.level_contexts import LevelCourse
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.text_entry import TextEntry
 from ninja_game.play.menus.thumbnails import Thumbnails
-from ninja_game.play.menus.watching import watch
-from ninja_game.play.menus.widgets import Area, Button, Choice, Widget
-from ninja_game.play.menus.wording import counted, fit
-from ninja_game.play.theme import Theme
-from ninja_game.session.atomic_file import write_atomically
-from ninja_game.session.catalogue import Entry
-from ninja_game.session.records import SavedReplay
-from ninja_game.session.scoring import seconds_text
+from ninja_game.play.menus.watch_replay import watch
+from ninja_game.play.ui.list_view import ListView
+from ninja_game.play.ui.text_entry import TextEntry
+from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.widgets import Area, Button, Choice, Widget
+from ninja_game.play.ui.wording import counted, fit
+from ninja_game.player.catalogue import Entry
+from ninja_game.player.records import SavedReplay
+from ninja_game.player.scoring import seconds_text
 
 if TYPE_CHECKING:
     from ninja_game.play.screen import Host

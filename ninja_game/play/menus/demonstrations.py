@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii_level import parse_ascii_level
-from ninja_game.session.bundled import data_folder
-from ninja_game.sim.level_data import COLUMNS, ROWS, LevelData
+from ninja_game.files.resources import data_folder
+from ninja_game.formats.ascii.reader import parse_ascii_level
+from ninja_game.sim.level import COLUMNS, ROWS, LevelData
 
 PAGES_FILE = "help/pages.toml"
 

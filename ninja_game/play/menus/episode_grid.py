@@ -7,19 +7,19 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.level_screen import LevelScreen
-from ninja_game.play.menus.courses import LevelCourse, episode_course
-from ninja_game.play.menus.list_view import BAR, ListView
+from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menus.level_contexts import LevelCourse, episode_course
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import Thumbnails
-from ninja_game.play.menus.widgets import Area, Choice, Widget
-from ninja_game.play.menus.wording import counted, fit
 from ninja_game.play.start import apply_settings
-from ninja_game.play.theme import Theme
-from ninja_game.session.catalogue import Episode
-from ninja_game.session.progress import CHEATED, COLUMNS, EPISODES_PER_COLUMN, LOCKED
-from ninja_game.session.scoring import seconds_text
+from ninja_game.play.ui.list_view import BAR, ListView
+from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.widgets import Area, Choice, Widget
+from ninja_game.play.ui.wording import counted, fit
+from ninja_game.player.catalogue import Episode
+from ninja_game.player.progress import CHEATED, COLUMNS, EPISODES_PER_COLUMN, LOCKED
+from ninja_game.player.scoring import seconds_text
 
 if TYPE_CHECKING:
     from ninja_game.play.screen import Host

@@ -6,16 +6,16 @@ from collections.abc import Callable, Sequence
 
 import pygame
 
-from ninja_game.play.canvas import WIDTH
-from ninja_game.play.course import Course
+from ninja_game.play.level.context import Course
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.thumbnails import Thumbnails
-from ninja_game.play.menus.widgets import Button, Widget
 from ninja_game.play.screen import Host
-from ninja_game.session.catalogue import Episode
-from ninja_game.session.player_data import PlayerData
-from ninja_game.session.playthrough import EpisodeRun
-from ninja_game.session.scoring import seconds_text
+from ninja_game.play.ui.canvas import WIDTH
+from ninja_game.play.ui.widgets import Button, Widget
+from ninja_game.player.catalogue import Episode
+from ninja_game.player.player_data import PlayerData
+from ninja_game.player.playthrough import EpisodeRun
+from ninja_game.player.scoring import seconds_text
 
 PICTURE = 132
 
@@ -52,14 +52,14 @@ class EpisodePassed(MenuScreen):
 
     def go_on(self) -> None:
         """The next episode."""
-        from ninja_game.play.level_screen import LevelScreen
+        from ninja_game.play.level.screen import LevelScreen
 
         if self.next_episode is not None:
             self.app.replace(LevelScreen(self.app, self.course_of(self.app, self.player, self.next_episode)))
 
     def watch(self) -> None:
         """The replays of the episode's best run."""
-        from ninja_game.play.menus.watching import watch
+        from ninja_game.play.menus.watch_replay import watch
 
         best = self.player.records.episode_best(self.run.episode.key)
         if best is not None:

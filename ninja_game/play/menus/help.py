@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.bindings import Bindings
-from ninja_game.play.canvas import HEIGHT, Canvas
-from ninja_game.play.default_bindings import ACTIONS
-from ninja_game.play.level_view import LevelView
+from ninja_game.play.input.bindings import Bindings
+from ninja_game.play.input.default_bindings import ACTIONS
+from ninja_game.play.level.run_clock import RunClock
 from ninja_game.play.menus.demonstrations import Page, read_pages
-from ninja_game.play.menus.list_view import ListView
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.widgets import Area, Button, Widget
-from ninja_game.play.menus.wording import wrapped
-from ninja_game.play.run_clock import RunClock
-from ninja_game.play.theme import Theme
+from ninja_game.play.ui.canvas import HEIGHT, Canvas
+from ninja_game.play.ui.list_view import ListView
+from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.widgets import Area, Button, Widget
+from ninja_game.play.ui.wording import wrapped
+from ninja_game.play.view.level_view import LevelView
 from ninja_game.simulation import Simulation
 
 if TYPE_CHECKING:

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game import __version__
-from ninja_game.play.canvas import HEIGHT, WIDTH
 from ninja_game.play.menus.attract import Attract
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Panels, Question
-from ninja_game.play.menus.widgets import Area, Button, Widget
-from ninja_game.play.menus.wording import fit
 from ninja_game.play.screen import Screen
+from ninja_game.play.ui.canvas import HEIGHT, WIDTH
+from ninja_game.play.ui.widgets import Area, Button, Widget
+from ninja_game.play.ui.wording import fit
 
 if TYPE_CHECKING:
     from ninja_game.play.screen import Host

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.bindings import Bindings
-from ninja_game.play.canvas import HEIGHT, WIDTH
-from ninja_game.play.menus.list_view import ListView
-from ninja_game.play.menus.text_entry import TextEntry
-from ninja_game.play.menus.widgets import Widget
+from ninja_game.play.audio.player import Sound
+from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.screen import Screen
-from ninja_game.play.sound import Sound
+from ninja_game.play.ui.canvas import HEIGHT, WIDTH
+from ninja_game.play.ui.list_view import ListView
+from ninja_game.play.ui.text_entry import TextEntry
+from ninja_game.play.ui.widgets import Widget
 
 if TYPE_CHECKING:
     from ninja_game.play.screen import Host
-    from ninja_game.session.player_data import PlayerData
+    from ninja_game.player.player_data import PlayerData
 
 FIRST_REPEAT_MS, REPEAT_MS = 350, 70
 """A direction that is held repeats: when first, and then how often."""

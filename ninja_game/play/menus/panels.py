@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Protocol
 
 import pygame
 
-from ninja_game.play.canvas import HEIGHT, WIDTH
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.widgets import Button, Widget
+from ninja_game.play.ui.canvas import HEIGHT, WIDTH
+from ninja_game.play.ui.widgets import Button, Widget
 
 if TYPE_CHECKING:
     from ninja_game.play.screen import Host

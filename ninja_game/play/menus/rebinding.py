@@ -6,16 +6,16 @@ from typing import Any, Protocol
 
 import pygame
 
-from ninja_game.play.bindings import Bindings
-from ninja_game.play.default_bindings import ACTIONS
-from ninja_game.play.gamepad import pad_label
-from ninja_game.play.key_names import key_label
-from ninja_game.play.menus.list_view import ListView
-from ninja_game.play.menus.widgets import TEXT, Area, Button, Slider, Widget
-from ninja_game.play.menus.wording import fit
+from ninja_game.play.input.bindings import Bindings
+from ninja_game.play.input.default_bindings import ACTIONS
+from ninja_game.play.input.gamepad import pad_label
+from ninja_game.play.input.key_names import key_label
 from ninja_game.play.screen import Host, Screen
-from ninja_game.play.theme import Theme
-from ninja_game.session.player_data import PlayerData
+from ninja_game.play.ui.list_view import ListView
+from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.widgets import TEXT, Area, Button, Slider, Widget
+from ninja_game.play.ui.wording import fit
+from ninja_game.player.player_data import PlayerData
 
 
 class Rebinder(Protocol):

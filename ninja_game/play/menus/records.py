@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import pygame
 
-from ninja_game.play.menus.list_view import ListView
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.watching import watch
-from ninja_game.play.menus.widgets import Area, Widget
-from ninja_game.play.menus.wording import fit
-from ninja_game.play.theme import Theme
-from ninja_game.session.scoring import TICK_MS, seconds_text
+from ninja_game.play.menus.watch_replay import watch
+from ninja_game.play.ui.list_view import ListView
+from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.widgets import Area, Widget
+from ninja_game.play.ui.wording import fit
+from ninja_game.player.scoring import TICK_MS, seconds_text
 
 if TYPE_CHECKING:
     from ninja_game.play.screen import Host

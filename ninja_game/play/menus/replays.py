@@ -8,23 +8,23 @@ from typing import TYPE_CHECKING, NamedTuple
 import pygame
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.formats.files import load_replays
+from ninja_game.files.reading import text_files
+from ninja_game.files.resources import bundled_replays
+from ninja_game.files.user_folder import EXPORTS
+from ninja_game.files.writing import write_atomically
+from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay import write_replay
-from ninja_game.formats.text_file import text_files
+from ninja_game.formats.replay.text import write_replay
 from ninja_game.play.app import free_name
-from ninja_game.play.menus.list_view import ListView
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question
-from ninja_game.play.menus.watching import watch, watch_recording
-from ninja_game.play.menus.widgets import Area, Widget
-from ninja_game.play.menus.wording import fit
-from ninja_game.play.theme import Theme
-from ninja_game.session.atomic_file import write_atomically
-from ninja_game.session.bundled import bundled_replays
-from ninja_game.session.records import SavedReplay
-from ninja_game.session.scoring import seconds_text
-from ninja_game.session.user_folder import EXPORTS
+from ninja_game.play.menus.watch_replay import watch, watch_recording
+from ninja_game.play.ui.list_view import ListView
+from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.widgets import Area, Widget
+from ninja_game.play.ui.wording import fit
+from ninja_game.player.records import SavedReplay
+from ninja_game.player.scoring import seconds_text
 
 if TYPE_CHECKING:
     from ninja_game.play.screen import Host

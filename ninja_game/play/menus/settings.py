@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.canvas import WIDTH
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.rebinding import BindingTable, binding_widgets
-from ninja_game.play.menus.text_entry import TextEntry
-from ninja_game.play.menus.widgets import Button, Choice, Label, Slider, Widget
-from ninja_game.play.palette import FLAVOURS, PALETTES
 from ninja_game.play.start import apply_settings
-from ninja_game.session.unlocks import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
+from ninja_game.play.ui.canvas import WIDTH
+from ninja_game.play.ui.palette import FLAVOURS, PALETTES
+from ninja_game.play.ui.text_entry import TextEntry
+from ninja_game.play.ui.widgets import Button, Choice, Label, Slider, Widget
+from ninja_game.player.unlocks import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 
 if TYPE_CHECKING:
     from ninja_game.play.screen import Host

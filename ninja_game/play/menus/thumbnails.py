@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.picture.thumbnail import thumbnail
-from ninja_game.session.catalogue import Entry
+from ninja_game.play.view.sprites.thumbnail import thumbnail
+from ninja_game.player.catalogue import Entry
 
 if TYPE_CHECKING:
     from ninja_game.play.screen import Host

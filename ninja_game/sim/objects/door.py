@@ -6,9 +6,11 @@ from collections.abc import Sequence
 from math import sqrt
 
 from ninja_game.sim.arithmetic import is_set
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS
 from ninja_game.sim.events import DOOR_CLOSED, DOOR_OPENED, LOCK_OPENED, TRAP_CLOSED, emit
 from ninja_game.sim.grid import cell_index, file, unfile
-from ninja_game.sim.memory import fast
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Door, World
 from ninja_game.sim.rules import (
     AUTOMATIC_DOOR_OPEN,
     AUTOMATIC_DOOR_RADIUS,
@@ -23,9 +25,7 @@ from ninja_game.sim.rules import (
     UP,
 )
 from ninja_game.sim.schedule import end_update, start_update
-from ninja_game.sim.schema import Door, World
 from ninja_game.sim.states import AUTOMATIC, LOCKED, TRAP
-from ninja_game.sim.tiles import CENTRE_X, CENTRE_Y, EXISTS
 
 
 @fast

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ninja_game.sim.arithmetic import is_set
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, ROW, STEP, UNIT_X, UNIT_Y
 from ninja_game.sim.events import CHASE_STARTED, emit
 from ninja_game.sim.grid import cell_at, link, refile
-from ninja_game.sim.memory import fast
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Drone, World
 from ninja_game.sim.rules import CELL, DRONE_SPEED, OFF
 from ninja_game.sim.schedule import start_think, start_update
-from ninja_game.sim.schema import Drone, World
 from ninja_game.sim.states import (
     ALTERNATING,
     MOVEMENT_BELOW,
@@ -27,7 +28,6 @@ from ninja_game.sim.states import (
     WEAPON_UNKNOWN,
     WEAPON_ZAP,
 )
-from ninja_game.sim.tiles import CENTRE_X, CENTRE_Y, COLUMN, ROW, STEP, UNIT_X, UNIT_Y
 
 ROTATIONS = [1, 0, 3, 2, 3, 0, 1, 2, 0, 1, 3, 2, 0, 3, 1, 2]
 """Order in which directions are tried, four for each movement 0-3."""

@@ -5,11 +5,12 @@ from __future__ import annotations
 from math import sqrt
 
 from ninja_game.sim.arithmetic import div
+from ninja_game.sim.collision.rays import ray_tiles, sees
 from ninja_game.sim.death import kill, stop_firing
 from ninja_game.sim.events import CHAINGUN_CHARGING, CHAINGUN_ON, CHAINGUN_SHOT, LASER_CHARGING, LASER_ON, emit
-from ninja_game.sim.memory import fast
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Drone, Level, World
 from ninja_game.sim.objects.floor_guard import zap
-from ninja_game.sim.rays import ray_tiles, sees
 from ninja_game.sim.rules import (
     CHAINGUN_COOL,
     CHAINGUN_PAUSE,
@@ -21,7 +22,6 @@ from ninja_game.sim.rules import (
     RADIUS,
 )
 from ninja_game.sim.schedule import end_think, start_think
-from ninja_game.sim.schema import Drone, Level, World
 from ninja_game.sim.states import (
     BULLET,
     DRONE_FIRING,

@@ -7,9 +7,9 @@ from math import sqrt
 from ninja_game.sim.death import win
 from ninja_game.sim.events import EXIT_OPENED, emit
 from ninja_game.sim.grid import file
-from ninja_game.sim.memory import fast
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import SWITCH, Exit, Switch, Thing, World
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS, SWITCH_RADIUS
-from ninja_game.sim.schema import SWITCH, Exit, Switch, Thing, World
 
 
 @fast

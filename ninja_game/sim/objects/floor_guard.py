@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from math import sqrt
 
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, ROW, UNDEFINED_ID
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import GUARD_STARTED, emit
 from ninja_game.sim.grid import cell_at, file, refile
-from ninja_game.sim.memory import fast
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import INERT, FloorGuard, Level, World
 from ninja_game.sim.rules import DOWN, GUARD_RADIUS, GUARD_SPEED, HALF, RADIUS, SOLID
 from ninja_game.sim.schedule import start_update
-from ninja_game.sim.schema import INERT, FloorGuard, Level, World
 from ninja_game.sim.states import ELECTRIC, GUARD_CHASE, GUARD_IDLE
-from ninja_game.sim.tiles import CENTRE_X, CENTRE_Y, COLUMN, ROW, UNDEFINED_ID
 
 
 @fast

@@ -6,9 +6,9 @@ from math import sqrt
 
 from ninja_game.sim.events import GOLD_TAKEN, emit
 from ninja_game.sim.grid import unfile
-from ninja_game.sim.memory import fast
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Gold, World
 from ninja_game.sim.rules import GOLD_RADIUS, RADIUS
-from ninja_game.sim.schema import Gold, World
 
 
 @fast

@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import sqrt
 
 from ninja_game.sim.events import LAUNCHED, emit
-from ninja_game.sim.memory import fast
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import LaunchPad, World
 from ninja_game.sim.rules import PAD_RADIUS, PAD_STRENGTH, RADIUS
-from ninja_game.sim.schema import LaunchPad, World
 from ninja_game.sim.states import FALLING, enter_state
 
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 from math import sqrt
 
 from ninja_game.sim.arithmetic import div
+from ninja_game.sim.collision.rays import sees, solid_at
+from ninja_game.sim.collision.tiles import STEP
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import ROCKET_EXPLODED, ROCKET_LAUNCHED, emit
 from ninja_game.sim.grid import file, refile, unfile
-from ninja_game.sim.memory import fast
-from ninja_game.sim.rays import sees, solid_at
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Launcher, Level, World
 from ninja_game.sim.rules import (
     OFF,
     RADIUS,
@@ -21,9 +23,7 @@ from ninja_game.sim.rules import (
     SOLID,
 )
 from ninja_game.sim.schedule import end_think, end_update, start_think, start_update
-from ninja_game.sim.schema import Launcher, Level, World
 from ninja_game.sim.states import EXPLOSIVE, LAUNCHER_FLIGHT, LAUNCHER_IDLE, LAUNCHER_PREPARE
-from ninja_game.sim.tiles import STEP
 
 
 @fast

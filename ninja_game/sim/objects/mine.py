@@ -7,9 +7,9 @@ from math import sqrt
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import MINE_EXPLODED, emit
 from ninja_game.sim.grid import unfile
-from ninja_game.sim.memory import fast
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Mine, World
 from ninja_game.sim.rules import MINE_RADIUS, RADIUS
-from ninja_game.sim.schema import Mine, World
 from ninja_game.sim.states import EXPLOSIVE
 
 

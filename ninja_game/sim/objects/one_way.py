@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.contacts import push
-from ninja_game.sim.memory import fast
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import OneWay, World
+from ninja_game.sim.ninja.contact_response import push
 from ninja_game.sim.rules import ONE_WAY_HALF, RADIUS
-from ninja_game.sim.schema import OneWay, World
 
 
 @fast

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.contacts import push
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW, STEP, UNIT_X, UNIT_Y
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import THWUMP_FELL, THWUMP_LANDED, emit
 from ninja_game.sim.grid import cell_at, file, refile
-from ninja_game.sim.memory import fast
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Level, Thwump, World
+from ninja_game.sim.ninja.contact_response import push
 from ninja_game.sim.rules import CELL, RADIUS, THWUMP_FALL, THWUMP_HALF, THWUMP_RISE, THWUMP_SIGHT
 from ninja_game.sim.schedule import start_update
-from ninja_game.sim.schema import Level, Thwump, World
 from ninja_game.sim.states import ELECTRIC, THWUMP_MOVE, THWUMP_REST
-from ninja_game.sim.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW, STEP, UNIT_X, UNIT_Y
 
 
 @fast

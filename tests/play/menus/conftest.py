@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.play.menus.stage import Stage
+from tests.support.menu_driver import Stage
 
 
 @pytest.fixture

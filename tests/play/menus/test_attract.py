@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ninja_game.play.menus.main_menu import MainMenu
-from tests.play.menus.stage import Stage
+from tests.support.menu_driver import Stage
 
 
 def test_one_replay_follows_another(stage: Stage) -> None:

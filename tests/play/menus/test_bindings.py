@@ -5,10 +5,10 @@ from __future__ import annotations
 import pygame
 import pytest
 
-from ninja_game.play.bindings import Bindings
-from ninja_game.play.default_bindings import ACTIONS, MENU_KEYS
-from ninja_game.play.gamepad import FULL_AXIS, Gamepads
-from ninja_game.play.key_names import SCANCODES, key_label, key_name, learn_label, scancode_named
+from ninja_game.play.input.bindings import Bindings
+from ninja_game.play.input.default_bindings import ACTIONS, MENU_KEYS
+from ninja_game.play.input.gamepad import FULL_AXIS, Gamepads
+from ninja_game.play.input.key_names import SCANCODES, key_label, key_name, learn_label, scancode_named
 
 
 @pytest.fixture

@@ -7,9 +7,9 @@ import pytest
 from ninja_game.errors import LevelError
 from ninja_game.play.menus.demonstrations import Page, read_pages, room_level, strokes
 from ninja_game.play.menus.help import HelpScreen
-from ninja_game.sim.level_data import KIND_NAMES
+from ninja_game.sim.level import KIND_NAMES
 from ninja_game.simulation import Simulation
-from tests.play.menus.stage import Stage
+from tests.support.menu_driver import Stage
 
 PAGES = read_pages()
 

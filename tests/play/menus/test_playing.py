@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ninja_game.play.level_screen import LevelScreen
+from ninja_game.play.level.phase import Phase
+from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episode_grid import EpisodeGrid
 from ninja_game.play.menus.episode_passed import EpisodePassed
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
-from ninja_game.play.phase import Phase
-from ninja_game.play.replay_screen import ReplayScreen
-from ninja_game.session.progress import UNLOCKED
-from tests.play.menus.stage import Stage
+from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.player.progress import UNLOCKED
+from tests.support.menu_driver import Stage
 
 
 def test_first_episode_is_played_to_its_end(stage: Stage) -> None:

@@ -7,8 +7,9 @@ from pathlib import Path
 import pygame
 import pytest
 
-from ninja_game.formats.files import load_replays
-from ninja_game.play.level_screen import LevelScreen
+from ninja_game.formats.load import load_replays
+from ninja_game.play.level.phase import Phase
+from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episode_grid import EpisodeGrid
 from ninja_game.play.menus.help import HelpScreen
@@ -18,11 +19,10 @@ from ninja_game.play.menus.panels import PausePanel, Question
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.menus.settings import PAGES, SettingsScreen
-from ninja_game.play.palette import PALETTES
-from ninja_game.play.phase import Phase
-from ninja_game.play.replay_screen import ReplayScreen
-from ninja_game.session.settings import PALETTES as NAMES_IN_SETTINGS
-from tests.play.menus.stage import Stage
+from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.play.ui.palette import PALETTES
+from ninja_game.player.settings import PALETTES as NAMES_IN_SETTINGS
+from tests.support.menu_driver import Stage
 
 ENTRIES = {
     "Play": EpisodeGrid,

@@ -1,0 +1,1 @@
+"""Many worlds stepped at once."""

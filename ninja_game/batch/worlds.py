@@ -1,0 +1,188 @@
+"""The worlds of a batch on either memory: loaded, run, saved and copied by number.
+
+Both keep them in one block as records (sim/memory/layout.py): the compiled memory runs in it, the plain one copies
+what it did into it, so that observations look the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from operator import attrgetter
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.batch import kernels as _entry_points  # noqa: F401 - registers the entry point run_worlds
+from ninja_game.batch.thread_pool import crew
+from ninja_game.compile_cache import kernels
+from ninja_game.sim.digest import KIND_CLASSES
+from ninja_game.sim.level import LevelData
+from ninja_game.sim.loader import grid_tiles, record_table
+from ninja_game.sim.memory.declare import fields_of
+from ninja_game.sim.memory.layout import LEVEL, STATE_START, THING, THINGS_START, Records, new_worlds, plain_copy
+from ninja_game.sim.memory.plain import WORLD_SCALARS, load_plain, restore_plain, save_plain
+from ninja_game.sim.memory.schema import Ninja, World
+from ninja_game.sim.world import step
+
+Numbers = NDArray[np.intp]
+"""Numbers of worlds or levels."""
+
+
+class Worlds(Protocol):
+    """What a batch asks of a memory. ``records``: the worlds as an array of records, in one block."""
+
+    records: Records
+
+    def load(self, worlds: Numbers, levels: Numbers) -> None:
+        """Start worlds afresh, each in the level of that number."""
+
+    def run(self, frames: NDArray[np.uint8], level_of: Numbers, stop: bool, threads: int) -> int:
+        """Run all worlds for all rows of ``frames``; the number of ticks run, over all worlds."""
+
+    def save(self, worlds: Numbers) -> Any:
+        """The states of worlds, unchanged by what happens later."""
+
+    def restore(self, worlds: Numbers, states: Any, levels: Numbers) -> None:
+        """Put worlds back to states that ``save`` gave for as many, in the levels that those had."""
+
+    def world(self, index: int) -> World:
+        """One world as plain objects, for looking at it."""
+
+
+def block_of(count: int, tables: Sequence[int]) -> Records:
+    """Zeroed records for worlds with room for the largest of these numbers of slots; two at least.
+
+    An array of one counts as contiguous, which is another type and another compile.
+    """
+    return new_worlds(max(count, 2), max(tables))
+
+
+def bytes_of(records: Records) -> NDArray[np.uint8]:
+    """The states in a block as a matrix of bytes, a row a world, without events; a view."""
+    return np.ndarray((len(records), records.strides[0]), np.uint8, records.base)[:, STATE_START:]
+
+
+class CompiledWorlds:
+    """Worlds of the compiled memory. Every level is loaded once; a fresh world is a copy of bytes."""
+
+    def __init__(self, levels: Sequence[LevelData], count: int, box: bool) -> None:
+        tables = [record_table(level) for level in levels]
+        slots = [table.slots for table in tables]
+        self._kernels = kernels()
+        self._levels = np.zeros(len(levels), LEVEL)
+        self._fresh = block_of(len(levels), slots)
+        for number, (level, table) in enumerate(zip(levels, tables, strict=True)):
+            here = slice(number, number + 1)
+            self._levels[number]["tiles"] = grid_tiles(level)
+            self._kernels["load_world"](
+                self._levels[here],
+                self._fresh[here],
+                0,
+                np.array(table.kinds, np.int64),
+                np.array(table.counts, np.int64),
+                np.array(table.values, np.float64).reshape(-1, 9),
+                int(box),
+            )
+        self._block = block_of(count, slots)
+        self.records = self._block[:count]
+        self._bytes, self._fresh_bytes = bytes_of(self._block), bytes_of(self._fresh)
+
+    def load(self, worlds: Numbers, levels: Numbers) -> None:
+        """Start worlds afresh, each in the level of that number."""
+        self._put(worlds, self._fresh_bytes[levels])
+
+    def run(self, frames: NDArray[np.uint8], level_of: Numbers, stop: bool, threads: int) -> int:
+        """Run all worlds for all rows of ``frames``, on all threads."""
+        entry = self._kernels["run_worlds"]
+
+        def work(first: int, last: int) -> int:
+            return int(entry(self._levels, level_of, self._block, frames, first, last, int(stop)))
+
+        return crew(threads).share(work, len(self.records), len(frames))
+
+    def save(self, worlds: Numbers) -> NDArray[np.uint8]:
+        """The states of worlds as a matrix of bytes."""
+        return self._bytes[worlds]
+
+    def restore(self, worlds: Numbers, states: Any, levels: Numbers) -> None:  # noqa: ARG002
+        """Put worlds back to states that ``save`` gave for as many; the bytes know their levels' things."""
+        self._put(worlds, states)
+
+    def _put(self, worlds: Numbers, states: NDArray[np.uint8]) -> None:
+        """Overwrite the states of worlds; nothing has happened in their last tick."""
+        self._bytes[worlds] = states
+        self.records["event_count"][worlds] = 0
+
+    def world(self, index: int) -> World:
+        """One world as plain objects: a copy."""
+        return plain_copy(self.records, index)
+
+
+_SCALARS = [(field.name, attrgetter(field.name)) for field in WORLD_SCALARS]
+_NINJA = attrgetter(*(field.name for field in fields_of(Ninja)))
+_KIND_FIELDS = [[field.name for field in fields_of(kind)] for kind in KIND_CLASSES]
+_KIND_VALUES = [attrgetter(*names) for names in _KIND_FIELDS]
+
+
+class PlainWorlds:
+    """Worlds of the plain memory, for where Numba is missing. ``records`` shows them as they are after each call."""
+
+    def __init__(self, levels: Sequence[LevelData], count: int, box: bool) -> None:
+        self._data = levels
+        self._box = box
+        self._states = [load_plain(levels[0], box) for _ in range(count)]
+        self._playing = [0] * count
+        block = block_of(count, [record_table(level).slots for level in levels])
+        self.records = block[:count]
+        self._shown = bytes_of(block)
+
+    def load(self, worlds: Numbers, levels: Numbers) -> None:
+        """Start worlds afresh, each in the level of that number."""
+        for index, number in zip(worlds.tolist(), levels.tolist(), strict=True):
+            self._states[index] = load_plain(self._data[number], self._box)
+            self._playing[index] = number
+            self._shown[index] = 0
+            self._show(index)
+
+    def run(self, frames: NDArray[np.uint8], level_of: Numbers, stop: bool, threads: int) -> int:  # noqa: ARG002
+        """Run all worlds for all rows of ``frames``, one after the other: the interpreter has one lock."""
+        ticks = 0
+        for index, (level, w) in enumerate(self._states):
+            for frame in frames[:, index].tolist():
+                if stop and w.outcome:
+                    break
+                step(level, w, frame)
+                ticks += 1
+            self._show(index)
+        return ticks
+
+    def save(self, worlds: Numbers) -> list[Any]:
+        """The states of worlds as tuples."""
+        return [save_plain(self._states[index][1]) for index in worlds.tolist()]
+
+    def restore(self, worlds: Numbers, states: Any, levels: Numbers) -> None:
+        """Put worlds back to states that ``save`` gave for as many; a world of another level is made anew."""
+        for index, state, number in zip(worlds.tolist(), states, levels.tolist(), strict=True):
+            if self._playing[index] != number:
+                self.load(np.array([index]), np.array([number]))
+            restore_plain(self._states[index][1], state)
+            self._show(index)
+
+    def world(self, index: int) -> World:
+        """One world as plain objects: the world itself."""
+        return self._states[index][1]
+
+    def _show(self, index: int) -> None:
+        """Copy a world into its record."""
+        w = self._states[index][1]
+        record = self.records[index]
+        for name, value in _SCALARS:
+            record[name] = value(w)
+        record["ninja"] = _NINJA(w.ninja)
+        record["heads"] = w.heads
+        record["edges"] = w.edges
+        things = np.ndarray((w.used,), THING, self._shown[index], THINGS_START - STATE_START)
+        for slot, o in enumerate(w.things):
+            if slot:
+                things[_KIND_FIELDS[o.kind]][slot] = _KIND_VALUES[o.kind](o)

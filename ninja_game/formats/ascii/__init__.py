@@ -1,0 +1,1 @@
+"""Levels as text that people write."""

@@ -1,0 +1,195 @@
+"""The legend of the ASCII level format: one character for each tile shape and each object that can be drawn.
+
+The tables here are the format; `docs/level-format.md` shows them as pictures. Every character means one thing only.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ninja_game.sim.level import (
+    BOUNCE_BLOCK,
+    COLUMNS,
+    DOOR,
+    DRONE,
+    EXIT,
+    FLOOR_GUARD,
+    GOLD,
+    LAUNCH_PAD,
+    LAUNCHER,
+    MINE,
+    NINJA,
+    ONE_WAY,
+    ROWS,
+    THWUMP,
+    TURRET,
+    VALUE_COUNTS,
+    Record,
+)
+
+CELL = 24.0
+"""Side of a cell, px."""
+
+TILE_CHARS = ".#" + "aswq" + "jkiu" + "JKIU" + "dfre" + "DFRE" + "ghyt" + "GHYT" + '_]"['
+"""Character of tile id 0…33 (world.md §2.1).
+
+A slope or curve is a key of a 2 x 2 block of the keyboard, and the key's place in the block is the tile's solid corner.
+The order within a family is that of the ids: bottom left, bottom right, top right, top left.
+"""
+
+ODD_TILE = "?"
+"""Stands for a tile id outside 0…33, which a ``tile`` line gives."""
+
+TILE_OF_CHAR = {char: number for number, char in enumerate(TILE_CHARS)} | {" ": 0}
+"""Tile id of a picture character; a blank is as empty as a dot."""
+
+TILE_FAMILIES = (
+    ("45° slope", "qwas"),
+    ("22° slope, thin end", "erdf"),
+    ("22° slope, thick end", "ERDF"),
+    ("67° slope, thin end", "tygh"),
+    ("67° slope, thick end", "TYGH"),
+    ("concave curve (hollow)", "uijk"),
+    ("convex curve (round)", "UIJK"),
+)
+"""Slope families: name, then the characters whose solid corner is top left, top right, bottom left, bottom right."""
+
+RIGHT, DOWN, LEFT, UP = 0.0, 1.0, 2.0, 3.0
+DIRECTION_WORDS = {"right": RIGHT, "down": DOWN, "left": LEFT, "up": UP}
+"""Direction numbers of the N records (objects.md §1)."""
+
+DIAGONAL = 0.7071067811865468
+"""What a diagonal pad's ``0.707106781186547`` loads as (game.md §5.2)."""
+
+PAD_NORMALS = {
+    "up": (0.0, -1.0),
+    "up-right": (DIAGONAL, -DIAGONAL),
+    "right": (1.0, 0.0),
+    "down-right": (DIAGONAL, DIAGONAL),
+    "down": (0.0, 1.0),
+    "down-left": (-DIAGONAL, DIAGONAL),
+    "left": (-1.0, 0.0),
+    "up-left": (-DIAGONAL, -DIAGONAL),
+}
+"""Normal of a launch pad for each direction word."""
+
+PAD_DIGITS = {"up": "8", "up-right": "9", "right": "6", "down-right": "3",
+              "down": "2", "down-left": "1", "left": "4", "up-left": "7"}  # fmt: skip
+"""A pad is drawn as the key of the numeric keypad that lies in its direction."""
+
+
+class Symbol(NamedTuple):
+    """A character that draws an object: what it is and where in its cell it sits.
+
+    ``dx``, ``dy``: px from the cell's centre. ``values``: what follows x and y in the record of an object that the
+    picture alone creates, None if it needs a line in the list.
+    """
+
+    char: str
+    name: str
+    kind: int
+    dx: float = 0.0
+    dy: float = 0.0
+    values: tuple[float, ...] | None = ()
+
+
+def _pad(word: str) -> Symbol:
+    # A straight pad lies on the side of the cell that it pushes away from; a diagonal one crosses the middle, as the
+    # surface of a 45° tile does.
+    a, b = PAD_NORMALS[word]
+    dx, dy = (0.0, 0.0) if a and b else (0.0 - 12.0 * a, 0.0 - 12.0 * b)
+    return Symbol(PAD_DIGITS[word], f"launch pad {word}", LAUNCH_PAD, dx, dy, (a, b))
+
+
+SYMBOLS = (
+    Symbol("@", "ninja", NINJA),
+    Symbol("X", "exit", EXIT),
+    Symbol("x", "exit switch", EXIT),
+    Symbol("o", "gold", GOLD),
+    Symbol("*", "mine", MINE),
+    Symbol("B", "bounce block", BOUNCE_BLOCK),
+    Symbol("^", "one-way up", ONE_WAY, values=(UP,)),
+    Symbol("v", "one-way down", ONE_WAY, values=(DOWN,)),
+    Symbol("<", "one-way left", ONE_WAY, values=(LEFT,)),
+    Symbol(">", "one-way right", ONE_WAY, values=(RIGHT,)),
+    *(_pad(word) for word in PAD_NORMALS),
+    Symbol("5", "launch pad, other normal", LAUNCH_PAD, values=None),
+    Symbol("M", "thwump up", THWUMP, values=(UP,)),
+    Symbol("W", "thwump down", THWUMP, values=(DOWN,)),
+    Symbol("{", "thwump left", THWUMP, values=(LEFT,)),
+    Symbol("}", "thwump right", THWUMP, values=(RIGHT,)),
+    Symbol("n", "floor guard", FLOOR_GUARD, 0.0, 6.0, (1.0,)),
+    Symbol("+", "gauss turret", TURRET),
+    Symbol("Q", "homing launcher", LAUNCHER),
+    Symbol("Z", "zap drone", DRONE, values=None),
+    Symbol("L", "laser drone", DRONE, values=None),
+    Symbol("C", "chaingun drone", DRONE, values=None),
+    Symbol("&", "locked door switch", DOOR, values=None),
+    Symbol("!", "trap door switch", DOOR, values=None),
+)
+"""Every character that draws an object, in the order of the legend."""
+
+SYMBOL_OF_CHAR = {symbol.char: symbol for symbol in SYMBOLS}
+SYMBOL_OF_NAME = {symbol.name: symbol for symbol in SYMBOLS}
+
+_SINGLE = {NINJA: "@", GOLD: "o", MINE: "*", BOUNCE_BLOCK: "B", TURRET: "+", LAUNCHER: "Q", FLOOR_GUARD: "n"}
+_DRONES = {0.0: "Z", 1.0: "L", 2.0: "C"}
+_FACING = {
+    kind: {symbol.values[0]: symbol.char for symbol in SYMBOLS if symbol.kind == kind and symbol.values}
+    for kind in (ONE_WAY, THWUMP)
+}
+_PADS = {symbol.values: symbol.char for symbol in SYMBOLS if symbol.kind == LAUNCH_PAD and symbol.values}
+
+
+class Part(NamedTuple):
+    """A character that an object puts into the picture, and its cell (column 1…31, row 1…23)."""
+
+    char: str
+    column: int
+    row: int
+
+
+def symbol_chars(record: Record) -> tuple[tuple[str, float, float], ...]:
+    """The characters that could draw an object, each with the px point it stands for; none for what has no picture."""
+    kind, values = record.kind, record.values
+    if not 0 <= kind < len(VALUE_COUNTS) or len(values) != VALUE_COUNTS[kind]:
+        return ()
+    x, y = values[:2]
+    if kind == EXIT:
+        return ("X", x, y), ("x", values[2], values[3])
+    if kind == DOOR:
+        return (("&", x, y),) if values[6] == 1 else (("!", x, y),) if values[3] == 1 else ()
+    if kind == LAUNCH_PAD:
+        return ((_PADS.get(values[2:], "5"), x, y),)
+    if kind == DRONE:
+        char = _DRONES.get(values[4], "")
+    elif kind in _FACING:
+        char = _FACING[kind].get(values[2], "")
+    else:
+        char = _SINGLE[kind]
+    return ((char, x, y),) if char else ()
+
+
+def visible_parts(record: Record) -> list[Part]:
+    """What an object looks like in the picture: only the parts that sit just where a character would put them."""
+    parts = []
+    for char, x, y in symbol_chars(record):
+        symbol = SYMBOL_OF_CHAR[char]
+        column, row = (x - symbol.dx - 12.0) / CELL, (y - symbol.dy - 12.0) / CELL
+        if column.is_integer() and row.is_integer() and 1 <= column <= COLUMNS and 1 <= row <= ROWS:
+            parts.append(Part(char, int(column), int(row)))
+    return parts
+
+
+def legend_text() -> str:
+    """The whole legend as comment lines, for the end of a level file."""
+    lines = ['; LEGEND   . empty   # full   halves: _ lower  " upper  [ left  ] right']
+    lines.append("; Slopes are 2 x 2 blocks of keys; the key's place in its block is the solid corner:")
+    for name, chars in TILE_FAMILIES:
+        lines.append(f";   {chars[0]} {chars[1]} / {chars[2]} {chars[3]}   {name}")
+    for title, needs_line in (("Objects:", False), ("Objects that also need a line below the picture:", True)):
+        lines.append(f"; {title}")
+        cells = [f"{symbol.char} {symbol.name}" for symbol in SYMBOLS if (symbol.values is None) is needs_line]
+        rows = (cells[start : start + 4] for start in range(0, len(cells), 4))
+        lines.extend(";   " + "".join(f"{cell:<26}" for cell in row).rstrip() for row in rows)
+    return "\n".join(lines) + "\n"

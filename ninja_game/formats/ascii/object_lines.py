@@ -1,0 +1,181 @@
+"""The list below the picture of an ASCII level: a line of words to object records (`object_writer` goes back)."""
+
+from __future__ import annotations
+
+import difflib
+import json
+import re
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+from ninja_game.errors import LevelError
+from ninja_game.formats.ascii.object_forms import FORMS, Form, Token, at_token, record_values
+from ninja_game.formats.ascii.places import read_cell, read_number, shown
+from ninja_game.sim.level import Record
+
+_TOKEN = re.compile(r';.*|"(?:[^"\\]|\\.)*+"|[^\s;"]+|".*')
+
+
+class Listed(NamedTuple):
+    """An object that a line of the list creates, and the column of its place in that line."""
+
+    record: Record
+    column: int
+
+
+class OddTile(NamedTuple):
+    """A cell whose tile id no character draws, and the column of its place in the line."""
+
+    cell: tuple[int, int]
+    id: int
+    column: int
+
+
+def tokens_of(text: str) -> list[Token]:
+    """The words of a line, without the comment that a semicolon begins."""
+    found = (Token(match.group(), match.start() + 1) for match in _TOKEN.finditer(text))
+    return [token for token in found if not token.text.startswith(";")]
+
+
+def suggestion(found: str, known: Iterable[str]) -> str:
+    """A hint that names the nearest known words, or all of a short list."""
+    known = list(known)
+    near = [word for word in known if found and (found in word.split() or found.startswith(word))]
+    near = near or difflib.get_close_matches(found, known, 3, 0.6)
+    if near:
+        return f"did you mean {' or '.join(near)}?"
+    return f"known are {', '.join(known)}"
+
+
+def read_object_line(text: str) -> list[Listed] | list[OddTile]:
+    """The objects (or odd tiles) of one line of the list, in order; empty for a blank or comment line.
+
+    Raises LevelError with the column, without file and line.
+    """
+    tokens = tokens_of(text)
+    if not tokens:
+        return []
+    if tokens[0].text == "raw":
+        return [_read_raw(tokens)]
+    if tokens[0].text == "tile":
+        return _read_tiles(tokens)
+    keyword, rest = _split_keyword(tokens)
+    places, given = _sort_words(keyword, FORMS[keyword], rest)
+    if not places:
+        column = tokens[-1].column + len(tokens[-1].text)
+        raise LevelError(f"'{keyword}' without a place", column=column, expected=f"{keyword} 5,7 (column,row)")
+    return [Listed(Record(FORMS[keyword].kind, record_values(keyword, place, given)), place.column) for place in places]
+
+
+def _split_keyword(tokens: Sequence[Token]) -> tuple[str, Sequence[Token]]:
+    for count in (2, 1):
+        keyword = " ".join(token.text for token in tokens[:count])
+        if keyword in FORMS:
+            return keyword, tokens[count:]
+    words = []
+    for token in tokens:
+        if "," in token.text:
+            break
+        words.append(token.text)
+    found = " ".join(words) or tokens[0].text
+    hint = suggestion(found, [*FORMS, "tile", "raw"])
+    raise LevelError("unknown kind of object", column=tokens[0].column, found=shown(found), hint=hint)
+
+
+def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list[Token], dict[str, Token]]:
+    """Which words are places, and which word tells which property."""
+    places: list[Token] = []
+    given: dict[str, Token] = {}
+    words = iter(tokens)
+    for token in words:
+        names = [name for name, vocabulary in form.words.items() if token.text in vocabulary]
+        if token.text in form.takes:
+            name, value = token.text, next(words, None)
+            if value is None:
+                column = token.column + len(token.text)
+                raise LevelError(f"nothing after '{name}'", column=column, expected=_value_example(name))
+        elif names:
+            name, value = names[0], token
+        elif "," in token.text:
+            if token.text.strip(",") != token.text:
+                hint = "column and row stand together, as in 5,7"
+                raise LevelError("a place with a blank in it", column=token.column, found=shown(token.text), hint=hint)
+            if places and form.single:
+                hint = "write one line for each, or 'switch' before its switch" if form.takes else ""
+                raise LevelError(f"a second place for one '{keyword}'", column=token.column, hint=hint)
+            places.append(token)
+            continue
+        else:
+            known = [word for vocabulary in form.words.values() for word in vocabulary] + list(form.takes)
+            hint = suggestion(token.text, known) if known else f"'{keyword}' has places only, such as 5,7"
+            raise LevelError(f"unknown word for '{keyword}'", column=token.column, found=shown(token.text), hint=hint)
+        if name in given:
+            raise LevelError(f"the {name} of '{keyword}' is given twice", column=token.column, found=shown(token.text))
+        given[name] = value
+    _check_complete(keyword, form, given, tokens)
+    return places, given
+
+
+def _value_example(name: str) -> str:
+    examples = {"switch": "switch 3,4 (column,row)", "normal": "normal 0.6,-0.8", "facing": "facing 1"}
+    return examples[name]
+
+
+def _check_complete(keyword: str, form: Form, given: dict[str, Token], tokens: Sequence[Token]) -> None:
+    column = tokens[-1].column + len(tokens[-1].text) if tokens else len(keyword) + 1
+    for group in form.needs:
+        present = [given[name] for name in group if name in given]
+        if len(present) > 1:
+            raise LevelError(f"'{keyword}' with both {' and '.join(group)}", column=present[1].column, hint="keep one")
+        if not present:
+            words = [", ".join(form.words[name]) if name in form.words else _value_example(name) for name in group]
+            raise LevelError(f"'{keyword}' without its {group[0]}", column=column, expected=", or ".join(words))
+
+
+def _read_tiles(tokens: Sequence[Token]) -> list[OddTile]:
+    if len(tokens) < 4 or tokens[-2].text != "id":
+        raise LevelError("incomplete tile line", column=tokens[0].column, expected="tile 5,7 id 70")
+    number = tokens[-1]
+    if re.fullmatch(r"-?\d{1,18}", number.text, re.ASCII) is None:
+        raise LevelError("not a tile id", column=number.column, found=shown(number.text), expected="a whole number")
+    return [OddTile(at_token(token, read_cell), int(number.text), token.column) for token in tokens[1:-2]]
+
+
+def _read_raw(tokens: Sequence[Token]) -> Listed:
+    """``raw TYPE V,V,… "text"``; each part may be missing, a missing type is -1."""
+    rest = list(tokens[1:])
+    kind, text = -1, ""
+    values: tuple[float, ...] = ()
+    shape = 'raw 9 1,2,3 (type and values), or raw "text" for a record that creates nothing'
+    if rest and re.fullmatch(r"-?\d{1,18}", rest[0].text, re.ASCII):
+        kind = int(rest.pop(0).text)
+    if rest and not rest[0].text.startswith('"'):
+        values = at_token(rest.pop(0), _read_values)
+    if rest:
+        text = at_token(rest.pop(0), _read_string)
+    if rest or len(tokens) == 1:
+        column = rest[0].column if rest else tokens[0].column
+        raise LevelError("not a raw record", column=column, expected=shape)
+    return Listed(Record(kind, values, text), tokens[0].column)
+
+
+def _read_values(text: str) -> tuple[float, ...]:
+    return tuple(read_number(part) for part in text.split(","))
+
+
+def read_quoted(text: str) -> str | None:
+    """What stands in double quotes, with JSON's escapes; None if that is not in order or no text for a file."""
+    try:
+        value = json.loads(text)
+        return value if isinstance(value, str) and value.encode() is not None else None
+    except ValueError:
+        return None
+
+
+def _read_string(text: str) -> str:
+    value = read_quoted(text)
+    if value is None:
+        raise LevelError(
+            "not a text in double quotes", found=shown(text), expected='"text", with \\" and \\\\ as in JSON'
+        )
+    return value

@@ -1,0 +1,101 @@
+"""Places and numbers in the list of an ASCII level: cells ``5,7``, half cells ``5.5,7``, exact px ``60,564px``."""
+
+from __future__ import annotations
+
+import math
+import re
+import struct
+
+from ninja_game.errors import LevelError
+from ninja_game.formats.ascii.legend import CELL
+from ninja_game.sim.level import COLUMNS, ROWS
+
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?|nan|[+-]?inf", re.ASCII)
+_LONGEST_SHOWN = 40
+
+
+def shown(text: str) -> str:
+    """A word of the file in quotes, cut where it is long."""
+    return repr(text if len(text) <= _LONGEST_SHOWN else f"{text[:_LONGEST_SHOWN]}...")
+
+
+def same_bits(a: float, b: float) -> bool:
+    """Whether two float64 are the same to the last bit: -0.0 is not 0.0; one NaN is as good as another."""
+    return struct.pack("<d", a) == struct.pack("<d", b) or (math.isnan(a) and math.isnan(b))
+
+
+def number_text(value: float) -> str:
+    """The shortest decimal that reads as exactly this float64; ``nan``, ``inf``, ``-inf``, ``-0`` for the odd ones."""
+    return repr(value).removesuffix(".0")
+
+
+def read_number(text: str) -> float:
+    """The float64 nearest to a decimal.
+
+    Correctly rounded, as in any programming language; not Flash's rule, which belongs to the N strings alone.
+
+    Raises LevelError (without a place) for anything else.
+    """
+    if _NUMBER.fullmatch(text) is None:
+        raise LevelError("not a number", found=shown(text), expected="a decimal such as 12, -0.5 or 408.15")
+    value = float(text)
+    if math.isinf(value) and "inf" not in text:
+        raise LevelError("number too large", found=shown(text), hint="write inf if you mean infinity")
+    return value
+
+
+def _cell_number(value: float, count: int) -> str:
+    """Cell coordinate of a px coordinate if quarter steps from 0 to the far border give it exactly, else ''."""
+    cell = (value - 12.0) / CELL
+    if not 0 <= cell <= count + 1 or cell * 4 != int(cell * 4) or not same_bits(cell * CELL + 12.0, value):
+        return ""
+    return number_text(cell)
+
+
+def place_text(x: float, y: float, dx: float = 0.0, dy: float = 0.0) -> str:
+    """The shortest exact notation of a px point; ``dx``, ``dy``: where its kind sits from the middle of a cell."""
+    column, row = _cell_number(x - dx, COLUMNS), _cell_number(y - dy, ROWS)
+    # The subtraction rounds for odd values: only what reads back exactly may be written in cells.
+    if column and row and all(map(same_bits, read_place(f"{column},{row}", dx, dy), (x, y))):
+        return f"{column},{row}"
+    return f"{number_text(x)},{number_text(y)}px"
+
+
+def read_place(text: str, dx: float = 0.0, dy: float = 0.0) -> tuple[float, float]:
+    """The px point of ``5,7`` (cells, quarters allowed) or ``60,564px``. Raises LevelError (without a place)."""
+    px = text.endswith("px")
+    numbers = text.removesuffix("px").split(",")
+    if len(numbers) != 2 or "" in numbers:
+        raise LevelError(
+            "not a place",
+            found=shown(text),
+            expected="column,row such as 5,7 (or 5.5,7), or exact px such as 60,564px",
+        )
+    x, y = map(read_number, numbers)
+    if px:
+        return x, y
+    for value, count, what in ((x, COLUMNS, "column"), (y, ROWS, "row")):
+        if not 0 <= value <= count + 1:
+            raise LevelError(
+                f"{what} outside the grid",
+                found=number_text(value),
+                expected=f"1 to {count} (0 and {count + 1} are the border)",
+                hint="if it is meant to be px, write px after it, as in 60,564px",
+            )
+        if value * 4 != int(value * 4):
+            raise LevelError(
+                f"{what} between the quarter cells",
+                found=number_text(value),
+                expected="steps of 0.25 (6 px)",
+                hint="write finer positions in px, as in 60,564px",
+            )
+    return x * CELL + 12.0 + dx, y * CELL + 12.0 + dy
+
+
+def read_cell(text: str) -> tuple[int, int]:
+    """Column and row of a whole cell (0…32, 0…24). Raises LevelError (without a place)."""
+    x, y = read_place(text)
+    column, row = (x - 12.0) / CELL, (y - 12.0) / CELL
+    if text.endswith("px") or not (column.is_integer() and row.is_integer()):
+        raise LevelError("not a whole cell", found=shown(text), expected="column,row such as 20,14")
+    return int(column), int(row)

@@ -1,0 +1,144 @@
+"""Our ASCII level format: a header, a picture of 31 x 23 characters, a list of objects (`docs/level-format.md`)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ninja_game.errors import LevelError
+from ninja_game.formats.ascii.match import Placed, PlacedTile, join
+from ninja_game.formats.ascii.object_lines import OddTile, read_object_line, read_quoted, suggestion
+from ninja_game.formats.ascii.picture import ROW_START, read_picture
+from ninja_game.formats.ascii.places import shown
+from ninja_game.formats.ascii.problems import Problems
+from ninja_game.formats.ascii.writer import HEADER_KEYS, MAGIC, VERSION, write_ascii_level
+from ninja_game.sim.level import LevelData
+
+__all__ = ["AsciiLevel", "is_ascii_level", "parse_ascii_level", "write_ascii_level"]
+
+NumberedLine = tuple[int, str]
+
+
+@dataclass(frozen=True)
+class AsciiLevel:
+    """A level as its file gives it: who made it, and what it is."""
+
+    name: str
+    author: str
+    comment: str
+    level: LevelData
+
+
+def is_ascii_level(text: str) -> bool:
+    """Whether a text begins as an ASCII level does (after blank and comment lines)."""
+    lines = _lines(text)
+    return bool(lines) and lines[0][1].split()[:2] == MAGIC.split()
+
+
+def parse_ascii_level(text: str, *, file: str = "") -> AsciiLevel:
+    r"""The level that a text in our ASCII format describes.
+
+    >>> rows = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
+    >>> read = parse_ascii_level("ninja-game level 1\nname: Tiny\n" + rows)
+    >>> read.name, read.level.records
+    ('Tiny', (Record(kind=5, values=(36.0, 564.0), text=''),))
+
+    Raises LevelError: the first mistake by line, the others in its ``further``.
+    """
+    problems = Problems(file)
+    lines = _lines(text)
+    _check_first(lines, problems)
+    header, rows, listed = _sections(lines[1:], problems)
+    fields = _read_header(header, problems)
+    last = rows[-1][0] if rows else lines[-1][0]
+    picture = read_picture(rows, last + 1, problems)
+    objects, tiles = _read_list(listed, problems)
+    problems.raise_if_any()
+    assert picture is not None  # noqa: S101 - a broken picture has been raised as a problem
+    level = join(picture, objects, tiles, problems)
+    problems.raise_if_any()
+    return AsciiLevel(fields.get("name", ""), fields.get("author", ""), fields.get("comment", ""), level)
+
+
+def _lines(text: str) -> list[NumberedLine]:
+    """Numbered lines (from 1) without blank and comment lines."""
+    lines = enumerate(re.split(r"\r\n|\r|\n", text.removeprefix("\ufeff")), 1)
+    return [(number, line) for number, line in lines if line.strip() and not line.lstrip().startswith(";")]
+
+
+def _check_first(lines: Sequence[NumberedLine], problems: Problems) -> None:
+    """Raise LevelError unless the first line says what this is."""
+    number, first = lines[0] if lines else (1, "")
+    words = first.split()
+    expected = f"'{MAGIC} {VERSION}' in the first line"
+    if words[:2] != MAGIC.split() or len(words) != 3:
+        problems.add("not an ASCII level", number, 1, found=shown(first), expected=expected)
+    elif words[2] != str(VERSION):
+        hint = "a level for a newer ninja-game needs a newer ninja-game"
+        problems.add("unknown version of the level format", number, found=words[2], expected=str(VERSION), hint=hint)
+    problems.raise_if_any()
+
+
+def _sections(
+    lines: Sequence[NumberedLine], problems: Problems
+) -> tuple[list[NumberedLine], list[NumberedLine], list[NumberedLine]]:
+    """Header lines, picture rows, lines of the list."""
+    header: list[NumberedLine] = []
+    rows: list[NumberedLine] = []
+    listed: list[NumberedLine] = []
+    for number, line in lines:
+        if ROW_START.match(line):
+            if listed:
+                hint = "the picture is one block; the list of objects stands below it"
+                problems.add("a picture row below the list", number, found=shown(line.strip()), hint=hint)
+            else:
+                rows.append((number, line))
+        else:
+            (listed if rows else header).append((number, line))
+    return header, rows, listed
+
+
+def _read_header(lines: Sequence[NumberedLine], problems: Problems) -> dict[str, str]:
+    fields: dict[str, str] = {}
+    for number, line in lines:
+        if problems.full:
+            break
+        key, colon, value = line.partition(":")
+        key = key.strip()
+        if not colon:
+            problems.add("not a header line", number, 1, found=shown(line.strip()),
+                         expected="key: value, or the first row of the picture, |...|",
+                         hint="objects are listed below the picture")  # fmt: skip
+        elif key not in HEADER_KEYS:
+            problems.add("unknown header", number, 1, found=shown(key), hint=suggestion(key, HEADER_KEYS))
+        elif key in fields:
+            problems.add("a header given twice", number, 1, found=shown(key), hint="keep one")
+        else:
+            fields[key] = _header_value(value.strip())
+    return fields
+
+
+def _header_value(text: str) -> str:
+    """A header's value; in double quotes as JSON when it has blanks at its ends, line breaks or the like."""
+    value = read_quoted(text) if text.startswith('"') else None
+    return text if value is None else value
+
+
+def _read_list(lines: Sequence[NumberedLine], problems: Problems) -> tuple[list[Placed], list[PlacedTile]]:
+    objects: list[Placed] = []
+    tiles: list[PlacedTile] = []
+    for number, line in lines:
+        if problems.full:
+            break
+        try:
+            entries = read_object_line(line)
+        except LevelError as error:
+            problems.add_error(error, number)
+            continue
+        for entry in entries:
+            if isinstance(entry, OddTile):
+                tiles.append(PlacedTile(entry, number))
+            else:
+                objects.append(Placed(entry, number))
+    return objects, tiles

@@ -1,0 +1,50 @@
+"""Load any file or folder of levels or recordings, whatever its format."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ninja_game.errors import LevelError, ReplayError
+from ninja_game.files.reading import SUFFIXES, read_text, text_files
+from ninja_game.formats.named_level import NamedLevel, parse_levels
+from ninja_game.formats.recording import Recording, parse_replays
+from ninja_game.sim.level import LevelData
+
+__all__ = ["NamedLevel", "Recording", "load_level", "load_levels", "load_replays"]
+
+
+def load_levels(path: Path | str) -> list[NamedLevel]:
+    """All levels of a file or folder: our ASCII levels, N level files, in-game strings, levels of recordings.
+
+    Raises LevelError (or ReplayError for a broken replay) naming the file; OSError for a file that cannot be opened.
+    """
+    files = text_files(Path(path))
+    levels = [level for file in files for level in parse_levels(read_text(file), file=str(file))]
+    if not levels:
+        raise LevelError("no levels here", str(path), expected=f"files *{', *'.join(SUFFIXES)}")
+    return levels
+
+
+def load_level(path: Path | str, record: int = 0) -> LevelData:
+    """The level of a file, or its level number ``record`` (from 0).
+
+    Raises LevelError as ``load_levels`` does, and for a record that the file does not have.
+    """
+    levels = load_levels(path)
+    if not 0 <= record < len(levels):
+        raise LevelError(f"there is no record {record}", str(path), expected=f"0 to {len(levels) - 1}")
+    return levels[record].level
+
+
+def load_replays(path: Path | str, *, level: LevelData | None = None) -> list[Recording]:
+    """All recordings of a file or folder: our replays and ``$name#author#comment#level#demo#`` records.
+
+    ``level``: what recordings that do not hold their level are played on.
+
+    Raises ReplayError, DemoError or LevelError naming file and line; OSError for a file that cannot be opened.
+    """
+    files = text_files(Path(path))
+    recordings = [found for file in files for found in parse_replays(read_text(file), file=str(file), level=level)]
+    if not recordings:
+        raise ReplayError("no recordings here", str(path), expected=f"files *{', *'.join(SUFFIXES)}")
+    return recordings

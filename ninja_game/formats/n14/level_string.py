@@ -1,0 +1,131 @@
+"""The in-game level string ``<tiles>|<objects>``: read as the game reads it, oddities included (game.md §5.1-§5.3)."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Callable
+
+from ninja_game.errors import LevelError
+from ninja_game.formats.numbers import format_exact, format_number, parse_number
+from ninja_game.sim.level import KIND_NAMES, TILES, LevelData, Record
+
+MISSING_TILE = -1
+"""Id of a cell that the tile string does not reach: never solid, yet not empty."""
+
+_NO_TILE = frozenset([ord("|"), *range(0xD800, 0xE000)])  # the separator; halves of surrogate pairs
+
+_LINE_BREAK = re.compile(r"[\r\n]+")
+
+_KINDS = len(KIND_NAMES)
+_PLAIN_TILES = re.compile(r"[0-Q]{713}")
+_TILE_OF_CHAR = bytes(max(code - 48, 0) for code in range(256))
+_KIND_OF_TEXT = {str(kind): kind for kind in range(_KINDS)}
+
+
+def parse_level_string(text: str, *, file: str = "", line: int = 0) -> LevelData:
+    """The level that the game makes of ``text``, however malformed (game.md §5.2): white space counts as it stands.
+
+    Raises LevelError only for a text that starts with ``$`` and has no fourth field; ``file`` and ``line`` say where
+    the text stands.
+
+    >>> level = parse_level_string("01|5^36,36!0^60,36")
+    >>> level.tiles[:3], level.records
+    ((0, 1, -1), (Record(kind=5, values=(36.0, 36.0), text=''), Record(kind=0, values=(60.0, 36.0), text='')))
+    """
+    if text.startswith("$"):
+        fields = text.split("#")
+        if len(fields) < 4:
+            raise LevelError(
+                "a text that starts with '$' must have the level string in its fourth field",
+                file=file,
+                line=line,
+                found=f"only {len(fields)} of them",
+                expected="$name#author#comment#level string#",
+            )
+        text = fields[3]
+    tiles, _, rest = text.partition("|")
+    objects = rest.partition("|")[0]
+    return LevelData(_parse_tiles(tiles), tuple(map(_parse_record, objects.split("!"))) if objects else ())
+
+
+def tidy_level_string(text: str) -> str:
+    """The text without what wrapped lines have put into it, as a tolerant importer makes it (game.md §5.6).
+
+    All white space among the tiles goes, and line breaks with the blanks around them among the objects. Other blanks
+    stay there: before a number they are harmless, behind one the game reads NaN, and so do we.
+    """
+    tiles, bar, objects = text.partition("|")
+    return "".join(tiles.split()) + bar + "".join(line.strip() for line in _LINE_BREAK.split(objects))
+
+
+def _parse_tiles(text: str) -> tuple[int, ...]:
+    """713 tile ids; cells that the text does not reach are missing, what is too long is ignored."""
+    text = text[:TILES]
+    if _PLAIN_TILES.fullmatch(text):
+        return tuple(text.encode("ascii").translate(_TILE_OF_CHAR))
+    return tuple(ord(char) - 48 for char in text) + (MISSING_TILE,) * (TILES - len(text))
+
+
+def _parse_record(text: str) -> Record:
+    """One object record: the part before the first ``^`` is the type, the part up to the second the values."""
+    kind_text, caret, rest = text.partition("^")
+    kind = _KIND_OF_TEXT.get(kind_text, -1)
+    if kind < 0:
+        number = parse_number(kind_text)
+        if number not in range(_KINDS):
+            return Record(-1, (), text)
+        kind = int(number)
+    if not caret:
+        return Record(kind, ())
+    return Record(kind, tuple(map(parse_number, rest.partition("^")[0].split(","))))
+
+
+def write_level_string(level: LevelData, *, exact: bool = False) -> str:
+    """The level as in-game string (game.md §5.3).
+
+    ``exact``: numbers as long as it takes to read back to the same float64, instead of the game's 15 digits. Levels
+    read from texts with at most 15 digits a number come back the same either way.
+
+    Raises LevelError for a level that no such string can say: a tile id without a character, a stray separator in an
+    ignored record.
+    """
+    number = format_exact if exact else format_number
+    text = _write_tiles(level.tiles) + "|" + "!".join(_write_record(record, number) for record in level.records)
+    if text.startswith("$"):
+        raise LevelError("a level string cannot start with '$'", found="tile id -12 in the first cell")
+    return text
+
+
+def _write_tiles(tiles: tuple[int, ...]) -> str:
+    """One character a cell."""
+    if len(tiles) != TILES:
+        raise LevelError("wrong number of tiles", found=str(len(tiles)), expected=f"{TILES} (31 columns of 23)")
+    for cell, tile in enumerate(tiles):
+        if not 0 <= tile + 48 < 0x110000 or tile + 48 in _NO_TILE:
+            place = f"tile id {tile} in column {cell // 23 + 1}, row {cell % 23 + 1}"
+            raise LevelError("a tile that no level string can hold", found=place, expected="an id of 0 to 33")
+    return "".join(chr(tile + 48) for tile in tiles)
+
+
+def _write_record(record: Record, number: Callable[[float], str]) -> str:
+    """``type^value,value,…``; just the type without values; an ignored record's own text."""
+    if record.kind < 0:
+        if "!" in record.text or "|" in record.text:
+            raise LevelError("an ignored record cannot hold '!' or '|'", found=repr(record.text))
+        return record.text
+    values = ",".join(map(number, record.values))
+    return f"{record.kind}^{values}" if record.values else str(record.kind)
+
+
+def level_digest(level: LevelData) -> str:
+    """The level's sha256, as 64 hex digits: over tile ids and records, values to the last bit.
+
+    Ignored records (kind -1) do not count, since they create nothing; the sign of a zero does not count either.
+    """
+    records = "!".join(
+        f"{record.kind}^" + ",".join(repr(value or 0.0) for value in record.values)
+        for record in level.records
+        if record.kind >= 0
+    )
+    return hashlib.sha256(f"{','.join(map(str, level.tiles))}|{records}".encode()).hexdigest()

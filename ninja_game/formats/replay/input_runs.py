@@ -1,0 +1,101 @@
+"""Inputs as readable runs, ``R*30 RJ*10 .*5``: the notation of our replay texts (`docs/replay-format.md`)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from itertools import groupby
+
+from ninja_game.errors import ReplayError
+from ninja_game.sim.inputs import HELD, TRIGGERED, check_frames
+
+MAX_TICKS = 1_000_000
+"""Longest replay, almost seven hours: a slip in a count must not fill the memory."""
+
+_WIDTH = 100
+_RUN = re.compile(r"(\.|L?R?J?)([!-]?)(?:\*([1-9][0-9]{0,6}))?")
+_WORD = re.compile(r"[^ \t]+")
+
+_KEYS = (".", "L", "R", "LR", "J", "LJ", "RJ", "LRJ")
+_KEY_BITS = {text: keys for keys, text in enumerate(_KEYS)}
+
+
+def write_inputs(inputs: bytes) -> list[str]:
+    """The inputs as lines of runs. Raises DemoError for a byte above 15.
+
+    >>> write_inputs(bytes([2, 2, 2, 14, 6, 6, 0]))
+    ['R*3 RJ*3 .']
+    """
+    check_frames(inputs)
+    runs = []
+    for text, group in groupby(_ticks_as_text(inputs)):
+        count = sum(1 for _ in group)
+        runs.append(f"{text}*{count}" if count > 1 else text)
+    lines: list[str] = []
+    for run in runs:
+        if lines and len(lines[-1]) + 1 + len(run) <= _WIDTH:
+            lines[-1] += " " + run
+        else:
+            lines.append(run)
+    return lines
+
+
+def _ticks_as_text(inputs: bytes) -> Iterable[str]:
+    """Keys of every tick, marked where the trigger is not what the keys say."""
+    held_before = 0
+    for tick in inputs:
+        held, triggered = tick & HELD, bool(tick & TRIGGERED)
+        mark = "" if triggered == bool(held and not held_before) else "!" if triggered else "-"
+        yield _KEYS[tick & 7] + mark
+        held_before = held
+
+
+def read_inputs(lines: Iterable[tuple[int, str]], *, file: str = "") -> bytes:
+    """The inputs that numbered lines of runs describe, one byte a tick.
+
+    Raises ReplayError with line and column for anything but runs, and for more than a million ticks.
+    """
+    inputs = bytearray()
+    for number, line in lines:
+        for word in _WORD.finditer(line):
+            match = _RUN.fullmatch(word[0])
+            if match is None or not match[1]:
+                raise _bad_run(word[0], file, number, word.start() + 1)
+            count = int(match[3] or 1)
+            if len(inputs) + count > MAX_TICKS:
+                raise ReplayError(
+                    "the replay is too long",
+                    file,
+                    number,
+                    word.start() + 1,
+                    found=f"{len(inputs) + count} ticks",
+                    expected=f"at most {MAX_TICKS}",
+                )
+            _append(inputs, _KEY_BITS[match[1]], match[2], count)
+    return bytes(inputs)
+
+
+def _append(inputs: bytearray, keys: int, mark: str, count: int) -> None:
+    """Add a run; unmarked, the jump triggers where it is held and was not before."""
+    held_before = bool(inputs) and inputs[-1] & HELD
+    triggers = mark == "!" or (not mark and bool(keys & HELD) and not held_before)
+    inputs.append(keys | TRIGGERED if triggers else keys)
+    inputs.extend(bytes([keys | TRIGGERED if mark == "!" else keys]) * (count - 1))
+
+
+def _bad_run(text: str, file: str, line: int, column: int) -> ReplayError:
+    """The error for a word that is no run, with the likeliest way to mend it."""
+    keys, star, count = text.partition("*")
+    if star and not re.fullmatch("[1-9][0-9]{0,6}", count):
+        hint = "a count is a whole number from 1"
+    elif set(keys.upper()) <= set("LRJ!-."):
+        hint = f"write {_in_order(keys.upper())}{star}{count}"
+    else:
+        hint = "L left, R right, J jump, . no key"
+    return ReplayError("not an input run", file, line, column, repr(text[:30]), "keys and a count, such as R*30", hint)
+
+
+def _in_order(keys: str) -> str:
+    """The same keys as the notation has them: L, R, J, each once, then the mark."""
+    mark = "!" if "!" in keys else "-" if "-" in keys else ""
+    return ("".join(key for key in "LRJ" if key in keys) or ".") + mark

@@ -1,0 +1,161 @@
+"""What is legal but odd about a single object, kind by kind: each oddity is one sentence for the level's maker."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from math import isnan, sqrt
+
+from ninja_game.formats.ascii.places import place_text
+from ninja_game.levels.reach import Ground, door_of, is_flag, well_formed
+from ninja_game.sim.collision.rays import solid_at
+from ninja_game.sim.collision.tiles import COLUMN, FULL, SHAPE
+from ninja_game.sim.grid import cell_at
+from ninja_game.sim.level import (
+    DOOR,
+    DRONE,
+    EXIT,
+    FLOOR_GUARD,
+    GOLD,
+    LAUNCH_PAD,
+    LAUNCHER,
+    NINJA,
+    ONE_WAY,
+    THWUMP,
+    TURRET,
+    VALUE_COUNTS,
+    Record,
+)
+from ninja_game.sim.rules import DOOR_SWITCH_RADIUS, EXIT_RADIUS, GOLD_RADIUS, OFF, SOLID, SWITCH_RADIUS
+
+_DIRECTIONS = (0, 1, 2, 3)
+_UNIT_TOLERANCE = 0.02  # pads of other editors have 0.7 for both parts of a diagonal
+
+
+def oddities(record: Record, ground: Ground) -> Iterator[str]:
+    """What is odd about an object of the level that ``ground`` describes; nothing for a proper one."""
+    if not well_formed(record):
+        count, needed = len(record.values), VALUE_COUNTS[record.kind]
+        does = "starts at 45,70px" if record.kind == NINJA else "does nothing"
+        yield f"it has {count} values where its kind needs {needed}: it {does}"
+        return
+    if any(map(isnan, record.values)):
+        yield "one of its values is not a number"
+    if record.kind != DOOR:
+        yield from _place_oddities(record, ground)
+    if record.kind in _CHECKS:
+        yield from _CHECKS[record.kind](record, ground)
+
+
+def _place_oddities(record: Record, ground: Ground) -> Iterator[str]:
+    x, y = record.values[:2]
+    if isnan(x) or isnan(y):
+        return
+    cell = cell_at(x, y)
+    if record.kind == FLOOR_GUARD:
+        return
+    if not cell:
+        yield "it is outside the grid"
+    elif record.kind in _IN_TILE and _deep(ground, x, y):
+        yield _IN_TILE[record.kind]
+    elif record.kind in (DRONE, THWUMP) and SHAPE[ground.level.tiles[cell]] == FULL:
+        yield "it is inside a full tile"
+
+
+_IN_TILE = {
+    NINJA: "it starts inside a tile",
+    TURRET: "it is inside a tile: what it sees and hits is odd",
+    LAUNCHER: "it is inside a tile: its rockets explode at once",
+}
+
+
+def _deep(ground: Ground, x: float, y: float) -> bool:
+    """Whether a point is inside a tile and not just on its surface, where turrets and launchers are often put."""
+    return all(solid_at(ground.level, x + dx, y + dy) for dx in (-0.5, 0.5) for dy in (-0.5, 0.5))
+
+
+def _exit(record: Record, ground: Ground) -> Iterator[str]:
+    x, y, switch_x, switch_y = record.values
+    if cell_at(x, y) and not ground.touchable(x, y, EXIT_RADIUS):
+        yield "the ninja cannot reach it"
+    if not ground.touchable(switch_x, switch_y, SWITCH_RADIUS):
+        yield f"the ninja cannot reach its switch at {place_text(switch_x, switch_y)}"
+
+
+def _gold(record: Record, ground: Ground) -> Iterator[str]:
+    x, y = record.values
+    if cell_at(x, y) and not ground.touchable(x, y, GOLD_RADIUS):
+        yield "the ninja cannot reach it"
+
+
+def _launch_pad(record: Record, ground: Ground) -> Iterator[str]:  # noqa: ARG001 - all checks have one signature
+    _, _, a, b = record.values
+    length = sqrt(a * a + b * b)
+    if abs(length - 1.0) > _UNIT_TOLERANCE:
+        yield f"its normal has length {length:.3g} instead of 1 and its strength changes with it"
+
+
+def _one_way(record: Record, ground: Ground) -> Iterator[str]:  # noqa: ARG001
+    if record.values[2] not in _DIRECTIONS:
+        yield "its direction is not 0 to 3: it faces down"
+
+
+def _thwump(record: Record, ground: Ground) -> Iterator[str]:  # noqa: ARG001
+    if record.values[2] not in _DIRECTIONS:
+        yield "its direction is not 0 to 3: it never moves, its right side kills"
+
+
+def _floor_guard(record: Record, ground: Ground) -> Iterator[str]:
+    cell = cell_at(*record.values[:2])
+    if COLUMN[cell] in (0, 32):
+        yield "a guard in the left or right border or outside hangs the original game; here it does nothing"
+    elif SHAPE[ground.level.tiles[cell]] == FULL:
+        yield "it is inside a full tile"
+    elif ground.edges[4 * cell + 1] != SOLID:
+        yield "it does not stand on a solid floor: it cannot run to the left"
+
+
+def _drone(record: Record, ground: Ground) -> Iterator[str]:
+    x, y, movement, seeker, weapon, direction = record.values
+    if weapon not in (0, 1, 2):
+        yield "its weapon is not 0 to 2: it is harmless"
+    if movement not in range(6):
+        yield "its movement is not 0 to 5: it gets stuck"
+    if direction not in _DIRECTIONS:
+        yield "its direction is not 0 to 3"
+    if seeker not in (0, 1):
+        yield "its seeker flag is not 0 or 1"
+    elif seeker and weapon != 0:
+        yield "only zap drones seek: its seeker flag does nothing"
+    cell = cell_at(x, y)
+    sides = range(4 * cell, 4 * cell + 4)
+    if cell and all(ground.edges[side] != OFF or side in ground.closed_edges for side in sides):
+        yield "it is closed in on all sides: it never moves"
+
+
+def _door(record: Record, ground: Ground) -> Iterator[str]:
+    x, y, vertical, trap, _, _, locked, _, _ = record.values
+    door = door_of(record)
+    if vertical not in (0, 1):
+        yield "its vertical flag is not 0 or 1: it closes another side than it is drawn on"
+    if trap not in (0, 1) or locked not in (0, 1):
+        yield "its trap or locked flag is not 0 or 1"
+    elif trap and locked:
+        yield "it is flagged as locked and as trap: it is a locked door"
+    if 0 in door.edges:
+        yield "it is not between two cells of the grid"
+    elif ground.doors_on_side[frozenset(door.edges)] > 1:
+        yield "another door is on the same side: the later one may never open"
+    if (is_flag(trap) or is_flag(locked)) and not ground.touchable(x, y, DOOR_SWITCH_RADIUS):
+        yield f"the ninja cannot reach its switch at {place_text(x, y)}"
+
+
+_CHECKS: dict[int, Callable[[Record, Ground], Iterator[str]]] = {
+    DOOR: _door,
+    DRONE: _drone,
+    EXIT: _exit,
+    FLOOR_GUARD: _floor_guard,
+    GOLD: _gold,
+    LAUNCH_PAD: _launch_pad,
+    ONE_WAY: _one_way,
+    THWUMP: _thwump,
+}

@@ -1,1 +1,0 @@
-"""Many worlds at once: batches, verification at scale, search."""

@@ -1,0 +1,33 @@
+"""Who listens to the world: sound, or silence."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from ninja_game.sim.memory.schema import World
+
+
+class Ear(Protocol):
+    """Hears what happens. Presentation only: it reads the world."""
+
+    def hear(self, world: World) -> None:
+        """Called after every tick that is seen: its events, and loops by state and speed."""
+
+    def corpse(self, speed: float) -> None:
+        """A part of the corpse hit something at this speed, px/tick."""
+
+    def quiet(self) -> None:
+        """End all sounds."""
+
+
+class Silence:
+    """No sound."""
+
+    def hear(self, world: World) -> None:
+        """Nothing."""
+
+    def corpse(self, speed: float) -> None:
+        """Nothing."""
+
+    def quiet(self) -> None:
+        """Nothing."""

@@ -1,0 +1,147 @@
+"""Sound: hears the events of each tick and what goes on, and plays it. A machine without sound is no error."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from math import isfinite
+from pathlib import Path
+from random import Random
+from time import monotonic
+
+import pygame
+
+from ninja_game.play.audio.table import BY_DEATH, BY_EVENT, CORPSE, LOOPS, OTHER_DEATH, loop_levels
+from ninja_game.sim.events import DIED
+from ninja_game.sim.level import DRONE, FLOOR_GUARD, LAUNCHER
+from ninja_game.sim.memory.schema import Thing, World
+from ninja_game.sim.rules import WORLD_WIDTH
+from ninja_game.sim.states import WEAPON_LASER
+
+RATE, BUFFER = 22_050, 256
+"""Samples a second, those of our files; and in the mixer's buffer: 12 ms of delay."""
+
+CHANNELS = 32
+LOUDEST = 99
+PAN = 0.35
+"""How much softer the far side gets for a sound at the stage's edge."""
+
+CORPSE_PAUSE = 0.06
+"""Seconds between two thuds of a corpse."""
+
+
+class Sound:
+    """Plays what happens. ``volume`` and ``loop_volume``: 0 to 99. Without a sound device it is silent.
+
+    ``folder``: where the WAV files are; missing ones are silent.
+    """
+
+    def __init__(self, folder: Path, *, volume: int = LOUDEST, loop_volume: int = LOUDEST) -> None:
+        self.folder = folder
+        self.volume = volume
+        self.loop_volume = loop_volume
+        self._chance = Random()  # noqa: S311 - which thud it is, is no secret
+        self._sounds: dict[str, pygame.mixer.Sound | None] = {}
+        self._world: World | None = None
+        self._machines: list[Thing] = []
+        self._corpse_at = 0.0
+        self.works = _open_mixer()
+        self.preload(path.stem for path in sorted(folder.glob("*.wav")))
+
+    # --- what is heard ---
+
+    def hear(self, world: World) -> None:
+        """After a tick: its events once each, and the loops of what goes on."""
+        if not self.works or not self.volume:
+            return
+        if world is not self._world:
+            self._world = world
+            self._machines = [thing for thing in world.things[1:] if _has_loop(thing)]
+        heard = set()
+        for event in world.events[: world.event_count]:
+            names = BY_DEATH.get(event.slot, OTHER_DEATH) if event.kind == DIED else BY_EVENT.get(event.kind, ())
+            if names and names not in heard:
+                heard.add(names)
+                self.play(self._chance.choice(names), x=event.x)
+        for name, level in loop_levels(world, self._machines).items():
+            self._loop(name, level)
+
+    def corpse(self, speed: float) -> None:
+        """A part of the corpse hit something, at ``speed`` px/tick into it (presentation.md §4)."""
+        now = monotonic()
+        if now - self._corpse_at < CORPSE_PAUSE:
+            return
+        for slowest, names in CORPSE:
+            if speed > slowest:
+                self._corpse_at = now
+                self.play(self._chance.choice(names))
+                return
+
+    def quiet(self) -> None:
+        """End all sounds."""
+        if self.works:
+            pygame.mixer.stop()
+
+    def play(self, name: str, *, x: float = WORLD_WIDTH / 2) -> None:
+        """Play a sound once, heard from ``x`` px of the stage."""
+        sound = self._sound(name)
+        # Not `find_channel`, which would give away the channels that the loops have reserved.
+        channel = sound.play() if sound and self.volume else None
+        if channel:
+            side = max(-1.0, min(1.0, 2 * x / WORLD_WIDTH - 1)) if isfinite(x) else 0.0
+            level = self.volume / LOUDEST
+            channel.set_volume(level * (1 - PAN * max(side, 0.0)), level * (1 + PAN * min(side, 0.0)))
+
+    # --- how ---
+
+    def set_volumes(self, volume: int, loop_volume: int) -> None:
+        """Take other volumes, 0 to 99."""
+        self.volume, self.loop_volume = volume, loop_volume
+        if not volume:
+            self.quiet()
+
+    def _loop(self, name: str, level: float) -> None:
+        """Keep a loop going at this share of its loudness; 0 ends it. Each loop has a channel of its own."""
+        channel = pygame.mixer.Channel(LOOPS.index(name))
+        if level <= 0:
+            if channel.get_busy():
+                channel.fadeout(60)
+            return
+        sound = self._sound(name)
+        if sound is None:
+            return
+        if channel.get_sound() is not sound or not channel.get_busy():
+            channel.play(sound, loops=-1, fade_ms=30)
+        channel.set_volume(level * self.volume * self.loop_volume / LOUDEST**2)
+
+    def _sound(self, name: str) -> pygame.mixer.Sound | None:
+        """A sound, read when it is first asked for; None if it is missing or cannot be played."""
+        if not self.works:
+            return None
+        if name not in self._sounds:
+            try:
+                self._sounds[name] = pygame.mixer.Sound(self.folder / f"{name}.wav")
+            except (pygame.error, OSError):
+                self._sounds[name] = None
+        return self._sounds[name]
+
+    def preload(self, names: Iterable[str]) -> None:
+        """Read sounds before they are needed."""
+        for name in names:
+            self._sound(name)
+
+
+def _has_loop(thing: Thing) -> bool:
+    """Whether a thing makes a lasting sound at times."""
+    return thing.kind in (LAUNCHER, FLOOR_GUARD) or (thing.kind == DRONE and thing.weapon == WEAPON_LASER)
+
+
+def _open_mixer() -> bool:
+    """Whether there is a sound device that can be used."""
+    try:
+        if not pygame.mixer.get_init():
+            pygame.mixer.init(RATE, -16, 2, BUFFER)
+        pygame.mixer.set_num_channels(CHANNELS)
+        pygame.mixer.set_reserved(len(LOOPS))
+    except (pygame.error, NotImplementedError):
+        return False
+    return True

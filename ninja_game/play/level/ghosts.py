@@ -1,0 +1,67 @@
+"""Ghosts: recordings that run along in worlds of their own, drawn behind the ninja."""
+
+from __future__ import annotations
+
+from random import Random
+
+import pygame
+
+from ninja_game.play.level.context import GhostRun
+from ninja_game.play.ui.canvas import Point
+from ninja_game.play.ui.palette import Palette
+from ninja_game.play.view.ninja.ninja_animation import NinjaMotion
+from ninja_game.sim.level import LevelData
+from ninja_game.sim.states import CELEBRATING, DEAD
+from ninja_game.simulation import Body, SaveState, Simulation
+
+
+class Ghost:
+    """One recording, ticking along."""
+
+    def __init__(self, run: GhostRun, level: LevelData, body: Body) -> None:
+        self.label = run.label
+        self.frames = run.frames
+        self._colour = run.colour
+        self.simulation = Simulation(level, body=body)
+        self._start: SaveState = self.simulation.save()
+        self.motion = NinjaMotion(self.simulation.world, Random(1))  # noqa: S311 - presentation
+        self._before = self._now = self._place()
+
+    def _place(self) -> Point:
+        n = self.simulation.world.ninja
+        return n.x, n.y
+
+    @property
+    def over(self) -> bool:
+        """Whether it has reached its end; it then stays where it is."""
+        return self.simulation.world.ninja.state in {DEAD, CELEBRATING}
+
+    def _step(self) -> None:
+        tick = self.simulation.tick
+        self.simulation.step_frame(self.frames[tick] if tick < len(self.frames) else 0)
+
+    def ticked(self) -> None:
+        """One more tick."""
+        self._before = self._now
+        if not self.over:
+            self._step()
+            self.motion.ticked(self.simulation.world)
+            self._now = self._place()
+
+    def jumped(self, tick: int) -> None:
+        """Be where the recording is after that many ticks."""
+        if tick < self.simulation.tick or self.over:
+            self.simulation.restore(self._start)
+        while self.simulation.tick < tick and not self.over:
+            self._step()
+        self.motion.reset(self.simulation.world)
+        self._before = self._now = self._place()
+
+    def place(self, fraction: float) -> Point:
+        """Where to draw it."""
+        (bx, by), (x, y) = self._before, self._now
+        return bx + (x - bx) * fraction, by + (y - by) * fraction
+
+    def colour(self, palette: Palette) -> pygame.Color:
+        """Its own colour, or the palette's for ghosts."""
+        return pygame.Color(self._colour) if self._colour else palette.ghost

@@ -1,0 +1,121 @@
+"""What is written over a level: time bar, name, messages, notices, keys."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pygame
+
+from ninja_game.play.ui.palette import mixed
+from ninja_game.play.ui.theme import Theme
+from ninja_game.player.scoring import seconds_text
+from ninja_game.sim.rules import LIFETIME
+
+_BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0
+_BAR_LONGEST = 700.0
+_BAR_PER_TICK = 1200.0 / LIFETIME
+_WARNING_TICKS = 1800
+
+
+_FILL_SHARE = 0.05
+"""Share of what the bar lacks that fills in per picture, at least; always so before play starts."""
+
+
+def followed(shown: float, true: float, *, filling: bool) -> float:
+    """The lifetime to show in the next picture: it follows the true one softly, so that gold fills in."""
+    share = _FILL_SHARE if filling else (1 - max(0.0, shown) / LIFETIME) ** 2
+    return shown + (true - shown) * min(1.0, max(_FILL_SHARE, share))
+
+
+_KEYS = (
+    (0, 1, ((-3, 0), (2, -4), (2, 4))),
+    (20, 4, ((0, -4), (4, 2), (-4, 2))),
+    (40, 2, ((3, 0), (-2, -4), (-2, 4))),
+)
+"""Where the keys of left, jump and right are drawn, their bits and their arrows."""
+
+
+class Hud:
+    """Draws on a theme's canvas. Every method gives the px rectangle that it covered."""
+
+    def __init__(self, theme: Theme) -> None:
+        self.theme = theme
+
+    def time_bar(self, surface: pygame.Surface, lifetime: float) -> pygame.Rect:
+        """The lifetime (ticks) as a bar that grows thick and red as it runs out, and as seconds."""
+        palette, canvas = self.theme.palette, self.theme.canvas
+        left = max(0.0, lifetime)
+        length = min(_BAR_LONGEST, left * _BAR_PER_TICK)
+        danger = min(1.0, max(0.0, 1 - left / _WARNING_TICKS))
+        thick = 5 + 8 * danger
+        colour = mixed(palette.bar_full, palette.bar_empty, danger)
+        frame = canvas.fill_rect(
+            surface, mixed(palette.tile, palette.outline, 0.25), _BAR_LEFT - 1, _BAR_MIDDLE - thick / 2 - 1,
+            _BAR_LONGEST + 2, thick + 2, 2,
+        )  # fmt: skip
+        if length > 0:
+            canvas.fill_rect(surface, colour, _BAR_LEFT, _BAR_MIDDLE - thick / 2, length, thick, 1.5)
+        x = _BAR_LEFT + _BAR_LONGEST + 5
+        text = self.theme.text(surface, seconds_text(int(left)), x, 7.4, size=9, colour=palette.on_tile, bold=True)
+        return frame.union(text.inflate(canvas.px(8), 4))
+
+    def label(self, surface: pygame.Surface, text: str) -> pygame.Rect:
+        """A word in the time bar's place."""
+        return self.theme.text(surface, text, 24, 7, size=10, colour=self.theme.palette.on_tile, bold=True)
+
+    def level_name(self, surface: pygame.Surface, name: str, gold: str) -> pygame.Rect:
+        """Name and gold below the level."""
+        colour = self.theme.palette.on_tile
+        rect = self.theme.text(surface, name, 24, 583, size=9, colour=colour)
+        return rect.union(self.theme.text(surface, gold, 768, 583, size=9, colour=colour, align="right"))
+
+    def frame_time(self, surface: pygame.Surface, ms: float) -> pygame.Rect:
+        """What the last turn of the loop took, in the corner."""
+        colour = self.theme.palette.on_tile
+        rect = self.theme.text(surface, f"{ms:.1f} ms", 768, 566, size=8, colour=colour, align="right")
+        return rect.inflate(self.theme.canvas.px(12), 2)
+
+    def message(self, surface: pygame.Surface, title: str, lines: Sequence[str], *, y: float = 232) -> pygame.Rect:
+        """A panel in the middle: a title and lines under it."""
+        theme = self.theme
+        widths = [theme.width(title, 15, bold=True), *(theme.width(line, 9) for line in lines)]
+        w, h = max(220.0, max(widths) + 44), 40.0 + 15 * len(lines)
+        x = (792 - w) / 2
+        rect = theme.panel(surface, x, y, w, h, 4)
+        theme.text(surface, title, 396, y + 11, size=15, align="centre", bold=True)
+        for k, line in enumerate(lines):
+            theme.text(surface, line, 396, y + 32 + 15 * k, size=9, colour=theme.palette.faint, align="centre")
+        return rect
+
+    def hint(self, surface: pygame.Surface, text: str) -> pygame.Rect:
+        """A line at the lower edge that does not hide the level."""
+        theme = self.theme
+        w = theme.width(text, 9) + 28
+        rect = theme.panel(surface, (792 - w) / 2, 548, w, 19, 4)
+        theme.text(surface, text, 396, 553, size=9, align="centre")
+        return rect
+
+    def notices(self, surface: pygame.Surface, notices: Sequence[str]) -> pygame.Rect:
+        """Up to four lines above the lower left corner: records, unlocks."""
+        rect = pygame.Rect(0, 0, 0, 0)
+        for k, notice in enumerate(notices[-4:]):
+            y = 528 - 24 * k
+            w = max(190.0, self.theme.width(notice, 9) + 30)
+            box = self.theme.panel(surface, 34, y, w, 20, 3)
+            self.theme.canvas.fill_rect(surface, self.theme.palette.good, 38, y + 5, 3, 10, 1)
+            self.theme.text(surface, notice, 47, y + 5.5, size=9)
+            rect = box if not rect.width else rect.union(box)
+        return rect
+
+    def keys(self, surface: pygame.Surface, frame: int, x: float = 366) -> pygame.Rect:
+        """The three keys of the present input below the level, from ``x`` on: left, jump, right."""
+        palette, canvas = self.theme.palette, self.theme.canvas
+        rect = pygame.Rect(0, 0, 0, 0)
+        for dx, bit, arrow in _KEYS:
+            down = bool(frame & bit)
+            box = canvas.fill_rect(surface, palette.accent if down else palette.panel, x + dx, 580, 18, 16, 3)
+            canvas.frame_rect(surface, palette.panel_edge, x + dx, 580, 18, 16, 1, 3)
+            ink = palette.panel if down else palette.faint
+            canvas.polygon(surface, ink, [(x + dx + 9 + px, 588 + py) for px, py in arrow])
+            rect = box if not rect.width else rect.union(box)
+        return rect

@@ -1,0 +1,121 @@
+"""What the program begins with: its first screen, and the app as the player's settings have it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+import pygame
+
+from ninja_game.errors import LevelError
+from ninja_game.formats.named_level import NamedLevel
+from ninja_game.play.app import App
+from ninja_game.play.level.context import Course, InOrder, SingleLevel
+from ninja_game.play.menus.boss import BossScreen
+from ninja_game.play.screen import Screen
+from ninja_game.play.start import prepare
+from ninja_game.simulation import Body, Simulation
+
+
+def main(
+    level_path: str | None = None,
+    *,
+    body: Body = "circle",
+    frames: int | None = None,
+    screenshot: str | None = None,
+    size: tuple[int, int] | None = None,
+    replay_path: str | None = None,
+    practice: bool = False,
+) -> int:
+    """Play: the program `ninja-game play`. Gives the exit code.
+
+    ``level_path``: a file of levels; without one the main menu. ``replay_path``: watch the recordings of a file.
+    ``frames``: end after so many pictures. ``screenshot``: write the last picture to this PNG file.
+
+    Raises NinjaGameError for a file that cannot be read.
+    """
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    # Read before a window opens: what is wrong with a file is said in the terminal.
+    first = first_screen(level_path, replay_path, body=body, practice=practice)
+    app = prepared_app(size)
+    try:
+        app.push(first(app))
+        app.run(frames)
+        if screenshot:
+            app.save_screenshot(Path(screenshot))
+    finally:
+        pygame.quit()
+    return 0
+
+
+def prepared_app(size: tuple[int, int] | None = None) -> App:
+    """The app with options, controls, sound and records as the player's settings have them."""
+    ready = prepare()
+    app = App(ready.options, ready.controls, ready.ear, size=size)
+    app.player = ready.player
+    app.hiding = BossScreen
+    return app
+
+
+def first_screen(
+    level_path: str | None, replay_path: str | None, *, body: Body, practice: bool
+) -> Callable[[App], Screen]:
+    """What makes the first screen. Files are read here, before a window opens; screens are imported when needed.
+
+    Raises NinjaGameError for a file that cannot be read or a level that cannot be played.
+    """
+    if replay_path:
+        return _replays(replay_path)
+    if level_path is None:
+        return _main_menu
+    from ninja_game.formats.load import load_levels
+
+    levels = load_levels(level_path)
+    _check(levels[0], body)
+
+    def play(app: App) -> Screen:
+        from ninja_game.play.level.screen import LevelScreen
+
+        courses = [partial(_course, app, named, body, practice=practice) for named in levels]
+        return LevelScreen(app, InOrder(courses) if len(courses) > 1 else courses[0]())
+
+    return play
+
+
+def _check(named: NamedLevel, body: Body) -> None:
+    """Raise LevelError, naming the place, for a level that cannot be played."""
+    try:
+        Simulation(named.level, body=body)
+    except LevelError as error:
+        error.file, error.line = named.file, named.line
+        raise
+
+
+def _replays(path: str) -> Callable[[App], Screen]:
+    from ninja_game.formats.load import load_replays
+
+    recordings = load_replays(Path(path))
+
+    def watch(app: App) -> Screen:
+        from ninja_game.play.replay.screen import ReplayScreen
+
+        return ReplayScreen(app, recordings)
+
+    return watch
+
+
+def _main_menu(app: App) -> Screen:
+    from ninja_game.play.menus.main_menu import MainMenu
+
+    return MainMenu(app)
+
+
+def _course(app: App, named: NamedLevel, body: Body, *, practice: bool) -> Course:
+    """A level with the player's records; with another body, or in practice, by itself."""
+    if app.player is None or body != "circle" or practice:
+        return SingleLevel(named.name, named.level, body=body, practice=practice)
+    from ninja_game.play.menus.level_contexts import course_for
+
+    return course_for(app, named)

@@ -1,0 +1,39 @@
+"""Open the replay viewer on what the records have."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import Replay
+from ninja_game.simulation import Body
+
+if TYPE_CHECKING:
+    from ninja_game.play.screen import Host
+
+
+def watch(app: Host, replays: Iterable[Replay | None], title: str = "") -> bool:
+    """Watch replays one after another; whether there were any. Those that have gone are left out."""
+    from ninja_game.play.replay.playback import Take
+    from ninja_game.play.replay.screen import ReplayScreen
+
+    takes = [
+        Take(title or replay.name or "Replay", replay.level, replay.inputs_of(replay.ticks), _body(replay))
+        for replay in replays
+        if replay is not None and replay.level is not None
+    ]
+    if takes:
+        app.push(ReplayScreen(app, takes))
+    return bool(takes)
+
+
+def _body(replay: Replay) -> Body:
+    return "box" if replay.body == "box" else "circle"
+
+
+def watch_recording(app: Host, recording: Recording) -> None:
+    """Watch a recording from a file."""
+    from ninja_game.play.replay.screen import ReplayScreen
+
+    app.push(ReplayScreen(app, [recording]))

@@ -1,1 +1,0 @@
-"""Drawing of the world: tiles, things, the ninja, particles. Everything here only reads the world."""

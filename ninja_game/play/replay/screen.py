@@ -1,0 +1,215 @@
+"""The replay viewer: play, pause, seek to any tick, speed, tick by tick, the keys pressed, ghosts, export."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.formats.recording import Recording
+from ninja_game.play.audio.output import Ear, Silence
+from ninja_game.play.level.context import GhostRun
+from ninja_game.play.level.ghosts import Ghost
+from ninja_game.play.level.hud import Hud
+from ninja_game.play.level.run_clock import RunClock
+from ninja_game.play.replay.export import ExportJob
+from ninja_game.play.replay.playback import Playback, Take, take_of
+from ninja_game.play.replay.seek_bar import ReplayBar
+from ninja_game.play.screen import Screen
+from ninja_game.play.view.level_view import LevelView
+from ninja_game.play.view.overlays import Overlays
+
+if TYPE_CHECKING:
+    from ninja_game.play.screen import Host
+
+SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
+_NORMAL = SPEEDS.index(1.0)
+_SECOND = 40
+_WARM = 12
+"""Ticks that are run with their animations before the moment sought, so that it looks as if played."""
+_STILL_MS = 500
+"""Stillness before a replay starts (20 of the classic game's video frames)."""
+
+
+class ReplayScreen(Screen):
+    """Shows a recording. Others on the same level run along as ghosts."""
+
+    def __init__(self, app: Host, takes: Sequence[Take | Recording]) -> None:
+        super().__init__(app)
+        self.takes = [take if isinstance(take, Take) else take_of(take) for take in takes]
+        self.clock = RunClock()
+        self.overlays = Overlays()
+        self.bar = ReplayBar()
+        self.speed = _NORMAL
+        self.show(0)
+
+    def show(self, index: int) -> None:
+        """Watch one of the takes, from its start."""
+        self.index = index % len(self.takes)
+        take = self.takes[self.index]
+        self.playback = Playback(take)
+        self.view = LevelView(self.app, self.playback.simulation)
+        self.view.overlays = self.overlays
+        others = [other for other in self.takes if other is not take and other.level == take.level]
+        self.view.ghosts = [
+            Ghost(GhostRun(other.title, other.frames), other.level, other.body) for other in others[:8]
+        ]  # fmt: skip
+        self.paused = False
+        self.still_ms = _STILL_MS
+        self.export: ExportJob | None = None
+        self.notice = ""
+        self.redraw = True
+
+    def enter(self) -> None:
+        """Start the clock."""
+        self.clock.reset()
+        pygame.key.stop_text_input()
+
+    def leave(self) -> None:
+        """No sound from a covered screen; a film that is being made is given up."""
+        self.app.ear.quiet()
+        if self.export:
+            self.export.cancel()
+
+    @property
+    def tick(self) -> int:
+        """The moment shown: after so many ticks."""
+        return self.playback.simulation.tick
+
+    # --- moving in time ---
+
+    def seek(self, tick: int) -> None:
+        """Show the moment after so many ticks, exactly; the corpse and particles are those of the last moments."""
+        playback = self.playback
+        tick = min(max(0, tick), playback.length)
+        start = max(0, tick - _WARM)
+        if playback.outcome == "dead" and start > playback.end:
+            # A corpse lies where it fell: its fall is run again.
+            start = playback.end
+        playback.seek(start)
+        self.view.jumped()
+        ear, self.app.ear = self.app.ear, _SILENCE
+        while self.tick < tick:
+            playback.step()
+            self.view.ticked()
+        self.app.ear = ear
+        self.clock.reset()
+        self.redraw = True
+
+    def _play_tick(self) -> None:
+        self.playback.step()
+        self.view.ticked()
+        if self.tick >= self.playback.length:
+            self.seek(0)
+            self.still_ms = _STILL_MS
+            self.app.ear.quiet()
+
+    def update(self, real_ms: int) -> None:
+        """Play on."""
+        if self.export and self.export.done:
+            self.notice = self.export.result
+            self.export = None
+        if self.paused or self.bar.dragging:
+            return
+        if self.still_ms > 0:
+            self.still_ms -= real_ms
+            self.clock.reset()
+            return
+        tick_ms = max(1, round(25 / SPEEDS[self.speed]))
+        for _ in range(self.clock.ticks_due(real_ms, tick_ms)):
+            self._play_tick()
+
+    # --- keys and mouse ---
+
+    def handle(self, event: pygame.Event) -> None:
+        """Keys, and the mouse on the bar."""
+        target = self.bar.handle(event, self.app.canvas, self.playback.length)
+        if target is not None:
+            self.seek(target)
+        for action in self.app.controls.actions(event):
+            if self._act(action):
+                break
+
+    def _act(self, action: str) -> bool:
+        deed = {
+            "confirm": self.toggle_pause, "pause": self.toggle_pause,
+            "left": lambda: self.seek(self.tick - _SECOND), "right": lambda: self.seek(self.tick + _SECOND),
+            "frame_back": lambda: self.step(-1), "frame_forward": lambda: self.step(1),
+            "faster": lambda: self._change_speed(1), "slower": lambda: self._change_speed(-1),
+            "retry": lambda: self.show(self.index), "jump": lambda: self.show(self.index + 1),
+            "export": self.start_export, "ghost": self._toggle_ghosts,
+            "back": self.app.pop, "quit": self.app.pop,
+        }.get(action)  # fmt: skip
+        if deed is not None:
+            deed()
+        elif self.overlays.toggle(action):
+            self.redraw = True
+        return deed is not None
+
+    def toggle_pause(self) -> None:
+        """Stop or go on."""
+        self.paused = not self.paused
+        self.still_ms = 0
+        self.clock.reset()
+        self.app.ear.quiet()
+        self.redraw = True
+
+    def step(self, ticks: int) -> None:
+        """A tick back or on, and stop."""
+        self.paused = True
+        self.app.ear.quiet()
+        self.seek(self.tick + ticks)
+
+    def _change_speed(self, by: int) -> None:
+        self.speed = min(len(SPEEDS) - 1, max(0, self.speed + by))
+        self.clock.reset()
+        self.redraw = True
+
+    def _toggle_ghosts(self) -> None:
+        self.app.options.show_ghost = not self.app.options.show_ghost
+        self.redraw = True
+
+    def start_export(self) -> None:
+        """Make a film of this take beside the player's replays."""
+        if self.export is None:
+            self.export = ExportJob(self.playback.take, self.app.options, self.app.player)
+            self.export.start()
+            self.notice = ""
+
+    # --- picture ---
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        """The world, the bar, the keys pressed."""
+        still = self.paused or self.bar.dragging or self.still_ms > 0
+        changed = self.view.draw(surface, 1.0 if still else self.clock.fraction, whole=self.redraw)
+        hud = Hud(self.app.theme)
+        playback = self.playback
+        written = [
+            self.bar.draw(surface, self.app.theme, self.tick, playback.end, playback.length),
+            self.bar.write(surface, self.app.theme, self.tick, playback.end, f"x {SPEEDS[self.speed]:g}"),
+            hud.label(surface, playback.take.title),
+            hud.keys(surface, playback.input_at(self.tick - 1), 604),
+        ]
+        hint = self._hint()
+        if hint:
+            written.append(hud.hint(surface, hint))
+        for rect in written:
+            self.view.also_covered(rect)
+        return None if changed is None else changed + written
+
+    def _hint(self) -> str:
+        if self.export:
+            return f"Making a film: {self.export.percent} %"
+        if self.notice:
+            return self.notice
+        if not self.paused:
+            return ""
+        key = self.app.controls.name
+        return (
+            f"{key('frame_back')} {key('frame_forward')}: tick by tick    {key('left')} {key('right')}: a second    "
+            f"{key('slower')} {key('faster')}: speed    {key('export')}: film    {key('back')}: leave"
+        )
+
+
+_SILENCE: Ear = Silence()

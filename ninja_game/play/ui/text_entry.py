@@ -1,0 +1,80 @@
+"""A line of text that the player types."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pygame
+
+from ninja_game.play.input.key_names import key_name, scancode_of
+from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.widgets import PAD, TEXT, Area, Widget
+
+BLINK_MS = 500
+
+
+class TextEntry(Widget):
+    """A text field. With the focus it takes what is typed; left, right, Home, End, Backspace and Delete edit.
+
+    ``prompt``: shown while it is empty. ``put`` is called at every change.
+    """
+
+    def __init__(
+        self, area: Area, prompt: str, text: str, put: Callable[[str], object], *, longest: int = 40, hint: str = ""
+    ) -> None:
+        super().__init__(area, hint=hint)
+        self.prompt = prompt
+        self.text = text
+        self.put = put
+        self.longest = longest
+        self.cursor = len(text)
+
+    def text_event(self, event: pygame.Event) -> bool:
+        """Type, move, erase."""
+        if event.type == pygame.TEXTINPUT:
+            self._insert(event.text)
+            return True
+        if event.type != pygame.KEYDOWN:
+            return False
+        name = key_name(scancode_of(event))
+        if name == "backspace" and self.text:
+            self._replace(self.cursor - 1, self.cursor)
+        elif name == "delete":
+            self._replace(self.cursor, self.cursor + 1)
+        elif name in ("left", "right", "home", "end"):
+            places = {"left": self.cursor - 1, "right": self.cursor + 1, "home": 0, "end": len(self.text)}
+            self.cursor = min(len(self.text), max(0, places[name]))
+        elif name not in ("space", "backspace") and len(name) > 1:
+            return False
+        # What types a character comes again as TEXTINPUT; as a key it must not move the focus.
+        return True
+
+    def _insert(self, typed: str) -> None:
+        typed = "".join(char for char in typed if char.isprintable())[: self.longest - len(self.text)]
+        self.text = self.text[: self.cursor] + typed + self.text[self.cursor :]
+        self.cursor += len(typed)
+        self.put(self.text)
+
+    def _replace(self, start: int, end: int) -> None:
+        if start < 0:
+            return
+        self.text = self.text[:start] + self.text[end:]
+        self.cursor = start
+        self.put(self.text)
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        """The text with its cursor, or the prompt."""
+        self.draw_base(surface, theme, focused=focused)
+        x, y, w, h = self.area
+        top = y + (h - TEXT) / 2
+        shown = self.text
+        while shown and theme.width(shown, TEXT) > w - 2 * PAD - 4:
+            shown = shown[1:]
+        if shown:
+            theme.text(surface, shown, x + PAD, top, size=TEXT)
+        else:
+            theme.text(surface, self.prompt, x + PAD, top, size=TEXT, colour=theme.palette.faint)
+        if focused:
+            before = shown[: max(0, self.cursor - (len(self.text) - len(shown)))]
+            place = x + PAD + theme.width(before, TEXT) + 1
+            theme.canvas.fill_rect(surface, theme.palette.accent, place, top - 2, 1.5, TEXT + 4)

@@ -1,0 +1,246 @@
+"""Widgets: a rectangle of a menu that can have the focus, be clicked, and show itself.
+
+Positions and sizes are logical px of the 792 x 600 stage. A widget answers ``True`` where it has used an input.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import pygame
+
+from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.wording import fit
+
+Area = tuple[float, float, float, float]
+"""x, y, width, height."""
+
+PAD = 8
+TEXT = 11
+"""Size of ordinary text, px."""
+
+
+class Widget:
+    """What all widgets share. ``hint``: shown at the foot of the screen while it has the focus."""
+
+    focusable = True
+
+    def __init__(self, area: Area, *, hint: str = "") -> None:
+        self.area = area
+        self.hint = hint
+        self.enabled = True
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        """Its middle."""
+        x, y, w, h = self.area
+        return x + w / 2, y + h / 2
+
+    def contains(self, x: float, y: float) -> bool:
+        """Whether a point lies in it."""
+        left, top, w, h = self.area
+        return left <= x < left + w and top <= y < top + h
+
+    def confirm(self) -> bool:
+        """The confirm key, or a click that it does not treat otherwise."""
+        return False
+
+    def nudge(self, action: str) -> bool:
+        """A direction or another menu action while it has the focus."""
+        return False
+
+    def click(self, x: float, y: float) -> bool:
+        """A mouse click in it."""
+        return self.confirm()
+
+    def drag(self, x: float, y: float) -> bool:
+        """The mouse moves with its button down since a click in it."""
+        return False
+
+    def wheel(self, steps: int) -> bool:
+        """The mouse wheel over it, positive: up."""
+        return False
+
+    def text_event(self, event: pygame.Event) -> bool:
+        """A key or text event, before anything else gets it."""
+        return False
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        """Show it."""
+        raise NotImplementedError
+
+    def draw_base(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        """A panel; with the focus it has a thick edge and a mark at its left, so that not only colour tells."""
+        palette, canvas = theme.palette, theme.canvas
+        x, y, w, h = self.area
+        canvas.fill_rect(surface, palette.panel, x, y, w, h, 4)
+        edge = palette.accent if focused else palette.panel_edge
+        canvas.frame_rect(surface, edge, x, y, w, h, 2.5 if focused else 1, 4)
+        if focused:
+            canvas.polygon(
+                surface, palette.accent, [(x - 9, y + h / 2 - 5), (x - 9, y + h / 2 + 5), (x - 3, y + h / 2)]
+            )
+
+
+class Label(Widget):
+    """A text that does nothing."""
+
+    focusable = False
+
+    def __init__(
+        self, area: Area, text: str | Callable[[], str], *, size: float = TEXT, faint: bool = False,
+        align: str = "left", bold: bool = False,
+    ) -> None:  # fmt: skip
+        super().__init__(area)
+        self.text = text
+        self.size = size
+        self.faint = faint
+        self.align = align
+        self.bold = bold
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        """The text, its top at the area's."""
+        x, y, w, _ = self.area
+        x += {"left": 0.0, "centre": w / 2, "right": w}[self.align]
+        text = self.text() if callable(self.text) else self.text
+        colour = theme.palette.faint if self.faint else theme.palette.text
+        theme.text(surface, text, x, y, size=self.size, colour=colour, align=self.align, bold=self.bold)
+
+
+class Button(Widget):
+    """A text that does something."""
+
+    def __init__(
+        self, area: Area, text: str | Callable[[], str], action: Callable[[], object], *, hint: str = "",
+        size: float = TEXT, align: str = "centre",
+    ) -> None:  # fmt: skip
+        super().__init__(area, hint=hint)
+        self.text = text
+        self.action = action
+        self.size = size
+        self.align = align
+
+    def confirm(self) -> bool:
+        """Do it."""
+        if self.enabled:
+            self.action()
+        return True
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        """The text in its panel."""
+        self.draw_base(surface, theme, focused=focused)
+        x, y, w, h = self.area
+        x += {"left": PAD, "centre": w / 2, "right": w - PAD}[self.align]
+        text = self.text() if callable(self.text) else self.text
+        colour = theme.palette.text if self.enabled else theme.palette.faint
+        top = y + (h - self.size) / 2
+        fitted = fit(theme, text, w - 2 * PAD, self.size)
+        theme.text(surface, fitted, x, top, size=self.size, colour=colour, align=self.align, bold=focused)
+
+
+class Choice(Widget):
+    """One of several values: left and right change it, confirm takes the next. A switch has the values on and off."""
+
+    def __init__(
+        self, area: Area, text: str, options: Sequence[tuple[str, object]], get: Callable[[], object],
+        put: Callable[[object], object], *, hint: str = "",
+    ) -> None:  # fmt: skip
+        super().__init__(area, hint=hint)
+        self.text = text
+        self.options = options
+        self.get = get
+        self.put = put
+
+    @property
+    def index(self) -> int:
+        """Number of the present value; the first one's where it is none of them."""
+        values = [value for _, value in self.options]
+        return values.index(self.get()) if self.get() in values else 0
+
+    def _step(self, by: int) -> bool:
+        self.put(self.options[(self.index + by) % len(self.options)][1])
+        return True
+
+    def confirm(self) -> bool:
+        """The next value."""
+        return self._step(1)
+
+    def nudge(self, action: str) -> bool:
+        """The value before or after."""
+        return self._step(-1 if action == "left" else 1) if action in ("left", "right") else False
+
+    def click(self, x: float, y: float) -> bool:
+        """On the left arrow the value before, else the next."""
+        left, _ = self._values()
+        return self._step(-1 if left <= x < left + 24 else 1)
+
+    def _values(self) -> tuple[float, float]:
+        """Left edge and width of the part that shows the value: the right half, or all of it without a text."""
+        x, _, w, _ = self.area
+        return (x + w * 0.5, w * 0.5) if self.text else (x, w)
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        """The text left, the value between arrows right."""
+        self.draw_base(surface, theme, focused=focused)
+        x, y, w, h = self.area
+        top = y + (h - TEXT) / 2
+        theme.text(surface, fit(theme, self.text, w * 0.5 - PAD, TEXT), x + PAD, top, size=TEXT, bold=focused)
+        left, width = self._values()
+        value = fit(theme, self.options[self.index][0], width - 40, TEXT)
+        theme.text(surface, value, left + width / 2, top, size=TEXT, align="centre")
+        for side, tip in ((left + 14, -5), (left + width - 14, 5)):
+            points = [(side, y + h / 2 - 4), (side, y + h / 2 + 4), (side + tip, y + h / 2)]
+            theme.canvas.polygon(surface, theme.palette.accent if focused else theme.palette.panel_edge, points)
+
+
+class Slider(Widget):
+    """A number between two others."""
+
+    def __init__(
+        self, area: Area, text: str, span: tuple[float, float, float], get: Callable[[], float],
+        put: Callable[[float], object], *, show: Callable[[float], str] = "{:.0f}".format, hint: str = "",
+    ) -> None:  # fmt: skip
+        super().__init__(area, hint=hint)
+        self.text = text
+        self.low, self.high, self.step = span
+        self.get = get
+        self.put = put
+        self.show = show
+
+    def _take(self, value: float) -> bool:
+        whole = self.low + round((value - self.low) / self.step) * self.step
+        self.put(min(self.high, max(self.low, whole)))
+        return True
+
+    def nudge(self, action: str) -> bool:
+        """One step down or up."""
+        if action not in ("left", "right"):
+            return False
+        return self._take(self.get() + (self.step if action == "right" else -self.step))
+
+    def click(self, x: float, y: float) -> bool:
+        """The number at that place."""
+        return self.drag(x, y)
+
+    def drag(self, x: float, y: float) -> bool:
+        """The number at that place."""
+        left, width = self._track()
+        return self._take(self.low + (self.high - self.low) * (x - left) / width)
+
+    def _track(self) -> tuple[float, float]:
+        x, _, w, _ = self.area
+        return x + w * 0.5 + 10, w * 0.5 - 60
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        """The text left, a track with a knob and the number right."""
+        self.draw_base(surface, theme, focused=focused)
+        canvas, palette = theme.canvas, theme.palette
+        x, y, w, h = self.area
+        top = y + (h - TEXT) / 2
+        theme.text(surface, fit(theme, self.text, w * 0.5 - PAD, TEXT), x + PAD, top, size=TEXT, bold=focused)
+        theme.text(surface, self.show(self.get()), x + w - PAD, top, size=TEXT, align="right")
+        left, width = self._track()
+        knob = left + width * (self.get() - self.low) / (self.high - self.low)
+        canvas.fill_rect(surface, palette.panel_edge, left, y + h / 2 - 1.5, width, 3, 1.5)
+        canvas.fill_rect(surface, palette.accent, left, y + h / 2 - 1.5, max(knob - left, 1), 3, 1.5)
+        canvas.circle(surface, palette.accent if focused else palette.faint, (knob, y + h / 2), 5)

@@ -1,0 +1,1 @@
+"""Particles that events set off."""

@@ -1,0 +1,157 @@
+"""Particles: small pictures without physics that move along a line, change and go (presentation.md §5)."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import atan2, degrees
+
+from ninja_game.play.ui.palette import mixed
+from ninja_game.play.view.sprites.draw_target import Stage
+
+MOST = 100
+"""At most so many in front of the ninja and behind it; the oldest goes first."""
+
+
+@dataclass(slots=True)
+class Particle:
+    """A particle. (x, y): where it starts, px; (dx, dy): how far it goes in its life; times in ticks."""
+
+    kind: str
+    x: float
+    y: float
+    dx: float = 0.0
+    dy: float = 0.0
+    life: float = 10.0
+    size: float = 1.0
+    variant: int = 0
+    born: float = 0.0
+
+
+class Particles:
+    """The particles of a view. ``thin``: 0…1, share of them that are shown (reduced motion)."""
+
+    def __init__(self) -> None:
+        self.front: deque[Particle] = deque(maxlen=MOST)
+        self.rear: deque[Particle] = deque(maxlen=MOST)
+        self.thin = 1.0
+        self._count = 0.0
+
+    def clear(self) -> None:
+        """Away with all."""
+        self.front.clear()
+        self.rear.clear()
+
+    def add(self, particle: Particle, *, rear: bool = False) -> None:
+        """Show one more; of many only the share ``thin``."""
+        self._count += self.thin
+        if self._count >= 1.0:
+            self._count -= 1.0
+            (self.rear if rear else self.front).append(particle)
+
+    def expire(self, now: float) -> None:
+        """Drop those whose life is over."""
+        for layer in (self.front, self.rear):
+            while layer and now - layer[0].born > layer[0].life:
+                layer.popleft()
+
+    @staticmethod
+    def draw(layer: deque[Particle], stage: Stage, now: float) -> None:
+        """Draw a layer at a time in ticks."""
+        for particle in layer:
+            t = (now - particle.born) / particle.life
+            if 0.0 <= t < 1.0:
+                PAINTERS[particle.kind](particle, stage, t)
+
+
+# --- painters: (particle, stage, t), t from 0 to 1 over its life ---
+
+
+def _eased(p: Particle, t: float) -> tuple[float, float]:
+    """Fast at first, then slower."""
+    way = 1 - (1 - t) * (1 - t)
+    return p.x + p.dx * way, p.y + p.dy * way
+
+
+def _turn(p: Particle, step: int = 10) -> int:
+    return round(degrees(atan2(p.dy, p.dx)) / step) * step
+
+
+def _cloud(role: str) -> Callable[[Particle, Stage, float], None]:
+    def paint(p: Particle, stage: Stage, t: float) -> None:
+        x, y = _eased(p, t)
+        step = min(7, int(t * 8 * p.size))
+        stage.sprite(("puff", 0, max(1, 8 - int(7 * t)), role, step, p.variant % 2), x, y)
+
+    return paint
+
+
+def _streak(role: str, width: float) -> Callable[[Particle, Stage, float], None]:
+    def paint(p: Particle, stage: Stage, t: float) -> None:
+        x, y = _eased(p, t)
+        bx, by = _eased(p, max(0.0, t - 0.22))
+        fall = 14.0 * p.size
+        palette = stage.palette
+        colour = mixed(getattr(palette, role), palette.background, max(0.0, t - 0.6) * 2)
+        stage.line(colour, bx, by + fall * max(0.0, t - 0.22) ** 2, x, y + fall * t * t, width * (1 - 0.6 * t))
+
+    return paint
+
+
+def _ray(role: str, width: float) -> Callable[[Particle, Stage, float], None]:
+    def paint(p: Particle, stage: Stage, t: float) -> None:
+        palette = stage.palette
+        colour = mixed(getattr(palette, role), palette.background, t)
+        stage.line(colour, p.x, p.y, p.x + p.dx, p.y + p.dy, width * (1 - t))
+
+    return paint
+
+
+def _zap(p: Particle, stage: Stage, t: float) -> None:
+    stage.sprite(
+        ("lightning", _turn(p, 15), 8 - int(5 * t), (p.variant + int(t * 6)) % 3), p.x + p.dx / 2, p.y + p.dy / 2
+    )
+
+
+def _fireball(p: Particle, stage: Stage, t: float) -> None:
+    x, y = _eased(p, t)
+    stage.sprite(("fireball", 0, 8 - int(5 * t * t), min(7, int(8 * t)), p.variant % 3), x, y)
+
+
+def _burst(p: Particle, stage: Stage, t: float) -> None:
+    stage.sprite(("burst star", 0, max(1, 8 - int(8 * t)), min(7, int(8 * t))), p.x, p.y)
+
+
+def _streak_of_gold(p: Particle, stage: Stage, t: float) -> None:
+    stage.sprite(("streak", 0, 8 - int(4 * t), min(8, int(9 * t))), p.x, p.y)
+
+
+def _muzzle(p: Particle, stage: Stage, t: float) -> None:
+    stage.sprite(("muzzle", _turn(p), 8, min(7, int(8 * t))), p.x, p.y)
+
+
+def _charge(p: Particle, stage: Stage, t: float) -> None:
+    """A drop that falls inward, faster and faster."""
+    way = t * t
+    x, y = p.x + p.dx * way, p.y + p.dy * way
+    stage.line(stage.palette.weapon, x, y, x + p.dx * 0.12, y + p.dy * 0.12, 1.2)
+
+
+PAINTERS: dict[str, Callable[[Particle, Stage, float], None]] = {
+    "dust": _cloud("dust"),
+    "smoke": _cloud("smoke"),
+    "blood": _streak("blood", 1.4),
+    "debris": _streak("dark", 1.0),
+    "spark": _streak("ember", 0.9),
+    "bolt": _streak("spark", 0.9),
+    "shot": _ray("outline", 1.6),
+    "bullet": _ray("dark", 1.2),
+    "zap": _zap,
+    "fireball": _fireball,
+    "burst": _burst,
+    "gold": _streak_of_gold,
+    "muzzle": _muzzle,
+    "charge": _charge,
+}
+"""How each kind is drawn."""

@@ -1,0 +1,216 @@
+"""The picture of a running world: only reads it, draws between its ticks, and tells which px changed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from random import Random
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.play.ui.canvas import Canvas
+from ninja_game.play.view.effects.effects import Effects
+from ninja_game.play.view.effects.particles import Particles
+from ninja_game.play.view.ninja.appearance import draw_ghost, draw_ninja, draw_ragdoll
+from ninja_game.play.view.ninja.ninja_animation import NinjaMotion
+from ninja_game.play.view.ninja.ragdoll import Ragdoll
+from ninja_game.play.view.render_context import Scene
+from ninja_game.play.view.sprites.backdrop import Backdrop
+from ninja_game.play.view.sprites.draw_moving import draw_movers
+from ninja_game.play.view.sprites.draw_target import Stage
+from ninja_game.play.view.sprites.object_animation import Motions
+from ninja_game.play.view.sprites.sprite_book import SpriteBook
+from ninja_game.sim.events import DIED
+from ninja_game.sim.memory.schema import World
+from ninja_game.sim.states import DEAD
+from ninja_game.simulation import Simulation
+
+if TYPE_CHECKING:
+    from ninja_game.play.level.ghosts import Ghost
+    from ninja_game.play.view.overlays import Overlays
+
+Area = tuple[float, float, float, float]
+
+
+class LevelView:
+    """Draws a world, in the whole window or in an ``area`` of it (logical px x, y, width, height).
+
+    Call ``ticked`` after every tick of the simulation, ``jumped`` after any other change of it (restart, restore).
+    ``chance``: seed of what is drawn at random. ``loud``: whether the app's ear hears this world.
+    """
+
+    def __init__(
+        self, app: Scene, simulation: Simulation, *, area: Area | None = None, chance: int = 0, loud: bool = True
+    ) -> None:
+        self.app = app
+        self.simulation = simulation
+        self.loud = loud
+        self._area = area
+        self._chance = Random(chance)  # noqa: S311 - presentation
+        self.ghosts: Sequence[Ghost] = ()
+        self.overlays: Overlays | None = None
+        self.particles = Particles()
+        self.effects = Effects(self.particles, self._chance)
+        self.motions = Motions(simulation.world)
+        self.motion = NinjaMotion(simulation.world, self._chance)
+        self.doll: Ragdoll | None = None
+        self._covered: list[pygame.Rect] = []
+        self._look: tuple[object, ...] = ()
+        self._layout()
+
+    # --- the world goes on ---
+
+    def ticked(self) -> None:
+        """Take note of a tick: its events become particles, animations, a corpse, sound."""
+        world = self.simulation.world
+        self._follow_options()
+        self.motions.ticked(world)
+        self.motion.ticked(world)
+        self.effects.ticked(self.simulation.static, world)
+        self._follow_death(world)
+        for ghost in self.ghosts:
+            ghost.ticked()
+        if self.loud:
+            self.app.ear.hear(world)
+
+    def killed(self) -> None:
+        """Take note of a death between two ticks: out of time, or by the player's own hand."""
+        world = self.simulation.world
+        self.motion.ticked(world)
+        self.effects.ticked(self.simulation.static, world)
+        self._follow_death(world)
+        if self.loud:
+            self.app.ear.hear(world)
+
+    def jumped(self) -> None:
+        """Forget what was seen: the world was restarted or put back to another moment."""
+        world = self.simulation.world
+        self.motions.reset(world)
+        self.motion.reset(world)
+        self.effects.reset()
+        self.doll = None
+        self._backdrop.reset(world, self.motions)
+        self._whole = True
+        for ghost in self.ghosts:
+            ghost.jumped(world.tick)
+        if world.ninja.state == DEAD:
+            self._fall_down(world)
+
+    def _follow_options(self) -> None:
+        options = self.app.options
+        self.effects.gore = not options.reduced_gore
+        self.particles.thin = 0.35 if options.reduced_motion else 1.0
+
+    def _follow_death(self, world: World) -> None:
+        """Become a corpse, or go on as one; a revived ninja (objects.md §3) gets up."""
+        if world.ninja.state != DEAD:
+            self.doll = None
+            return
+        if self.doll is None:
+            self._fall_down(world)
+        if self.doll is not None:
+            self.doll.step(self.simulation.static, world)
+
+    def _fall_down(self, world: World) -> None:
+        n = world.ninja
+        now, before = self.motion.pose(1.0).moved(n.x, n.y), self.motion.pose(0.5).moved(n.x, n.y)
+        velocity = n.x - n.px, n.y - n.py
+        self.doll = Ragdoll(now, before, velocity, self.motion.facing, self._chance, self._corpse_hit)
+        for event in world.events[: world.event_count]:
+            if event.kind == DIED:
+                gory = not self.app.options.reduced_gore
+                self.doll.shove(event.slot, (event.dx, event.dy), event.y, n.y, whole=not gory)
+                if self.doll.dismembered:
+                    self.effects.blood(n.x, n.y, 0.0, -2.0, 12)
+
+    def _corpse_hit(self, x: float, y: float, into: float, along: float) -> None:
+        if into > 1.0 and self.loud:
+            self.app.ear.corpse(into)
+        if into > 3.0:
+            self.effects.blood(x, y, 0.0, -1.0, 1)
+        if along * along > 0.3 and self._chance.random() < 0.12:
+            self.effects.add("dust", x, y, -along, -4, life=32, size=0.6, rear=True)
+
+    # --- the picture ---
+
+    def _layout(self) -> None:
+        """Make what depends on the window's size and the palette."""
+        canvas = self.app.canvas
+        self.canvas = canvas if self._area is None else Canvas.inside(canvas.rect(*self._area))
+        palette = self.app.theme.palette
+        book = SpriteBook(self.canvas.scale, palette)
+        self.stage = Stage(self.canvas, palette, book)
+        self._backdrop = Backdrop(self.canvas, palette, book, self.simulation.static)
+        self._backdrop.reset(self.simulation.world, self.motions)
+        self._look = self._wanted_look()
+        self._whole = True
+
+    def _wanted_look(self) -> tuple[object, ...]:
+        return self.app.canvas, self.app.theme.palette.name
+
+    @property
+    def colour(self) -> pygame.Color:
+        """The ninja's colour."""
+        return pygame.Color(self.app.options.flavour) if self.app.options.flavour else self.stage.palette.ninja
+
+    def draw(self, surface: pygame.Surface, fraction: float = 1.0, *, whole: bool = False) -> list[pygame.Rect] | None:
+        """Draw the world ``fraction`` of a tick after the last but one; the px that changed, None for all.
+
+        ``whole``: the surface no longer holds the last picture.
+        """
+        if self._look != self._wanted_look():
+            self._layout()
+        if not self.app.options.smooth:
+            fraction = 1.0
+        whole = whole or self._whole
+        self._whole = False
+        mended = self._restore(surface, whole, fraction)
+        surface.set_clip(self.canvas.stage)
+        self._draw_moving(surface, fraction)
+        self._cover_by_tiles(surface)
+        if self.overlays is not None:
+            self.overlays.draw(self.stage, self.simulation)
+        surface.set_clip(None)
+        changed = self._covered + self.stage.covered + mended
+        self._covered = self.stage.covered
+        return None if whole else changed
+
+    def _restore(self, surface: pygame.Surface, whole: bool, fraction: float) -> list[pygame.Rect]:
+        """Put the backdrop where things were drawn last time, and where it changed."""
+        origin = self.canvas.origin
+        mended = [r.move(origin) for r in self._backdrop.update(self.simulation.world, self.motions, fraction)]
+        if whole:
+            if self._area is None:
+                surface.fill(self.stage.palette.tile)
+            surface.blit(self._backdrop.picture, origin)
+            return mended
+        for rect in self._covered + mended:
+            surface.blit(self._backdrop.picture, rect, rect.move(-origin[0], -origin[1]))
+        return mended
+
+    def _draw_moving(self, surface: pygame.Surface, fraction: float) -> None:
+        """From back to front, as presentation.md §1 has it."""
+        stage, now = self.stage, self.effects.now + fraction - 1
+        stage.begin(surface)
+        Particles.draw(self.particles.rear, stage, now)
+        draw_movers(stage, self.simulation.world, self.motions, fraction)
+        if self.app.options.show_ghost:
+            for ghost in self.ghosts:
+                draw_ghost(stage, ghost.motion, ghost.place(fraction), fraction, ghost.colour(stage.palette))
+        if self.doll is not None:
+            draw_ragdoll(stage, self.doll, fraction, self.colour)
+        else:
+            draw_ninja(stage, self.motion, self.motions.ninja_place(fraction), fraction, self.colour)
+        Particles.draw(self.particles.front, stage, now)
+
+    def _cover_by_tiles(self, surface: pygame.Surface) -> None:
+        """Tiles are in front of everything that moves."""
+        origin, backdrop = self.canvas.origin, self._backdrop
+        for rect in self.stage.covered:
+            local = rect.move(-origin[0], -origin[1])
+            if backdrop.has_tile(local):
+                surface.blit(backdrop.tiles, rect, local, pygame.BLEND_PREMULTIPLIED)
+
+    def also_covered(self, rect: pygame.Rect) -> None:
+        """Something else was drawn over the stage there; it is taken away before the next picture."""
+        self._covered.append(rect)

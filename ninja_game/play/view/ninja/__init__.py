@@ -1,0 +1,1 @@
+"""The ninja's figure: poses, animation, ragdoll."""

@@ -1,0 +1,107 @@
+"""How the ninja moves its limbs: follows the ticks and gives a pose for any moment (presentation.md §3)."""
+
+from __future__ import annotations
+
+from math import atan2, degrees
+from random import Random
+
+from ninja_game.play.view.ninja.dances import DANCES
+from ninja_game.play.view.ninja.pose import CYCLE, SKID, SLIDE, STAND, Pose, air_pose, run_pose
+from ninja_game.sim.memory.schema import Ninja, World
+from ninja_game.sim.states import CELEBRATING, DEAD, FALLING, JUMPING, RUNNING, SKIDDING, SLIDING
+
+_BLEND_TICKS = 3.0
+"""A new state's pose takes over from the old one in so many ticks."""
+_UPRIGHT = 0.9
+"""Share of its rotation that a body in the air keeps each tick."""
+
+
+class NinjaMotion:
+    """The ninja's figure between ticks. ``chance``: picks the dances, never read by the world."""
+
+    def __init__(self, world: World, chance: Random) -> None:
+        self._chance = chance
+        self.reset(world)
+
+    def reset(self, world: World) -> None:
+        """A new run, or a jump in time."""
+        n = world.ninja
+        self.state = n.state
+        self.facing = 1
+        self.turn = self.turn_before = self._floor_turn(n) if not n.in_air else 0.0
+        self.phase = self.phase_before = 0.0
+        self.since = 100.0
+        self.velocity = (0.0, 0.0)
+        self.dance = -1
+        self.still = False
+        self._from = STAND
+        self._face(n)
+
+    @staticmethod
+    def _floor_turn(n: Ninja) -> float:
+        return degrees(atan2(n.floor_x, -n.floor_y)) if n.floor_x or n.floor_y else 0.0
+
+    def _face(self, n: Ninja) -> None:
+        """Facing: the wall while sliding, else the way it moves."""
+        if n.state == SLIDING:
+            self.facing = -1 if n.wall_x > 0 else 1
+        elif abs(n.x - n.px) > 1e-9:
+            self.facing = 1 if n.x > n.px else -1
+
+    def ticked(self, world: World) -> None:
+        """Follow a tick."""
+        n = world.ninja
+        if n.state == DEAD:
+            self.state = DEAD
+            return
+        if n.state != self.state or (n.state == CELEBRATING and not n.in_air and n.was_in_air):
+            self._from = self.local_pose(1.0)
+            if n.state == RUNNING and self.state != RUNNING:
+                self.phase = 0.0
+            self.state = n.state
+            self.since = 0.0
+            self.dance = self._chance.randrange(len(DANCES)) if n.state == CELEBRATING and not n.in_air else -1
+        else:
+            self.since += 1.0
+        self._face(n)
+        self.velocity = n.x - n.px, n.y - n.py
+        self.phase_before = self.phase
+        if n.state == RUNNING:
+            self.phase += self.speed(n) / CYCLE
+        self.turn_before = self.turn
+        if n.state in {JUMPING, SLIDING} and self.since == 0.0:
+            self.turn = self.turn_before = 0.0
+        elif n.in_air:
+            self.turn *= _UPRIGHT
+        else:
+            self.turn = self._floor_turn(n)
+
+    @staticmethod
+    def speed(n: Ninja) -> float:
+        """Speed along the floor, px/tick."""
+        vx, vy = n.x - n.px, n.y - n.py
+        return abs(vx * -n.floor_y + vy * n.floor_x) if n.floor_x or n.floor_y else abs(vx)
+
+    def local_pose(self, fraction: float) -> Pose:
+        """The pose about the centre, facing right, unturned."""
+        target = self._target(fraction)
+        share = min(1.0, (self.since + fraction) / _BLEND_TICKS)
+        return target if share >= 1.0 else self._from.mixed(target, share * share * (3 - 2 * share))
+
+    def _target(self, fraction: float) -> Pose:
+        if self.state == RUNNING:
+            phase = self.phase_before + (self.phase - self.phase_before) * fraction
+            vx, vy = self.velocity
+            return run_pose(phase, (vx * vx + vy * vy) ** 0.5)
+        if self.state in {JUMPING, FALLING}:
+            return air_pose(self.velocity[1])
+        if self.state == CELEBRATING:
+            return air_pose(self.velocity[1]) if self.dance < 0 else DANCES[self.dance].at(self.since + fraction)[0]
+        return {SKIDDING: SKID, SLIDING: SLIDE}.get(self.state, STAND)
+
+    def pose(self, fraction: float) -> Pose:
+        """The pose about the centre, as it is seen."""
+        turn = self.turn_before + (self.turn - self.turn_before) * fraction
+        if self.state == CELEBRATING and self.dance >= 0:
+            turn += DANCES[self.dance].at(self.since + fraction)[1] * self.facing
+        return self.local_pose(fraction).placed(self.facing, turn)

@@ -1,0 +1,180 @@
+"""Overlays that show how the world thinks: hit boxes, grid, edge states, lines of sight, cells. They only read it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pygame
+
+from ninja_game.play.ui.canvas import Canvas
+from ninja_game.play.ui.palette import Palette
+from ninja_game.play.view.hit_shapes import HitShape, hit_shapes
+from ninja_game.play.view.sprites.draw_target import Stage
+from ninja_game.sim.collision.rays import ray_tiles, sees
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS
+from ninja_game.sim.level import DRONE, LAUNCHER, TURRET
+from ninja_game.sim.memory.schema import Thing, World
+from ninja_game.sim.objects.object_query import NINE_CELLS
+from ninja_game.sim.rules import INTERESTING, OFF, RADIUS, STRIDE
+from ninja_game.sim.states import WEAPON_ZAP
+from ninja_game.simulation import Simulation
+
+HIT_BOXES, GRID, EDGES, RAYS, CELLS = (
+    "overlay_hitboxes", "overlay_grid", "overlay_edges", "overlay_rays", "overlay_cells",
+)  # fmt: skip
+OVERLAY_ACTIONS = (HIT_BOXES, GRID, EDGES, RAYS, CELLS)
+
+
+class Overlays:
+    """Those that are on."""
+
+    def __init__(self) -> None:
+        self.on: set[str] = set()
+        self._sheet: pygame.Surface | None = None
+        self._sheet_of: tuple[object, ...] = ()
+
+    def toggle(self, action: str) -> bool:
+        """Switch the overlay of an action; whether it is one's."""
+        if action not in OVERLAY_ACTIONS:
+            return False
+        self.on ^= {action}
+        return True
+
+    def draw(self, stage: Stage, simulation: Simulation) -> None:
+        """Draw what is on over the stage."""
+        if not self.on:
+            return
+        world = simulation.world
+        if self.on & {GRID, EDGES}:
+            self._draw_sheet(stage, world)
+        if CELLS in self.on:
+            _draw_cells(stage, world)
+        if RAYS in self.on:
+            _draw_rays(stage, simulation)
+        if HIT_BOXES in self.on:
+            for shape in hit_shapes(world):
+                _draw_shape(stage, shape)
+
+    def _draw_sheet(self, stage: Stage, world: World) -> None:
+        """Grid and edges change seldom: they are drawn once and laid over."""
+        wanted = (stage.canvas, stage.palette.name, GRID in self.on, EDGES in self.on, bytes(world.edges))
+        if self._sheet is None or wanted != self._sheet_of:
+            self._sheet_of = wanted
+            self._sheet = pygame.Surface(stage.canvas.size, pygame.SRCALPHA)
+            local = Canvas(stage.canvas.size)
+            if GRID in self.on:
+                _paint_grid(self._sheet, local, stage.palette)
+            if EDGES in self.on:
+                _paint_edges(self._sheet, local, stage.palette, world)
+        stage.covered.append(stage.surface.blit(self._sheet, stage.canvas.origin))
+
+
+def _paint_grid(sheet: pygame.Surface, canvas: Canvas, palette: Palette) -> None:
+    colour = (*palette.text[:3], 70)
+    for column in range(34):
+        pygame.draw.line(sheet, colour, canvas.point(24 * column, 0), canvas.point(24 * column, 600))
+    for row in range(26):
+        pygame.draw.line(sheet, colour, canvas.point(0, 24 * row), canvas.point(792, 24 * row))
+
+
+_SIDES: tuple[tuple[float, float, float, float], ...] = (
+    (10.6, -11, 10.6, 11), (-11, 10.6, 11, 10.6), (-10.6, -11, -10.6, 11), (-11, -10.6, 11, -10.6),
+)  # fmt: skip
+"""A line just inside each side of a cell: each cell has its own edge states."""
+
+
+def _paint_edges(sheet: pygame.Surface, canvas: Canvas, palette: Palette, world: World) -> None:
+    """Solid edges full, interesting ones thin and dotted at the ends; what is off is not drawn."""
+    for cell in range(len(EXISTS)):
+        if not EXISTS[cell]:
+            continue
+        for side, (ax, ay, bx, by) in enumerate(_SIDES):
+            state = world.edges[4 * cell + side]
+            if state == OFF:
+                continue
+            colour = palette.accent if state == INTERESTING else palette.switch
+            x, y = CENTRE_X[cell], CENTRE_Y[cell]
+            width = canvas.px(0.8 if state == INTERESTING else 1.6)
+            pygame.draw.line(sheet, colour, canvas.point(x + ax, y + ay), canvas.point(x + bx, y + by), width)
+
+
+def _tint(stage: Stage, colour: pygame.Color, alpha: int, cell: int, inset: float = 0) -> None:
+    if not EXISTS[cell]:
+        return
+    x, y, w = CENTRE_X[cell] - 12 + inset, CENTRE_Y[cell] - 12 + inset, 24 - 2 * inset
+    stage.covered.append(stage.canvas.fill_rect(stage.surface, (colour.r, colour.g, colour.b, alpha), x, y, w, w))
+
+
+def _draw_cells(stage: Stage, world: World) -> None:
+    """The nine cells that are asked for things; stronger, the cells whose tiles the body touches; things' own cells."""
+    n = world.ninja
+    if EXISTS[n.cell]:
+        for offset in NINE_CELLS:
+            _tint(stage, stage.palette.switch, 40, n.cell + offset)
+        for cell in touched_cells(n.x, n.y, n.cell):
+            _tint(stage, stage.palette.accent, 70, cell, 2)
+    for slot in range(1, world.used):
+        o = world.things[slot]
+        if o.filed and EXISTS[o.cell]:
+            _tint(stage, stage.palette.good, 60, o.cell, 7)
+
+
+def touched_cells(x: float, y: float, cell: int) -> list[int]:
+    """The cells whose tiles a circle at (x, y) can touch: its own, one up or down, one beside, one between."""
+    cells = [cell]
+    dx, dy = x - CENTRE_X[cell], y - CENTRE_Y[cell]
+    beside = cell + (1 if dx > 0 else -1) if abs(dx) + RADIUS > 12 else 0
+    above = cell + (STRIDE if dy > 0 else -STRIDE) if abs(dy) + RADIUS > 12 else 0
+    cells += [found for found in (above, beside) if found]
+    if above and beside:
+        cells.append(above + beside - cell)
+    return cells
+
+
+def _draw_rays(stage: Stage, simulation: Simulation) -> None:
+    """From everything that looks for the ninja: to it where it is seen, to the tile in the way where not."""
+    world, level = simulation.world, simulation.static
+    n = world.ninja
+    for slot in range(1, world.ids + 1):
+        o = world.things[slot]
+        if not _looks(o):
+            continue
+        x, y = (o.base_x, o.base_y) if o.kind == LAUNCHER else (o.x, o.y)
+        if not (x == x and y == y):  # noqa: PLR0124 - the test for NaN
+            continue
+        if sees(level, world, x, y, n.x, n.y)[0]:
+            stage.line(stage.palette.bad, x, y, n.x, n.y, 0.8)
+        else:
+            stopped, end_x, end_y = ray_tiles(level, world, x, y, n.x, n.y)
+            if stopped:
+                stage.line(stage.palette.faint, x, y, end_x, end_y)
+                stage.disc(stage.palette.faint, end_x, end_y, 1.5)
+
+
+def _looks(o: Thing) -> bool:
+    return o.kind in {TURRET, LAUNCHER} or (o.kind == DRONE and o.weapon != WEAPON_ZAP)
+
+
+def _draw_circle(stage: Stage, shape: HitShape, colour: pygame.Color) -> pygame.Rect:
+    centre = stage.canvas.point(shape.x, shape.y)
+    return pygame.draw.aacircle(stage.surface, colour, centre, max(1, round(shape.half * stage.canvas.scale)), 1)
+
+
+def _draw_box(stage: Stage, shape: HitShape, colour: pygame.Color) -> pygame.Rect:
+    half = shape.half
+    return stage.canvas.frame_rect(
+        stage.surface, colour, shape.x - half, shape.y - half, 2 * half, 2 * half, 0.5
+    )  # fmt: skip
+
+
+_FORMS: dict[bool, Callable[[Stage, HitShape, pygame.Color], pygame.Rect]] = {True: _draw_circle, False: _draw_box}
+
+
+def _draw_shape(stage: Stage, shape: HitShape) -> None:
+    colour = stage.palette.bad if shape.lethal else stage.palette.switch
+    if shape.ninja:
+        colour = stage.palette.good
+        a, b = (shape.x, shape.y), (shape.x + 6 * shape.vx, shape.y + 6 * shape.vy)
+        stage.line(colour, *a, *b)
+    if -50 < shape.x < 850 and -50 < shape.y < 650:
+        stage.covered.append(_FORMS[shape.round](stage, shape, colour).inflate(2, 2))

@@ -1,0 +1,1 @@
+"""Drawings of tiles and objects."""

@@ -1,0 +1,125 @@
+"""Everything that does not move, drawn once and mended where it changes; and the tiles, which cover what moves."""
+
+from __future__ import annotations
+
+import pygame
+
+from ninja_game.play.ui.canvas import Canvas
+from ninja_game.play.ui.palette import Palette
+from ninja_game.play.view.sprites.draw_target import is_near
+from ninja_game.play.view.sprites.object_animation import Motions
+from ninja_game.play.view.sprites.sketch import Sprite
+from ninja_game.play.view.sprites.sprite_book import SpriteBook
+from ninja_game.play.view.sprites.static_sprite_state import SETTLED_TICKS, Look, fixture_looks
+from ninja_game.play.view.sprites.tile_shapes import tile_picture
+from ninja_game.sim.collision.tiles import EMPTY, SHAPE
+from ninja_game.sim.level import GOLD, MINE
+from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.rules import STRIDE
+
+_COLUMNS, _ROWS = 33, 25
+
+
+class Backdrop:
+    """Background, fixtures and tiles of one level in one size. Px here count from the stage's upper left corner."""
+
+    def __init__(self, canvas: Canvas, palette: Palette, book: SpriteBook, level: Level) -> None:
+        self.canvas = canvas
+        self.palette = palette
+        self._book = book
+        self.picture = pygame.Surface(canvas.size)
+        self.tiles = pygame.Surface(canvas.size, pygame.SRCALPHA)
+        self._solid = [False] * (_COLUMNS * _ROWS)
+        self._blits: dict[int, list[tuple[Sprite, int, int]]] = {}
+        self._order: list[int] = []
+        self._rects: dict[int, pygame.Rect] = {}
+        self._moving: set[int] = set()
+        self._draw_tiles(level)
+
+    def _local(self, x: float, y: float) -> tuple[int, int]:
+        px, py = self.canvas.point(x, y)
+        return px - self.canvas.origin[0], py - self.canvas.origin[1]
+
+    def _draw_tiles(self, level: Level) -> None:
+        """Each cell into the px between its rounded edges."""
+        pictures: dict[tuple[int, int, int], pygame.Surface] = {}
+        for row in range(_ROWS):
+            for column in range(_COLUMNS):
+                tile = level.tiles[(row + 1) * STRIDE + column + 1]
+                if SHAPE[tile] == EMPTY:
+                    continue
+                left, top = self._local(24 * column, 24 * row)
+                right, bottom = self._local(24 * column + 24, 24 * row + 24)
+                key = tile, right - left, bottom - top
+                if key not in pictures:
+                    pictures[key] = tile_picture(tile, key[1:], self.palette.tile)
+                self.tiles.blit(pictures[key], (left, top))
+                self._solid[row * _COLUMNS + column] = True
+
+    def reset(self, world: World, motions: Motions) -> None:
+        """Draw all of it for a world as it is now."""
+        self._moving.clear()
+        # Walls first, then what lies before them.
+        front = {GOLD, MINE}
+        self._order = sorted(motions.fixtures, key=lambda slot: world.things[slot].kind in front)
+        self._blits.clear()
+        self._rects.clear()
+        for slot in self._order:
+            self._place(slot, fixture_looks(world, slot, motions, 1.0))
+        self._mend(self.picture.get_rect())
+
+    def _place(self, slot: int, looks: list[Look]) -> pygame.Rect:
+        """Take down and put up the drawings of a thing; the px that it covered and covers."""
+        old = self._rects.pop(slot, None)
+        blits = []
+        rect: pygame.Rect | None = None
+        for key, x, y in looks:
+            if not is_near(x, y):
+                continue
+            sprite = self._book.sprite(key)
+            px, py = self._local(x, y)
+            blits.append((sprite, px, py))
+            box = sprite.surface.get_rect(topleft=(px - sprite.ax, py - sprite.ay))
+            rect = box if rect is None else rect.union(box)
+        self._blits[slot] = blits
+        if rect is not None:
+            self._rects[slot] = rect
+        return (rect or old or pygame.Rect(0, 0, 0, 0)).union(old or rect or pygame.Rect(0, 0, 0, 0))
+
+    def _mend(self, area: pygame.Rect) -> None:
+        """Draw a part of the picture again."""
+        self.picture.set_clip(area)
+        self.picture.fill(self.palette.background)
+        for slot in self._order:
+            rect = self._rects.get(slot)
+            if rect is not None and rect.colliderect(area):
+                for sprite, px, py in self._blits[slot]:
+                    sprite.blit(self.picture, (px, py))
+        self.picture.blit(self.tiles, area, area, pygame.BLEND_PREMULTIPLIED)
+        self.picture.set_clip(None)
+
+    def update(self, world: World, motions: Motions, fraction: float) -> list[pygame.Rect]:
+        """Mend what changed since the last picture; the px that did."""
+        self._moving |= motions.changed
+        motions.changed.clear()
+        mended = []
+        for slot in list(self._moving):
+            looks = fixture_looks(world, slot, motions, fraction)
+            if motions.age(slot, fraction) > SETTLED_TICKS:
+                self._moving.discard(slot)
+            rect = self._place(slot, looks)
+            if rect.width:
+                self._mend(rect)
+                mended.append(rect)
+        return mended
+
+    def has_tile(self, area: pygame.Rect) -> bool:
+        """Whether any px of an area may be a tile's."""
+        scale = 24 * self.canvas.scale
+        first_column, last_column = max(0, int(area.left / scale)), min(_COLUMNS - 1, int(area.right / scale))
+        first_row, last_row = max(0, int(area.top / scale)), min(_ROWS - 1, int(area.bottom / scale))
+        for row in range(first_row, last_row + 1):
+            start = row * _COLUMNS
+            if True in self._solid[start + first_column : start + last_column + 1]:
+                return True
+        return False

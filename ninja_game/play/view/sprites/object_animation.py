@@ -1,0 +1,116 @@
+"""What the picture remembers of the things between ticks: where they were, since when they are as they are.
+
+Reads the world after each tick and never writes to it.
+"""
+
+from __future__ import annotations
+
+from math import atan2, pi
+
+from ninja_game.sim.level import BOUNCE_BLOCK, DOOR, DRONE, FLOOR_GUARD, LAUNCHER, NINJA, THWUMP, TURRET
+from ninja_game.sim.memory.schema import INERT, Thing, World
+from ninja_game.sim.states import DRONE_MOVE, LAUNCHER_FLIGHT
+
+MOVERS = frozenset({BOUNCE_BLOCK, THWUMP, FLOOR_GUARD, DRONE, TURRET, LAUNCHER})
+LONG_AGO = -100_000
+_JUMP = 30.0
+"""A thing that is farther away than this (px) after a tick was put there, it did not move."""
+_EYE_TURN = 0.66
+"""Share of the remaining angle that a drone's eye turns in a tick (0.3 a picture at the classic 120 a second)."""
+_DIRECTIONS = (0.0, pi / 2, pi, -pi / 2)
+
+Place = tuple[float, float]
+
+
+def state_of(o: Thing) -> tuple[int, int, int]:
+    """What must change for a thing to look different, apart from its place."""
+    return o.spent if o.kind != DRONE else o.chasing, o.routine, o.updating
+
+
+def drawn_place(o: Thing) -> Place:
+    """The place of a thing that moves; of a turret its crosshair."""
+    return (o.aim_x, o.aim_y) if o.kind == TURRET else (o.x, o.y)
+
+
+class Motions:
+    """The memory of one view. ``tick`` counts the ticks that were seen."""
+
+    def __init__(self, world: World) -> None:
+        self.reset(world)
+
+    def reset(self, world: World) -> None:
+        """Forget everything: a new run, or a jump in time."""
+        self.tick = 0
+        slots = range(1, world.used)
+        self.movers = [slot for slot in slots if world.things[slot].kind in MOVERS]
+        self.fixtures = [slot for slot in slots if world.things[slot].kind not in {NINJA, INERT}]
+        self.states = {slot: state_of(world.things[slot]) for slot in self.fixtures}
+        self.since = dict.fromkeys(self.fixtures, LONG_AGO)
+        self.changed: set[int] = set()
+        self.now = {slot: drawn_place(world.things[slot]) for slot in self.movers}
+        self.before = dict(self.now)
+        self.eyes = {slot: _gaze(world, world.things[slot]) for slot in self.movers if world.things[slot].kind == DRONE}
+        self.trails: dict[int, list[Place]] = {}
+        n = world.ninja
+        self.ninja_now = self.ninja_before = (n.x, n.y)
+
+    def ticked(self, world: World) -> None:
+        """Take note of the world after a tick."""
+        self.tick += 1
+        self.before, self.now = self.now, {}
+        for slot in self.movers:
+            o = world.things[slot]
+            self.now[slot] = drawn_place(o)
+            if o.kind == DRONE:
+                turn = (_gaze(world, o) - self.eyes[slot] + pi) % (2 * pi) - pi
+                self.eyes[slot] += _EYE_TURN * turn
+            elif o.kind == LAUNCHER:
+                self._follow_rocket(slot, o)
+        for slot in self.fixtures:
+            state = state_of(world.things[slot])
+            if state != self.states[slot]:
+                self.states[slot] = state
+                self.since[slot] = self.tick
+                self.changed.add(slot)
+        for event in world.events[: world.event_count]:
+            if event.slot in self.since and world.things[event.slot].kind not in MOVERS | {DOOR}:
+                self.since[event.slot] = self.tick
+                self.changed.add(event.slot)
+        self.ninja_before = self.ninja_now
+        self.ninja_now = world.ninja.x, world.ninja.y
+
+    def _follow_rocket(self, slot: int, o: Thing) -> None:
+        """The last places of a rocket, newest last; they fade when it is gone."""
+        trail = self.trails.setdefault(slot, [])
+        if o.routine == LAUNCHER_FLIGHT:
+            trail.append((o.x, o.y))
+        if trail and (o.routine != LAUNCHER_FLIGHT or len(trail) > 9):
+            del trail[0]
+
+    def place(self, slot: int, fraction: float) -> Place:
+        """Where to draw a thing, ``fraction`` of a tick after the last but one."""
+        x, y = self.now[slot]
+        bx, by = self.before.get(slot, (x, y))
+        if abs(x - bx) > _JUMP or abs(y - by) > _JUMP:
+            return x, y
+        return bx + (x - bx) * fraction, by + (y - by) * fraction
+
+    def ninja_place(self, fraction: float) -> Place:
+        """Where to draw the ninja."""
+        (bx, by), (x, y) = self.ninja_before, self.ninja_now
+        return bx + (x - bx) * fraction, by + (y - by) * fraction
+
+    def age(self, slot: int, fraction: float) -> float:
+        """Ticks since a thing last changed."""
+        return self.tick + fraction - 1 - self.since[slot]
+
+    def step(self, slot: int, fraction: float, frames: float) -> int:
+        """How far an animation of so many frames (120 a second, 3 a tick) has come since the change, 0…8."""
+        return max(0, min(8, int(self.age(slot, fraction) * 3 / frames * 8)))
+
+
+def _gaze(world: World, o: Thing) -> float:
+    """Where a drone looks, radians clockwise from the right: at its aim, or where it goes."""
+    if o.routine != DRONE_MOVE:
+        return atan2(world.ninja.y - o.y, world.ninja.x - o.x)
+    return _DIRECTIONS[o.direction] if 0 <= o.direction <= 3 else pi / 2

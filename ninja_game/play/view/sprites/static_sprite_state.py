@@ -1,0 +1,90 @@
+"""Which drawing shows a thing that stays in its place, in its present state."""
+
+from __future__ import annotations
+
+from math import atan2, degrees
+
+from ninja_game.play.view.sprites.object_animation import Motions
+from ninja_game.play.view.sprites.sprite_book import Key
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
+from ninja_game.sim.level import DOOR, EXIT, GOLD, LAUNCH_PAD, LAUNCHER, MINE, ONE_WAY, TURRET
+from ninja_game.sim.memory.schema import SWITCH, Thing, World
+from ninja_game.sim.states import AUTOMATIC, LAUNCHER_PREPARE, TRAP, TURRET_POST_FIRE, TURRET_PRE_FIRE
+
+Look = tuple[Key, float, float]
+"""A drawing and where its point lies, px."""
+
+_EXIT_FRAMES, _PAD_FRAMES, _LOCK_FRAMES, _TRAP_FRAMES = 30, 18, 18, 18
+_DOOR_OPENING, _DOOR_CLOSING, _AIM_FRAMES, _PREPARE_FRAMES = 15, 16, 15, 30
+LONGEST_FRAMES = 30
+SETTLED_TICKS = LONGEST_FRAMES / 3
+"""After so many ticks without change a fixture looks the same for ever."""
+
+
+def fixture_looks(world: World, slot: int, motions: Motions, fraction: float) -> list[Look]:
+    """The drawings of one thing; [] if nothing of it is fixed to the walls, or it is gone."""
+    o = world.things[slot]
+    kind = o.kind
+    if kind in {GOLD, MINE}:
+        return [] if o.spent else [(("gold" if kind == GOLD else "mine", 0, 8), o.x, o.y)]
+    if kind == EXIT:
+        step = motions.step(slot, fraction, _EXIT_FRAMES) if o.spent else 0
+        return [(("exit", 0, 8, step), o.x, o.y)]
+    if kind == SWITCH:
+        return [(("switch", 0, 8, world.things[o.partner].spent), o.x, o.y)]
+    if kind == DOOR:
+        return _door_looks(o, slot, motions, fraction)
+    if kind == LAUNCH_PAD:
+        step = 8 - motions.step(slot, fraction, _PAD_FRAMES)
+        return [(("pad", _upright(o.face_x, o.face_y), 8, step), o.x, o.y)]
+    if kind == ONE_WAY:
+        return [(("one-way", _upright(o.face_x, o.face_y), 8), o.x, o.y)]
+    if kind == TURRET:
+        return [(("turret", 0, 8, _turret_step(o, slot, motions, fraction)), o.x, o.y)]
+    if kind == LAUNCHER:
+        step = motions.step(slot, fraction, _PREPARE_FRAMES) if o.routine == LAUNCHER_PREPARE else 0
+        return [(("launcher", 0, 8, step), o.base_x, o.base_y)]
+    return []
+
+
+def _upright(face_x: float, face_y: float) -> int:
+    """Turn in degrees, by steps of 45, of a drawing whose upper side faces that way."""
+    sign_x, sign_y = (face_x > 0) - (face_x < 0), (face_y > 0) - (face_y < 0)
+    return round(degrees(atan2(sign_x, -sign_y)))
+
+
+def _turret_step(o: Thing, slot: int, motions: Motions, fraction: float) -> int:
+    if not o.updating:
+        return 0
+    if o.routine == TURRET_PRE_FIRE:
+        return motions.step(slot, fraction, _AIM_FRAMES)
+    return 8 - motions.step(slot, fraction, 9) if o.routine == TURRET_POST_FIRE else 0
+
+
+def door_place(o: Thing) -> tuple[float, float, int] | None:
+    """Middle of a door's bar, px, and its turn in degrees; None for a door that is nowhere."""
+    if not o.edge_1:
+        return None
+    cell, side = divmod(o.edge_1, 4)
+    dx, dy = ((12, 0), (0, 12), (-12, 0), (0, -12))[side]
+    return CENTRE_X[cell] + dx, CENTRE_Y[cell] + dy, 0 if dx else 90
+
+
+def _door_looks(o: Thing, slot: int, motions: Motions, fraction: float) -> list[Look]:
+    looks: list[Look] = []
+    place = door_place(o)
+    step = motions.step(slot, fraction, _door_frames(o))
+    closed = o.spent == (o.mechanism == TRAP)
+    # A trap door cannot be seen until it is sprung.
+    if place and not (o.mechanism == TRAP and not o.spent):
+        x, y, turn = place
+        looks.append((("door", turn, 8, o.mechanism, 8 - step if closed else step), x, y))
+    if o.mechanism != AUTOMATIC:
+        looks.append((("door switch", 0, 8, o.mechanism, o.spent), o.x, o.y))
+    return looks
+
+
+def _door_frames(o: Thing) -> int:
+    if o.mechanism == AUTOMATIC:
+        return _DOOR_OPENING if o.spent else _DOOR_CLOSING
+    return _TRAP_FRAMES if o.mechanism == TRAP else _LOCK_FRAMES

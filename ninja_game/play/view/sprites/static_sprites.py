@@ -1,0 +1,183 @@
+"""Drawings of what stays in its place: exits, switches, doors, pads, one-ways, bases of weapons, gold, mines.
+
+Parameters called ``step`` count from 0 (closed, resting) to 8 (open, done).
+"""
+
+from __future__ import annotations
+
+from math import cos, radians, sin
+
+from ninja_game.play.ui.palette import Palette, mixed
+from ninja_game.play.view.sprites.registry import drawing
+from ninja_game.play.view.sprites.sketch import Sketch, star
+
+
+@drawing("gold", 4.5)
+def gold(s: Sketch, p: Palette) -> None:
+    """A small bevelled ingot seen from above."""
+    s.box(p.gold_dark, -3.4, -3.4, 6.8, 6.8)
+    s.box(p.gold, -2.8, -2.8, 5.6, 5.6)
+    s.polygon(p.gold_light, [(-2.8, -2.8), (2.8, -2.8), (1.4, -1.4), (-1.4, -1.4), (-1.4, 1.4), (-2.8, 2.8)])
+    s.polygon(
+        mixed(p.gold, p.gold_dark, 0.55), [(2.8, 2.8), (-2.8, 2.8), (-1.4, 1.4), (1.4, 1.4), (1.4, -1.4), (2.8, -2.8)]
+    )
+
+
+@drawing("mine", 5.6)
+def mine(s: Sketch, p: Palette) -> None:
+    """A spiked disc."""
+    s.polygon(p.mine, star(8, 5.2 if p.shapes else 4.6, 2.5))
+    s.disc(p.mine, 0, 0, 2.9)
+    s.disc(mixed(p.mine, p.outline, 0.55), 0, 0, 1.9)
+    s.disc(p.bright, -0.6, -0.6, 0.6)
+
+
+@drawing("exit", -26, -14, 26, 14)
+def exit_door(s: Sketch, p: Palette, step: int) -> None:
+    """Two leaves before a lit doorway; they slide apart."""
+    gap = 12.4 * step / 8
+    s.box(p.outline, -12.6, -12.6, 25.2, 25.2)
+    s.box(p.exit if step else mixed(p.exit, p.outline, 0.35), -11.6, -11.6, 23.2, 23.2)
+    if step:
+        s.box(p.exit_light, -7.5 * step / 8, -11.6, 15 * step / 8, 23.2)
+        s.polygon(p.bright, [(-4.2, -1), (0, -6.2), (4.2, -1), (1.6, -1), (1.6, 5), (-1.6, 5), (-1.6, -1)])
+    for side in (-1, 1):
+        x = side * gap + (-12.1 if side < 0 else 0)
+        s.framed_box(p.light, p.outline, x, -12.1, 12.1, 24.2)
+        s.box(p.bright, x + 1.8, -10.2, 8.5, 1.2)
+        s.framed_box(p.middle, p.dark, x + 2.6, -7.4, 6.9, 14.8, 0.7)
+        s.box(p.exit, x + (8.9 if side < 0 else 1.5), -2.5, 1.7, 5)
+
+
+@drawing("switch", 8)
+def exit_switch(s: Sketch, p: Palette, pressed: int) -> None:
+    """A small panel with a key: lit until it is pressed."""
+    s.framed_box(p.dark if pressed else p.light, p.outline, -6.2, -3.9, 12.4, 7.8)
+    s.framed_box(p.middle if pressed else p.exit, p.outline, -4.2, -2.1, 8.4, 4.2, 0.7)
+    if not pressed:
+        s.box(p.exit_light, -3.2, -1.3, 6.4, 1.1)
+
+
+@drawing("door", 14)
+def door(s: Sketch, p: Palette, mechanism: int, step: int) -> None:
+    """A bar across x = 0 from y -12 to 12; ``step``: how far its halves have shrunk into stubs."""
+    half = 12 - 9 * step / 8
+    width, fill = ((1.5, p.dark), (2.4, p.lock), (3.2, p.trap))[mechanism]
+    for side in (-1, 1):
+        top = -12 if side < 0 else 12 - half
+        s.framed_box(fill, p.outline, -width, top, 2 * width, half, 0.7)
+        s.framed_box(p.light, p.outline, -width - 1.1, -12 if side < 0 else 9.6, 2 * width + 2.2, 2.4, 0.6)
+    if mechanism == 0:
+        for side in (-1, 1):
+            edge = side * (12 - half)
+            s.box(p.good, -0.6, edge - (0 if side > 0 else 2.6), 1.2, 2.6)
+    elif mechanism == 1 and step == 0:
+        s.framed_box(p.gold_light, p.outline, -4, -3.6, 8, 7.2)
+        s.disc(p.outline, 0, -0.8, 1.2)
+        s.polygon(p.outline, [(-0.5, -0.5), (0.5, -0.5), (0.9, 2.2), (-0.9, 2.2)])
+    elif mechanism == 2:
+        for y in range(-8, 9, 4):
+            s.polygon(
+                p.bright if not p.shapes else p.outline,
+                [(-2.4, y - 1.4), (2.4, y + 0.6), (2.4, y + 1.8), (-2.4, y - 0.2)],
+            )
+
+
+@drawing("door switch", 6.5)
+def door_switch(s: Sketch, p: Palette, mechanism: int, used: int) -> None:
+    """A key plate (locked doors) or a snare (trap doors)."""
+    if mechanism == 1:
+        s.framed_box(p.middle if used else p.gold_light, p.outline, -4, -4, 8, 8)
+        s.ring(p.dark if used else p.outline, -1, 0, 1.9, 0.9)
+        s.stroke(p.dark if used else p.outline, (0.7, 0), (3, 0), 0.9)
+        s.stroke(p.dark if used else p.outline, (2.6, 0), (2.6, 1.6), 0.9)
+    else:
+        s.framed_box(p.middle if used else p.trap, p.outline, -3, -3, 6, 6, 0.8)
+        if not used:
+            s.stroke(p.bright, (-1.2, -1.2), (1.2, 1.2), 0.8)
+            s.stroke(p.bright, (-1.2, 1.2), (1.2, -1.2), 0.8)
+
+
+@drawing("pad", -9.5, -12, 9.5, 3)
+def launch_pad(s: Sketch, p: Palette, step: int) -> None:
+    """A spring plate lying on the surface at its point; ``step`` 8: just sprung, 0: settled."""
+    top = -4.6 - 4.5 * step / 8
+    flash = mixed(p.light, p.bright, step / 8)
+    s.polygon(p.dark, [(-5.5, 0), (5.5, 0), (4, top + 2.4), (-4, top + 2.4)])
+    s.stroke(p.outline, (-3.6, -0.4), (3.6, top + 3), 0.7)
+    s.stroke(p.outline, (3.6, -0.4), (-3.6, top + 3), 0.7)
+    s.framed_box(flash, p.outline, -7.6, top, 15.2, 3, 0.7)
+    chevron = [(-2.6, 0.7), (0, -0.7), (2.6, 0.7), (2.6, 1.6), (0, 0.2), (-2.6, 1.6)]
+    s.polygon(p.good, [(x, y + top + 1.2) for x, y in chevron])
+    s.box(p.outline, -7.6, -0.7, 15.2, 0.9)
+
+
+@drawing("one-way", 13)
+def one_way(s: Sketch, p: Palette) -> None:
+    """A bar on the side that carries, here the upper one, with teeth that show the way through."""
+    s.framed_box(p.light, p.outline, -12, -12, 24, 3.4, 0.7)
+    for x in (-8, 0, 8):
+        s.polygon(p.dark, [(x - 3, -6.2), (x, -8.8), (x + 3, -6.2), (x + 1.8, -6.2), (x, -7.6), (x - 1.8, -6.2)])
+
+
+@drawing("turret", 7)
+def turret_base(s: Sketch, p: Palette, step: int) -> None:
+    """A round base; its dot grows before the shot."""
+    s.disc(p.outline, 0, 0, 6.3)
+    s.disc(p.turret, 0, 0, 5.4)
+    s.disc(mixed(p.turret, p.outline, 0.5), 0, 0, 3.7)
+    s.disc(p.bright if step else p.warning, 0, 0, 1.1 + 2.2 * step / 8)
+    if p.shapes:
+        for angle in (45, 135, 225, 315):
+            a = radians(angle)
+            s.stroke(p.outline, (4.2 * cos(a), 4.2 * sin(a)), (6.6 * cos(a), 6.6 * sin(a)), 1.4)
+
+
+@drawing("launcher", 7)
+def launcher_base(s: Sketch, p: Palette, step: int) -> None:
+    """A round base with a rocket's head in its tube; it glows while the rocket is prepared."""
+    s.disc(p.outline, 0, 0, 6.3)
+    s.disc(p.launcher, 0, 0, 5.4)
+    s.disc(mixed(p.launcher, p.outline, 0.6), 0, 0, 3.6)
+    glow = mixed(p.middle, p.flame, step / 8)
+    s.polygon(glow, [(-1.9, 2.2), (-1.9, -0.6), (0, -3.1), (1.9, -0.6), (1.9, 2.2)])
+    for angle in (30, 150, 270):
+        a = radians(angle)
+        s.disc(p.light, 4.6 * cos(a), 4.6 * sin(a), 0.7)
+
+
+@drawing("crosshair", 9)
+def crosshair(s: Sketch, p: Palette, look: int) -> None:
+    """``look``: 0 far, 1 mid, 2 near, 3 locked (before and after the shot)."""
+    radius = (2.3, 4.5, 6.8, 6.8)[look]
+    colour = mixed(p.outline, p.turret, 0.4) if look < 3 else p.laser
+    s_width = 0.8 if look < 3 else 1.1
+    if look == 0:
+        s.stroke(colour, (-radius, 0), (radius, 0), s_width)
+        s.stroke(colour, (0, -radius), (0, radius), s_width)
+        return
+    s.ring(colour, 0, 0, radius * 0.72, s_width)
+    for angle in (0, 90, 180, 270):
+        a = radians(angle)
+        s.stroke(colour, (radius * 0.45 * cos(a), radius * 0.45 * sin(a)), (radius * cos(a), radius * sin(a)), s_width)
+    if look == 3:
+        s.disc(p.laser, 0, 0, 1.3)
+
+
+@drawing("streak", -5, -38, 5, 6)
+def gold_streak(s: Sketch, p: Palette, step: int) -> None:
+    """Collected gold: squeezed into a streak that shoots up."""
+    t = step / 8
+    width = max(0.35, 3.2 * (1 - t) ** 2)
+    top, bottom = -34 * t**0.7, 3 - 33 * t
+    s.polygon(p.gold, [(-width, bottom), (0, top - 3), (width, bottom), (0, bottom + 2)])
+    s.polygon(p.gold_light, [(-width * 0.5, bottom), (0, top - 2), (width * 0.5, bottom)])
+
+
+@drawing("lightning", -20, -8, 20, 8)
+def lightning(s: Sketch, p: Palette, variant: int) -> None:
+    """A jagged flash along x."""
+    zigzag = ((0, 3, -4, 2, -2, 0), (0, -4, 3, -3, 4, 0), (0, 5, -1, 3, -5, 0))[variant]
+    points = [(-18 + 7.2 * k, y * 1.0) for k, y in enumerate(zigzag)]
+    s.path(p.electric, points, 2.2)
+    s.path(p.spark, points, 1.0)

@@ -1,0 +1,53 @@
+"""Small pictures of levels for lists."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import pygame
+
+from ninja_game.errors import LevelError
+from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
+from ninja_game.play.ui.palette import PALETTES, Palette
+from ninja_game.play.view.ninja.figure import ninja_sprite
+from ninja_game.play.view.ninja.pose import STAND
+from ninja_game.play.view.sprites.backdrop import Backdrop
+from ninja_game.play.view.sprites.draw_moving import draw_movers
+from ninja_game.play.view.sprites.draw_target import Stage
+from ninja_game.play.view.sprites.object_animation import Motions
+from ninja_game.play.view.sprites.sprite_book import SpriteBook
+from ninja_game.sim.level import LevelData
+from ninja_game.sim.loader import grid_tiles
+from ninja_game.sim.memory.schema import Level
+from ninja_game.simulation import Simulation
+
+
+@lru_cache(maxsize=8)
+def _book(scale: float, palette: str) -> SpriteBook:
+    """Thumbnails of one size share their drawings."""
+    return SpriteBook(scale, PALETTES[palette])
+
+
+def thumbnail(level: LevelData, palette: Palette, width: int) -> pygame.Surface:
+    """The level at its start, ``width`` px wide; only the tiles of one that cannot be played."""
+    canvas = Canvas((width, max(1, round(width * HEIGHT / WIDTH))))
+    book = _book(canvas.scale, palette.name)
+    try:
+        run = Simulation(level)
+    except LevelError:
+        static = Level()
+        static.tiles = grid_tiles(level)
+        picture = pygame.Surface(canvas.size)
+        picture.fill(palette.background)
+        picture.blit(Backdrop(canvas, palette, book, static).tiles, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
+        return picture
+    motions = Motions(run.world)
+    backdrop = Backdrop(canvas, palette, book, run.static)
+    backdrop.reset(run.world, motions)
+    stage = Stage(canvas, palette, book)
+    stage.begin(backdrop.picture)
+    draw_movers(stage, run.world, motions, 1.0)
+    n = run.world.ninja
+    stage.picture(ninja_sprite(canvas.scale, palette, STAND, 1, (0.0, 0.0), colour=palette.ninja), n.x, n.y)
+    backdrop.picture.blit(backdrop.tiles, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
+    return backdrop.picture

@@ -1,0 +1,74 @@
+"""The 34 tile shapes as pictures: each cell is drawn into its own whole px, so neighbours meet without seams."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+import pygame
+
+from ninja_game.play.ui.canvas import Point
+from ninja_game.play.view.sprites.sketch import FINE
+from ninja_game.sim.collision.tiles import (
+    CONCAVE,
+    CONVEX,
+    EMPTY,
+    FULL,
+    HALF_TILE,
+    S_X,
+    S_Y,
+    SHAPE,
+    SIGN_X,
+    SIGN_Y,
+    T_X,
+    T_Y,
+    UNDEFINED,
+)
+
+H = 12.0
+_ARC_STEPS = 24
+
+
+def outline(tile: int) -> list[Point]:
+    """The corners of a tile's solid part, px from its cell's centre; [] for an empty one.
+
+    >>> outline(2)
+    [(-12.0, 12.0), (-12.0, -12.0), (12.0, 12.0)]
+    """
+    shape = SHAPE[tile]
+    if shape in {EMPTY, UNDEFINED}:
+        return []
+    if shape == FULL:
+        return [(-H, -H), (H, -H), (H, H), (-H, H)]
+    sx, sy = SIGN_X[tile], SIGN_Y[tile]
+    if shape == HALF_TILE:
+        # The half against the open side: cut the square at its middle.
+        left, right = (-H if sx >= 0 else 0.0), (H if sx <= 0 else 0.0)
+        top, bottom = (-H if sy >= 0 else 0.0), (H if sy <= 0 else 0.0)
+        return [(left, top), (right, top), (right, bottom), (left, bottom)]
+    corner = (-H * sx, -H * sy)
+    if shape in {CONCAVE, CONVEX}:
+        # A quarter of a circle about the open (concave) or the solid corner, from one end of the surface to the other.
+        about = 1.0 if shape == CONCAVE else -1.0
+        quarter = [pi / 2 * k / _ARC_STEPS for k in range(_ARC_STEPS + 1)]
+        return [
+            corner,
+            *(((about - about * 2 * sin(a)) * sx * H, (about - about * 2 * cos(a)) * sy * H) for a in quarter),
+        ]
+    points = [corner, (T_X[tile], T_Y[tile]), (S_X[tile], S_Y[tile])]
+    # The thick wedges reach a second corner of the cell, next to the end of the surface that is in a side's middle.
+    if T_X[tile] == 0.0:
+        points.insert(1, (-H * sx, H * sy))
+    if S_Y[tile] == 0.0:
+        points.append((H * sx, -H * sy))
+    return points
+
+
+def tile_picture(tile: int, size: tuple[int, int], colour: pygame.Color) -> pygame.Surface:
+    """A tile in a cell of that many px, premultiplied."""
+    fine = pygame.Surface((size[0] * FINE, size[1] * FINE), pygame.SRCALPHA)
+    # Drawing includes the px of the last corner: half a fine px less keeps the shape inside its cell.
+    wide, high = size[0] * FINE, size[1] * FINE
+    corners = [((x + H) / 24 * wide, (y + H) / 24 * high) for x, y in outline(tile)]
+    if len(corners) > 2:
+        pygame.draw.polygon(fine, colour, [(min(x, wide - 0.5), min(y, high - 0.5)) for x, y in corners])
+    return pygame.transform.smoothscale(fine, size)

@@ -1,0 +1,1 @@
+"""What a player does and owns: attempts, records, progress, settings."""

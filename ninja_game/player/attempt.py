@@ -1,0 +1,141 @@
+"""One try at a level: inputs recorded and played, the lifetime counted, the score taken (game.md §1-§4)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ninja_game.formats.replay.text import Replay
+from ninja_game.player.scoring import level_score
+from ninja_game.sim.death import kill
+from ninja_game.sim.inputs import HELD, MAX_FRAMES, TRIGGERED, Demo
+from ninja_game.sim.level import LevelData
+from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
+from ninja_game.sim.states import CELEBRATING, DEAD, EXPLOSIVE, FALL, HARD_BULLET
+from ninja_game.simulation import Body, SaveState, Simulation
+
+Moment = tuple[SaveState, bytes, int, int]
+"""A save-state with the recording, the lifetime and the tick of the end."""
+
+
+class Attempt:
+    """One try at a level, from its start to the exit, to death, or to giving up.
+
+    ``lifetime``: ticks left, which gold adds to. ``frames``: the recording, one byte a tick. ``score``: ticks, taken at
+    the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``practised``: tools
+    were used (or it is practice), so it is no record.
+    """
+
+    def __init__(
+        self, level: LevelData, *, body: Body = "circle", lifetime: int = LIFETIME, practice: bool = False
+    ) -> None:
+        self.simulation = Simulation(level, body=body)
+        self.start_lifetime = lifetime
+        self.practice = practice
+        self.restart()
+
+    def restart(self) -> None:
+        """Back to the level's start."""
+        self.simulation.reset()
+        self.lifetime = self.start_lifetime
+        self.frames = bytearray()
+        self.score = 0
+        self.ended_tick = -1
+        self.own_hand = False
+        self.practised = self.practice
+
+    @property
+    def outcome(self) -> str:
+        """What came first: "exit", "dead" or, so far, "running"."""
+        return self.simulation.outcome
+
+    @property
+    def gold(self) -> int:
+        """Pieces of gold collected."""
+        return self.simulation.gold
+
+    def tick(self, held: int) -> None:
+        """Run one tick with what is held: 1 left + 2 right + 4 jump."""
+        world = self.simulation.world
+        was_held = world.ninja.held
+        gold = world.gold
+        running = world.outcome == 0
+        frame = held & 7
+        if frame & HELD and not was_held:
+            frame |= TRIGGERED
+        self.simulation.step_frame(frame)
+        # The input is sampled after all physics of the tick, and only by a ninja that lives and is not celebrating.
+        if world.ninja.state not in {DEAD, CELEBRATING} and running:
+            self.frames.append(frame)
+        if running:
+            self._count(world, gold)
+
+    def _count(self, world: Any, gold: int) -> None:
+        """Gold, score and lifetime of a tick."""
+        self.lifetime += GOLD_BONUS * (world.gold - gold)
+        if world.outcome != 0:
+            self.ended_tick = world.tick - 1
+            # The score is taken inside the tick of the exit contact, before its lifetime step.
+            self.score = level_score(world.gold, self.ended_tick)
+        elif not self.practice:
+            self.lifetime -= 1
+
+    def check_time(self) -> None:
+        """Kill a ninja whose lifetime is over: asked once per picture, after its ticks."""
+        if self.lifetime <= 0 and not self.practice and self.outcome == "running":
+            self._kill(FALL, 0.0, 0.0)
+
+    def give_up(self, chance: float, dx: float, dy: float) -> None:
+        """The suicide key: ``chance`` (0…1) below 0.3 explodes; (dx, dy) is the corpse's impulse."""
+        if self.outcome == "running":
+            self.own_hand = True
+            self._kill(EXPLOSIVE if chance < 0.3 else HARD_BULLET, dx, dy)
+
+    def _kill(self, kind: int, dx: float, dy: float) -> None:
+        world = self.simulation.world
+        kill(world, kind, dx, dy, world.ninja.x, world.ninja.y)
+        self.ended_tick = world.tick
+
+    # --- practice ---
+
+    def save(self) -> Moment:
+        """This moment, to come back to."""
+        return self.simulation.save(), bytes(self.frames), self.lifetime, self.ended_tick
+
+    def restore(self, moment: Moment) -> None:
+        """Go back to a saved moment."""
+        state, frames, self.lifetime, self.ended_tick = moment
+        self.simulation.restore(state)
+        self.frames[:] = frames
+        self.score = level_score(self.gold, self.ended_tick) if self.outcome == "exit" else 0
+        self.practised = True
+
+    def rewound(self) -> None:
+        """Take note that the simulation was put back to an earlier tick of this recording."""
+        tick = self.simulation.tick
+        ended = self.outcome != "running"
+        del self.frames[tick:]
+        self.lifetime = self.start_lifetime + GOLD_BONUS * self.gold
+        if not self.practice:
+            self.lifetime -= self.ended_tick if ended else tick
+        if not ended:
+            # After a death by the player's own hand ticks went on without input.
+            self.frames.extend(bytes(tick - len(self.frames)))
+            self.ended_tick, self.score, self.own_hand = -1, 0, False
+        self.practised = True
+
+    # --- recordings ---
+
+    def demo(self) -> Demo:
+        """The recording in N's form: of a death, or of more than N records, it claims one frame less (game.md §4)."""
+        frames = bytes(self.frames[:MAX_FRAMES])
+        closed = self.outcome == "dead" or len(self.frames) > MAX_FRAMES
+        return Demo(frames, max(0, len(frames) - closed))
+
+    def replay(self, name: str = "", author: str = "") -> Replay:
+        """The recording in our form: run again from its inputs, so that it holds what really comes of them."""
+        # It imports NumPy, which playing does without.
+        from ninja_game.runs.run import record_replay
+
+        ticks = max(1, len(self.frames) + (self.outcome != "running"))
+        level, body = self.simulation.level, self.simulation.body
+        return record_replay(level, bytes(self.frames), ticks=ticks, body=body, name=name, author=author)

@@ -1,0 +1,89 @@
+"""Everything the game keeps for its player, opened together: settings, records, progress, statistics, levels."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from pathlib import Path
+
+from ninja_game.files.user_folder import LEVELS, RECORDS, REPLAYS, SETTINGS, make_user_folder, user_folder
+from ninja_game.player.catalogue import Catalogue
+from ninja_game.player.progress import Progress
+from ninja_game.player.records import Records
+from ninja_game.player.settings import Settings
+from ninja_game.player.settings_file import read_settings, write_settings
+from ninja_game.player.statistics import Statistics
+from ninja_game.player.store import Store, open_store
+from ninja_game.player.unlocks import complete_columns
+
+
+class PlayerData:
+    """The player's data in one folder. ``messages``: what the player should be told about the opening.
+
+    Nothing that is wrong with the folder or its files keeps the game from starting.
+    """
+
+    def __init__(self, folder: Path | None = None) -> None:
+        self.folder = user_folder() if folder is None else folder
+        self.messages: list[str] = []
+        try:
+            make_user_folder(self.folder)
+        except OSError as error:
+            self.messages.append(f"{self.folder} cannot be made ({error.strerror}).")
+        self.settings, messages = read_settings(self.folder / SETTINGS)
+        self.messages += messages
+        self.catalogue = Catalogue(self.folder / LEVELS)
+
+    @cached_property
+    def store(self) -> Store:
+        """The database, opened when it is first needed."""
+        store = open_store(self.folder / RECORDS)
+        self.messages += store.messages
+        return store
+
+    def open_records(self) -> None:
+        """Open the database now, so that ``messages`` says what is wrong with it before anyone needs it."""
+        assert self.store  # noqa: S101 - opening is what asking does
+
+    @cached_property
+    def records(self) -> Records:
+        """Personal bests and replays."""
+        return Records(self.store)
+
+    @cached_property
+    def progress(self) -> Progress:
+        """How far the player has come."""
+        return Progress(self.store)
+
+    @cached_property
+    def statistics(self) -> Statistics:
+        """Deaths and time played."""
+        return Statistics(self.store)
+
+    @property
+    def replay_folder(self) -> Path:
+        """Where replay files of the player's are."""
+        return self.folder / REPLAYS
+
+    @property
+    def columns_complete(self) -> int:
+        """How many columns of episodes are complete."""
+        return complete_columns(self.progress, self.catalogue.episodes.keys())
+
+    @property
+    def columns_present(self) -> int:
+        """How many columns have episodes."""
+        return len({episode.column for episode in self.catalogue.episodes.values()})
+
+    def change_settings(self, settings: Settings) -> str:
+        """Take and save settings; a message if they could not be saved, else ''."""
+        self.settings = settings
+        try:
+            write_settings(settings, self.folder / SETTINGS)
+        except OSError as error:
+            return f"The settings could not be saved ({error.strerror})."
+        return ""
+
+    def close(self) -> None:
+        """Close the database, if it was opened."""
+        if "store" in self.__dict__:
+            self.store.close()

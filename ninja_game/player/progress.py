@@ -1,0 +1,84 @@
+"""How far the player has come: ten columns of ten episodes, each episode five levels (game.md §2.1)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ninja_game.player.store import Store
+
+COLUMNS = 10
+EPISODES_PER_COLUMN = 10
+LEVELS_PER_EPISODE = 5
+
+UNLOCKED, CHEATED, LOCKED = "unlocked", "cheated", "locked"
+
+Place = tuple[int, int]
+"""Episode number (0 to 99) and level in it (0 to 4)."""
+
+
+@dataclass(frozen=True)
+class ColumnProgress:
+    """The farthest place of a column that was reached, and the farthest that was reached legitimately."""
+
+    reached: Place
+    beaten: Place
+
+
+class Progress:
+    """Progress in a store; it is read once and written whenever it grows."""
+
+    def __init__(self, store: Store) -> None:
+        self.store = store
+        self.columns = [ColumnProgress(*[(c * EPISODES_PER_COLUMN, 0)] * 2) for c in range(COLUMNS)]
+        for column, *numbers in store.connection.execute("SELECT * FROM progress WHERE grid_column BETWEEN 0 AND 9"):
+            self.columns[column] = ColumnProgress((numbers[0], numbers[1]), (numbers[2], numbers[3]))
+
+    def state(self, episode: int) -> str:
+        """Whether an episode is unlocked, "cheated" (only reached in practice and the like), or locked."""
+        column = self.columns[episode // EPISODES_PER_COLUMN]
+        if episode <= column.beaten[0]:
+            return UNLOCKED
+        return CHEATED if episode <= column.reached[0] else LOCKED
+
+    def is_beaten(self, episode: int) -> bool:
+        """Whether an episode was passed legitimately; the tenth of a column counts once its last level is reached."""
+        beaten = self.columns[episode // EPISODES_PER_COLUMN].beaten
+        return beaten[0] > episode or (_ends_column(episode) and beaten >= (episode, LEVELS_PER_EPISODE - 1))
+
+    def level_passed(self, place: Place, *, levels: int = LEVELS_PER_EPISODE, legitimate: bool) -> None:
+        """A level of an episode has been passed: move "reached", and "beaten" too if it was legitimate.
+
+        ``levels``: how many the episode has. Returns when it is saved.
+        """
+        episode, level = place
+        if level < levels - 1:
+            goal = (episode, level + 1)
+        elif _ends_column(episode):
+            return
+        else:
+            goal = (episode + 1, 0)
+        number = episode // EPISODES_PER_COLUMN
+        before = self.columns[number]
+        reached = _advanced(before.reached, episode, goal)
+        beaten = _advanced(before.beaten, episode, goal) if legitimate else before.beaten
+        if (after := ColumnProgress(reached, beaten)) == before:
+            return
+        with self.store.change() as db:
+            db.execute("REPLACE INTO progress VALUES (?, ?, ?, ?, ?)", (number, *after.reached, *after.beaten))
+        self.columns[number] = after
+
+
+def _ends_column(episode: int) -> bool:
+    """Whether an episode is the tenth of its column."""
+    return episode % EPISODES_PER_COLUMN == EPISODES_PER_COLUMN - 1
+
+
+def _advanced(present: Place, episode: int, goal: Place) -> Place:
+    """The farther of two places. Within an episode only from that episode: later levels of earlier ones change nothing.
+
+    >>> _advanced((0, 2), 0, (0, 3)), _advanced((3, 0), 0, (0, 3)), _advanced((0, 1), 0, (1, 0))
+    ((0, 3), (3, 0), (1, 0))
+    """
+    if goal[0] == episode and present[0] != episode:
+        return present
+    return max(present, goal)

@@ -1,0 +1,1 @@
+"""Whole runs: what came of them, traces, verification, measurements."""

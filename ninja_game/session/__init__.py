@@ -1,1 +1,0 @@
-"""What is above one world: runs that are verified, traced and compared."""

@@ -1,0 +1,1 @@
+"""The ninja's body against the tiles, and rays through the grid."""

@@ -1,0 +1,234 @@
+"""AABB against the tile map: the same stages as the circle, with a box's own corner rules (world.md §5)."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from ninja_game.sim.arithmetic import div
+from ninja_game.sim.collision.circle_contacts import AXIS, NONE, SHAPED
+from ninja_game.sim.collision.tiles import (
+    ANCHOR_X,
+    ANCHOR_Y,
+    CENTRE_X,
+    CENTRE_Y,
+    CONCAVE,
+    CONVEX,
+    EMPTY,
+    FULL,
+    NORMAL_X,
+    NORMAL_Y,
+    SHAPE,
+    SIGN_X,
+    SIGN_Y,
+    THIN_22,
+    THIN_67,
+    UNDEFINED,
+)
+from ninja_game.sim.grid import cell_at
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.ninja.contact_response import push_from_tile
+from ninja_game.sim.rules import CELL, DOWN, HALF, LEFT, OFF, RADIUS, RIGHT, SOLID, STRIDE, UP
+
+BOX_HALF = RADIUS
+"""Half width and half height of the ninja as a box, px."""
+
+
+@fast
+def collide_box(level: Level, w: World) -> None:
+    """Push the ninja's box out of the tiles and solid edges that it touches."""
+    n = w.ninja
+    cell = cell_at(n.x, n.y)
+    if cell == 0:
+        return
+    tiles = level.tiles
+    edges = w.edges
+    cx = CENTRE_X[cell]
+    cy = CENTRE_Y[cell]
+    if tiles[cell]:
+        own(w, tiles[cell], cx, cy)
+
+    dy = n.y - cy
+    oy = (abs(dy) + BOX_HALF) - HALF
+    side_v = UP if dy < 0.0 else DOWN
+    hy = 1.0 if dy < 0.0 else -1.0
+    edge_v = edges[4 * cell + side_v]
+    kind_v = NONE
+    if oy > 0.0:
+        if edge_v == SOLID:
+            push_from_tile(w, 0.0, oy * hy, 0.0, hy)
+            kind_v = AXIS
+        elif edge_v != OFF:
+            neighbour = cell - STRIDE if side_v == UP else cell + STRIDE
+            kind_v = narrow(w, tiles[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], 0.0, oy * hy)
+
+    dx = n.x - cx
+    ox = (abs(dx) + BOX_HALF) - HALF
+    side_h = LEFT if dx < 0.0 else RIGHT
+    hx = 1.0 if dx < 0.0 else -1.0
+    edge_h = edges[4 * cell + side_h]
+    kind_h = NONE
+    if ox > 0.0:
+        if edge_h == SOLID:
+            push_from_tile(w, ox * hx, 0.0, hx, 0.0)
+            kind_h = AXIS
+        elif edge_h != OFF:
+            neighbour = cell - 1 if side_h == LEFT else cell + 1
+            kind_h = narrow(w, tiles[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], ox * hx, 0.0)
+
+    if oy > 0.0 and ox > 0.0 and kind_v != AXIS and kind_h != AXIS:
+        collide_corner(level, w, cell, edge_h, edge_v, ox * hx, hx, oy * hy, hy)
+
+
+@fast
+def collide_corner(
+    level: Level, w: World, cell: int, edge_h: int, edge_v: int, push_h: float, hx: float, push_v: float, hy: float
+) -> None:
+    """The diagonal stage. ``push_h`` and ``push_v`` are the reports of the sides as they would be on solid edges.
+
+    There is no test that the renewed overlaps are still positive: a box that a slope has pushed clear is pulled back.
+    """
+    n = w.ninja
+    dx = n.x - CENTRE_X[cell]
+    dy = n.y - CENTRE_Y[cell]
+    ox = (abs(dx) + BOX_HALF) - HALF
+    oy = (abs(dy) + BOX_HALF) - HALF
+    corner = 0
+    if dx != 0.0 and dy != 0.0:
+        side_h = LEFT if dx < 0.0 else RIGHT
+        side_v = UP if dy < 0.0 else DOWN
+        beside = cell - 1 if dx < 0.0 else cell + 1
+        above = cell - STRIDE if dy < 0.0 else cell + STRIDE
+        corner = above + (beside - cell)
+        edge_h = w.edges[4 * above + side_h]
+        edge_v = w.edges[4 * beside + side_v]
+    if ox < oy:
+        a = ox if dx < 0.0 else -ox
+        b = 0.0
+        mx = 1.0 if dx < 0.0 else -1.0
+        my = 0.0
+    else:
+        a = 0.0
+        b = oy if dy < 0.0 else -oy
+        mx = 0.0
+        my = 1.0 if dy < 0.0 else -1.0
+    if edge_h == SOLID and edge_v == SOLID:
+        push_from_tile(w, a, b, mx, my)
+        return
+    if edge_h == OFF and edge_v == SOLID:
+        push_from_tile(w, 0.0, push_v, 0.0, hy)
+        return
+    if edge_h == SOLID and edge_v == OFF:
+        push_from_tile(w, push_h, 0.0, hx, 0.0)
+        return
+    if edge_h == OFF and edge_v == OFF:
+        return
+    if narrow(w, level.tiles[corner], CENTRE_X[corner], CENTRE_Y[corner], a, b) == NONE:
+        if edge_v == SOLID:
+            push_from_tile(w, 0.0, push_v, 0.0, hy)
+        elif edge_h == SOLID:
+            push_from_tile(w, push_h, 0.0, hx, 0.0)
+
+
+@fast
+def own(w: World, tile: int, cx: float, cy: float) -> None:
+    """The tile of the cell that holds the body's centre: the candidate is the shortest way out of the cell."""
+    dx = w.ninja.x - cx
+    dy = w.ninja.y - cy
+    ox = (HALF + BOX_HALF) - abs(dx)
+    oy = (HALF + BOX_HALF) - abs(dy)
+    if ox < oy:
+        narrow(w, tile, cx, cy, -ox if dx < 0.0 else ox, 0.0)
+    else:
+        narrow(w, tile, cx, cy, 0.0, -oy if dy < 0.0 else oy)
+
+
+@fast
+def axis(w: World, a: float, b: float) -> int:
+    """AX: the candidate itself."""
+    m = sqrt(a * a + b * b)
+    push_from_tile(w, a, b, div(a, m), div(b, m))
+    return AXIS
+
+
+@fast
+def narrow(w: World, tile: int, cx: float, cy: float, a: float, b: float) -> int:
+    """The box against one tile with the candidate push (a, b); tells the kind of contact."""
+    shape = SHAPE[tile]
+    if shape == EMPTY or shape == UNDEFINED:
+        return NONE
+    if shape == FULL:
+        return axis(w, a, b)
+    sx = SIGN_X[tile]
+    sy = SIGN_Y[tile]
+    kx = w.ninja.x - sx * BOX_HALF
+    ky = w.ninja.y - sy * BOX_HALF
+    m = sqrt(a * a + b * b)
+    if shape == CONCAVE:
+        dx = (cx + sx * HALF) - kx
+        dy = (cy + sy * HALF) - ky
+        length = sqrt(dx * dx + dy * dy)
+        return arc(w, dx, dy, length, length - CELL, a, b, m)
+    if shape == CONVEX:
+        dx = kx - (cx - sx * HALF)
+        dy = ky - (cy - sy * HALF)
+        if sx * dx < 0.0 or sy * dy < 0.0:
+            return axis(w, a, b)
+        length = sqrt(dx * dx + dy * dy)
+        depth = CELL - length
+        if depth > 0.0:
+            dx = div(dx, length)
+            dy = div(dy, length)
+            push_from_tile(w, dx * depth, dy * depth, dx, dy)
+            return SHAPED
+        return NONE
+    nx = NORMAL_X[tile]
+    ny = NORMAL_Y[tile]
+    depth = (kx - (cx + ANCHOR_X[tile])) * nx + (ky - (cy + ANCHOR_Y[tile])) * ny
+    if shape == THIN_22:
+        gap = cy - ky
+        if gap * sy > 0.0 and depth < 0.0:
+            return thin(w, depth, nx, ny, 0.0, gap, a, b, m)
+        return NONE
+    if shape == THIN_67:
+        gap = cx - kx
+        if gap * sx > 0.0 and depth < 0.0:
+            return thin(w, depth, nx, ny, gap, 0.0, a, b, m)
+        return NONE
+    if depth < 0.0:
+        qx = nx * (-depth)
+        qy = ny * (-depth)
+        if m < sqrt(qx * qx + qy * qy):
+            return axis(w, a, b)
+        push_from_tile(w, qx, qy, nx, ny)
+        return SHAPED
+    return NONE
+
+
+@fast
+def thin(w: World, depth: float, nx: float, ny: float, gap_x: float, gap_y: float, a: float, b: float, m: float) -> int:
+    """A thin wedge: out over its flat side (the gap), along the candidate, or along its normal - whichever is least."""
+    qx = nx * (-depth)
+    qy = ny * (-depth)
+    q = sqrt(qx * qx + qy * qy)
+    gap = abs(gap_x + gap_y)
+    if gap < (m if m < q else q):
+        push_from_tile(w, gap_x, gap_y, gap_x / gap, gap_y / gap)
+        return SHAPED
+    if m < q:
+        return axis(w, a, b)
+    push_from_tile(w, qx, qy, nx, ny)
+    return SHAPED
+
+
+@fast
+def arc(w: World, dx: float, dy: float, length: float, depth: float, a: float, b: float, m: float) -> int:
+    """The hollow arc of a concave tile."""
+    if depth > 0.0:
+        if m < depth:
+            return axis(w, a, b)
+        dx = dx / length
+        dy = dy / length
+        push_from_tile(w, dx * depth, dy * depth, dx, dy)
+        return SHAPED
+    return NONE

@@ -1,0 +1,79 @@
+"""Circle against the tile map: at most four touched cells, edges first, shapes only where an edge is interesting.
+
+World page §4. The order own, vertical, horizontal, diagonal is fixed, each contact moves the body at once, and there is
+exactly one pass. (hx, hy) always points from the neighbour to the body.
+"""
+
+from __future__ import annotations
+
+from ninja_game.sim.collision.circle_contacts import AXIS, NONE, point
+from ninja_game.sim.collision.circle_neighbours import diagonal, horizontal, vertical
+from ninja_game.sim.collision.circle_own_tile import own
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
+from ninja_game.sim.grid import cell_at
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.ninja.contact_response import push_from_tile
+from ninja_game.sim.rules import DOWN, HALF, LEFT, OFF, RADIUS, RIGHT, ROOT2, SOLID, STRIDE, UP
+
+
+@fast
+def collide_circle(level: Level, w: World) -> None:
+    """Push the ninja's circle out of the tiles and solid edges that it touches."""
+    n = w.ninja
+    cell = cell_at(n.x, n.y)
+    if cell == 0:
+        return
+    tiles = level.tiles
+    edges = w.edges
+    cx = CENTRE_X[cell]
+    cy = CENTRE_Y[cell]
+    if tiles[cell]:
+        own(w, tiles[cell], cx, cy)
+
+    dy = n.y - cy
+    oy = (abs(dy) + RADIUS) - HALF
+    kind_v = NONE
+    side_v = DOWN
+    hy = -1.0
+    if oy > 0.0:
+        if dy < 0.0:
+            side_v = UP
+            hy = 1.0
+        edge = edges[4 * cell + side_v]
+        if edge == SOLID:
+            push_from_tile(w, 0.0, oy * hy, 0.0, hy)
+            kind_v = AXIS
+        elif edge != OFF:
+            neighbour = cell - STRIDE if side_v == UP else cell + STRIDE
+            kind_v = vertical(w, tiles[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], oy, hy)
+
+    dx = n.x - cx
+    ox = (abs(dx) + RADIUS) - HALF
+    kind_h = NONE
+    side_h = RIGHT
+    hx = -1.0
+    if ox > 0.0:
+        if dx < 0.0:
+            side_h = LEFT
+            hx = 1.0
+        edge = edges[4 * cell + side_h]
+        if edge == SOLID:
+            push_from_tile(w, ox * hx, 0.0, hx, 0.0)
+            kind_h = AXIS
+        elif edge != OFF:
+            neighbour = cell - 1 if side_h == LEFT else cell + 1
+            kind_h = horizontal(w, tiles[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], ox, hx)
+
+    if oy > 0.0 and ox > 0.0 and kind_v != AXIS and kind_h != AXIS:
+        beside = cell - 1 if side_h == LEFT else cell + 1
+        above = cell - STRIDE if side_v == UP else cell + STRIDE
+        corner = above + (beside - cell)
+        edge_h = edges[4 * above + side_h]
+        edge_v = edges[4 * beside + side_v]
+        if edge_h == SOLID or edge_v == SOLID:
+            cx = CENTRE_X[corner]
+            cy = CENTRE_Y[corner]
+            point(w, cx + hx * HALF, cy + hy * HALF, hx / ROOT2, hy / ROOT2)
+        elif edge_h != OFF or edge_v != OFF:
+            diagonal(w, tiles[corner], CENTRE_X[corner], CENTRE_Y[corner], hx, hy)

@@ -1,0 +1,116 @@
+"""What a circle can do with a part of a tile: push out of a side, a corner point, a surface, an arc (world.md §4.3).
+
+Each function takes the tile's id and its cell's centre, pushes the ninja if there is a contact and tells its kind.
+"Open" is the side to which the surface faces (the sign σ), "solid" the other one. T and S are the surface's end points.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from ninja_game.sim.arithmetic import div
+from ninja_game.sim.collision.tiles import NORMAL_X, NORMAL_Y, S_X, S_Y, SIGN_X, SIGN_Y, T_X, T_Y
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import World
+from ninja_game.sim.ninja.contact_response import push_from_tile
+from ninja_game.sim.rules import CELL, HALF, RADIUS, ROOT2
+
+NONE, AXIS, SHAPED = 0, 1, 2
+"""Result kinds."""
+
+
+@fast
+def axis(w: World, ox: float, oy: float, hx: float, hy: float) -> int:
+    """Push straight out of the side: AXH with hy = 0, AXV with hx = 0."""
+    push_from_tile(w, ox * hx, oy * hy, hx, hy)
+    return AXIS
+
+
+@fast
+def point(w: World, vx: float, vy: float, fx: float, fy: float) -> int:
+    """POINT: push away from a corner point; (fx, fy) is the normal when the centre lies exactly on it."""
+    n = w.ninja
+    dx = n.x - vx
+    dy = n.y - vy
+    length = sqrt(dx * dx + dy * dy)
+    depth = RADIUS - length
+    if depth > 0.0:
+        if length == 0.0:
+            dx = fx
+            dy = fy
+        else:
+            dx = dx / length
+            dy = dy / length
+        push_from_tile(w, dx * depth, dy * depth, dx, dy)
+        return SHAPED
+    return NONE
+
+
+@fast
+def face(w: World, tile: int, ax: float, ay: float) -> int:
+    """FACE: push along the surface normal. A centre behind the surface is pushed out too little: |D| is a quirk."""
+    n = w.ninja
+    nx = NORMAL_X[tile]
+    ny = NORMAL_Y[tile]
+    depth = RADIUS - abs((n.x - ax) * nx + (n.y - ay) * ny)
+    if depth > 0.0:
+        push_from_tile(w, nx * depth, ny * depth, nx, ny)
+        return SHAPED
+    return NONE
+
+
+@fast
+def beyond(w: World, tile: int, ax: float, ay: float) -> float:
+    """Where the body is along the surface relative to an end point: > 0 beyond a T, < 0 beyond an S."""
+    n = w.ninja
+    along = (n.x - ax) * (-NORMAL_Y[tile]) + (n.y - ay) * NORMAL_X[tile]
+    return along * SIGN_X[tile] * SIGN_Y[tile]
+
+
+@fast
+def segment_t(w: World, tile: int, cx: float, cy: float, hx: float, hy: float) -> int:
+    """SEGT: the surface, or its end point T for a body beyond it."""
+    ax = cx + T_X[tile]
+    ay = cy + T_Y[tile]
+    if beyond(w, tile, ax, ay) > 0.0:
+        return point(w, ax, ay, hx / ROOT2, hy / ROOT2)
+    return face(w, tile, ax, ay)
+
+
+@fast
+def segment_s(w: World, tile: int, cx: float, cy: float, hx: float, hy: float) -> int:
+    """SEGS: the surface, or its end point S for a body beyond it."""
+    ax = cx + S_X[tile]
+    ay = cy + S_Y[tile]
+    if beyond(w, tile, ax, ay) < 0.0:
+        return point(w, ax, ay, hx / ROOT2, hy / ROOT2)
+    return face(w, tile, ax, ay)
+
+
+@fast
+def line(w: World, tile: int, ax: float, ay: float) -> int:
+    """LINE: push the body's deepest point back to the surface."""
+    n = w.ninja
+    nx = NORMAL_X[tile]
+    ny = NORMAL_Y[tile]
+    depth = ((n.x - nx * RADIUS) - ax) * nx + ((n.y - ny * RADIUS) - ay) * ny
+    if depth < 0.0:
+        push_from_tile(w, -nx * depth, -ny * depth, nx, ny)
+        return SHAPED
+    return NONE
+
+
+@fast
+def round_side(w: World, tile: int, cx: float, cy: float) -> int:
+    """ROUND: push away from a convex tile's centre; not clipped to the arc."""
+    n = w.ninja
+    dx = n.x - (cx - SIGN_X[tile] * HALF)
+    dy = n.y - (cy - SIGN_Y[tile] * HALF)
+    length = sqrt(dx * dx + dy * dy)
+    depth = (CELL + RADIUS) - length
+    if depth > 0.0:
+        dx = div(dx, length)
+        dy = div(dy, length)
+        push_from_tile(w, dx * depth, dy * depth, dx, dy)
+        return SHAPED
+    return NONE

@@ -1,0 +1,121 @@
+"""The 34 tile shapes as tables: class, open side, normal, surface points, faces and edge states (world.md §2-§3)."""
+
+from __future__ import annotations
+
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.rules import CELL, INTERESTING, OFF, ROOT2, SOLID, STRIDE
+
+EMPTY, FULL, HALF_TILE, SLOPE_45, CONCAVE, CONVEX, THIN_22, THICK_22, THIN_67, THICK_67, UNDEFINED = range(11)
+"""Tile classes. UNDEFINED is a malformed tile: never solid, but not empty for edges (world.md §2.3)."""
+
+ODD_HALF_ID = 34
+"""What a tile id above 33 becomes: a half tile without orientation."""
+UNDEFINED_ID = 35
+"""What a tile id below 0 becomes."""
+
+ROOT5 = 2.23606797749979
+_SIGNS = ((1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0))
+_HALF_SIGNS = ((0.0, -1.0), (-1.0, 0.0), (0.0, 1.0), (1.0, 0.0))
+_FAMILIES = (SLOPE_45, CONCAVE, CONVEX, THIN_22, THICK_22, THIN_67, THICK_67)
+_NORMALS = {
+    SLOPE_45: (1.0 / ROOT2, 1.0 / ROOT2),
+    THIN_22: (1.0 / ROOT5, 2.0 / ROOT5),
+    THICK_22: (1.0 / ROOT5, 2.0 / ROOT5),
+    THIN_67: (2.0 / ROOT5, 1.0 / ROOT5),
+    THICK_67: (2.0 / ROOT5, 1.0 / ROOT5),
+}
+_ORIENTED = [(family, sign) for family in _FAMILIES for sign in _SIGNS]
+
+SHAPE = [EMPTY, FULL, *(family for family, _ in _ORIENTED), *[HALF_TILE] * 5, UNDEFINED]
+SIGN_X = [0.0, 0.0, *(sign[0] for _, sign in _ORIENTED), *(sign[0] for sign in _HALF_SIGNS), 0.0, 0.0]
+SIGN_Y = [0.0, 0.0, *(sign[1] for _, sign in _ORIENTED), *(sign[1] for sign in _HALF_SIGNS), 0.0, 0.0]
+NORMAL_X = [0.0, 0.0, *(sign[0] * _NORMALS.get(family, (0.0, 0.0))[0] for family, sign in _ORIENTED)]
+NORMAL_Y = [0.0, 0.0, *(sign[1] * _NORMALS.get(family, (0.0, 0.0))[1] for family, sign in _ORIENTED)]
+NORMAL_X += [*(sign[0] for sign in _HALF_SIGNS), 0.0, 0.0]
+NORMAL_Y += [*(sign[1] for sign in _HALF_SIGNS), 0.0, 0.0]
+"""Per tile id: class, signs σ of the open side, unit surface normal n."""
+
+# Surface end points T (towards the open y side) and S (towards the open x side), in half-widths times σ (W 2.2).
+_T = {SLOPE_45: (-1, 1), THIN_22: (-1, 0), THICK_22: (-1, 1), THIN_67: (-1, 1), THICK_67: (0, 1)}
+_S = {SLOPE_45: (1, -1), THIN_22: (1, -1), THICK_22: (1, 0), THIN_67: (0, -1), THICK_67: (1, -1)}
+_ANCHOR = {SLOPE_45: (0, 0), THIN_22: _S[THIN_22], THICK_22: _T[THICK_22], THIN_67: _T[THIN_67], THICK_67: _S[THICK_67]}
+
+
+def _offsets(points: dict[int, tuple[int, int]], axis: int) -> list[float]:
+    """Offset in px from the cell's centre, per tile id, of one reference point of each class (0 where it has none)."""
+    signs = (SIGN_X, SIGN_Y)[axis]
+    return [12.0 * points.get(shape, (0, 0))[axis] * sign for shape, sign in zip(SHAPE, signs, strict=True)]
+
+
+T_X, T_Y = _offsets(_T, 0), _offsets(_T, 1)
+S_X, S_Y = _offsets(_S, 0), _offsets(_S, 1)
+ANCHOR_X, ANCHOR_Y = _offsets(_ANCHOR, 0), _offsets(_ANCHOR, 1)
+"""Per tile id: T, S and the anchor A of box tests and point queries (W 5.2), px from the cell's centre."""
+
+# Faces and edge states (W 3).
+NO_FACE, PARTIAL_FACE, FULL_FACE = 0, 1, 2
+_OUTWARD = ((1, 0), (0, 1), (-1, 0), (0, -1))
+
+
+def _face(tile: int, side: int) -> int:
+    """The face that a tile presents to one side (0 right, 1 down, 2 left, 3 up)."""
+    shape = SHAPE[tile]
+    if shape == EMPTY:
+        return NO_FACE
+    if shape == FULL:
+        return FULL_FACE
+    if (shape == THIN_22 and side in (0, 2)) or (shape == THIN_67 and side in (1, 3)):
+        return PARTIAL_FACE
+    facing = SIGN_X[tile] * _OUTWARD[side][0] + SIGN_Y[tile] * _OUTWARD[side][1]
+    return FULL_FACE if facing < 0 else PARTIAL_FACE
+
+
+FACE = [_face(tile, side) for tile in range(len(SHAPE)) for side in range(4)]
+"""Face of tile id t on side s at index 4 t + s."""
+
+# The tutorial that this design comes from calls its own edge code "complex and prone to bugs" and asks for a simpler
+# one. This is it: an edge depends on two faces only, the cell's own and the neighbour's that touches it. It equals the
+# original decision for every pair of tiles on every side.
+EDGE_OF_FACES = [OFF, INTERESTING, SOLID, OFF, INTERESTING, SOLID, OFF, INTERESTING, OFF]
+"""Edge state at index 3 · own face + neighbour's face."""
+
+STEP = [1, STRIDE, -1, -STRIDE]
+"""From a cell to its neighbour right, down, left, up: add this to the grid index."""
+UNIT_X = [1.0, 0.0, -1.0, 0.0]
+UNIT_Y = [0.0, 1.0, 0.0, -1.0]
+"""The unit vector of each direction number."""
+
+CENTRE_X = [0.0] * (STRIDE * 27)
+CENTRE_Y = [0.0] * (STRIDE * 27)
+COLUMN = [0] * (STRIDE * 27)
+ROW = [0] * (STRIDE * 27)
+EXISTS = [0] * (STRIDE * 27)
+"""Per grid index: centre in px, column, row, and whether it is a cell of the world. "No cell" has zeros (O 1)."""
+for _row in range(25):
+    for _column in range(33):
+        _cell = (_row + 1) * STRIDE + _column + 1
+        CENTRE_X[_cell] = CELL * _column + 12.0
+        CENTRE_Y[_cell] = CELL * _row + 12.0
+        COLUMN[_cell] = _column
+        ROW[_cell] = _row
+        EXISTS[_cell] = 1
+
+
+@fast
+def set_edges(level: Level, w: World) -> None:
+    """Derive all edge states from the tiles, as after loading a map."""
+    tiles = level.tiles
+    edges = w.edges
+    for row in range(1, 26):
+        start = row * STRIDE + 1
+        for cell in range(start, start + 33):
+            tile = tiles[cell]
+            for side in range(4):
+                neighbour = cell + STEP[side]
+                if EXISTS[neighbour]:
+                    # The neighbour's touching face is on the opposite side: 0 <-> 2, 1 <-> 3.
+                    touching = FACE[4 * tiles[neighbour] + (side ^ 2)]
+                    edges[4 * cell + side] = EDGE_OF_FACES[3 * FACE[4 * tile + side] + touching]
+                else:
+                    edges[4 * cell + side] = INTERESTING

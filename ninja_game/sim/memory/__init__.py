@@ -1,0 +1,1 @@
+"""The state of a world, described once and held in two memories: plain Python objects, or NumPy records."""

@@ -1,0 +1,107 @@
+"""What the compiled memory is called for: whole runs and traces of worlds in an array, without coming back each tick.
+
+These functions take arrays of worlds and an index, never a single record: that is what Numba passes quickly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from ninja_game.sim.arithmetic import clean
+from ninja_game.sim.collision.tiles import set_edges
+from ninja_game.sim.loader import populate
+from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.traces import place_of, status_of
+from ninja_game.sim.world import step
+
+
+@entry_point
+def load_world(
+    levels: Sequence[Level],
+    worlds: Sequence[World],
+    index: int,
+    kinds: Sequence[int],
+    counts: Sequence[int],
+    values: Sequence[Sequence[float]],
+    box: int,
+) -> None:
+    """Set the edges of level ``index`` and create its objects in a zeroed world ``index``."""
+    set_edges(levels[index], worlds[index])
+    populate(levels[index], worlds[index], kinds, counts, values)
+    worlds[index].ninja.box = box
+
+
+@entry_point
+def step_world(levels: Sequence[Level], worlds: Sequence[World], index: int, frame: int) -> None:
+    """One tick of one world."""
+    step(levels[index], worlds[index], frame)
+
+
+@entry_point
+def run_world(
+    levels: Sequence[Level], worlds: Sequence[World], index: int, frames: Sequence[int], positions: Any, states: Any
+) -> int:
+    """Run until the tick of the first exit contact or death, or to the end of ``frames``; the number of ticks run.
+
+    ``positions`` (ticks x 2, px) and ``states`` (ticks) receive the ninja's place and state after each tick.
+    """
+    level = levels[index]
+    w = worlds[index]
+    n = w.ninja
+    for tick in range(len(frames)):
+        step(level, w, int(frames[tick]))
+        positions[tick, 0] = clean(n.x)
+        positions[tick, 1] = clean(n.y)
+        states[tick] = n.state
+        if w.outcome:
+            return tick + 1
+    return len(frames)
+
+
+@entry_point
+def race_world(levels: Sequence[Level], worlds: Sequence[World], index: int, frames: Sequence[int]) -> int:
+    """Run like ``run_world``, without a record: only the number of ticks run."""
+    level = levels[index]
+    w = worlds[index]
+    for tick in range(len(frames)):
+        step(level, w, int(frames[tick]))
+        if w.outcome:
+            return tick + 1
+    return len(frames)
+
+
+@entry_point
+def trace_world(
+    levels: Sequence[Level],
+    worlds: Sequence[World],
+    index: int,
+    frames: Sequence[int],
+    slots: Sequence[int],
+    ninja: Any,
+    things: Any,
+) -> None:
+    """Run all of ``frames``, whatever happens, and record everything after each tick.
+
+    ``ninja``: NINJA_RECORD (ticks); ``things``: THING_RECORD (ticks x slots) for the things in ``slots``.
+    """
+    level = levels[index]
+    w = worlds[index]
+    n = w.ninja
+    for tick in range(len(frames)):
+        step(level, w, int(frames[tick]))
+        row = ninja[tick]
+        row.x = clean(n.x)
+        row.y = clean(n.y)
+        row.px = clean(n.px)
+        row.py = clean(n.py)
+        row.s = n.state
+        row.gold = w.gold
+        for k in range(len(slots)):
+            slot = slots[k]
+            x, y = place_of(w, slot)
+            place = things[tick, k]
+            place.x = clean(x)
+            place.y = clean(y)
+            place.s = status_of(w, slot)

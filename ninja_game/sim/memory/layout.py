@@ -1,0 +1,134 @@
+"""The compiled memory: the schema as NumPy records, so that a save-state is one copy of bytes.
+
+Kinds overlap: a thing's record has the common header, and behind it every kind's own fields share the same bytes. A
+field that several kinds declare has one place. Offsets are given explicitly; NumPy would lose the alignment of nested
+records otherwise.
+"""
+
+from __future__ import annotations
+
+import mmap
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.sim.memory.declare import Field, fields_of
+from ninja_game.sim.memory.schema import Header, Level, Thing, World
+
+_SIZES = {"f8": 8, "i4": 4, "i2": 2, "u1": 1}
+_REFUSED = set(dir(np.recarray)) | set(dir(np.record))
+"""Names that NumPy's record types answer themselves: such a field would silently read the wrong thing."""
+
+Records = NDArray[np.void]
+
+
+def dtype_of(cls: type) -> np.dtype[np.void]:
+    """The record layout of a schema class. Raises TypeError for a field name that NumPy would hide."""
+    fields = fields_of(cls)
+    for field in fields:
+        if field.name in _REFUSED:
+            raise TypeError(f"{cls.__name__}.{field.name}: NumPy's records have an attribute of this name; rename it")
+    if cls is Thing:
+        return _overlaid(fields)
+    offset = 0
+    offsets = []
+    for field in fields:
+        offset = _align(offset, 8 if isinstance(field.type, type) else _SIZES[field.type])
+        offsets.append(offset)
+        offset += _dtype(field).itemsize
+    return _record(fields, offsets, _align(offset, 8))
+
+
+def _overlaid(fields: list[Field]) -> np.dtype[np.void]:
+    """Thing's layout: each field at the lowest place that is free in all the kinds that have it."""
+    kinds = [{field.name for field in fields_of(base)} for base in Thing.__bases__]
+    header = {field.name for field in fields_of(Header)}
+    taken: list[set[int]] = [set() for _ in kinds]
+    offsets = {}
+    ordered = sorted(fields, key=lambda field: (field.name not in header, -_SIZES[str(field.type)]))
+    for field in ordered:
+        size = _SIZES[str(field.type)]
+        owners = [used for used, names in zip(taken, kinds, strict=True) if field.name in names]
+        offset = 0
+        while any(used & set(range(offset, offset + size)) for used in owners):
+            offset += size
+        offsets[field.name] = offset
+        for used in owners:
+            used |= set(range(offset, offset + size))
+    end = max(max(used) for used in taken) + 1
+    return _record(fields, [offsets[field.name] for field in fields], _align(end, 8))
+
+
+def _record(fields: list[Field], offsets: list[int], size: int) -> np.dtype[np.void]:
+    """An aligned dtype with given offsets."""
+    names = [field.name for field in fields]
+    formats = [_dtype(field) for field in fields]
+    return np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": size}, align=True)
+
+
+def _dtype(field: Field) -> np.dtype[np.void]:
+    element = dtype_of(field.type) if isinstance(field.type, type) else np.dtype(field.type)
+    return np.dtype((element, (field.length,))) if field.length else element
+
+
+def _align(offset: int, size: int) -> int:
+    return (offset + size - 1) // size * size
+
+
+WORLD = dtype_of(World)
+LEVEL = dtype_of(Level)
+THING = dtype_of(Thing)
+STATE_START = WORLD.fields["event_count"][1]  # type: ignore[index]
+"""A save-state leaves out the events, which come first."""
+THINGS_START = WORLD.fields["things"][1]  # type: ignore[index]
+
+
+def used_bytes(things: int) -> int:
+    """Bytes of a world that are in use when ``things`` slots are taken (slot 0, nobody, among them)."""
+    return THINGS_START + things * THING.itemsize
+
+
+def new_worlds(count: int, things: int) -> Records:
+    """``count`` zeroed worlds in one block, each with room for ``things`` slots, as an array of records.
+
+    The records are spaced by what they use, not by the full capacity: the array's stride is smaller than its item.
+    Unused capacity lies in untouched pages at the end of the block (huge pages would make it resident).
+    """
+    stride = _align(used_bytes(things), 64)
+    block = mmap.mmap(-1, (count - 1) * stride + WORLD.itemsize)
+    if hasattr(mmap, "MADV_NOHUGEPAGE"):
+        block.madvise(mmap.MADV_NOHUGEPAGE)
+    return np.ndarray((count,), WORLD, block, 0, (stride,))
+
+
+def state_view(worlds: Records, index: int) -> NDArray[np.uint8]:
+    """The bytes of one world without its events, as a view: save-states and copies between worlds are copies of it.
+
+    ``worlds`` is an array from ``new_worlds``, not a slice of one.
+    """
+    used = used_bytes(int(worlds["used"][index]))
+    return np.ndarray((used - STATE_START,), np.uint8, worlds.base, index * worlds.strides[0] + STATE_START)
+
+
+def plain_copy(worlds: Records, index: int) -> World:
+    """One world of an array as plain objects, for looking at it, digests and comparisons. Its events come along."""
+    record = worlds[index]
+    w = World()
+    for field in fields_of(World):
+        if isinstance(field.type, str):
+            value = record[field.name].tolist()
+            setattr(w, field.name, value)
+    _fill(w.ninja, record["ninja"].item())
+    for event, values in zip(w.events, record["events"][: w.event_count].tolist(), strict=False):
+        _fill(event, values)
+    for values in record["things"][1 : w.used].tolist():
+        o = Thing()
+        _fill(o, values)
+        w.things.append(o)
+    return w
+
+
+def _fill(o: object, values: tuple[object, ...]) -> None:
+    """Give an object its fields in the order of the schema."""
+    for field, value in zip(fields_of(type(o)), values, strict=True):
+        setattr(o, field.name, value)

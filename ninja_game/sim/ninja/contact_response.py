@@ -1,0 +1,47 @@
+"""How the ninja takes a contact: the push at once, then what it notes about floor and wall (ninja.md §5)."""
+
+from __future__ import annotations
+
+from ninja_game.sim.death import kill
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Ninja, World
+from ninja_game.sim.rules import CRUSH
+from ninja_game.sim.states import CRUSHED
+
+
+@fast
+def push(n: Ninja, qx: float, qy: float, mx: float, my: float) -> None:
+    """A contact with a thing: push (qx, qy) px, normal (mx, my). Never a crush."""
+    n.x += qx
+    n.y += qy
+    note_normal(n, mx, my)
+
+
+@fast
+def push_from_tile(w: World, qx: float, qy: float, mx: float, my: float) -> None:
+    """A contact with a tile or a solid edge: as ``push``, but a push of more than √80 px crushes and notes nothing."""
+    n = w.ninja
+    n.x += qx
+    n.y += qy
+    if qx * qx + qy * qy > CRUSH:
+        kill(w, CRUSHED, 0.0, 0.0, n.x, n.y)
+        return
+    note_normal(n, mx, my)
+
+
+@fast
+def note_normal(n: Ninja, mx: float, my: float) -> None:
+    """Classify a contact by its normal: wall (my = 0 exactly), floor, or ceiling (only the push)."""
+    if my == 0.0:
+        n.near_wall = 1
+        n.wall_x = mx
+        n.wall_y = my
+    elif my < 0.0:
+        if n.contacts == 0:
+            n.first_x = mx
+            n.first_y = my
+            n.contacts = 1
+        else:
+            n.last_x = mx
+            n.last_y = my
+            n.contacts = 2

@@ -1,0 +1,104 @@
+"""The ninja's tick: integrate, contacts, evaluation, think (ninja.md §3, §6). Its states are in control.py."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+from ninja_game.sim.collision.box import collide_box
+from ninja_game.sim.collision.circle import collide_circle
+from ninja_game.sim.collision.rays import solid_at
+from ninja_game.sim.death import kill
+from ninja_game.sim.grid import cell_at
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Level, Ninja, World
+from ninja_game.sim.ninja.control import celebrate, think_in_air, think_on_ground
+from ninja_game.sim.objects.object_query import touch_things
+from ninja_game.sim.rules import FATAL_IMPACT, WALL_PROBE
+from ninja_game.sim.states import CELEBRATING, DEAD, FALL
+
+
+@fast
+def tick_ninja(level: Level, w: World, frame: int) -> None:
+    """One tick of the living or celebrating ninja. ``frame``: 1 left + 2 right + 4 jump held + 8 jump triggered."""
+    n = w.ninja
+    x = n.x
+    y = n.y
+    ux = x - n.px
+    uy = y - n.py
+    n.px = x
+    n.py = y
+    n.x = x + n.drag * ux
+    n.y = y + (n.drag * uy + n.gravity)
+    n.cell = cell_at(n.x, n.y)
+
+    n.impact_x = n.x - x
+    n.impact_y = n.y - y
+    n.was_in_air = n.in_air
+    n.near_wall = 0
+    n.in_air = 1
+    n.contacts = 0
+
+    if not w.contacts_off:
+        touch_things(w)
+    if n.box:
+        collide_box(level, w)
+    else:
+        collide_circle(level, w)
+    if n.contacts:
+        evaluate_floor(w, n)
+    if n.in_air and not n.near_wall:
+        probe_walls(level, n)
+    n.cell = cell_at(n.x, n.y)
+
+    if n.state == CELEBRATING:
+        celebrate(n)
+    elif n.state != DEAD:
+        # The input is sampled here and only here: after all physics, by a ninja that lives and does not celebrate.
+        n.direction = (frame >> 1 & 1) - (frame & 1)
+        n.held = frame >> 2 & 1
+        n.triggered = frame >> 3 & 1
+        if n.in_air:
+            think_in_air(w, n)
+        else:
+            think_on_ground(w, n)
+
+
+@fast
+def evaluate_floor(w: World, n: Ninja) -> None:
+    """Choose the floor normal from this tick's floor contacts; a hard landing kills."""
+    n.in_air = 0
+    if n.contacts == 1:
+        n.floor_x = n.first_x
+        n.floor_y = n.first_y
+    elif n.first_x * n.last_x + n.first_y * n.last_y > 0.9:
+        # Nearly parallel: keep the normal if it is the first contact's, else take the last one's.
+        if not (n.first_x == n.floor_x and n.first_y == n.floor_y):
+            n.floor_x = n.last_x
+            n.floor_y = n.last_y
+    else:
+        ax = 0.5 * (n.first_x + n.last_x)
+        ay = 0.5 * (n.first_y + n.last_y)
+        length = sqrt(ax * ax + ay * ay)
+        if length == 0.0:
+            n.floor_x = n.first_x
+            n.floor_y = n.first_y
+        else:
+            n.floor_x = ax / length
+            n.floor_y = ay / length
+    if n.was_in_air:
+        impact = n.impact_x * n.floor_x + n.impact_y * n.floor_y
+        if n.impact_y > 0.0 and impact - 2.0 * abs(n.floor_y) < -FATAL_IMPACT:
+            kill(w, FALL, 0.0, 0.0, n.x, n.y)
+
+
+@fast
+def probe_walls(level: Level, n: Ninja) -> None:
+    """In the air and without a wall contact: is there a tile just beside the centre? Tiles only, no doors or things."""
+    if solid_at(level, n.x + WALL_PROBE, n.y):
+        n.near_wall = 1
+        n.wall_x = -1.0
+        n.wall_y = 0.0
+    elif solid_at(level, n.x - WALL_PROBE, n.y):
+        n.near_wall = 1
+        n.wall_x = 1.0
+        n.wall_y = 0.0

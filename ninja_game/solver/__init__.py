@@ -1,0 +1,1 @@
+"""Finds, shortens and certifies runs by search."""

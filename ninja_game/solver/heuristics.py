@@ -1,0 +1,194 @@
+"""Where to go next: the switch, the exit, the gold, or the switch of a door that is in the way.
+
+What has been switched so far is a *stage*: one bit for each exit, locked door and trap door of the level. Every stage
+has a distance field of its own, made when the search first reaches it.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ninja_game.sim.level import DOOR, EXIT, GOLD, MINE, ONE_WAY
+from ninja_game.sim.memory.compiled import Kernels
+from ninja_game.sim.memory.layout import Records
+from ninja_game.sim.rules import STRIDE
+from ninja_game.sim.states import AUTOMATIC, LOCKED
+from ninja_game.solver.distance_field import (
+    ACROSS,
+    MINE_COST,
+    MOVE_X,
+    MOVE_Y,
+    POINTS,
+    SPACING,
+    UNREACHED,
+    Costs,
+    Field,
+    point_at,
+    widened,
+)
+
+DOOR_COST = 40.0
+"""How many times longer a step through a closed door counts where a way through it is imagined."""
+MAX_BITS = 60
+
+
+class Switchable(NamedTuple):
+    """Something with a switch: an exit (``door`` is False) or a locked or trap door, and the points it bars."""
+
+    slot: int
+    door: bool
+    trap: bool
+    x: float
+    y: float
+    switch_x: float
+    switch_y: float
+    bars: tuple[int, ...]
+
+
+class Goals:
+    """Distance fields of one level, by stage."""
+
+    def __init__(self, kernels: Kernels, levels: Records, worlds: Records) -> None:
+        self._spread: Any = kernels["spread"]
+        used = int(worlds["used"][0])
+        things = worlds["things"][0][:used]
+        self.costs = np.zeros(POINTS, np.float32)
+        kernels["free_points"](levels, self.costs)
+        self.blocked = np.zeros(POINTS, np.uint8)
+        self._queue = np.zeros(POINTS + 1, np.int32)
+        self._waiting = np.zeros(POINTS, np.uint8)
+        exits, doors, gold = [], [], []
+        for slot in range(1, used):
+            thing = things[slot]
+            kind = int(thing["kind"])
+            x, y = float(thing["x"]), float(thing["y"])
+            if kind == EXIT:
+                switch = things[int(thing["partner"])]
+                exits.append(Switchable(slot, False, False, x, y, float(switch["x"]), float(switch["y"]), ()))
+            elif kind == DOOR and int(thing["mechanism"]) != AUTOMATIC:
+                trap = int(thing["mechanism"]) != LOCKED
+                doors.append(Switchable(slot, True, trap, x, y, x, y, _bars(int(thing["edge_1"]))))
+            elif kind == GOLD:
+                gold.append((slot, x, y))
+            elif kind == MINE:
+                self._avoid(x, y)
+            elif kind == ONE_WAY:
+                self._bar_one_way(x, y, float(thing["face_x"]), float(thing["face_y"]))
+        self.exits = exits
+        self.switches = (exits + doors)[:MAX_BITS]
+        self.slots = np.array([switch.slot for switch in self.switches] or [0], np.int64)
+        self.gold_slots = np.array([slot for slot, _, _ in gold] or [0], np.int64)
+        self.gold_places = [(x, y) for _, x, y in gold]
+
+    def gold_fields(self) -> Field:
+        """For each piece of gold its field (gold x points); doors count as passable but dear."""
+        costs = self._closed(0, DOOR_COST / 4)
+        return np.array([widened(self._field(costs, [(x, y, 0.0)])) for x, y in self.gold_places], np.float32)
+
+    def field(self, stage: int, x: float, y: float) -> Field:
+        """Ticks from every point to what should be done next in this stage by a ninja at (x, y), and on to the exit."""
+        costs = self._closed(stage, 0.0)
+        dear = self._closed(stage, DOOR_COST)
+        sources = []
+        for bit, exit_ in enumerate(self.exits):
+            if bit < MAX_BITS and stage >> bit & 1:
+                sources.append((exit_.x, exit_.y, 0.0))
+            else:
+                home = widened(self._field(dear, [(exit_.x, exit_.y, 0.0)]))
+                rest = min(float(home[point_at(exit_.switch_x, exit_.switch_y)]), 5000.0)
+                sources.append((exit_.switch_x, exit_.switch_y, rest + 30.0))
+        here = point_at(x, y)
+        visited: set[int] = set()
+        while True:
+            field = widened(self._field(costs, sources))
+            if field[here] < UNREACHED:
+                return field
+            imagined = widened(self._field(dear, sources))
+            door = self._first_door(imagined, here, stage)
+            if door is None or door.slot in visited:
+                return imagined
+            visited.add(door.slot)
+            # First to its switch; from there on as imagined, which goes down by a lot once the door is open.
+            rest = min(float(imagined[point_at(door.switch_x, door.switch_y)]), 5000.0)
+            sources = [(door.switch_x, door.switch_y, rest)]
+
+    def _field(self, costs: Costs, sources: list[tuple[float, float, float]]) -> Field:
+        field = np.full(POINTS, UNREACHED, np.float32)
+        for x, y, value in sources:
+            # The ninja touches a thing from up to 16 px away: any free point about it will do.
+            near = [
+                point_at(x + dx * SPACING, y + dy * SPACING) for dx in (-2, -1, 0, 1, 2) for dy in (-2, -1, 0, 1, 2)
+            ]
+            free = [point for point in near if costs[point] > 0.0] or near
+            field[free] = np.minimum(field[free], np.float32(value))
+        self._spread(costs, self.blocked, field, self._queue, self._waiting)
+        return field
+
+    def _closed(self, stage: int, door_cost: float) -> Costs:
+        """The cost factors with the doors as they are in a stage."""
+        costs = self.costs.copy()
+        for bit, switch in enumerate(self.switches):
+            if switch.door and switch.trap == bool(stage >> bit & 1):
+                bars = [point for point in switch.bars if costs[point] > 0.0]
+                costs[bars] = np.float32(0.0 if switch.trap else door_cost)
+        return costs
+
+    def _first_door(self, field: Field, here: int, stage: int) -> Switchable | None:
+        """The first closed locked door on the way down a field."""
+        closed = {
+            point: switch
+            for bit, switch in enumerate(self.switches)
+            if switch.door and not switch.trap and not stage >> bit & 1
+            for point in switch.bars
+        }
+        for _ in range(POINTS):
+            if here in closed:
+                return closed[here]
+            steps = [here + MOVE_Y[k] * ACROSS + MOVE_X[k] for k in range(8)]
+            there = min((step for step in steps if 0 <= step < POINTS), key=lambda step: float(field[step]))
+            if field[there] >= field[here]:
+                return None
+            here = there
+        return None
+
+    def _avoid(self, x: float, y: float) -> None:
+        for point in _points_about(x, y, 15.0):
+            self.costs[point] *= np.float32(MINE_COST)
+
+    def _bar_one_way(self, x: float, y: float, face_x: float, face_y: float) -> None:
+        """Forbid the moves through a one-way platform's face; the ninja's centre meets it 22 px from its middle."""
+        for point in _points_about(x, y, 40.0):
+            px, py = SPACING * (point % ACROSS), SPACING * (point // ACROSS)
+            along = abs(px - x) if face_x == 0.0 else abs(py - y)
+            depth = (px - x) * face_x + (py - y) * face_y
+            if along > 14.0 or not 22.0 <= depth < 22.0 + SPACING:
+                continue
+            for k in range(8):
+                if MOVE_X[k] * face_x + MOVE_Y[k] * face_y < 0.0:
+                    self.blocked[point] |= np.uint8(1 << k)
+
+
+def _points_about(x: float, y: float, radius: float) -> list[int]:
+    """All points nearer to a place than a radius (px)."""
+    reach = int(radius / SPACING) + 1
+    found = set()
+    for i in range(-reach, reach + 1):
+        for j in range(-reach, reach + 1):
+            point = point_at(x + i * SPACING, y + j * SPACING)
+            dx, dy = SPACING * (point % ACROSS) - x, SPACING * (point // ACROSS) - y
+            if dx * dx + dy * dy < radius * radius:
+                found.add(point)
+    return sorted(found)
+
+
+def _bars(edge: int) -> tuple[int, ...]:
+    """The points on the cell side that an edge index stands for (right or down side of its cell)."""
+    cell, side = divmod(edge, 4)
+    if cell == 0:
+        return ()
+    column, row = cell % STRIDE - 1, cell // STRIDE - 1
+    if side == 0:
+        return tuple((row * 4 + k) * ACROSS + (column + 1) * 4 for k in range(5))
+    return tuple((row + 1) * 4 * ACROSS + column * 4 + k for k in range(5))

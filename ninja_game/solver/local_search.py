@@ -1,0 +1,156 @@
+"""Local improvement of a run: random edits, played from the save-state before the first changed tick.
+
+A run is kept if it is shorter; of runs of equal length that which is deeper in the exit's disc in the last tick, a
+measure between two ticks. Now and then a slightly longer one is kept too, to get out of dead ends.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import Any
+
+from ninja_game.sim.level import EXIT
+from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
+from ninja_game.sim.world import step
+from ninja_game.solver.macro_actions import HELD_BIT, TRIGGERED_BIT
+from ninja_game.solver.mutations import edit, random_below
+
+CHECKPOINT = 8
+"""Ticks between the save-states of the current run."""
+
+# Counters (int64) of a climb; index 0 is the random state.
+CURRENT_TICKS, SHORTEST, TRIALS, PLAYED, KEPT, SHORTENED, GOLD_WANTED, SINCE_BEST = range(1, 9)
+# Scores (float64): of the current and of the best run; how much longer (ticks) a kept run may be.
+CURRENT_SCORE, BEST_SCORE, TEMPERATURE, LEASH = range(4)
+
+BEST_ROW, CURRENT_ROW, TRIAL_ROW = 0, 1, 2
+
+
+@fast
+def trigger(keys: int, held: int) -> int:
+    """The frame for some keys: the jump triggers where it was not held."""
+    return keys + TRIGGERED_BIT if keys & HELD_BIT and not held else keys
+
+
+@fast
+def score_of(w: Any) -> float:
+    """Ticks of a run that has just ended at the exit, less the depth of the contact (0 to 0.99)."""
+    n = w.ninja
+    nearest = 22.0
+    for slot in range(1, w.ids + 1):
+        o = w.things[slot]
+        if o.kind == EXIT and o.spent:
+            nearest = min(nearest, sqrt((o.x - n.x) * (o.x - n.x) + (o.y - n.y) * (o.y - n.y)))
+    return float(w.tick) - 0.99 * (1.0 - nearest / 22.0)
+
+
+@fast
+def copy_words(target: Any, source: Any) -> None:
+    """Copy a save-state."""
+    for k in range(len(target)):
+        target[k] = source[k]
+
+
+@entry_point
+def retrace(levels: Any, worlds: Any, words: Any, keys: Any, path: Any, checkpoints: Any, tick: int, limit: int) -> int:
+    """Play the current run on from the checkpoint at or before ``tick``: its path and checkpoints; its ticks.
+
+    0 if it does not reach the exit before ``limit``.
+    """
+    base, work_words = words
+    w = worlds[1]
+    first = min(tick, limit - 1) // CHECKPOINT
+    copy_words(work_words, base if first == 0 else checkpoints[first])
+    current = keys[CURRENT_ROW]
+    for k in range(first * CHECKPOINT, limit):
+        if k % CHECKPOINT == 0:
+            copy_words(checkpoints[k // CHECKPOINT], work_words)
+        step(levels[0], w, trigger(current[k], w.ninja.held))
+        path[k, 0] = w.ninja.x
+        path[k, 1] = w.ninja.y
+        if w.outcome != OUTCOME_RUNNING:
+            return int(w.tick) if w.outcome == OUTCOME_EXIT else 0
+    return 0
+
+
+@fast
+def try_run(
+    level: Any, w: Any, keys: Any, path: Any, start: int, shift: int, limit: int, leash: float, ticks: int
+) -> int:
+    """Play the trial run from tick ``start`` on; the ticks played. It is given up far from the current run's path."""
+    trial = keys[TRIAL_ROW]
+    for k in range(start, limit):
+        step(level, w, trigger(trial[k], w.ninja.held))
+        if w.outcome != OUTCOME_RUNNING:
+            return k + 1 - start
+        if k % 8 == 7:
+            now = min(k, ticks - 1)
+            then = min(max(k + shift, 0), ticks - 1)
+            near = abs(w.ninja.x - path[now, 0]) + abs(w.ninja.y - path[now, 1])
+            if near > leash and abs(w.ninja.x - path[then, 0]) + abs(w.ninja.y - path[then, 1]) > leash:
+                return k + 1 - start
+    return limit - start
+
+
+@entry_point
+def climb(
+    levels: Any, worlds: Any, words: Any, keys: Any, path: Any, checkpoints: Any, counters: Any, scores: Any,
+    budget: int,
+) -> None:  # fmt: skip
+    """Try edits of the current run until about ``budget`` ticks were played.
+
+    ``keys`` (3 rows, uint8): the best, the current and the trial run, one byte a tick without trigger bit; ``path``
+    (px) and ``checkpoints`` belong to the current run, see ``retrace``.
+    """
+    work_words = words[1]
+    level = levels[0]
+    w = worlds[1]
+    stop = counters[PLAYED] + budget
+    while counters[PLAYED] < stop:
+        counters[TRIALS] += 1
+        ticks = counters[CURRENT_TICKS]
+        room = min(ticks + 4, keys.shape[1])
+        for k in range(room):
+            keys[TRIAL_ROW, k] = keys[CURRENT_ROW, k]
+        first = random_below(counters, ticks)
+        tick, shift = edit(keys[TRIAL_ROW], room, first, counters)
+        while random_below(counters, 2):
+            near = max(0, min(first + random_below(counters, 80) - 40, ticks - 1))
+            again, more = edit(keys[TRIAL_ROW], room, near, counters)
+            tick = min(tick, again)
+            shift += more
+        while tick < ticks and keys[TRIAL_ROW, tick] == keys[CURRENT_ROW, tick]:
+            tick += 1
+        if tick >= ticks:
+            counters[PLAYED] += 2
+            continue
+        allowed = scores[CURRENT_SCORE]
+        luck = random_below(counters, 1000) / 1000.0
+        allowed += scores[TEMPERATURE] * luck * luck * luck * luck
+        checkpoint = tick // CHECKPOINT
+        copy_words(work_words, checkpoints[checkpoint])
+        start = checkpoint * CHECKPOINT
+        limit = min(int(allowed) + 1, room)
+        played = try_run(level, w, keys, path, start, shift, limit, scores[LEASH], ticks)
+        counters[PLAYED] += played + 4
+        counters[SINCE_BEST] += 1
+        if w.outcome != OUTCOME_EXIT or w.gold < counters[GOLD_WANTED]:
+            continue
+        score = score_of(w)
+        if score > allowed:
+            continue
+        counters[KEPT] += 1
+        for k in range(room):
+            keys[CURRENT_ROW, k] = keys[TRIAL_ROW, k]
+        scores[CURRENT_SCORE] = score
+        counters[CURRENT_TICKS] = w.tick
+        if score < scores[BEST_SCORE]:
+            if w.tick < counters[SHORTEST]:
+                counters[SHORTENED] += 1
+            scores[BEST_SCORE] = score
+            counters[SHORTEST] = w.tick
+            counters[SINCE_BEST] = 0
+            for k in range(room):
+                keys[BEST_ROW, k] = keys[TRIAL_ROW, k]
+        retrace(levels, worlds, words, keys, path, checkpoints, tick, w.tick)

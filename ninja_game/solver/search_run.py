@@ -1,0 +1,171 @@
+"""One search of one level, driven in slices of work: set up, run on, read the best run so far."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ninja_game.sim.memory.compiled import Kernels
+from ninja_game.solver.heuristics import Goals
+from ninja_game.solver.macro_actions import action_frames
+from ninja_game.solver.search_memory import (
+    BEST_NODE,
+    BEST_TICKS,
+    CELL_PX,
+    ENTRY,
+    EXPANDED,
+    GOLD_NEEDED,
+    MACRO_JITTER,
+    MACRO_TICKS,
+    MOST_GOLD,
+    NEW_STAGES,
+    NODES,
+    OFF_GUIDE,
+    PATIENCE,
+    RANDOM,
+    REVISITS,
+    SHIFT_VX,
+    SHIFT_VY,
+    SHIFT_X,
+    SHIFT_Y,
+    SLACK,
+    SPEED_STEP,
+    STAGES,
+    TICKS,
+    WEIGHT,
+    SearchMemory,
+    Start,
+)
+
+MORE, EXHAUSTED, NO_ROOM = 0, 1, 2
+"""How a slice of a search ended."""
+
+NO_GUIDE = np.zeros(1, ENTRY)
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """How finely a search looks: size of a place (px), of a velocity (px/tick), length of a macro (ticks).
+
+    ``weight``: of the estimated ticks to go against those run; ``patience``: ticks after which the same place counts
+    as new, at most ``visits`` times; ``slack``, ``off_guide``: see ``expand``, guided searches only.
+    """
+
+    cell: float = 12.0
+    speed: float = 1.0
+    macro: int = 5
+    jitter: int = 0
+    weight: float = 2.0
+    patience: int = 40
+    visits: int = 1
+    slack: float = 0.0
+    off_guide: float = 1.0
+
+
+class Search:
+    """A best-first search from the start of a level, in memory that can be used again and again."""
+
+    def __init__(self, kernels: Kernels, start: Start, goals: Goals, memory: SearchMemory, gold: int) -> None:
+        self._expand: Any = kernels["expand"]
+        self._kernels = kernels
+        self.start = start
+        self.goals = goals
+        self.memory = memory
+        self.gold = gold
+        self._gold_fields = goals.gold_fields() if gold else np.zeros((1, 1), np.float32)
+        memory.counters[STAGES] = 0
+
+    def begin(self, resolution: Resolution, *, seed: int, bound: int, guided: bool = False) -> None:
+        """Begin a new search. ``bound``: only runs of fewer ticks count (0: any).
+
+        ``guided``: by what the last search has learned; otherwise that is forgotten.
+        """
+        memory = self.memory
+        if guided:
+            memory.keep_as_guide(self._kernels["settle_values"])
+        memory.clear()
+        counters, parameters = memory.counters, memory.parameters
+        random = np.random.default_rng([seed, 6])
+        parameters[CELL_PX], parameters[SPEED_STEP] = resolution.cell, resolution.speed
+        parameters[[SHIFT_X, SHIFT_Y]] = random.random(2) * resolution.cell
+        parameters[[SHIFT_VX, SHIFT_VY]] = resolution.speed * 0.5 + random.random(2) * resolution.speed * 0.5
+        parameters[MACRO_TICKS], parameters[MACRO_JITTER] = resolution.macro, resolution.jitter
+        parameters[WEIGHT], parameters[PATIENCE] = resolution.weight, resolution.patience
+        parameters[REVISITS], parameters[SLACK] = resolution.visits, resolution.slack
+        parameters[OFF_GUIDE] = resolution.off_guide
+        self._guide = memory.guide if guided else NO_GUIDE
+        counters[GOLD_NEEDED] = self.gold
+        counters[BEST_TICKS] = bound
+        counters[RANDOM] = int(random.integers(1, 1 << 62))
+        self._call("begin", 0)
+        self._fill_fields()
+
+    def run(self, budget: int) -> int:
+        """Search on for about ``budget`` ticks; MORE, EXHAUSTED or NO_ROOM."""
+        counters = self.memory.counters
+        end = counters[TICKS] + budget
+        while True:
+            left = int(end - counters[TICKS])
+            if left <= 0:
+                return MORE
+            ended = int(self._call("expand", left))
+            if counters[NEW_STAGES]:
+                self._fill_fields()
+            elif ended != MORE:
+                return ended
+
+    def _call(self, name: str, budget: int) -> Any:
+        memory, start, goals = self.memory, self.start, self.goals
+        return self._kernels[name](
+            (start.levels, start.worlds, (start.base, start.node_words, start.work_words)),
+            (memory.nodes, memory.table, memory.links, (memory.chunk_next, memory.chunk_index, memory.chunk_value),
+             memory.buckets, memory.counters, memory.parameters),
+            (memory.stages, memory.stage_places, memory.fields),
+            (goals.slots, len(goals.switches), goals.gold_slots, self._gold_fields),
+            (self._guide, memory.guided_by),
+            budget,
+        )  # fmt: skip
+
+    def _fill_fields(self) -> None:
+        """Make the distance fields of the stages that were seen for the first time."""
+        memory = self.memory
+        for index in range(int(memory.counters[STAGES])):
+            if memory.fields[index, 0] < 0.0:
+                x, y = memory.stage_places[index]
+                memory.fields[index] = self.goals.field(int(memory.stages[index]), float(x), float(y))
+        memory.counters[NEW_STAGES] = 0
+
+    @property
+    def ticks(self) -> int:
+        """Ticks simulated since ``begin``."""
+        return int(self.memory.counters[TICKS])
+
+    @property
+    def worlds(self) -> int:
+        """Save-states expanded since ``begin``."""
+        return int(self.memory.counters[EXPANDED])
+
+    @property
+    def most_gold(self) -> int:
+        """The most gold that a run has collected."""
+        return int(self.memory.counters[MOST_GOLD])
+
+    @property
+    def nodes(self) -> int:
+        """Nodes made since ``begin``."""
+        return int(self.memory.counters[NODES])
+
+    def best(self) -> bytes | None:
+        """The inputs of the shortest run to the exit that this search has found, one byte a tick; None if none."""
+        index = int(self.memory.counters[BEST_NODE])
+        if index < 0:
+            return None
+        parts = []
+        nodes = self.memory.nodes
+        while index >= 0:
+            node = nodes[index]
+            parts.append(action_frames(int(node["action"])))
+            index = int(node["parent"])
+        return b"".join(reversed(parts))

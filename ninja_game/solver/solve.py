@@ -1,0 +1,190 @@
+"""Find a run to the exit, then shorten it: searches and climbs on all threads, the best run so far at any time.
+
+With one job a solver does the same work in the same order for the same seed: the clock only says when it ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from dataclasses import replace
+from functools import cache
+
+from ninja_game.compile_cache import kernels
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.sim.memory.compiled import Kernels
+from ninja_game.solver import local_search as _climb  # noqa: F401 - registers its entry points
+from ninja_game.solver import search as _search  # noqa: F401
+from ninja_game.solver import value_backup as _cost_to_go  # noqa: F401
+from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, verified_run
+from ninja_game.solver.heuristics import Goals
+from ninja_game.solver.local_search_driver import Climb
+from ninja_game.solver.macro_actions import held_frames
+from ninja_game.solver.plan import COOLING, SEARCH_COST, VARY, VARY_TICKS, Shares, find_order
+from ninja_game.solver.search_memory import SearchMemory, Start
+from ninja_game.solver.search_run import MORE, Resolution, Search
+from ninja_game.solver.task import Progress, Report, Shared, Task
+
+__all__ = ["Progress", "Task", "compiled_kernels", "solve"]
+
+SLICE = 1_000_000
+"""Ticks between two looks at the clock."""
+
+
+class _Job:
+    """One thread's work."""
+
+    def __init__(self, compiled: Kernels, shared: Shared, number: int) -> None:
+        task = shared.task
+        self.kernels = compiled
+        self.shared = shared
+        self.number = number
+        self.seed = task.seed * 1000 + number
+        self.work = 0.0
+        self.shares = Shares()
+        self.start = Start(compiled, task.level, box=task.body == "box")
+        self._search: Search | None = None
+        self._turn = 2 * number
+        self._climbs = 0
+
+    def run(self) -> None:
+        """Find, vary, climb, until the end."""
+        shared, shares = self.shared, self.shares
+        if not shared.runs:
+            self._find()
+        while not self._over and shared.runs:
+            if self.work < shares.vary_until * shared.task.work_planned and not shared.task.first:
+                self._vary()
+            else:
+                self._turn += 1
+                # The best run most of the time; now and then another one that may have more in it.
+                rank = (0, 1, 0, 2, 0)[self._turn % 5] if not shared.task.first else 0
+                with shared.lock:
+                    inputs = shared.runs[min(rank, len(shared.runs) - 1)]
+                self._climb(inputs, shares.long_climb)
+
+    @property
+    def _over(self) -> bool:
+        return self.shared.over or bool(self.shared.task.work and self.work >= self.shared.task.work)
+
+    def _memory(self) -> Search:
+        """The search of this job, made when it is first needed."""
+        if self._search is None:
+            task = self.shared.task
+            nodes = int(min(1_500_000, max(100_000, task.work_planned / 40)))
+            goals = Goals(self.kernels, self.start.levels, self.start.worlds)
+            memory = SearchMemory(nodes, nodes)
+            self._search = Search(self.kernels, self.start, goals, memory, task.gold_wanted)
+        return self._search
+
+    def _find(self) -> None:
+        for resolution, ticks, turn in find_order(self.number):
+            if self._over or self.shared.runs:
+                return
+            wanted = ticks * (4 if self.shared.task.gold_wanted else 1)
+            self._search_once(resolution, wanted, seed=turn, bound=0, until_found=True)
+
+    def _vary(self) -> None:
+        turn = self._turn
+        self._turn += 1
+        resolution = VARY[turn % len(VARY)]
+        guided = resolution.slack > 0.0
+        with self.shared.lock:
+            shortest = len(self.shared.runs[0])
+        resolution = replace(resolution, slack=resolution.slack * shortest)
+        bound = shortest + max(4, shortest // 20)
+        found = self._search_once(resolution, VARY_TICKS, seed=100 + turn, bound=bound, guided=guided)
+        self._climb(found or self.shared.runs[0], self.shares.first_climb)
+
+    def _search_once(
+        self, resolution: Resolution, ticks: int, *, seed: int, bound: int, guided: bool = False,
+        until_found: bool = False,
+    ) -> bytes | None:  # fmt: skip
+        search = self._memory()
+        search.begin(resolution, seed=self.seed * 1000 + seed, bound=bound, guided=guided)
+        ended, worlds = MORE, 0
+        while ended == MORE and search.ticks < ticks and not self._over:
+            before = search.ticks
+            ended = search.run(min(SLICE, ticks - before))
+            self.work += (search.ticks - before) * SEARCH_COST
+            self.shared.count(search.ticks - before, search.worlds - worlds, "searching")
+            worlds = search.worlds
+            if until_found and (self.shared.runs or search.best()):
+                break
+        found = search.best()
+        if found:
+            self.shared.offer(found)
+        return found
+
+    def _climb(self, inputs: bytes, ticks: int) -> None:
+        self._climbs += 1
+        gold = self.shared.task.gold_wanted
+        climb = Climb(self.kernels, self.start, inputs, gold=gold, seed=self.seed + 7919 * self._climbs)
+        for temperature in COOLING:
+            until = climb.played + ticks // len(COOLING)
+            while climb.played < until and not self._over:
+                before, trials, best = climb.played, climb.trials, climb.ticks
+                climb.run(min(SLICE, until - before), temperature=temperature)
+                self.work += climb.played - before
+                self.shared.count(climb.played - before, climb.trials - trials, "shortening")
+                if climb.ticks < best:
+                    self.shared.offer(climb.best())
+            climb.return_to_best()
+
+
+_SMALL = "0" * 713 + "|5^100,566!11^160,564,130,564"
+
+
+@cache
+def compiled_kernels() -> Kernels:
+    """All kernels, compiled: a small level is solved first, so that no clock runs while Numba works.
+
+    Raises MemoryUnavailableError without Numba.
+    """
+    compiled = kernels()
+    task = Task(parse_level_string(_SMALL), work=30_000)
+    _Job(compiled, Shared(task, None), 0).run()
+    return compiled
+
+
+def solve(
+    task: Task, *, report: Report | None = None, on_better: Callable[[VerifiedRun], None] | None = None
+) -> VerifiedRun | None:
+    """The best run to the exit that was found in the time, None if there is none.
+
+    ``report`` is called a few times a second, ``on_better`` with every verified run that is shorter than those before.
+    ``task.first`` is a run to start from: then it is only improved, and is itself the first that ``on_better`` gets.
+    Raises LevelError for a level that cannot be played, MemoryUnavailableError without Numba, UnverifiedRunError for a
+    first run that does not reach the exit.
+    """
+    compiled = compiled_kernels()
+    shared = Shared(task, report, on_better=on_better)
+    if task.first:
+        shared.offer(_with_plain_triggers(task))
+    jobs = [_Job(compiled, shared, number) for number in range(task.jobs)]
+    if len(jobs) == 1:
+        jobs[0].run()
+        return shared.best
+    with ThreadPoolExecutor(len(jobs)) as pool:
+        running = {pool.submit(job.run) for job in jobs}
+        try:
+            while running:
+                done, running = wait(running, timeout=0.2, return_when=FIRST_COMPLETED)
+                for job in done:
+                    job.result()
+        finally:
+            shared.stop.set()
+    return shared.best
+
+
+def _with_plain_triggers(task: Task) -> bytes:
+    """The first run with triggers just where the jump key goes down, as edits keep them.
+
+    Raises UnverifiedRunError where the run does not reach the exit, or only by triggers that no keyboard makes.
+    """
+    plain = held_frames(task.first)
+    try:
+        return verified_run(task.level, plain, body=task.body, gold=task.gold_wanted).inputs
+    except UnverifiedRunError:
+        verified_run(task.level, task.first, body=task.body, gold=task.gold_wanted)
+        raise UnverifiedRunError("the run triggers jumps without a fresh press, as no keyboard does") from None

@@ -1,0 +1,1 @@
+"""Archives of recordings of any size, verified and traced by many processes."""

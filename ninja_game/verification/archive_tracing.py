@@ -1,0 +1,78 @@
+"""Traces of any number of recordings, on all cores, in order, in bounded memory."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
+from itertools import chain, islice
+from pathlib import Path
+from typing import Any, NamedTuple, TypeAlias
+
+from ninja_game.batch.thread_pool import cores
+from ninja_game.compile_cache import choose_memory
+from ninja_game.errors import NinjaGameError
+from ninja_game.formats.recording import Recording
+from ninja_game.runs.recording_reader import Unreadable, recordings_in
+from ninja_game.runs.trace import trace_recording
+from ninja_game.runs.trace_files import FiledTrace
+from ninja_game.verification.workers import WorkerLostError, in_order, workers
+
+JOB = 32
+"""Recordings a job: sending one costs more than a short run."""
+
+
+class Traced(NamedTuple):
+    """A trace, the file of its recording and the comment there."""
+
+    file: str
+    comment: str
+    trace: FiledTrace
+
+
+Result: TypeAlias = Traced | Unreadable
+Job: TypeAlias = list[Recording | Unreadable]
+
+
+def trace_all(
+    paths: Iterable[Path], *, record: int | None = None, jobs: int | None = None, memory: str = "auto", **options: Any
+) -> Iterator[Result]:
+    """A trace of every recording in files and folders, in order; what cannot be read is told and stops nothing.
+
+    ``record``: only this one of each file. ``jobs``: how many run at a time, by default one a core. ``memory`` and
+    ``options`` as for ``trace_recording``.
+    """
+    found = recordings_in(paths)
+    rest = (item for item in found if record is None or isinstance(item, Unreadable) or item.record == record)
+    first = list(islice(rest, JOB))
+    trace = partial(_trace, {"memory": memory, **options})
+    if len(first) < JOB or jobs == 1:
+        # Few recordings are done before a second worker has started.
+        yield from map(trace, chain(first, rest))
+        return
+    # Compiled code leaves the interpreter's lock, plain code needs processes.
+    processes = choose_memory(memory) == "plain" or bool(options.get("events"))
+    with workers(jobs or cores(), processes=processes) as crew:
+        for job, results in in_order(crew, partial(_trace_job, trace), chain([first], _bundles(rest))):
+            if isinstance(results, WorkerLostError):
+                yield Unreadable(f"{len(job)} recordings: {results}")
+            else:
+                yield from results
+
+
+def _bundles(items: Iterator[Recording | Unreadable]) -> Iterator[Job]:
+    while bundle := list(islice(items, JOB)):
+        yield bundle
+
+
+def _trace_job(trace: Callable[[Recording | Unreadable], Result], job: Job) -> list[Result]:
+    return [trace(item) for item in job]
+
+
+def _trace(options: dict[str, Any], recording: Recording | Unreadable) -> Result:
+    if isinstance(recording, Unreadable):
+        return recording
+    try:
+        run = trace_recording(recording, **options)
+    except NinjaGameError as error:
+        return Unreadable(str(error))
+    return Traced(recording.file, recording.comment, FiledTrace(recording.record, recording.name, run))

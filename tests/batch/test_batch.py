@@ -1,0 +1,227 @@
+"""Batches: the same bits as single stepping, whatever the threads; resets, snapshots, copies, observations."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+import numpy as np
+import pytest
+
+from ninja_game import LevelData, Simulation, parse_level
+from ninja_game.batch.batch import Batch
+from ninja_game.batch.thread_pool import Crew
+from ninja_game.compile_cache import MemoryUnavailableError, compiled_available, compiled_sources, kernels
+from ninja_game.sim.level import DRONE, EXIT, MINE
+from ninja_game.sim.memory.layout import THING
+from ninja_game.sim.states import OUTCOME_NAMES
+
+FLOOR = "0" * 713
+LEVELS = [
+    parse_level(FLOOR + "|5^100,566!11^160,564,130,564!6^300,564,0,1,0,2!0^220,566!0^240,566"),
+    parse_level(FLOOR + "|5^100,566!12^150,566!1^60,500!8^400,100,1!3^500,300!10^600,200!6^300,300,0,0,2,0"),
+    parse_level(FLOOR + "|5^700,300!2^700,560,0,-1!4^200,564,0!" + "!".join(f"0^{x},566" for x in range(30, 760, 12))),
+]
+MEMORIES = ["plain", *(["compiled"] if compiled_available() else [])]
+needs_numba = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+
+
+def keys(ticks: int, count: int, seed: int = 6) -> np.ndarray[tuple[int, int], np.dtype[np.uint8]]:
+    """Random inputs that keep keys down for some ticks."""
+    random = np.random.default_rng(seed)
+    return np.repeat(random.integers(0, 16, (ticks // 8 + 1, count), np.uint8), 8, axis=0)[:ticks]
+
+
+def single_digests(frames: np.ndarray[tuple[int, int], np.dtype[np.uint8]]) -> list[str]:
+    """Digests of the same worlds stepped one by one by the plain memory."""
+    digests = []
+    for index in range(frames.shape[1]):
+        run = Simulation(LEVELS[index % len(LEVELS)])
+        for frame in frames[:, index].tolist():
+            run.step_frame(frame)
+        digests.append(run.digest())
+    return digests
+
+
+@pytest.mark.parametrize("memory", MEMORIES)
+def test_a_batch_is_single_stepping_to_the_last_bit(memory: str) -> None:
+    frames = keys(120, 7)
+    batch = Batch(LEVELS, 7, memory=memory)
+    for row in frames[:40]:
+        batch.step(row)
+    batch.run(frames[40:])
+    assert [batch.digest(index) for index in range(7)] == single_digests(frames)
+
+
+@needs_numba
+def test_the_number_of_threads_changes_nothing() -> None:
+    frames = keys(60, 900)
+    batches = [Batch(LEVELS, 900, memory="compiled", threads=threads) for threads in (1, 2, 4)]
+    for batch in batches:
+        batch.run(frames[:30])
+        for row in frames[30:]:
+            batch.step(row)
+    digests = [[batch.digest(index) for index in range(0, 900, 7)] for batch in batches]
+    assert digests[0] == digests[1] == digests[2]
+    assert np.array_equal(batches[0].objects, batches[1].objects)
+
+
+@needs_numba
+def test_batches_of_all_sizes_share_one_compiled_function() -> None:
+    for count in (1, 2, 5):
+        Batch(LEVELS, count, memory="compiled").step([0] * count)
+    entry: Any = kernels()["run_worlds"]
+    assert len(entry.signatures) == 1
+
+
+@needs_numba
+def test_both_memories_show_the_same_bytes() -> None:
+    batches = [Batch(LEVELS, 6, memory=memory) for memory in MEMORIES]
+    for batch in batches:
+        batch.run(keys(90, 6))
+    plain, compiled = batches
+    for name in ("positions", "previous", "states", "outcomes", "gold", "ticks", "used", "places"):
+        assert np.array_equal(getattr(plain, name), getattr(compiled, name), equal_nan=True), name
+    assert plain.objects.shape == compiled.objects.shape == (6, int(compiled.used.max()))
+    for index in range(6):
+        used = compiled.used[index]
+        assert plain.objects[index, 1:used].tobytes() == compiled.objects[index, 1:used].tobytes()
+
+
+@pytest.mark.parametrize("memory", MEMORIES)
+def test_observations_are_views_that_stay_current(memory: str) -> None:
+    batch = Batch(LEVELS, 5, memory=memory)
+    positions, states, things = batch.positions, batch.states, batch.objects
+    assert positions.base is not None
+    assert positions.shape == (5, 2)
+    batch.run(np.full((40, 5), 2))
+    run = Simulation(LEVELS[1])
+    for _ in range(40):
+        run.step_frame(2)
+    assert positions[1].tolist() == [run.ninja.x, run.ninja.y]
+    assert batch.velocities()[1].tolist() == [run.ninja.vx, run.ninja.vy]
+    assert states.dtype == np.int32
+    assert OUTCOME_NAMES[batch.outcomes[1]] == run.outcome
+    kinds = things["kind"][0, 1 : batch.used[0]].tolist()
+    assert [kinds.count(kind) for kind in (EXIT, DRONE, MINE)] == [1, 1, 0]
+    drone = kinds.index(DRONE) + 1
+    assert batch.places[0, drone].tolist() == [things["x"][0, drone], things["y"][0, drone]]
+    assert things.dtype == THING
+
+
+@pytest.mark.parametrize("memory", MEMORIES)
+def test_stop_leaves_ended_worlds_alone(memory: str) -> None:
+    batch = Batch(parse_level(FLOOR + "|5^100,566!11^160,564,130,564"), 3, memory=memory)
+    frames = np.zeros((60, 3), np.uint8)
+    frames[:, 1] = 2
+    ticks = batch.run(frames, stop=True)
+    assert [OUTCOME_NAMES[number] for number in batch.outcomes] == ["running", "exit", "running"]
+    assert batch.ticks.tolist() == [60, 24, 60]
+    assert ticks == 144
+    batch.run(frames[:5])
+    assert batch.ticks.tolist() == [65, 29, 65]
+
+
+@pytest.mark.parametrize("memory", MEMORIES)
+def test_single_worlds_are_reset_saved_copied_and_restored(memory: str) -> None:
+    batch = Batch(LEVELS, 6, memory=memory)
+    fresh = [batch.digest(index) for index in range(6)]
+    batch.run(keys(30, 6))
+    middle = [batch.digest(index) for index in range(6)]
+    state = batch.save([1, 4])
+    batch.run(keys(30, 6, seed=7))
+    late = batch.save()
+    batch.reset([0, 2])
+    assert [batch.digest(0), batch.digest(2)] == [fresh[0], fresh[2]]
+    batch.restore(state, [3, 1])
+    assert [batch.digest(3), batch.digest(1)] == [middle[1], middle[4]]
+    assert batch.levels_now.tolist() == [0, 1, 2, 1, 1, 2]
+    batch.copy([3, 3], [0, 5])
+    assert batch.digest(0) == batch.digest(5) == middle[1]
+    batch.reset(1, levels=2)
+    assert batch.digest(1) == fresh[2]
+    batch.restore(late)
+    frames = keys(30, 6, seed=8)
+    batch.run(frames)
+    again = [batch.digest(index) for index in range(6)]
+    batch.restore(late)
+    batch.run(frames)
+    assert [batch.digest(index) for index in range(6)] == again
+
+
+@pytest.mark.parametrize("memory", MEMORIES)
+def test_a_world_goes_on_alike_in_every_slot(memory: str) -> None:
+    batch = Batch(LEVELS, 6, memory=memory)
+    batch.run(keys(50, 6))
+    batch.copy([2] * 5, [0, 1, 3, 4, 5])
+    batch.run(np.repeat(keys(50, 1), 6, axis=1))
+    assert len({batch.digest(index) for index in range(6)}) == 1
+
+
+@pytest.mark.parametrize("memory", MEMORIES)
+def test_wrong_use_is_refused(memory: str) -> None:
+    batch = Batch(LEVELS[0], 2, memory=memory)
+    with pytest.raises(ValueError, match="expected integers, 2 a tick"):
+        batch.step([1])
+    with pytest.raises(ValueError, match="expected integers"):
+        batch.step([0.5, 1.0])
+    with pytest.raises(IndexError):
+        batch.reset(2)
+    with pytest.raises(ValueError, match="1 saved worlds do not fit 2"):
+        batch.restore(batch.save(0))
+    with pytest.raises(ValueError, match="do not fit"):
+        batch.restore(Batch(LEVELS[1], 2, memory=memory).save())
+    with pytest.raises(ValueError, match="at least one"):
+        Batch(LEVELS[0], 0, memory=memory)
+
+
+def test_without_numba_the_plain_memory_does_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ninja_game.compile_cache.compiled_available", lambda: False)
+    assert Batch(LEVELS[0], 1).memory == "plain"
+    with pytest.raises(MemoryUnavailableError):
+        Batch(LEVELS[0], 1, memory="compiled")
+
+
+def test_a_box_is_a_box() -> None:
+    batch = Batch(LEVELS[0], 1, body="box", memory="plain")
+    batch.run([[2]] * 20)
+    run = Simulation(LEVELS[0], body="box")
+    for _ in range(20):
+        run.step_frame(2)
+    assert batch.digest(0) == run.digest()
+
+
+def test_a_crew_does_every_item_once_and_raises_what_fails() -> None:
+    seen: list[int] = []
+    lock = threading.Lock()
+
+    def work(first: int, last: int) -> int:
+        with lock:
+            seen.extend(range(first, last))
+        return last - first
+
+    hands = Crew(3)
+    for count in (1, 2, 23, 24, 25, 255, 256, 257, 1000, 10_000):
+        for ticks in (0, 1, 7, 64, 5000):
+            seen.clear()
+            assert hands.share(work, count, ticks) == count
+            assert sorted(seen) == list(range(count))
+
+    def fail(first: int, last: int) -> int:
+        raise LookupError(f"{first} {last}")
+
+    with pytest.raises(LookupError):
+        hands.share(fail, 100)
+    assert hands.share(work, 24) == 24
+
+
+def test_only_sources_of_compiled_functions_count_for_the_cache() -> None:
+    names = {path.name for path in compiled_sources() if path.parent.name == "batch"}
+    assert "kernels.py" in names
+    assert not names & {"batch.py", "thread_pool.py", "worlds.py"}
+
+
+def test_an_empty_choice_of_levels_is_refused() -> None:
+    none: list[LevelData] = []
+    with pytest.raises(ValueError, match="0 levels"):
+        Batch(none, 1)

@@ -1,0 +1,270 @@
+"""What is legal but odd: every warning once, and none for proper levels."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from ninja_game.formats.ascii.reader import parse_ascii_level
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.levels.warnings import level_warnings, object_name
+from ninja_game.sim.level import EXIT, GOLD, MINE, NINJA, TILES, LevelData, Record
+from tests.support.reference import levels
+
+PROPER = (Record(NINJA, (36.0, 564.0)), Record(EXIT, (700.0, 564.0, 300.0, 564.0)))
+
+
+def warnings_of(*lines: str, rows: dict[int, str] | None = None, keep: bool = True) -> list[str]:
+    """Warnings of a level with a ninja and an exit (unless ``keep`` is false), these rows and these lines."""
+    drawn = {23: "@...x...X"} if keep else {}
+    drawn.update(rows or {})
+    picture = ["|" + drawn.get(row, "").ljust(31, ".") + "|" for row in range(1, 24)]
+    return level_warnings(parse_ascii_level("\n".join(["ninja-game level 1", *picture, *lines])).level)
+
+
+CASES: dict[str, tuple[list[str], dict[int, str], str]] = {
+    "outside the grid": (["gold 900,100px"], {}, "gold at 900,100px (object 2): it is outside the grid"),
+    "not a number": (["mine 100,nanpx"], {}, "mine at 100,nanpx (object 2): one of its values is not a number"),
+    "wrong count": (
+        ["raw 12 100"],
+        {},
+        "mine (object 2): it has 1 values where its kind needs 2: it does nothing",
+    ),
+    "unknown type": (
+        ['raw "77^1,2"'],
+        {},
+        "1 records create nothing (unknown type), the first is '77^1,2'",
+    ),
+    "ninja with a wrong count": (
+        ["raw 5 100"],
+        {},
+        "ninja (object 2): it has 1 values where its kind needs 2: it starts at 45,70px",
+    ),
+    "several ninjas": (
+        ["ninja 5.5,5"],
+        {},
+        "there are 2 ninjas: the last one plays, ninja at 5.5,5 (object 2); the others only stand there",
+    ),
+    "turret in a tile": (
+        ["gauss turret 1,1"],
+        {1: "#"},
+        "gauss turret at 1,1 (object 2): it is inside a tile: what it sees and hits is odd",
+    ),
+    "launcher in a tile": (
+        ["homing launcher 1,1"],
+        {1: "#"},
+        "homing launcher at 1,1 (object 2): it is inside a tile: its rockets explode at once",
+    ),
+    "drone in a tile": (
+        ["zap drone 1,1 wander-cw right"],
+        {1: "#"},
+        "zap drone at 1,1 (object 2): it is inside a full tile",
+    ),
+    "thwump in a tile": (["thwump 1,1 down"], {1: "#"}, "thwump at 1,1 (object 2): it is inside a full tile"),
+    "gold behind walls": ([], {1: "o#", 2: "##"}, "gold at 1,1 (object 1): the ninja cannot reach it"),
+    "pad with a long normal": (
+        ["launch pad 5.5,5 normal 0,-2"],
+        {},
+        "launch pad at 5.5,5 (object 2): its normal has length 2 instead of 1 and its strength changes with it",
+    ),
+    "one-way with an odd direction": (
+        ["raw 7 132,132,4"],
+        {},
+        "one-way platform at 5,5 (object 2): its direction is not 0 to 3: it faces down",
+    ),
+    "thwump with an odd direction": (
+        ["raw 8 132,132,nan"],
+        {},
+        "thwump at 5,5 (object 2): its direction is not 0 to 3: it never moves, its right side kills",
+    ),
+    "guard in the border": (
+        ["floor guard 0,5"],
+        {},
+        (
+            "floor guard at 0,5 (object 2): "
+            "a guard in the left or right border or outside hangs the original game; here it does nothing"
+        ),
+    ),
+    "guard in a tile": (["floor guard 1,1"], {1: "#"}, "floor guard at 1,1 (object 2): it is inside a full tile"),
+    "guard in the air": (
+        [],
+        {5: "n"},
+        "floor guard at 1,5 (object 1): it does not stand on a solid floor: it cannot run to the left",
+    ),
+    "drone with an odd weapon": (
+        ["raw 6 132,132,1,0,3,0"],
+        {},
+        "drone at 5,5 (object 2): its weapon is not 0 to 2: it is harmless",
+    ),
+    "drone with an odd movement": (
+        ["raw 6 133,132,6,0,0,0"],
+        {},
+        "drone at 133,132px (object 2): its movement is not 0 to 5: it gets stuck",
+    ),
+    "drone with an odd direction": (
+        ["raw 6 133,132,1,0,0,-1"],
+        {},
+        "drone at 133,132px (object 2): its direction is not 0 to 3",
+    ),
+    "drone with an odd flag": (
+        ["raw 6 133,132,1,2,0,1"],
+        {},
+        "zap drone at 133,132px (object 2): its seeker flag is not 0 or 1",
+    ),
+    "laser that seeks": (
+        ["laser drone 5.5,5 wander-cw right seeker"],
+        {},
+        "laser drone at 5.5,5 (object 2): only zap drones seek: its seeker flag does nothing",
+    ),
+    "drone closed in": (
+        ["zap drone 2,2 wander-cw right"],
+        {1: ".#", 2: "#Z#", 3: ".#"},
+        "zap drone at 2,2 (object 2): it is closed in on all sides: it never moves",
+    ),
+    "drone closed in by a door": (
+        ["zap drone 2,2 wander-cw right", "automatic door 2,2 right"],
+        {1: ".#", 2: "#Z.", 3: ".#"},
+        "zap drone at 2,2 (object 2): it is closed in on all sides: it never moves",
+    ),
+    "door with an odd side": (
+        ["raw 9 100,100,2,0,5,5,1,0,0"],
+        {},
+        (
+            "door with its switch at 100,100px (object 2): "
+            "its vertical flag is not 0 or 1: it closes another side than it is drawn on"
+        ),
+    ),
+    "door with odd flags": (
+        ["raw 9 100,100,0,2,5,5,0,0,0"],
+        {},
+        "door at 5,5 (object 2): its trap or locked flag is not 0 or 1",
+    ),
+    "locked trap door": (
+        ["raw 9 100,100,0,1,5,5,1,0,0"],
+        {},
+        "door at 5,5 (object 2): it is flagged as locked and as trap: it is a locked door",
+    ),
+    "door outside": (
+        ["raw 9 100,100,0,0,50,5,1,0,0"],
+        {},
+        "door with its switch at 100,100px (object 2): it is not between two cells of the grid",
+    ),
+    "door at the far border": (
+        ["automatic door 32,5 right"],
+        {},
+        "automatic door at 32,5 (object 2): it is not between two cells of the grid",
+    ),
+    "two doors on a side": (
+        ["automatic door 5,5 right", "automatic door 6,5 left"],
+        {},
+        (
+            "automatic door at 5,5 (object 2), automatic door at 6,5 (object 3): "
+            "another door is on the same side: the later one may never open"
+        ),
+    ),
+    "door switch behind walls": (
+        ["locked door 9,9 left switch 1,1"],
+        {1: "&#", 2: "##"},
+        "locked door at 9,9 (object 2): the ninja cannot reach its switch at 1,1",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_warning(name: str) -> None:
+    lines, rows, warning = CASES[name]
+    assert warning in warnings_of(*lines, rows=rows)
+
+
+def test_a_proper_level_has_no_warning() -> None:
+    assert warnings_of(rows={20: "....^^^...oo...###", 22: "###"}) == []
+
+
+def test_an_empty_level_lacks_ninja_and_exit() -> None:
+    assert warnings_of(keep=False) == [
+        "there is no ninja: the level cannot be played",
+        "there is no exit: the level cannot be passed",
+    ]
+
+
+def test_a_ninja_in_a_wall() -> None:
+    found = warnings_of("ninja 1,1", "exit 9,23 switch 5,23", rows={1: "#", 23: "....x...X"}, keep=False)
+    assert found == ["ninja at 1,1 (object 0): it starts inside a tile"]
+
+
+def test_objects_that_share_an_oddity_share_a_line() -> None:
+    assert warnings_of("gold 900,1px 901,1px 902,1px 903,1px 904,1px")[0] == (
+        "gold at 900,1px (object 2), gold at 901,1px (object 3), gold at 902,1px (object 4) and 2 more: "
+        "it is outside the grid"
+    )
+
+
+def test_odd_tiles() -> None:
+    assert warnings_of("tile 2,1 id 70", "tile 1,1 3,1 id -1", rows={1: "???"}) == [
+        "tile -1 at 1,1, tile -1 at 3,1: a tile id below 0 is never solid, yet not empty",
+        "tile 70 at 2,1: a tile id above 33 is a half tile without direction",
+    ]
+
+
+def test_many_objects() -> None:
+    level = LevelData(records=PROPER + (Record(MINE, (300.0, 300.0)),) * 2000)
+    assert level_warnings(level) == ["there are 2002 objects, more than 2000: the game may be slow"]
+
+
+WALL = dict.fromkeys(range(1, 23), "....#")
+
+
+def test_an_exit_and_its_switch_behind_a_wall() -> None:
+    rows = {**WALL, 23: "@...#.x.X"}
+    assert warnings_of(rows=rows) == [
+        "exit at 9,23 (object 1): the ninja cannot reach it",
+        "exit at 9,23 (object 1): the ninja cannot reach its switch at 7,23",
+    ]
+
+
+@pytest.mark.parametrize(
+    "row,lines",
+    [
+        ("....#", ["automatic door 5,23 left"]),
+        (".&..#", ["locked door 5,23 left switch 2,22"]),
+        (".!..#", ["trap door 5,23 left switch 2,22"]),
+        (".&&.#", ["locked door 5,23 left switch 2,22", "locked door 5,23 right switch 3,22"]),
+    ],
+)
+def test_a_door_that_can_be_passed_is_no_wall(row: str, lines: list[str]) -> None:
+    assert warnings_of(*lines, rows={**WALL, 22: row, 23: "@.....x.X"}) == []
+
+
+def test_a_locked_door_with_its_switch_on_the_far_side_is_a_wall() -> None:
+    found = warnings_of("locked door 5,23 left switch 8,22", rows={**WALL, 22: "....#..&", 23: "@.....x.X"})
+    assert "exit at 9,23 (object 1): the ninja cannot reach it" in found
+    assert "locked door at 5,23 (object 2): the ninja cannot reach its switch at 8,22" in found
+
+
+def test_two_locked_doors_with_their_switches_behind_each_other_never_open() -> None:
+    lines = ["locked door 5,23 left switch 10,22", "locked door 9,23 left switch 6,22"]
+    rows = dict.fromkeys(range(1, 22), "....#...#") | {22: "....#&..#&", 23: "@.....x....X"}
+    found = warnings_of(*lines, rows=rows)
+    assert sum("cannot reach" in warning for warning in found) == 4
+
+
+def test_nothing_is_certain_for_a_ninja_that_starts_in_a_tile() -> None:
+    rows = {**WALL, 23: "#...#.x.X"}
+    assert warnings_of("ninja 1,23", rows=rows) == ["ninja at 1,23 (object 1): it starts inside a tile"]
+
+
+def test_names_say_where_an_object_is_in_its_file() -> None:
+    assert object_name(Record(GOLD, (36.0, 42.0)), 3) == "gold at 1,1.25 (object 3)"
+    assert object_name(Record(GOLD, (math.nan, 42.0)), 3) == "gold at nan,42px (object 3)"
+
+
+def test_ids_skip_records_that_create_nothing() -> None:
+    level = LevelData((0,) * TILES, (*PROPER, Record(-1, (), "77"), Record(GOLD, (900.0, 36.0))))
+    assert level_warnings(level)[-1] == "gold at 900,36px (object 2): it is outside the grid"
+
+
+def test_published_levels_are_mostly_proper() -> None:
+    found = [warning for row in levels() for warning in level_warnings(parse_level_string(row.data))]
+    assert len(found) <= 8
+    assert not [warning for warning in found if "exit" in warning or "ninja at" in warning]

@@ -1,0 +1,156 @@
+"""Episodes, progress, bests and unlocks grow as game.md §2.1 and §8 say."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from ninja_game.player.playthrough import EpisodeRun, LevelRun
+from ninja_game.player.progress import CHEATED, LOCKED, UNLOCKED, Progress
+from ninja_game.player.statistics import SELF
+from ninja_game.player.store import open_store
+from ninja_game.player.unlocks import complete_columns, new_unlocks
+from ninja_game.sim.rules import LIFETIME
+from tests.support.players import EXIT_TICK, deadly_level, entry, episode, played, player_data, short_level
+
+
+@pytest.fixture
+def progress() -> Progress:
+    return Progress(open_store(None))
+
+
+def pass_levels(progress: Progress, number: int, levels: int = 5, *, legitimate: bool = True) -> None:
+    for level in range(levels):
+        progress.level_passed((number, level), legitimate=legitimate)
+
+
+def test_first_episode_of_each_column_is_unlocked_at_the_start(progress: Progress) -> None:
+    unlocked = [number for number in range(100) if progress.state(number) == UNLOCKED]
+    assert unlocked == list(range(0, 100, 10))
+
+
+def test_passing_an_episode_unlocks_the_next_of_its_column(progress: Progress) -> None:
+    pass_levels(progress, 20, 4)
+    assert progress.state(21) == LOCKED
+    pass_levels(progress, 20)
+    assert progress.state(21) == UNLOCKED
+    assert progress.is_beaten(20)
+    assert progress.columns[2].beaten == (21, 0)
+
+
+def test_illegitimate_passing_only_moves_reached(progress: Progress) -> None:
+    pass_levels(progress, 0, legitimate=False)
+    assert progress.state(1) == CHEATED
+    assert not progress.is_beaten(0)
+
+
+def test_tenth_episode_counts_from_its_last_level_on(progress: Progress) -> None:
+    for number in range(9):
+        pass_levels(progress, number)
+    pass_levels(progress, 9, 3)
+    assert complete_columns(progress, range(10)) == 0
+    progress.level_passed((9, 3), legitimate=True)
+    assert progress.columns[0].beaten == (9, 4)
+    assert complete_columns(progress, range(10)) == 1
+    progress.level_passed((9, 4), legitimate=True)
+    assert progress.columns[0].beaten == (9, 4)
+
+
+def test_progress_is_read_back(tmp_path: Path) -> None:
+    store = open_store(tmp_path / "r.sqlite")
+    pass_levels(Progress(store), 0)
+    store.close()
+    assert Progress(open_store(tmp_path / "r.sqlite")).state(1) == UNLOCKED
+
+
+def test_replaying_an_old_episode_changes_no_progress(progress: Progress) -> None:
+    pass_levels(progress, 0)
+    progress.level_passed((1, 0), legitimate=True)
+    before = list(progress.columns)
+    pass_levels(progress, 0)
+    assert progress.columns == before
+
+
+def test_unlocks_are_announced_once() -> None:
+    store = open_store(None)
+    assert new_unlocks(store, 0, 10) == []
+    assert new_unlocks(store, 1, 10) == ["New ninja colour unlocked"]
+    assert new_unlocks(store, 1, 10) == []
+    # Fewer columns, because episodes were added: what was announced stays announced.
+    assert new_unlocks(store, 0, 10) == []
+    assert new_unlocks(store, 1, 10) == []
+    assert "Overclock unlocked" in new_unlocks(store, 6, 10)
+    assert "Any ninja colour unlocked" in new_unlocks(store, 10, 10)
+
+
+def test_episode_carries_its_lifetime_and_saves_its_best(tmp_path: Path) -> None:
+    data = player_data(tmp_path, episode())
+    run = EpisodeRun(data, episode())
+    for level in range(5):
+        assert run.level == level
+        attempt = played(run.entry.named.level, lifetime=run.lifetime)
+        notices = run.passed(attempt)
+        assert run.advance(attempt) == (level < 4)
+    assert run.score == LIFETIME - 5 * EXIT_TICK
+    assert any("Episode best" in notice for notice in notices)
+    best = data.records.episode_best(episode().key)
+    assert best is not None
+    assert best.score == run.score
+    assert [replay.level_digest for replay in map(data.records.replay, best.replays) if replay] == [
+        each.digest for each in episode().levels
+    ]
+    assert data.progress.state(1) == UNLOCKED
+    assert "New ninja colour unlocked" in notices  # the only episode of its column
+
+
+def test_practised_level_makes_the_whole_run_illegitimate(tmp_path: Path) -> None:
+    data = player_data(tmp_path, episode())
+    run = EpisodeRun(data, episode())
+    for level in range(5):
+        attempt = played(run.entry.named.level, lifetime=run.lifetime)
+        attempt.practised = level == 0
+        run.passed(attempt)
+        run.advance(attempt)
+    assert data.records.episode_best(episode().key) is None
+    assert data.records.level_bests() == {}
+    assert data.progress.state(1) == CHEATED
+
+
+def test_cheated_episode_gives_no_bests(tmp_path: Path) -> None:
+    data = player_data(tmp_path, episode(0), episode(1))
+    pass_levels(data.progress, 0, legitimate=False)
+    run = EpisodeRun(data, episode(1))
+    run.passed(played(run.entry.named.level))
+    assert data.records.level_bests() == {}
+
+
+def test_only_a_better_level_score_replaces_the_best(tmp_path: Path) -> None:
+    data = player_data(tmp_path)
+    run = LevelRun(data, entry(short_level()))
+    assert "First time" in run.passed(played(short_level(), wait=5))[0]
+    assert run.passed(played(short_level(), wait=5)) == []
+    assert run.passed(played(short_level(), wait=9)) == []
+    assert "best" in run.passed(played(short_level()))[0]
+    best = data.records.level_best(run.entry.digest)
+    assert best is not None
+    assert best.score == LIFETIME - EXIT_TICK
+    assert len(data.records.replays()) == 1
+
+
+def test_deaths_are_counted_by_killer(tmp_path: Path) -> None:
+    data = player_data(tmp_path)
+    run = LevelRun(data, entry(deadly_level()))
+    run.died(played(deadly_level()))
+    run.died(played(deadly_level()))
+    attempt = played(deadly_level())
+    attempt.own_hand = True
+    run.died(attempt)
+    deaths = data.statistics.deaths()
+    assert (deaths["mine"], deaths[SELF], sum(deaths.values())) == (2, 1, 3)
+    assert data.statistics.played(run.entry.digest).deaths == 3
+
+
+def test_levels_of_an_episode_count_only_from_the_episode_reached(progress: Progress) -> None:
+    progress.level_passed((3, 0), legitimate=True)
+    assert progress.columns[0].beaten == (0, 0)

@@ -1,0 +1,123 @@
+"""Traces: digests as the reference defines them, files that keep every bit, differences that name what differs."""
+
+from __future__ import annotations
+
+import io
+from hashlib import sha256
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ninja_game.errors import FormatError
+from ninja_game.runs.run import NINJA_RECORD, THING_RECORD, RunTrace
+from ninja_game.runs.trace import first_difference, rows, trace_digests
+from ninja_game.runs.trace_files import FiledTrace, read_csv, read_traces, write_csv, write_npz
+from tests.support.reference import scene_traces, scenes
+
+
+def a_trace() -> RunTrace:
+    """Three ticks with two objects, and values that are easy to lose on the way: NaN, tiny ones, many digits."""
+    ninja = np.array([(0.1 + k, 0.0, 0.1, 1e-300, k, 2 * k) for k in range(3)], NINJA_RECORD)
+    things = np.array([[(1 / 3, float("nan"), 1), (2.0, 3.0, k)] for k in range(3)], THING_RECORD)
+    return RunTrace(ninja, things, (1, 4), ("gold", "drone"), ("jumped", "", "landed died"))
+
+
+TWICE = [FiledTrace(0, "a name", a_trace()), FiledTrace(5, "a name", a_trace())]
+
+
+def changed(trace: RunTrace, tick: int, column: int, field: str, value: float) -> RunTrace:
+    """The same trace with another value; column -1 is the ninja."""
+    ninja, things = trace.ninja.copy(), trace.things.copy()
+    if column < 0:
+        ninja[field][tick] = value
+    else:
+        things[field][tick, column] = value
+    return RunTrace(ninja, things, trace.ids, trace.kinds, trace.events)
+
+
+def test_digests_are_over_the_records_in_order() -> None:
+    trace = a_trace()
+    digests = trace_digests(trace)
+    ninja, things = trace.ninja, trace.things
+    whole = b"".join(ninja[k].tobytes() + things[k].tobytes() for k in range(3))
+    assert digests.ninja_sha256 == sha256(ninja.tobytes()).hexdigest()
+    assert digests.run_sha256 == sha256(whole).hexdigest()
+    assert digests.objects[4] == sha256(b"".join(things[k, 1].tobytes() for k in range(3))).hexdigest()[:8]
+
+
+def test_digests_of_the_reference_scenes() -> None:
+    everything = scene_traces()
+    ends = [scene.offset for scene in scenes()[1:]] + [len(everything)]
+    for scene, end in list(zip(scenes(), ends, strict=True))[::40]:
+        table = np.frombuffer(everything[scene.offset : end], np.uint8).reshape(scene.ticks, -1)
+        ninja = table[:, : NINJA_RECORD.itemsize].copy().view(NINJA_RECORD)[:, 0]
+        things = table[:, NINJA_RECORD.itemsize :].copy().view(THING_RECORD)
+        objects = things.shape[1]
+        digests = trace_digests(RunTrace(ninja, things, tuple(range(objects)), ("",) * objects))
+        assert (digests.ninja_sha256, digests.run_sha256) == (scene.ninja_sha256, scene.run_sha256), scene.name
+
+
+@pytest.mark.parametrize("form", ["csv", "npz"])
+def test_files_keep_every_bit(form: str, tmp_path: Path) -> None:
+    path = tmp_path / "trace"
+    if form == "csv":
+        with path.open("w", encoding="utf-8") as text:
+            write_csv(TWICE, text)
+    else:
+        with path.open("wb") as file:
+            write_npz(TWICE, file)
+    back = list(read_traces(path))
+    assert [(trace.record, trace.name) for trace in back] == [(0, "a name"), (5, "a name")]
+    assert trace_digests(back[1].run) == trace_digests(a_trace())
+    assert (back[1].run.kinds, back[1].run.events) == (a_trace().kinds, a_trace().events)
+
+
+@pytest.mark.parametrize("text", ["", "tick,x\n1,2\n", "\0"])
+def test_other_files_are_refused_by_name(text: str) -> None:
+    with pytest.raises(FormatError, match=r"^other\.csv:1"):
+        list(read_csv(io.StringIO(text), file="other.csv"))
+
+
+def test_broken_row_is_refused_with_its_line() -> None:
+    out = io.StringIO()
+    write_csv(TWICE[:1], out)
+    with pytest.raises(FormatError, match=r"^t\.csv:\d+: a row"):
+        list(read_csv(io.StringIO(out.getvalue().replace("0.1", "point one")), file="t.csv"))
+
+
+def test_rows_give_velocity_and_events() -> None:
+    row = list(rows(a_trace()))[3]
+    assert (row["tick"], row["kind"], row["vx"], row["events"]) == (1, "ninja", 1.0, "")
+
+
+@pytest.mark.parametrize(
+    "tick, column, field, value, message",
+    [
+        (1, -1, "y", 5.0, "tick 1: ninja: y is 0.0, expected 5.0 (specification: ninja 4)"),
+        (2, 0, "y", 5.0, "tick 2: object 1 (gold): y is nan, expected 5.0 (specification: ninja 4)"),
+        (0, 1, "s", 7, "tick 0: object 4 (drone): s is 0, expected 7 (specification: ninja 4)"),
+    ],
+)
+def test_difference_names_tick_thing_field_and_values(
+    tick: int, column: int, field: str, value: float, message: str
+) -> None:
+    other = changed(a_trace(), tick, column, field, value)
+    assert str(first_difference(a_trace(), other, "ninja 4")) == message
+
+
+def test_first_difference_is_the_earliest() -> None:
+    other = changed(changed(a_trace(), 2, -1, "x", 9.0), 1, 1, "x", 9.0)
+    assert str(first_difference(a_trace(), other)) == "tick 1: object 4 (drone): x is 2.0, expected 9.0"
+
+
+def test_equal_traces_have_no_difference() -> None:
+    assert first_difference(a_trace(), changed(a_trace(), 0, -1, "y", 0.0)) is None
+
+
+def test_length_and_missing_objects_are_differences() -> None:
+    whole = a_trace()
+    short = RunTrace(whole.ninja[:2], whole.things[:2], whole.ids, whole.kinds)
+    fewer = RunTrace(whole.ninja, whole.things[:, :1], whole.ids[:1], whole.kinds[:1])
+    assert str(first_difference(whole, short)) == "tick 2: run: number of ticks is 3, expected 2"
+    assert str(first_difference(whole, fewer)) == "tick 0: object 4: kind is drone, expected missing"

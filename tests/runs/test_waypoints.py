@@ -1,0 +1,55 @@
+"""Waypoints in replays: written once a second, read strictly, and where a run leaves them is named."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from ninja_game import LevelData, Replay, ReplayError, parse_replay, record_replay, verify_recording, write_replay
+from ninja_game.formats.recording import parse_replays
+from ninja_game.sim.level import NINJA, Record
+
+FLAT = LevelData(records=(Record(NINJA, (100.0, 566.0)),))
+
+
+def running() -> Replay:
+    """Two seconds of running to the right."""
+    return record_replay(FLAT, bytes([2] * 80))
+
+
+def problems(replay: Replay) -> tuple[str, ...]:
+    """What verification says of a replay."""
+    return verify_recording(parse_replays(write_replay(replay))[0], memory="plain").problems
+
+
+def test_a_waypoint_stands_at_the_end_of_every_second() -> None:
+    assert [(waypoint.tick, waypoint.state) for waypoint in running().waypoints] == [(39, "running"), (79, "running")]
+    assert parse_replay(write_replay(running())) == running()
+
+
+def test_a_faithful_replay_has_no_problems() -> None:
+    assert problems(running()) == ()
+
+
+def test_the_first_missed_waypoint_and_field_are_named() -> None:
+    first, second = running().waypoints
+    moved = replace(running(), waypoints=(first, second._replace(y=500.0)))
+    assert problems(moved) == ("tick 79: ninja: y is 566.0, the replay says 500.0 (agrees up to tick 39)",)
+
+
+def test_other_inputs_are_noticed_where_they_lead_elsewhere() -> None:
+    other = replace(running(), inputs=bytes([2] * 50 + [0] * 30), digest="")
+    (problem,) = problems(other)
+    assert problem.startswith("tick 79: ninja: x is ")
+
+
+@pytest.mark.parametrize(
+    "line, message",
+    [("x 1 2 running", "no waypoint"), ("3 1 2", "no waypoint"), ("1 1 2 running\n  1 1 2 running", "out of order")],
+)
+def test_a_broken_waypoint_is_named_with_its_line(line: str, message: str) -> None:
+    text = write_replay(replace(running(), waypoints=(), level=None)).rstrip() + f"\nwaypoints:\n  {line}\n"
+    with pytest.raises(ReplayError, match=message) as caught:
+        parse_replay(text)
+    assert caught.value.line > 0

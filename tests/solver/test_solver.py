@@ -1,0 +1,142 @@
+"""The solver: finds runs, shortens them, does the same for the same seed - and everything it says is played again."""
+
+from __future__ import annotations
+
+import pytest
+
+from ninja_game.compile_cache import compiled_available
+from ninja_game.errors import LevelError
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.runs.run import run_level
+from ninja_game.sim.level import LevelData
+
+if not compiled_available():
+    pytest.skip("Numba is not installed", allow_module_level=True)
+
+from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, replay_of, verified_run
+from ninja_game.solver.macro_actions import HELD_BIT, TRIGGERED_BIT
+from ninja_game.solver.smoothing import rows_of, smoothed
+from ninja_game.solver.solve import Progress, Task, solve
+
+OPEN = "0" * 713 + "|"
+WALK = parse_level_string(OPEN + "5^100,566!11^160,564,130,564!0^115,566!0^60,566")
+"""Right over gold and switch into the exit; another piece of gold lies the other way."""
+WALK_TICKS = 23
+"""End tick of the walk with the right key held all the time: there is no shorter run."""
+
+COLUMN = 23
+LEDGE = parse_level_string(
+    "0" * COLUMN * 8 + ("0" * 20 + "111") * 2 + "0" * COLUMN * 21 + "|5^100,566!11^300,566,228,494"
+)
+"""The switch floats above a ledge of three tiles in the way: a jump up, then down to the exit."""
+
+LOCKED = parse_level_string(
+    ("0" * 10 + "1" * 12 + "0") * 10 + "0" * COLUMN * 21 + "|5^60,566!11^400,566,330,566!9^150,566,0,0,10,23,1,0,0"
+)
+"""A low corridor, closed at its right end by a locked door whose switch lies in the corridor."""
+
+CLOSED_IN = parse_level_string("0" * COLUMN * 5 + "1" * COLUMN + "0" * COLUMN * 25 + "|5^60,566!11^400,566,330,566")
+"""A wall from top to bottom between the ninja and everything else."""
+
+SMALL_WORK = 300_000
+
+
+def replayed(level: LevelData, run: VerifiedRun | None, body: str = "circle") -> VerifiedRun:
+    """The run, after it has reached the exit on the plain memory just where it says."""
+    assert run is not None
+    result = run_level(level, run.inputs, body="box" if body == "box" else "circle", memory="plain")
+    assert (result.outcome, result.end_tick, result.gold) == ("exit", run.end_tick, run.gold)
+    return run
+
+
+def test_the_shortest_walk_is_found() -> None:
+    run = replayed(WALK, solve(Task(WALK, work=SMALL_WORK)))
+    assert run.end_tick == WALK_TICKS
+
+
+@pytest.mark.parametrize("level", [LEDGE, LOCKED], ids=["ledge", "locked door"])
+def test_jumps_and_door_switches_are_found(level: LevelData) -> None:
+    replayed(level, solve(Task(level, work=3_000_000)))
+
+
+def test_the_box_is_solved_as_a_box() -> None:
+    replayed(LEDGE, solve(Task(LEDGE, body="box", work=3_000_000)), "box")
+
+
+def test_gold_is_fetched_first_where_it_is_asked_for() -> None:
+    assert replayed(WALK, solve(Task(WALK, work=SMALL_WORK))).gold < 2
+    run = replayed(WALK, solve(Task(WALK, gold=-1, work=2_000_000)))
+    assert run.gold == 2
+    assert run.end_tick > WALK_TICKS
+
+
+def test_any_of_several_exits_will_do() -> None:
+    two = parse_level_string(OPEN + "5^400,566!11^30,30,40,30!11^460,564,430,564")
+    assert replayed(two, solve(Task(two, work=SMALL_WORK))).end_tick == WALK_TICKS
+
+
+def test_there_is_no_run_where_nothing_leads_to_the_exit() -> None:
+    assert solve(Task(CLOSED_IN, work=SMALL_WORK)) is None
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_one_job_and_one_seed_give_one_result(seed: int) -> None:
+    first, again = (solve(Task(LEDGE, seed=seed, work=3_000_000)) for _ in range(2))
+    assert replayed(LEDGE, first).inputs == replayed(LEDGE, again).inputs
+
+
+def test_two_jobs_find_a_run_too() -> None:
+    replayed(LEDGE, solve(Task(LEDGE, jobs=2, work=2_000_000)))
+
+
+def test_a_dawdling_run_is_improved() -> None:
+    dawdling = bytes([0] * 25 + [2] * 60)
+    before = verified_run(WALK, dawdling)
+    run = replayed(WALK, solve(Task(WALK, first=dawdling, work=SMALL_WORK)))
+    assert run.end_tick < before.end_tick
+    assert run.end_tick == WALK_TICKS
+
+
+def test_every_better_run_is_reported_verified_and_shorter_than_the_last() -> None:
+    runs: list[VerifiedRun] = []
+    progress: list[Progress] = []
+    best = solve(Task(LEDGE, work=3_000_000), report=progress.append, on_better=runs.append)
+    assert best == runs[-1]
+    ticks = [replayed(LEDGE, run).end_tick for run in runs]
+    assert ticks == sorted(set(ticks), reverse=True)
+    assert progress[-1].best == ticks[-1]
+    assert progress[-1].ticks > 0
+
+
+def test_jumps_trigger_only_where_the_key_goes_down() -> None:
+    run = replayed(LEDGE, solve(Task(LEDGE, work=3_000_000)))
+    held = 0
+    for frame in run.inputs:
+        assert bool(frame & TRIGGERED_BIT) == bool(frame & HELD_BIT and not held)
+        held = frame & HELD_BIT
+
+
+def test_a_run_that_does_not_reach_the_exit_is_refused() -> None:
+    with pytest.raises(UnverifiedRunError, match="does not reach the exit: running after 5 ticks"):
+        solve(Task(WALK, first=bytes(5), work=1000))
+    with pytest.raises(UnverifiedRunError, match="collects 1 pieces of gold, 2 were asked for"):
+        solve(Task(WALK, first=bytes([2] * 40), gold=2, work=1000))
+
+
+def test_a_level_without_a_ninja_is_refused() -> None:
+    with pytest.raises(LevelError, match="no ninja"):
+        solve(Task(parse_level_string(OPEN), work=1000))
+
+
+def test_the_replay_says_what_was_played() -> None:
+    replay = replay_of(verified_run(WALK, bytes([2] * 40)), name="Walk")
+    assert (replay.final_tick, replay.outcome, replay.gold) == (WALK_TICKS, "exit", 1)
+    assert len(replay.inputs) == WALK_TICKS + 1
+
+
+def test_smoothing_leaves_out_keys_that_do_nothing() -> None:
+    fidgety = bytes(1 if tick % 7 == 3 else 2 for tick in range(60))
+    run = verified_run(WALK, fidgety)
+    smooth = verified_run(WALK, smoothed(WALK, run.inputs))
+    assert smooth.end_tick <= run.end_tick
+    assert rows_of(smooth.inputs) == [(2, smooth.end_tick + 1)]

@@ -1,0 +1,121 @@
+"""The solver's parts: macros, distance fields, stages, edits."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from ninja_game.compile_cache import compiled_available, kernels
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.sim.level import LevelData
+
+if not compiled_available():
+    pytest.skip("Numba is not installed", allow_module_level=True)
+
+from ninja_game.solver import search as _search  # noqa: F401 - registers the kernels
+from ninja_game.solver.distance_field import UNREACHED, point_at
+from ninja_game.solver.heuristics import Goals
+from ninja_game.solver.macro_actions import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_frames, held_frames
+from ninja_game.solver.mutations import cut, edit, overwrite, shift_boundary, shift_pulse, stretch
+from ninja_game.solver.search_memory import Start
+
+OPEN = "0" * 713 + "|"
+CORRIDOR = ("0" * 10 + "1" * 12 + "0") * 10 + "0" * 23 * 21
+
+
+def goals_of(text: str) -> Goals:
+    """The distance fields of a level."""
+    level: LevelData = parse_level_string(text)
+    start = Start(kernels(), level, box=False)
+    return Goals(kernels(), start.levels, start.worlds)
+
+
+@pytest.mark.parametrize(
+    "direction, mode, held, frames",
+    [
+        (1, RELEASED, 1, [2, 2, 2]),
+        (-1, PRESSED, 0, [13, 5, 5]),
+        (0, PRESSED, 1, [4, 4, 4]),
+        (1, PRESSED_AGAIN, 1, [2, 14, 6]),
+    ],
+)
+def test_an_action_says_its_inputs(direction: int, mode: int, held: int, frames: list[int]) -> None:
+    assert action_frames(action_code(direction, mode, held, 3)) == bytes(frames)
+
+
+def test_triggers_are_put_where_the_key_goes_down() -> None:
+    assert held_frames(b"\x04\x0c\x00\x06\x06") == b"\x0c\x04\x00\x0e\x06"
+
+
+def test_the_field_leads_to_the_switch_and_then_to_the_exit() -> None:
+    goals = goals_of(OPEN + "5^100,300!11^700,300,400,300")
+    before, after = goals.field(0, 100.0, 300.0), goals.field(1, 400.0, 300.0)
+    assert before[point_at(100, 300)] > before[point_at(250, 300)] > before[point_at(400, 300)] > 0
+    assert after[point_at(400, 300)] > after[point_at(700, 300)] == 0
+
+
+def test_a_wall_is_walked_around() -> None:
+    walled = "0" * 23 * 10 + "0" + "1" * 22 + "0" * 23 * 20 + "|5^100,300!11^700,300,400,300"
+    here = point_at(200, 500)
+    assert goals_of(walled).field(0, 100.0, 300.0)[here] > goals_of(OPEN + walled.split("|")[1]).field(0, 0, 0)[here]
+
+
+def test_a_locked_door_sends_to_its_switch_first() -> None:
+    goals = goals_of(CORRIDOR + "|5^200,566!11^400,566,330,566!9^60,566,0,0,10,23,1,0,0")
+    closed, opened = goals.field(0, 200.0, 566.0), goals.field(0b10, 60.0, 566.0)
+    assert closed[point_at(60, 566)] < closed[point_at(200, 566)] < UNREACHED
+    assert opened[point_at(200, 566)] < opened[point_at(60, 566)]
+
+
+def test_a_one_way_platform_is_passed_from_its_back_only() -> None:
+    """Columns 10 are full but for one cell, which a platform that faces left closes from the left."""
+    wall = "0" * 23 * 10 + "1" * 22 + "0" + "0" * 23 * 20
+    forward = goals_of(wall + "|5^60,566!11^700,566,600,566!7^276,564,2").field(0, 60.0, 566.0)
+    backward = goals_of(wall + "|5^60,566!11^700,566,600,566!7^276,564,0").field(0, 60.0, 566.0)
+    assert forward[point_at(60, 566)] >= UNREACHED
+    assert backward[point_at(60, 566)] < UNREACHED
+
+
+def keys_of(*keys: int) -> np.ndarray[tuple[int], np.dtype[np.uint8]]:
+    """Inputs to edit."""
+    return np.array(keys, np.uint8)
+
+
+def test_cutting_and_stretching_move_what_follows() -> None:
+    keys = keys_of(0, 1, 2, 3, 4)
+    cut(keys, 5, 1, 2)
+    assert keys.tolist() == [0, 3, 4, 4, 4]
+    keys = keys_of(0, 1, 2, 3, 4)
+    stretch(keys, 5, 1, 2)
+    assert keys.tolist() == [0, 1, 1, 1, 2]
+
+
+def test_boundaries_and_jumps_are_moved() -> None:
+    keys = keys_of(1, 1, 2, 2, 2)
+    assert shift_boundary(keys, 5, 0, 3, 1) == 2
+    assert keys.tolist() == [1, 1, 1, 2, 2]
+    keys = keys_of(1, 5, 5, 1, 1)
+    assert shift_pulse(keys, 5, 0, 2) == 1
+    assert keys.tolist() == [1, 1, 1, 5, 5]
+
+
+def test_overwriting_stays_within_the_run() -> None:
+    keys = keys_of(1, 1, 1)
+    overwrite(keys, 3, -5, 2, 3, 2)
+    overwrite(keys, 3, 2, 9, 4, 4)
+    assert keys.tolist() == [2, 2, 5]
+
+
+def test_random_edits_leave_what_lies_before_and_make_keys_only() -> None:
+    """The plain form of the compiled edits; numbers stay small enough for Python by the mask on the random state."""
+    counters = [12345]
+    for trial in range(500):
+        keys = keys_of(*([2] * 10 + [6] * 10 + [1] * 10 + [5] * 10))
+        before = keys.copy()
+        tick = trial % 40
+        counters[0] &= (1 << 63) - 1
+        first, shift = edit(keys, 40, tick, counters)
+        assert keys.max() <= 7
+        assert abs(shift) <= 3
+        first = max(first, 0)
+        assert keys[: min(first, tick)].tolist() == before[: min(first, tick)].tolist()

@@ -1,0 +1,110 @@
+"""What the menus' tests share: the program under the dummy driver, keys pressed by script, time that is counted."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pygame
+
+from ninja_game.files.resources import bundled_replays
+from ninja_game.formats.load import load_replays
+from ninja_game.play.app import App
+from ninja_game.play.input.bindings import Bindings
+from ninja_game.play.input.key_names import SCANCODES
+from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.screen import Screen
+from ninja_game.play.start import prepare
+from ninja_game.player.player_data import PlayerData
+
+FRAME_MS = 25
+
+
+class ScriptedKeys(Bindings):
+    """The usual bindings, but what is held in a tick comes from a list of inputs: 1 left, 2 right, 4 jump."""
+
+    script: list[int]
+
+    def held(self) -> int:
+        """The next tick's input; nothing where the script has ended."""
+        return self.script.pop(0) if self.script else 0
+
+
+class Stage:
+    """The program with its main menu. ``keys``: what plays."""
+
+    def __init__(self, folder: Path, size: tuple[int, int] = (792, 600)) -> None:
+        ready = prepare(folder)
+        settings = ready.player.settings
+        self.keys = ScriptedKeys(settings.keys, settings.pad)
+        self.keys.script = []
+        self.app = App(ready.options, self.keys, ready.ear, size=size)
+        self.app.player = ready.player
+        self.app.push(MainMenu(self.app))
+        self.frames(2)
+
+    @property
+    def player(self) -> PlayerData:
+        """The player's data."""
+        assert self.app.player is not None
+        return self.app.player
+
+    def top(self) -> Screen:
+        """The screen on top."""
+        return self.app.top
+
+    def frames(self, count: int = 1, ms: int = FRAME_MS) -> None:
+        """Let pictures pass."""
+        for _ in range(count):
+            if self.app.running and self.app.stack:
+                self.app.frame(ms)
+
+    def press(self, *names: str) -> None:
+        """Press and release keys, named by their places, a picture after each."""
+        for name in names:
+            for kind in (pygame.KEYDOWN, pygame.KEYUP):
+                pygame.event.post(pygame.Event(kind, key=0, scancode=SCANCODES[name], mod=0, unicode=""))
+            self.frames(1)
+
+    def type(self, text: str) -> None:
+        """Type a text as the system gives it: a key and then its character."""
+        for char in text:
+            name = {" ": "space"}.get(char, char.lower())
+            pygame.event.post(pygame.Event(pygame.KEYDOWN, key=0, scancode=SCANCODES[name], mod=0, unicode=char))
+            pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=char))
+            pygame.event.post(pygame.Event(pygame.KEYUP, key=0, scancode=SCANCODES[name], mod=0, unicode=char))
+            self.frames(1)
+
+    def mouse(self, x: float, y: float, *, click: bool = True) -> None:
+        """Move the mouse to a logical point, and click."""
+        place = self.app.canvas.point(x, y)
+        pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=place, rel=(0, 0), buttons=(0, 0, 0), touch=False))
+        if click:
+            for kind in (pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP):
+                pygame.event.post(pygame.Event(kind, pos=place, button=1, touch=False))
+        self.frames(1)
+
+    def pad(self, button: int) -> None:
+        """Press and release a button of a standard gamepad."""
+        for kind in (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP):
+            pygame.event.post(pygame.Event(kind, instance_id=77, button=button))
+        self.frames(1)
+
+    def open(self, entry: str) -> Screen:
+        """Choose an entry of the main menu by its text."""
+        menu = self.top()
+        assert isinstance(menu, MainMenu)
+        menu.focus = next(widget for widget in menu.widgets if getattr(widget, "text", "") == entry)
+        self.press("return")
+        return self.top()
+
+    def play_replay(self, number: int) -> None:
+        """Feed the bundled replay of a level (from 1) to the level on top; it runs to its end and a little on."""
+        recording = load_replays(bundled_replays()[number - 1])[0]
+        self.keys.script = [frame & 7 for frame in recording.inputs(recording.ticks)]
+        self.frames(len(self.keys.script) + 10)
+
+    def close(self) -> None:
+        """Leave everything."""
+        self.app.stack.clear()
+        self.player.close()
+        pygame.event.clear()

@@ -1,0 +1,216 @@
+"""The reference data ``../shared/n14``: where it lies, and its tables as typed rows (README there).
+
+It belongs to others and is never copied: a test that needs it calls ``require_reference()`` and skips where it is
+missing.
+"""
+
+from __future__ import annotations
+
+import lzma
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+FOLDER = ROOT.parent / "shared" / "n14"
+
+
+def reference_folder() -> Path | None:
+    """The folder of the reference data, None where it is missing."""
+    return FOLDER if FOLDER.is_dir() else None
+
+
+def require_reference() -> Path:
+    """The folder of the reference data; skips the test where it is missing."""
+    folder = reference_folder()
+    if folder is None:
+        pytest.skip("the reference data ../shared/n14 is not here")
+    return folder
+
+
+class LevelRow(NamedTuple):
+    """A published level: ``label`` is episode-level, ``data`` the in-game string."""
+
+    label: str
+    name: str
+    author: str
+    data: str
+
+
+class RunRow(NamedTuple):
+    """A run with the ninja's positions: a recording of a passed level, or random keys.
+
+    ``data``: the in-game string it runs on; ``end_tick``: -1 if nothing ended it; ``offset``: where its ``ticks``
+    positions and states start in ``positions()``; ``source``, ``kind`` and ``score_ticks``: only of recordings.
+    """
+
+    table: str
+    row: int
+    label: str
+    source: str
+    kind: str
+    outcome: str
+    end_tick: int
+    score_ticks: int
+    gold: int
+    ticks: int
+    offset: int
+    sha256_xy: str
+    data: str
+    demo: str
+
+
+class AftermathRow(NamedTuple):
+    """The run ``row`` of ``table``, 150 ticks beyond its end: digests; ``objects``: id -> 8 hex digits."""
+
+    table: str
+    row: int
+    ticks: int
+    ninja_sha256: str
+    run_sha256: str
+    objects: dict[int, str]
+
+
+class SceneRow(NamedTuple):
+    """A small level that shows one rule (section of the specification); its trace is in ``scene_traces()``."""
+
+    name: str
+    rule: str
+    ticks: int
+    ninja_sha256: str
+    run_sha256: str
+    offset: int
+    data: str
+    demo: str
+
+
+class FuzzRow(NamedTuple):
+    """A crowded random level with random keys; ``objects``: id -> 8 hex digits."""
+
+    name: str
+    ticks: int
+    ninja_sha256: str
+    run_sha256: str
+    objects: dict[int, str]
+    data: str
+    demo: str
+
+
+def _rows(table: str) -> Iterator[dict[str, str]]:
+    """The rows of a table as dictionaries."""
+    with (require_reference() / f"{table}.tsv").open(encoding="utf-8", newline="\n") as lines:
+        header = next(lines).rstrip("\n").split("\t")
+        for line in lines:
+            yield dict(zip(header, line.rstrip("\n").split("\t"), strict=True))
+
+
+@cache
+def levels() -> tuple[LevelRow, ...]:
+    """The 500 published levels."""
+    return tuple(LevelRow(row["level"], row["name"], row["author"], row["data"]) for row in _rows("levels"))
+
+
+def _run(table: str, number: int, row: dict[str, str], data: str) -> RunRow:
+    return RunRow(
+        table,
+        number,
+        row["level"],
+        row.get("source", ""),
+        row.get("kind", ""),
+        row["outcome"],
+        int(row["end_tick"]),
+        int(row.get("score_ticks", "0")),
+        int(row["gold"]),
+        int(row["ticks"]),
+        int(row["offset"]),
+        row["sha256_xy"],
+        data,
+        row["demo"],
+    )
+
+
+@cache
+def recordings() -> tuple[RunRow, ...]:
+    """The 1108 recordings of passed levels, each with the level that it was made on."""
+    published = {level.label: level.data for level in levels()}
+    return tuple(
+        _run("recordings", number, row, row["own_level"] or published[row["level"]])
+        for number, row in enumerate(_rows("recordings"))
+    )
+
+
+@cache
+def random_runs() -> tuple[RunRow, ...]:
+    """The 1834 runs with random keys."""
+    return tuple(_run("random_runs", number, row, row["data"]) for number, row in enumerate(_rows("random_runs")))
+
+
+def _objects(text: str) -> dict[int, str]:
+    """``id:digest,id:digest`` as a dictionary."""
+    return {int(part.partition(":")[0]): part.partition(":")[2] for part in text.split(",") if part}
+
+
+@cache
+def aftermath() -> tuple[AftermathRow, ...]:
+    """The 2942 runs of both tables with 150 ticks more."""
+    return tuple(
+        AftermathRow(
+            row["table"],
+            int(row["row"]),
+            int(row["ticks"]),
+            row["ninja_sha256"],
+            row["run_sha256"],
+            _objects(row["objects"]),
+        )
+        for row in _rows("aftermath")
+    )
+
+
+@cache
+def scenes() -> tuple[SceneRow, ...]:
+    """The 1142 scenes, each made to show one rule."""
+    return tuple(
+        SceneRow(
+            row["name"],
+            row["rule"],
+            int(row["ticks"]),
+            row["ninja_sha256"],
+            row["run_sha256"],
+            int(row["offset"]),
+            row["data"],
+            row["demo"],
+        )
+        for row in _rows("scenes")
+    )
+
+
+@cache
+def fuzz() -> tuple[FuzzRow, ...]:
+    """The 1500 crowded random levels."""
+    return tuple(
+        FuzzRow(
+            row["name"],
+            int(row["ticks"]),
+            row["ninja_sha256"],
+            row["run_sha256"],
+            _objects(row["objects"]),
+            row["data"],
+            row["demo"],
+        )
+        for row in _rows("fuzz")
+    )
+
+
+@cache
+def positions() -> bytes:
+    """The unpacked positions: at a run's ``offset``, ``ticks`` pairs of float64, then ``ticks`` state bytes."""
+    return lzma.decompress((require_reference() / "positions.bin.xz").read_bytes())
+
+
+@cache
+def scene_traces() -> bytes:
+    """The unpacked traces of the scenes: at a scene's ``offset``, ``ticks`` records of everything."""
+    return lzma.decompress((require_reference() / "scenes.bin.xz").read_bytes())

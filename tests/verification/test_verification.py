@@ -1,0 +1,213 @@
+"""Verification at scale: the same results whoever computes them; journals; workers that die."""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from collections.abc import Iterator
+from functools import partial
+from io import BytesIO
+from pathlib import Path
+
+import pytest
+
+from ninja_game.errors import FormatError
+from ninja_game.runs.recording_reader import Unreadable
+from ninja_game.verification import verify_many as verification
+from ninja_game.verification.checkpoint_log import Journal
+from ninja_game.verification.chunks import RECORDS, Piece, Result, files_below, pieces_in, self_contained, verify_piece
+from ninja_game.verification.verify_many import Tally, verify_all, write_report
+from ninja_game.verification.workers import Local, WorkerLostError, in_order, workers
+from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
+
+verify_plainly = partial(verify_all, memory="plain")
+
+
+@pytest.fixture
+def archive(tmp_path: Path) -> Path:
+    """A folder with everything: good and bad runs, replays of ours, a level, rubbish, a broken record among others."""
+    folder = tmp_path / "archive"
+    (folder / "b").mkdir(parents=True)
+    many = [(f"Run {number}", WALK if number % 3 else SPIKED, running(WALK_END)) for number in range(RECORDS + 6)]
+    write_records(folder / "a.txt", *many)
+    write_records(folder / "b" / "none.txt", ("Walk", WALK, running(9)), ("None", NO_NINJA, running(5)))
+    (folder / "b" / "level.txt").write_text(WALK)
+    (folder / "b" / "walk.replay.txt").write_text(replay_of_walk())
+    (folder / "b.replay.txt").write_text(replay_of_walk(gold=7))
+    broken = write_records(folder / "c.txt", *many[1:3]).read_text().splitlines()
+    (folder / "c.txt").write_text("\n".join([broken[0], "$bad#me#x#" + WALK + "#A\x01\x02#", broken[1]]))
+    (folder / "d.txt").write_bytes(b"\0\1\2 nothing of ours")
+    (folder / "picture.png").write_bytes(b"not looked at")
+    return folder
+
+
+def expected(archive: Path) -> list[Result]:
+    """The results, one worker, nothing fancy."""
+    return [result for piece in pieces_in([archive]) for result in verify_piece(piece, "plain")]
+
+
+def test_nothing_stops_the_rest(archive: Path) -> None:
+    tally = Tally()
+    for result in expected(archive):
+        tally.add(result)
+    assert tally.recordings == RECORDS + 6 + 2 + 1 + 1 + 1
+    assert tally.unreadable >= 3
+    assert tally.outcomes["dead"] == (RECORDS + 6 + 2) // 3
+    messages = [result.message for result in expected(archive) if isinstance(result, Unreadable)]
+    assert any("none.txt" in message and "record 1" in message for message in messages)
+    assert any("d.txt" in message for message in messages)
+
+
+def test_files_come_in_the_order_of_their_names_as_paths_have_it(archive: Path) -> None:
+    found = [Path(file) for file in files_below(archive)]
+    assert found == sorted(found)
+    assert len(found) == 7
+
+
+@pytest.mark.parametrize("options", [{"jobs": 1}, {"jobs": 3}, {"jobs": 2, "processes": True}])
+def test_results_do_not_depend_on_the_workers(
+    options: dict[str, int], archive: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(verification, "JOB_WEIGHT", 2)
+    options = {"processes": False, **options}
+    assert list(verify_plainly([archive], **options)) == expected(archive)  # type: ignore[arg-type]
+
+
+def test_an_empty_folder_is_said(tmp_path: Path) -> None:
+    assert list(verify_plainly([tmp_path])) == [Unreadable(f"{tmp_path}: no recordings here")]
+
+
+def test_a_report_holds_all_results_and_their_sums(archive: Path) -> None:
+    out = BytesIO()
+    results = list(write_report(verify_plainly([archive]), out))
+    report = json.loads(out.getvalue())
+    assert len(report["results"]) == len(results)
+    assert report["summary"]["recordings"] + report["summary"]["unreadable"] == len(results)
+    assert report["results"][0]["name"] == "Run 0"
+
+
+# --- journals ---
+
+
+def test_a_journal_lets_a_stopped_run_go_on_where_it_was(
+    archive: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(verification, "JOB_WEIGHT", 1)
+    path = tmp_path / "journal"
+    stopped = verify_plainly([archive], jobs=1, processes=False, resume=path)
+    for _ in range(RECORDS + 3):
+        next(stopped)
+    stopped.close()  # type: ignore[attr-defined]
+    with Journal(path) as journal:
+        done = len(journal)
+    assert 1 < done < 8
+    ran: list[str] = []
+
+    def spy(piece: Piece, memory: str) -> list[Result]:
+        ran.append(piece.key)
+        return verify_piece(piece, memory)
+
+    monkeypatch.setattr(verification, "verify_piece", spy)
+    assert list(verify_plainly([archive], jobs=1, processes=False, resume=path)) == expected(archive)
+    assert len(ran) == 8 - done
+    ran.clear()
+    assert list(verify_plainly([archive], jobs=1, processes=False, resume=path)) == expected(archive)
+    assert not ran
+
+
+def test_a_line_that_was_not_finished_is_done_again(archive: Path, tmp_path: Path) -> None:
+    path = tmp_path / "journal"
+    list(verify_plainly([archive], resume=path))
+    whole = path.read_bytes()
+    path.write_bytes(whole[:-9])
+    with Journal(path) as journal:
+        assert len(journal) == 7
+    assert list(verify_plainly([archive], resume=path)) == expected(archive)
+    assert path.read_bytes() == whole
+
+
+def test_a_file_that_changed_is_verified_again(tmp_path: Path) -> None:
+    path, run = tmp_path / "journal", tmp_path / "run.replay.txt"
+    run.write_text(replay_of_walk(gold=7))
+    (first,) = verify_plainly([run], resume=path)
+    run.write_text(replay_of_walk())
+    (second,) = verify_plainly([run], resume=path)
+    assert [getattr(first, "good", None), getattr(second, "good", None)] == [False, True]
+
+
+@pytest.mark.parametrize(
+    "text", ["nonsense\n", '{"journal": "ninja-game verify", "version": "0", "rules": 1}\n', "[1]\n[2]\n"]
+)
+def test_another_file_is_no_journal(text: str, tmp_path: Path) -> None:
+    path = tmp_path / "journal"
+    path.write_text(text)
+    with pytest.raises(FormatError, match="not a journal that can be taken up"):
+        list(verify_plainly([tmp_path / "x.txt"], resume=path))
+    assert path.read_text() == text
+
+
+# --- workers ---
+
+
+def double(number: int) -> int:
+    """Twice the number."""
+    return 2 * number
+
+
+def die_once(mark: str, number: int) -> int:
+    """Twice the number; number 5 takes its worker with it the first time."""
+    if number == 5 and not Path(mark).exists():
+        Path(mark).touch()
+        time.sleep(0.05)
+        os._exit(1)
+    return 2 * number
+
+
+def die(number: int) -> int:
+    """Twice the number; number 3 always takes its worker with it."""
+    if number == 3:
+        os._exit(1)
+    return 2 * number
+
+
+def test_jobs_are_taken_as_they_are_needed() -> None:
+    taken: list[int] = []
+
+    def jobs() -> Iterator[int]:
+        for number in range(1000):
+            taken.append(number)
+            yield number
+
+    with workers(2) as crew:
+        results = in_order(crew, double, jobs())
+        assert [next(results) for _ in range(3)] == [(0, 0), (1, 2), (2, 4)]
+        assert len(taken) < 20
+
+
+def test_what_a_dead_process_had_is_done_again_and_counted_once(tmp_path: Path) -> None:
+    crew = Local(2, processes=True)
+    results = list(in_order(crew, partial(die_once, str(tmp_path / "mark")), range(20)))
+    crew.close()
+    assert results == [(number, 2 * number) for number in range(20)]
+    assert (tmp_path / "mark").exists()
+
+
+def test_a_job_that_kills_every_process_is_named(tmp_path: Path) -> None:
+    crew = Local(2, processes=True)
+    results = dict(in_order(crew, die, range(6)))
+    crew.close()
+    assert isinstance(results.pop(3), WorkerLostError)
+    assert results == {number: 2 * number for number in (0, 1, 2, 4, 5)}
+
+
+def test_a_piece_for_another_machine_holds_its_level(tmp_path: Path) -> None:
+    (tmp_path / "levels").mkdir()
+    level = tmp_path / "levels" / "walk.txt"
+    level.write_text(WALK)
+    run = tmp_path / "walk.replay.txt"
+    run.write_text(replay_of_walk(level=None, level_path="levels/walk.txt"))
+    (piece,) = map(self_contained, pieces_in([run]))
+    level.unlink()
+    (verdict,) = verify_piece(piece, "plain")
+    assert getattr(verdict, "good", verdict) is True
