@@ -9,7 +9,7 @@ from ninja_game.sim.collision.rays import cast
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.declare import entry_point
-from ninja_game.sim.objects.object_query import touch, touch_things
+from ninja_game.sim.objects.object_query import touch, touch_objects
 from ninja_game.sim.rules import DOWN, RIGHT, SOLID, STRIDE
 
 
@@ -18,7 +18,7 @@ def query_nine_cells(worlds: Any, rounds: int) -> int:
     """The ninja's collision query, again and again."""
     w = worlds[0]
     for _ in range(rounds):
-        touch_things(w)
+        touch_objects(w)
     return int(w.gold)
 
 
@@ -27,8 +27,8 @@ def query_every_thing(worlds: Any, rounds: int) -> int:
     """The same contacts without a grid: every filed thing is asked."""
     w = worlds[0]
     for _ in range(rounds):
-        for slot in range(1, w.used):
-            if w.things[slot].filed:
+        for slot in range(1, w.slots_used):
+            if w.objects[slot].filed:
                 touch(w, slot)
     return int(w.gold)
 

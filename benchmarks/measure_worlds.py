@@ -18,7 +18,7 @@ from ninja_game.batch.batch import Batch
 from ninja_game.batch.thread_pool import cores
 from ninja_game.compile_cache import kernels
 from ninja_game.formats.recording import Recording
-from ninja_game.sim.level import GOLD, MINE, NINJA, TILES, LevelData, Record
+from ninja_game.sim.level import GOLD, MINE, NINJA, TILES, Level, ObjectSpec
 from ninja_game.sim.memory.compiled import load_compiled
 from ninja_game.sim.memory.layout import used_bytes
 from ninja_game.simulation import Simulation
@@ -79,7 +79,7 @@ def worlds(recordings: Sequence[Recording]) -> Chart:
     return chart
 
 
-def scattered(count: int) -> LevelData:
+def scattered(count: int) -> Level:
     """A level with the ninja on a platform in its middle, a thing in each of the eight cells around, all else far away.
 
     So the density around the ninja is the same however many objects there are; they are half mines, half gold.
@@ -88,13 +88,13 @@ def scattered(count: int) -> LevelData:
     cells = [(i, j) for i in range(1, 32) for j in range(1, 24) if max(abs(i - centre[0]), abs(j - centre[1])) > 2]
     near = [(centre[0] + i, centre[1] + j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]
     places = [*near, *(cells[number * 7 % len(cells)] for number in range(count - len(near)))]
-    records = [Record(NINJA, (centre[0] * 24.0 + 12.0, centre[1] * 24.0 + 12.0))]
+    records = [ObjectSpec(NINJA, (centre[0] * 24.0 + 12.0, centre[1] * 24.0 + 12.0))]
     for number, (column, row) in enumerate(places[:count]):
-        records.append(Record(MINE if number % 2 else GOLD, (column * 24.0 + 12.0, row * 24.0 + 12.0)))
+        records.append(ObjectSpec(MINE if number % 2 else GOLD, (column * 24.0 + 12.0, row * 24.0 + 12.0)))
     tiles = [0] * TILES
     for column in range(centre[0] - 1, centre[0] + 2):
         tiles[(column - 1) * 23 + centre[1]] = 1
-    return LevelData(tuple(tiles), tuple(records))
+    return Level(tuple(tiles), tuple(records))
 
 
 def objects() -> Chart:
@@ -138,7 +138,7 @@ def rays() -> Chart:
     dx, dy = 0.8191520442889918, 0.573576436351046
     for wall in (3, 4, 6, 8, 12, 16, 22, 30):
         tiles = tuple(1 if number // 23 + 1 >= wall else 0 for number in range(TILES))
-        level, world = load_compiled(call, LevelData(tiles, (Record(NINJA, (36.0, 36.0)),)), False)
+        level, world = load_compiled(call, Level(tiles, (ObjectSpec(NINJA, (36.0, 36.0)),)), False)
         x, y = 36.5, 37.0
         length = (wall * 24.0 - x) / dx + 1.0
         crossed = int((x + dx * length) / 24) - 1 + int((y + dy * length) / 24) - 1

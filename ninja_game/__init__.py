@@ -2,7 +2,7 @@
 
 The public API, each name imported when it is first used:
 
-- levels: ``load_levels(path)``, ``load_level(path)``, ``parse_level(text)``, ``LevelData``
+- levels: ``load_levels(path)``, ``load_level(path)``, ``parse_level(text)``, ``Level``
 - a run: ``Simulation`` (step, look, save, restore, digest, inputs)
 - whole runs: ``run_level``, ``trace_level``
 - replays: ``load_replays(path)``, ``parse_replay``, ``record_replay``, ``write_replay``,
@@ -23,13 +23,13 @@ if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
     from ninja_game.runs.run import RunResult, RunTrace, record_replay, run_level, trace_level
     from ninja_game.runs.verify import Verdict, verify_recording
-    from ninja_game.sim.level import LevelData
+    from ninja_game.sim.level import Level
     from ninja_game.simulation import Simulation
 
 __version__ = "0.1.0"
 
 _HOMES = {
-    "LevelData": ("ninja_game.sim.level", "LevelData"),
+    "Level": ("ninja_game.sim.level", "Level"),
     "Replay": ("ninja_game.formats.replay.text", "Replay"),
     "RunResult": ("ninja_game.runs.run", "RunResult"),
     "RunTrace": ("ninja_game.runs.run", "RunTrace"),
@@ -50,7 +50,7 @@ _HOMES = {
 __all__ = [
     "DemoError",
     "FormatError",
-    "LevelData",
+    "Level",
     "LevelError",
     "NinjaGameError",
     "Replay",

@@ -25,9 +25,9 @@ from ninja_game.compile_cache import choose_memory, kernels
 from ninja_game.sim.digest import differences, world_digest
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import HELD, LEFT, RIGHT, TRIGGERED
-from ninja_game.sim.level import KIND_NAMES, LevelData
+from ninja_game.sim.level import KIND_NAMES, Level
 from ninja_game.sim.memory.plain import load_plain, restore_plain, save_plain
-from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.states import OUTCOME_NAMES, STATE_NAMES
 from ninja_game.sim.traces import is_traced, place_of, status_of
 from ninja_game.sim.world import step
@@ -101,13 +101,13 @@ class Simulation:
     give the same bits. Raises LevelError for a level without a ninja or with too many objects.
     """
 
-    def __init__(self, level: LevelData, *, body: Body = "circle", memory: str = "plain") -> None:
+    def __init__(self, level: Level, *, body: Body = "circle", memory: str = "plain") -> None:
         if body not in BODIES:
             raise ValueError(f"body is {body!r}; expected 'circle' or 'box'")
         self.level = level
         self.body = body
         self.memory = choose_memory(memory)
-        self._level: Level
+        self._level: TileMap
         self._world: World
         self.reset()
 
@@ -134,7 +134,7 @@ class Simulation:
         return plain_copy(self._worlds, 0)
 
     @property
-    def static(self) -> Level:
+    def static(self) -> TileMap:
         """The level as the rules see it: tile ids by grid index. Plain memory only."""
         return self._level
 
@@ -142,7 +142,7 @@ class Simulation:
 
     def step(self, *, left: bool = False, right: bool = False, jump: bool = False) -> None:
         """Advance one tick with these keys down. The jump triggers in the first sampled tick in which it is down."""
-        held = self._world.ninja.held if self.memory == "plain" else self._worlds["ninja"]["held"][0]
+        held = self._world.ninja.jump_held if self.memory == "plain" else self._worlds["ninja"]["jump_held"][0]
         self.step_frame(left * LEFT + right * RIGHT + jump * (HELD if held else HELD + TRIGGERED))
 
     def step_frame(self, frame: int) -> None:
@@ -175,15 +175,15 @@ class Simulation:
     def ninja(self) -> NinjaView:
         """The ninja."""
         n = self.world.ninja
-        return NinjaView(n.x, n.y, n.px, n.py, STATE_NAMES[n.state], bool(n.in_air), bool(n.near_wall))
+        return NinjaView(n.x, n.y, n.prev_x, n.prev_y, STATE_NAMES[n.state], bool(n.in_air), bool(n.near_wall))
 
     @property
     def objects(self) -> list[ObjectView]:
         """All objects but ninjas and inert ones, in id order."""
         w = self.world
         return [
-            ObjectView(w.things[slot].id, KIND_NAMES[w.things[slot].kind], *place_of(w, slot), status_of(w, slot))
-            for slot in range(1, w.ids + 1)
+            ObjectView(w.objects[slot].id, KIND_NAMES[w.objects[slot].kind], *place_of(w, slot), status_of(w, slot))
+            for slot in range(1, w.id_count + 1)
             if is_traced(w, slot)
         ]
 
@@ -192,7 +192,7 @@ class Simulation:
         """What happened in the last tick, in order."""
         w = self.world
         return [
-            EventView(EVENT_NAMES[e.kind], e.x, e.y, e.dx, e.dy, e.slot - 1 if 0 < e.slot <= w.ids else None)
+            EventView(EVENT_NAMES[e.kind], e.x, e.y, e.dx, e.dy, e.slot - 1 if 0 < e.slot <= w.id_count else None)
             for e in w.events[: w.event_count]
         ]
 

@@ -14,7 +14,7 @@ from ninja_game.sim.collision.rays import ray_tiles
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.plain import load_plain
-from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.objects.object_query import NINE_CELLS
 from ninja_game.sim.rules import OFF, RADIUS, STRIDE
 from tools.svg import BLUE, FAINT, GOLD, GREEN, INK, PAPER, RED, SOLID, Picture, Point
@@ -34,7 +34,7 @@ MAP = """
 """A corner of a world, by tile: rows from cell (1, 1); what is not drawn is empty. Digits are tile ids."""
 
 
-def small_world() -> tuple[Level, World]:
+def small_world() -> tuple[TileMap, World]:
     """The world of MAP, with a floor under it."""
     rows = MAP.split()
     tiles = [0] * 713
@@ -58,7 +58,7 @@ def draw_tile(picture: Picture, tile: int, centre: Point, zoom: float) -> None:
         picture.polygon(corners, SOLID)
 
 
-def draw_world(picture: Picture, level: Level) -> None:
+def draw_world(picture: Picture, level: TileMap) -> None:
     """Tiles and grid of the cells that the picture shows."""
     width, height = picture.size
     for cell, tile in enumerate(level.tiles):
@@ -71,7 +71,7 @@ def draw_world(picture: Picture, level: Level) -> None:
         picture.line((0, k * 24 * ZOOM), (width, k * 24 * ZOOM), FAINT)
 
 
-def blank() -> tuple[Picture, Level, World]:
+def blank() -> tuple[Picture, TileMap, World]:
     """A picture of the small world without anything in it."""
     level, w = small_world()
     picture = Picture(15 * 24 * ZOOM, 6 * 24 * ZOOM)
@@ -175,10 +175,10 @@ def draw_ray() -> Picture:
 
 TICK = (
     ("world.py", "step: the whole tick", ""),
-    ("world.py", "1. update_things: newest first", "objects/*.py"),
+    ("world.py", "1. update_objects: newest first", "objects/*.py"),
     ("world.py", "2. think: one every fourth tick", "objects/*.py, rays.py"),
     ("ninja.py", "3. integrate, look up the cell", "grid.py"),
-    ("objects/contact.py", "4. touch_things: nine cells", "objects/*.py → contacts.py, death.py"),
+    ("objects/object_query.py", "4. touch_objects: nine cells", "objects/*.py → contact_response.py, death.py"),
     ("circle.py / box.py", "5. collide: four touched cells", "edges, circle_sides.py → contacts.py"),
     ("ninja.py", "6. evaluate_floor, probe_walls", "rays.py (solid_at)"),
     ("control.py", "7. think: keys, states, jumps", "states.py"),

@@ -44,14 +44,14 @@ from ninja_game.sim.level import (
     NINJA,
     THWUMP,
     TURRET,
-    LevelData,
-    Record,
+    Level,
+    ObjectSpec,
 )
 
 SIZE = (1584, 1200)
 
 
-def busy_level() -> LevelData:
+def busy_level() -> Level:
     """Halls full of everything that moves; the ninja runs about in a niche where little reaches it."""
     tiles = [0] * 713
 
@@ -64,19 +64,19 @@ def busy_level() -> LevelData:
                 put(column, row, (1, 2, 3, 10, 18, 26, 30)[(column + row) % 7] if column % 3 == 0 else 1)
     for row in range(19, 24):
         put(8, row, 1)
-    records = [Record(NINJA, (60.0, 560.0)), Record(EXIT, (744.0, 60.0, 744.0, 200.0))]
+    records = [ObjectSpec(NINJA, (60.0, 560.0)), ObjectSpec(EXIT, (744.0, 60.0, 744.0, 200.0))]
     chance = Random(1)
     for k in range(24):
         x, y = 36.0 + 24 * (k + 3), (60.0, 204.0, 348.0)[k % 3]
-        records.append(Record(DRONE, (x, y, float(k % 6), float(k % 2), float(k % 3), float(k % 4))))
-    records += [Record(THWUMP, (300.0 + 48 * k, 454.0, 1.0)) for k in range(9)]
-    records += [Record(FLOOR_GUARD, (250.0 + 60 * k, 570.0, 1.0)) for k in range(6)]
-    records += [Record(BOUNCE_BLOCK, (100.0 + 40 * k, 250.0)) for k in range(14)]
-    records += [Record(TURRET, (180.0 * k + 90, 36.0)) for k in range(4)]
-    records += [Record(LAUNCHER, (150.0 * k + 90, 470.0)) for k in range(4)]
-    records += [Record(MINE, (chance.uniform(250, 750), 576.0)) for _ in range(12)]
-    records += [Record(GOLD, (36.0 + 12 * (k % 60), 100.0 + 40 * (k // 60))) for k in range(180)]
-    return LevelData(tuple(tiles), tuple(records))
+        records.append(ObjectSpec(DRONE, (x, y, float(k % 6), float(k % 2), float(k % 3), float(k % 4))))
+    records += [ObjectSpec(THWUMP, (300.0 + 48 * k, 454.0, 1.0)) for k in range(9)]
+    records += [ObjectSpec(FLOOR_GUARD, (250.0 + 60 * k, 570.0, 1.0)) for k in range(6)]
+    records += [ObjectSpec(BOUNCE_BLOCK, (100.0 + 40 * k, 250.0)) for k in range(14)]
+    records += [ObjectSpec(TURRET, (180.0 * k + 90, 36.0)) for k in range(4)]
+    records += [ObjectSpec(LAUNCHER, (150.0 * k + 90, 470.0)) for k in range(4)]
+    records += [ObjectSpec(MINE, (chance.uniform(250, 750), 576.0)) for _ in range(12)]
+    records += [ObjectSpec(GOLD, (36.0 + 12 * (k % 60), 100.0 + 40 * (k // 60))) for k in range(180)]
+    return Level(tuple(tiles), tuple(records))
 
 
 class Restless(Keyboard):
@@ -128,7 +128,7 @@ def measure_drawing(app: App, screen: LevelScreen, pictures: int) -> dict[str, f
     }
 
 
-def measure_seek(app: App, level: LevelData, ticks: int = 3000) -> dict[str, float]:
+def measure_seek(app: App, level: Level, ticks: int = 3000) -> dict[str, float]:
     """Going to ticks of a long replay at random, the picture of it included, ms."""
     frames = bytes(1 + number // 37 % 2 for number in range(ticks))
     viewer = ReplayScreen(app, [Take("long", level, frames)])
@@ -184,7 +184,7 @@ def main() -> int:
     screen = LevelScreen(app, course)
     app.push(screen)
     app.frame(0)
-    result = {"things": float(len(level.records)), "level_to_play_ms": round(1000 * (time.perf_counter() - started), 1)}
+    result = {"things": float(len(level.objects)), "level_to_play_ms": round(1000 * (time.perf_counter() - started), 1)}
     screen.begin()
     result |= measure_drawing(app, screen, arguments.pictures)
     started = time.perf_counter()

@@ -28,7 +28,7 @@ from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import LevelRun
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 
 LONGEST_LIFE = 0.25
 """Seconds after which a child is killed at the latest."""
@@ -40,12 +40,12 @@ Fact = tuple[str, str, int]
 """What was saved ("best", "replay", "volume", "progress"), its key, its number."""
 
 
-def level_of(number: int) -> LevelData:
+def level_of(number: int) -> Level:
     """A level that is passed by running right; each number makes another one."""
     return parse_level_string("0" * 713 + f"|5^100,566!11^160,564,130,564!0^{300 + number},100")
 
 
-def passed_attempt(level: LevelData, wait: int) -> Attempt:
+def passed_attempt(level: Level, wait: int) -> Attempt:
     """An attempt that passes the level after standing for ``wait`` ticks."""
     attempt = Attempt(level)
     while attempt.outcome == "running":

@@ -34,8 +34,8 @@ def round_trips() -> list[str]:
             level = parse_level_string(data)
             text = write_ascii_level(level)
             read = parse_ascii_level(text).level
-            same = read.tiles == level.tiles and len(read.records) == len(level.records)
-            same = same and all(map(same_record, read.records, level.records))
+            same = read.tiles == level.tiles and len(read.objects) == len(level.objects)
+            same = same and all(map(same_record, read.objects, level.objects))
             counts[f"{name}: {'same' if same else 'DIFFERENT'}"] += 1
             counts[f"{name}: N text {'same' if write_level_string(read) == data else 'differs'}"] += 1
             texts.append(text)

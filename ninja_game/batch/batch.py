@@ -28,7 +28,7 @@ from ninja_game.batch.thread_pool import cores
 from ninja_game.batch.worlds import CompiledWorlds, Numbers, PlainWorlds, Worlds
 from ninja_game.compile_cache import choose_memory
 from ninja_game.sim.digest import world_digest
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 from ninja_game.sim.memory.layout import Records
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import OUTCOME_NAMES
@@ -64,7 +64,7 @@ class Batch:
     outcomes      (count,) int32      0 running, 1 exit, 2 dead: what came first
     gold, ticks   (count,) int32      pieces collected; ticks run
     levels_now    (count,) intp       which level each world plays
-    objects       (count, slots)      records of all objects by slot (sim/memory/schema.py): ``kind``, ``id``, ``x``, ``y``;
+    objects       (count, slots)      all objects by slot (sim/memory/schema.py): ``kind``, ``id``, ``x``, ``y`` …;
                                       slot 0 and slots from ``used`` on are nobody
     places        (count, slots, 2)   their x, y as float64, px
     used          (count,) int32      slots in use
@@ -76,14 +76,14 @@ class Batch:
 
     def __init__(
         self,
-        levels: LevelData | Sequence[LevelData],
+        levels: Level | Sequence[Level],
         count: int,
         *,
         body: Body = "circle",
         memory: str = "auto",
         threads: int | None = None,
     ) -> None:
-        self.levels = [levels] if isinstance(levels, LevelData) else list(levels)
+        self.levels = [levels] if isinstance(levels, Level) else list(levels)
         if count < 1 or not self.levels:
             raise ValueError(f"{count} worlds in {len(self.levels)} levels; expected at least one of each")
         if body not in BODIES:
@@ -103,15 +103,15 @@ class Batch:
         """Make the views."""
         ninja = self.records["ninja"]
         self.positions = pairs(ninja["x"])
-        self.previous = pairs(ninja["px"])
+        self.previous = pairs(ninja["prev_x"])
         self.states: NDArray[np.int32] = ninja["state"]
         self.outcomes: NDArray[np.int32] = self.records["outcome"]
         self.gold: NDArray[np.int32] = self.records["gold"]
         self.ticks: NDArray[np.int32] = self.records["tick"]
-        self.used: NDArray[np.int32] = self.records["used"]
-        things = self.records["things"]
-        room = (self.records.strides[0] - (things.ctypes.data - self.records.ctypes.data)) // things.strides[1]
-        self.objects: Records = things[:, :room]
+        self.used: NDArray[np.int32] = self.records["slots_used"]
+        objects = self.records["objects"]
+        room = (self.records.strides[0] - (objects.ctypes.data - self.records.ctypes.data)) // objects.strides[1]
+        self.objects: Records = objects[:, :room]
         self.places = pairs(self.objects["x"])
 
     def velocities(self) -> NDArray[np.float64]:

@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from ninja_game.sim.memory.declare import entry_point
-from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.world import step
 
 
 @entry_point
 def run_worlds(
-    levels: Sequence[Level],
+    levels: Sequence[TileMap],
     level_of: Sequence[int],
     worlds: Sequence[World],
     frames: Any,

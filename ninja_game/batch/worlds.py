@@ -17,10 +17,10 @@ from ninja_game.batch import kernels as _entry_points  # noqa: F401 - registers 
 from ninja_game.batch.thread_pool import crew
 from ninja_game.compile_cache import kernels
 from ninja_game.sim.digest import KIND_CLASSES
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 from ninja_game.sim.loader import grid_tiles, record_table
 from ninja_game.sim.memory.declare import fields_of
-from ninja_game.sim.memory.layout import LEVEL, STATE_START, THING, THINGS_START, Records, new_worlds, plain_copy
+from ninja_game.sim.memory.layout import OBJECT, OBJECTS_START, STATE_START, TILE_MAP, Records, new_worlds, plain_copy
 from ninja_game.sim.memory.plain import WORLD_SCALARS, load_plain, restore_plain, save_plain
 from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.world import step
@@ -66,11 +66,11 @@ def bytes_of(records: Records) -> NDArray[np.uint8]:
 class CompiledWorlds:
     """Worlds of the compiled memory. Every level is loaded once; a fresh world is a copy of bytes."""
 
-    def __init__(self, levels: Sequence[LevelData], count: int, box: bool) -> None:
+    def __init__(self, levels: Sequence[Level], count: int, box: bool) -> None:
         tables = [record_table(level) for level in levels]
         slots = [table.slots for table in tables]
         self._kernels = kernels()
-        self._levels = np.zeros(len(levels), LEVEL)
+        self._levels = np.zeros(len(levels), TILE_MAP)
         self._fresh = block_of(len(levels), slots)
         for number, (level, table) in enumerate(zip(levels, tables, strict=True)):
             here = slice(number, number + 1)
@@ -128,7 +128,7 @@ _KIND_VALUES = [attrgetter(*names) for names in _KIND_FIELDS]
 class PlainWorlds:
     """Worlds of the plain memory, for where Numba is missing. ``records`` shows them as they are after each call."""
 
-    def __init__(self, levels: Sequence[LevelData], count: int, box: bool) -> None:
+    def __init__(self, levels: Sequence[Level], count: int, box: bool) -> None:
         self._data = levels
         self._box = box
         self._states = [load_plain(levels[0], box) for _ in range(count)]
@@ -182,7 +182,7 @@ class PlainWorlds:
         record["ninja"] = _NINJA(w.ninja)
         record["heads"] = w.heads
         record["edges"] = w.edges
-        things = np.ndarray((w.used,), THING, self._shown[index], THINGS_START - STATE_START)
-        for slot, o in enumerate(w.things):
+        objects = np.ndarray((w.slots_used,), OBJECT, self._shown[index], OBJECTS_START - STATE_START)
+        for slot, o in enumerate(w.objects):
             if slot:
-                things[_KIND_FIELDS[o.kind]][slot] = _KIND_VALUES[o.kind](o)
+                objects[_KIND_FIELDS[o.kind]][slot] = _KIND_VALUES[o.kind](o)

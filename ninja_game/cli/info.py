@@ -79,7 +79,7 @@ def _counts(level: NamedLevel) -> Counter[str]:
     """How many objects of each kind."""
     from ninja_game.sim.level import KIND_NAMES
 
-    return Counter(KIND_NAMES[record.kind] for record in level.level.records if record.kind >= 0)
+    return Counter(KIND_NAMES[record.kind] for record in level.level.objects if record.kind >= 0)
 
 
 def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:

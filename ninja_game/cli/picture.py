@@ -25,10 +25,10 @@ from ninja_game.sim.level import (
     ROWS,
     THWUMP,
     TURRET,
-    LevelData,
+    Level,
 )
 from ninja_game.sim.loader import grid_tiles
-from ninja_game.sim.memory.schema import Level
+from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import CELL
 
 COLOURS = {
@@ -52,13 +52,13 @@ COLOURS = {
 QUARTERS = " ▘▝▀▖▌▞▛▗▚▐▜▄▙▟█"
 
 
-def level_picture(level: LevelData) -> Text:
+def level_picture(level: Level) -> Text:
     """The level, two characters a cell, with a border line around it."""
-    tiles = Level()
+    tiles = TileMap()
     tiles.tiles = grid_tiles(level)
     columns, rows = 2 * COLUMNS, ROWS
     signs = [[(_block(tiles, column, row), "grey62") for column in range(columns)] for row in range(rows)]
-    for record in level.records:
+    for record in level.objects:
         for char, x, y in symbol_chars(record):
             # A character is half a cell wide; a cell's centre belongs to its left one.
             if CELL <= x <= CELL * (COLUMNS + 1) and CELL <= y <= CELL * (ROWS + 1):
@@ -76,7 +76,7 @@ def level_picture(level: LevelData) -> Text:
     return text
 
 
-def _block(tiles: Level, column: int, row: int) -> str:
+def _block(tiles: TileMap, column: int, row: int) -> str:
     """The quarter block for half a cell: each quarter is solid if the middle of it is."""
     x, y = CELL + 12.0 * column, CELL + CELL * row
     quarters = ((3.0, 6.0), (9.0, 6.0), (3.0, 18.0), (9.0, 18.0))

@@ -8,7 +8,7 @@ from ninja_game.errors import LevelError, ReplayError
 from ninja_game.files.reading import SUFFIXES, read_text, text_files
 from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.formats.recording import Recording, parse_replays
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 
 __all__ = ["NamedLevel", "Recording", "load_level", "load_levels", "load_replays"]
 
@@ -25,7 +25,7 @@ def load_levels(path: Path | str) -> list[NamedLevel]:
     return levels
 
 
-def load_level(path: Path | str, record: int = 0) -> LevelData:
+def load_level(path: Path | str, record: int = 0) -> Level:
     """The level of a file, or its level number ``record`` (from 0).
 
     Raises LevelError as ``load_levels`` does, and for a record that the file does not have.
@@ -36,7 +36,7 @@ def load_level(path: Path | str, record: int = 0) -> LevelData:
     return levels[record].level
 
 
-def load_replays(path: Path | str, *, level: LevelData | None = None) -> list[Recording]:
+def load_replays(path: Path | str, *, level: Level | None = None) -> list[Recording]:
     """All recordings of a file or folder: our replays and ``$name#author#comment#level#demo#`` records.
 
     ``level``: what recordings that do not hold their level are played on.

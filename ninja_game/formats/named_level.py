@@ -14,7 +14,7 @@ from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level
 from ninja_game.formats.n14.level_file import MARKER, LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, tidy_level_string
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
-from ninja_game.sim.level import TILES, LevelData
+from ninja_game.sim.level import TILES, Level
 
 # What the object half of an in-game string is made of, odd numbers included.
 _OBJECTS = re.compile(r"[0-9.,^!+\-xeENa \t]+")
@@ -31,7 +31,7 @@ class NamedLevel:
     name: str
     author: str
     comment: str
-    level: LevelData
+    level: Level
     file: str
     record: int = 0
     line: int = 1
@@ -103,7 +103,7 @@ def _level_strings(text: str, file: str) -> Iterator[tuple[int, str]]:
         raise LevelError("an empty file", file, expected="a level")
 
 
-def level_of_replay(replay: Replay, file: str, level: LevelData | None = None) -> LevelData:
+def level_of_replay(replay: Replay, file: str, level: Level | None = None) -> Level:
     """The level that a replay was recorded on: its own, the one its path leads to, or else the given one.
 
     Raises ReplayError if there is none, or if it is not the one that was recorded.
@@ -126,7 +126,7 @@ def level_of_replay(replay: Replay, file: str, level: LevelData | None = None) -
     return level
 
 
-def _level_at(path: Path, record: int, file: str) -> LevelData:
+def _level_at(path: Path, record: int, file: str) -> Level:
     """One level of a level file that a replay names."""
     text = read_text(path)
     if is_replay(text):

@@ -14,7 +14,7 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.named_level import is_level_file, level_of_replay
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
 from ninja_game.sim.inputs import Demo
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Recording:
     name: str
     author: str
     comment: str
-    level: LevelData
+    level: Level
     demo: Demo
     file: str
     record: int = 0
@@ -45,7 +45,7 @@ class Recording:
         return self.replay.inputs_of(ticks) if self.replay else self.demo.inputs(ticks)
 
 
-def parse_replays(text: str, *, file: str = "", level: LevelData | None = None) -> list[Recording]:
+def parse_replays(text: str, *, file: str = "", level: Level | None = None) -> list[Recording]:
     """All recordings in a text of any format. Raises ReplayError, DemoError or LevelError."""
     if is_replay(text):
         replay = parse_replay(text, file=file)
@@ -66,9 +66,9 @@ def parse_replays(text: str, *, file: str = "", level: LevelData | None = None) 
     )
 
 
-def _read_recordings(records: Iterable[LevelRecord], file: str, level: LevelData | None) -> list[Recording]:
+def _read_recordings(records: Iterable[LevelRecord], file: str, level: Level | None) -> list[Recording]:
     """The recordings in the records of a text; a level that several share is read once."""
-    known: dict[str, LevelData] = {}
+    known: dict[str, Level] = {}
     recordings = []
     for record in records:
         if record.level and record.demo and record.level not in known:
@@ -77,7 +77,7 @@ def _read_recordings(records: Iterable[LevelRecord], file: str, level: LevelData
     return recordings
 
 
-def recording_of(record: LevelRecord, file: str, level: LevelData | None) -> Recording:
+def recording_of(record: LevelRecord, file: str, level: Level | None) -> Recording:
     """A record with its demo read, on its level. Raises ReplayError or DemoError naming ``file`` and the record."""
     if not record.demo:
         raise ReplayError(

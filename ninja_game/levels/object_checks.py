@@ -23,7 +23,7 @@ from ninja_game.sim.level import (
     THWUMP,
     TURRET,
     VALUE_COUNTS,
-    Record,
+    ObjectSpec,
 )
 from ninja_game.sim.rules import DOOR_SWITCH_RADIUS, EXIT_RADIUS, GOLD_RADIUS, OFF, SOLID, SWITCH_RADIUS
 
@@ -31,7 +31,7 @@ _DIRECTIONS = (0, 1, 2, 3)
 _UNIT_TOLERANCE = 0.02  # pads of other editors have 0.7 for both parts of a diagonal
 
 
-def oddities(record: Record, ground: Ground) -> Iterator[str]:
+def oddities(record: ObjectSpec, ground: Ground) -> Iterator[str]:
     """What is odd about an object of the level that ``ground`` describes; nothing for a proper one."""
     if not well_formed(record):
         count, needed = len(record.values), VALUE_COUNTS[record.kind]
@@ -46,7 +46,7 @@ def oddities(record: Record, ground: Ground) -> Iterator[str]:
         yield from _CHECKS[record.kind](record, ground)
 
 
-def _place_oddities(record: Record, ground: Ground) -> Iterator[str]:
+def _place_oddities(record: ObjectSpec, ground: Ground) -> Iterator[str]:
     x, y = record.values[:2]
     if isnan(x) or isnan(y):
         return
@@ -73,7 +73,7 @@ def _deep(ground: Ground, x: float, y: float) -> bool:
     return all(solid_at(ground.level, x + dx, y + dy) for dx in (-0.5, 0.5) for dy in (-0.5, 0.5))
 
 
-def _exit(record: Record, ground: Ground) -> Iterator[str]:
+def _exit(record: ObjectSpec, ground: Ground) -> Iterator[str]:
     x, y, switch_x, switch_y = record.values
     if cell_at(x, y) and not ground.touchable(x, y, EXIT_RADIUS):
         yield "the ninja cannot reach it"
@@ -81,30 +81,30 @@ def _exit(record: Record, ground: Ground) -> Iterator[str]:
         yield f"the ninja cannot reach its switch at {place_text(switch_x, switch_y)}"
 
 
-def _gold(record: Record, ground: Ground) -> Iterator[str]:
+def _gold(record: ObjectSpec, ground: Ground) -> Iterator[str]:
     x, y = record.values
     if cell_at(x, y) and not ground.touchable(x, y, GOLD_RADIUS):
         yield "the ninja cannot reach it"
 
 
-def _launch_pad(record: Record, ground: Ground) -> Iterator[str]:  # noqa: ARG001 - all checks have one signature
+def _launch_pad(record: ObjectSpec, ground: Ground) -> Iterator[str]:  # noqa: ARG001 - all checks have one signature
     _, _, a, b = record.values
     length = sqrt(a * a + b * b)
     if abs(length - 1.0) > _UNIT_TOLERANCE:
         yield f"its normal has length {length:.3g} instead of 1 and its strength changes with it"
 
 
-def _one_way(record: Record, ground: Ground) -> Iterator[str]:  # noqa: ARG001
+def _one_way(record: ObjectSpec, ground: Ground) -> Iterator[str]:  # noqa: ARG001
     if record.values[2] not in _DIRECTIONS:
         yield "its direction is not 0 to 3: it faces down"
 
 
-def _thwump(record: Record, ground: Ground) -> Iterator[str]:  # noqa: ARG001
+def _thwump(record: ObjectSpec, ground: Ground) -> Iterator[str]:  # noqa: ARG001
     if record.values[2] not in _DIRECTIONS:
         yield "its direction is not 0 to 3: it never moves, its right side kills"
 
 
-def _floor_guard(record: Record, ground: Ground) -> Iterator[str]:
+def _floor_guard(record: ObjectSpec, ground: Ground) -> Iterator[str]:
     cell = cell_at(*record.values[:2])
     if COLUMN[cell] in (0, 32):
         yield "a guard in the left or right border or outside hangs the original game; here it does nothing"
@@ -114,7 +114,7 @@ def _floor_guard(record: Record, ground: Ground) -> Iterator[str]:
         yield "it does not stand on a solid floor: it cannot run to the left"
 
 
-def _drone(record: Record, ground: Ground) -> Iterator[str]:
+def _drone(record: ObjectSpec, ground: Ground) -> Iterator[str]:
     x, y, movement, seeker, weapon, direction = record.values
     if weapon not in (0, 1, 2):
         yield "its weapon is not 0 to 2: it is harmless"
@@ -132,7 +132,7 @@ def _drone(record: Record, ground: Ground) -> Iterator[str]:
         yield "it is closed in on all sides: it never moves"
 
 
-def _door(record: Record, ground: Ground) -> Iterator[str]:
+def _door(record: ObjectSpec, ground: Ground) -> Iterator[str]:
     x, y, vertical, trap, _, _, locked, _, _ = record.values
     door = door_of(record)
     if vertical not in (0, 1):
@@ -149,7 +149,7 @@ def _door(record: Record, ground: Ground) -> Iterator[str]:
         yield f"the ninja cannot reach its switch at {place_text(x, y)}"
 
 
-_CHECKS: dict[int, Callable[[Record, Ground], Iterator[str]]] = {
+_CHECKS: dict[int, Callable[[ObjectSpec, Ground], Iterator[str]]] = {
     DOOR: _door,
     DRONE: _drone,
     EXIT: _exit,

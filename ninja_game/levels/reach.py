@@ -18,9 +18,9 @@ from ninja_game.sim.collision.tiles import (
     set_edges,
 )
 from ninja_game.sim.grid import cell_at, cell_index
-from ninja_game.sim.level import DOOR, NINJA, VALUE_COUNTS, LevelData, Record
+from ninja_game.sim.level import DOOR, NINJA, VALUE_COUNTS, Level, ObjectSpec
 from ninja_game.sim.loader import grid_tiles
-from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import CELL, DOOR_SWITCH_RADIUS, RADIUS, SOLID, STRIDE
 
 
@@ -42,12 +42,12 @@ def is_flag(value: float) -> bool:
     return value != 0 and not isnan(value)
 
 
-def well_formed(record: Record) -> bool:
+def well_formed(record: ObjectSpec) -> bool:
     """Whether a record is of a known kind and has the number of values that it needs."""
     return 0 <= record.kind < len(VALUE_COUNTS) and len(record.values) == VALUE_COUNTS[record.kind]
 
 
-def door_of(record: Record) -> Door:
+def door_of(record: ObjectSpec) -> Door:
     """What a well-formed door record makes (objects.md §8.6)."""
     x, y, vertical, trap, column, row, locked, i, j = record.values
     first = cell_index(column + i, row + j)
@@ -65,16 +65,16 @@ class Ground:
     door opens once its switch can be touched; automatic and trap doors never stop the fill.
     """
 
-    def __init__(self, level: LevelData) -> None:
-        self.level = Level()
+    def __init__(self, level: Level) -> None:
+        self.level = TileMap()
         self.level.tiles = grid_tiles(level)
         world = World()
         set_edges(self.level, world)
         self.edges: list[int] = world.edges
-        self.doors = [door_of(record) for record in level.records if record.kind == DOOR and well_formed(record)]
+        self.doors = [door_of(record) for record in level.objects if record.kind == DOOR and well_formed(record)]
         self.doors_on_side = Counter(frozenset(door.edges) for door in self.doors)
         self.closed_edges = {edge for door in self.doors if door.closed for edge in door.edges}
-        ninjas = [record for record in level.records if record.kind == NINJA]
+        ninjas = [record for record in level.objects if record.kind == NINJA]
         start = cell_at(*ninjas[-1].values) if ninjas and well_formed(ninjas[-1]) else 0
         # A ninja that starts in a tile may be pushed out on any side: nothing is certain then.
         self.certain = bool(start) and SHAPE[self.level.tiles[start]] == EMPTY

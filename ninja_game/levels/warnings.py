@@ -8,18 +8,18 @@ from ninja_game.formats.ascii.object_writer import best_form
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.levels.object_checks import oddities
 from ninja_game.levels.reach import Ground, well_formed
-from ninja_game.sim.level import DOOR, EXIT, KIND_NAMES, NINJA, ROWS, LevelData, Record
+from ninja_game.sim.level import DOOR, EXIT, KIND_NAMES, NINJA, ROWS, Level, ObjectSpec
 
 MANY_OBJECTS = 2000
 _NAMES_SHOWN = 3
 
 
-def level_warnings(level: LevelData) -> list[str]:
+def level_warnings(level: Level) -> list[str]:
     """What is legal but odd in a level, in words for its maker; empty for a proper level.
 
     "Cannot be reached" is said only where it is certain: by cells and closed sides, whatever the ninja could jump.
     """
-    objects = [record for record in level.records if record.kind >= 0]  # what gets an id (objects.md §2.1)
+    objects = [record for record in level.objects if record.kind >= 0]  # what gets an id (objects.md §2.1)
     ground = Ground(level)
     named = (
         (text, object_name(record, number))
@@ -29,7 +29,7 @@ def level_warnings(level: LevelData) -> list[str]:
     return [*_level_oddities(level, objects), *_shared(_odd_tiles(level)), *_shared(named)]
 
 
-def object_name(record: Record, number: int) -> str:
+def object_name(record: ObjectSpec, number: int) -> str:
     """An object as its level's file places it: ``thwump at 12,3 (object 7)``; ids count from 0."""
     keyword, place, _ = best_form(record)
     name = keyword or KIND_NAMES[record.kind]
@@ -52,14 +52,14 @@ def _some(names: Sequence[str]) -> str:
     return ", ".join(names[:_NAMES_SHOWN]) + (f" and {more} more" if more > 0 else "")
 
 
-def _odd_tiles(level: LevelData) -> Iterator[tuple[str, str]]:
+def _odd_tiles(level: Level) -> Iterator[tuple[str, str]]:
     for cell, tile in enumerate(level.tiles):
         if not 0 <= tile <= 33:
             what = "above 33 is a half tile without direction" if tile > 33 else "below 0 is never solid, yet not empty"
             yield f"a tile id {what}", f"tile {tile} at {cell // ROWS + 1},{cell % ROWS + 1}"
 
 
-def _level_oddities(level: LevelData, objects: Sequence[Record]) -> Iterator[str]:
+def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[str]:
     """What concerns the level as a whole."""
     ninjas = [number for number, record in enumerate(objects) if record.kind == NINJA]
     if not ninjas:
@@ -71,6 +71,6 @@ def _level_oddities(level: LevelData, objects: Sequence[Record]) -> Iterator[str
         yield "there is no exit: the level cannot be passed"
     if len(objects) > MANY_OBJECTS:
         yield f"there are {len(objects)} objects, more than {MANY_OBJECTS}: the game may be slow"
-    ignored = [record.text for record in level.records if record.kind < 0]
+    ignored = [record.text for record in level.objects if record.kind < 0]
     if ignored:
         yield f"{len(ignored)} records create nothing (unknown type), the first is {ignored[0][:40]!r}"

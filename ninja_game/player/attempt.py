@@ -8,7 +8,7 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.player.scoring import level_score
 from ninja_game.sim.death import kill
 from ninja_game.sim.inputs import HELD, MAX_FRAMES, TRIGGERED, Demo
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import CELEBRATING, DEAD, EXPLOSIVE, FALL, HARD_BULLET
 from ninja_game.simulation import Body, SaveState, Simulation
@@ -26,7 +26,7 @@ class Attempt:
     """
 
     def __init__(
-        self, level: LevelData, *, body: Body = "circle", lifetime: int = LIFETIME, practice: bool = False
+        self, level: Level, *, body: Body = "circle", lifetime: int = LIFETIME, practice: bool = False
     ) -> None:
         self.simulation = Simulation(level, body=body)
         self.start_lifetime = lifetime
@@ -56,7 +56,7 @@ class Attempt:
     def tick(self, held: int) -> None:
         """Run one tick with what is held: 1 left + 2 right + 4 jump."""
         world = self.simulation.world
-        was_held = world.ninja.held
+        was_held = world.ninja.jump_held
         gold = world.gold
         running = world.outcome == 0
         frame = held & 7

@@ -12,7 +12,7 @@ from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.replay.text import Replay
 from ninja_game.player.scoring import level_score
 from ninja_game.player.store import Store
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 
 NEWEST_SHOWN = 500
 """Replays listed at most, the newest first."""
@@ -52,7 +52,7 @@ def now_text() -> str:
     return datetime.now(UTC).isoformat(timespec="seconds")
 
 
-def episode_key(levels: Iterable[LevelData]) -> str:
+def episode_key(levels: Iterable[Level]) -> str:
     """What an episode is known by: a digest of its levels in their order."""
     return hashlib.sha256(" ".join(level_digest(level) for level in levels).encode()).hexdigest()
 

@@ -43,7 +43,7 @@ def killer_of(world: World) -> str:
 def _nearest_electric(world: World, x: float, y: float) -> str:
     electric = [
         thing
-        for thing in world.things[1:]
+        for thing in world.objects[1:]
         if thing.kind in (THWUMP, FLOOR_GUARD) or (thing.kind == DRONE and thing.weapon == WEAPON_ZAP)
     ]
     if not electric:

@@ -20,7 +20,7 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.recording_reader import body_of
 from ninja_game.runs.trace import trace_digests, trace_recording
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.world import step
 from ninja_game.simulation import Simulation
@@ -66,8 +66,8 @@ def run_benchmark(recordings: Sequence[Recording], *, compile_time: bool = True)
     }
 
 
-def _objects(level: LevelData) -> int:
-    return len(level.records)
+def _objects(level: Level) -> int:
+    return len(level.objects)
 
 
 def corpus_digest(recordings: Sequence[Recording]) -> str:
@@ -130,18 +130,18 @@ def _speed(race: Callable[[Recording], tuple[int, float]], recordings: Sequence[
     return round(median(rates))
 
 
-def _plain_costs(level: LevelData) -> dict[str, float]:
+def _plain_costs(level: Level) -> dict[str, float]:
     """What it costs to load a level, and to save and restore a plain world in it."""
     load, save, restore, _ = _costs(level, "plain")
     return {"load_us": load, "save_plain_us": save, "restore_plain_us": restore}
 
 
-def _compiled_costs(level: LevelData) -> dict[str, float]:
+def _compiled_costs(level: Level) -> dict[str, float]:
     """The same for a compiled world, and how large its state is."""
     return dict(zip(COMPILED_COSTS, _costs(level, "compiled"), strict=True))
 
 
-def _costs(level: LevelData, memory: str) -> tuple[float, float, float, int]:
+def _costs(level: Level, memory: str) -> tuple[float, float, float, int]:
     world = Simulation(level, memory=memory)
     state = world.save()
     load = _microseconds(lambda: Simulation(level, memory=memory))

@@ -24,7 +24,7 @@ from ninja_game.formats.replay.text import WAYPOINT_TICKS, Replay, Waypoint
 from ninja_game.sim.arithmetic import clean
 from ninja_game.sim.digest import world_digest
 from ninja_game.sim.events import EVENT_NAMES
-from ninja_game.sim.level import KIND_NAMES, NINJA, LevelData
+from ninja_game.sim.level import KIND_NAMES, NINJA, Level
 from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.memory.schema import INERT, World
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
@@ -33,10 +33,12 @@ from ninja_game.sim.traces import is_traced, place_of, status_of
 from ninja_game.sim.world import step
 from ninja_game.simulation import Body
 
-NINJA_RECORD = np.dtype([("x", "<f8"), ("y", "<f8"), ("px", "<f8"), ("py", "<f8"), ("s", "<i4"), ("gold", "<i4")])
+NINJA_RECORD = np.dtype(
+    [("x", "<f8"), ("y", "<f8"), ("prev_x", "<f8"), ("prev_y", "<f8"), ("s", "<i4"), ("gold", "<i4")]
+)
 """The ninja after a tick: position and the one before (px), state number, gold collected."""
 
-THING_RECORD = np.dtype([("x", "<f8"), ("y", "<f8"), ("s", "<i4")])
+OBJECT_RECORD = np.dtype([("x", "<f8"), ("y", "<f8"), ("s", "<i4")])
 """An object after a tick: position (px) and status number, both by kind."""
 
 
@@ -77,7 +79,7 @@ class RunResult:
 
 
 def run_level(
-    level: LevelData, frames: bytes, *, body: Body = "circle", memory: str = "auto", digest: bool = False
+    level: Level, frames: bytes, *, body: Body = "circle", memory: str = "auto", digest: bool = False
 ) -> RunResult:
     """Run a level with one input a tick until the first exit contact or death, or to the end of ``frames``.
 
@@ -101,7 +103,7 @@ def run_level(
     return RunResult(OUTCOME_NAMES[w.outcome], w.gold, positions, np.frombuffer(bytes(states), np.uint8), end)
 
 
-def _run_compiled(level: LevelData, frames: bytes, body: Body, *, digest: bool) -> RunResult:
+def _run_compiled(level: Level, frames: bytes, body: Body, *, digest: bool) -> RunResult:
     from ninja_game.sim.memory.compiled import load_compiled
     from ninja_game.sim.memory.layout import plain_copy
 
@@ -115,7 +117,7 @@ def _run_compiled(level: LevelData, frames: bytes, body: Body, *, digest: bool) 
 
 
 def record_replay(
-    level: LevelData,
+    level: Level,
     inputs: bytes,
     *,
     ticks: int | None = None,
@@ -156,72 +158,72 @@ def record_replay(
 
 @dataclass(frozen=True)
 class RunTrace:
-    """Everything a run shows: ``ninja`` NINJA_RECORD (ticks,), ``things`` THING_RECORD (ticks, objects).
+    """Everything a run shows: ``ninja`` NINJA_RECORD (ticks,), ``objects`` OBJECT_RECORD (ticks, objects).
 
-    ``ids`` and ``kinds`` name the columns of ``things``, ids ascending; ninjas and inert objects are not among them.
+    ``ids`` and ``kinds`` name the columns of ``objects``, ids ascending; ninjas and inert objects are not among them.
     ``events``: per tick, names with blanks between (plain memory only, where asked for).
     """
 
     ninja: NDArray[np.void]
-    things: NDArray[np.void]
+    objects: NDArray[np.void]
     ids: tuple[int, ...]
     kinds: tuple[str, ...]
     events: tuple[str, ...] = ()
 
 
 def trace_level(
-    level: LevelData,
+    level: Level,
     frames: bytes,
     *,
     body: Body = "circle",
     memory: str = "auto",
-    objects: bool = True,
+    with_objects: bool = True,
     events: bool = False,
 ) -> RunTrace:
     """Run all of ``frames``, whatever happens, and record ninja and objects after each tick (canonical numbers).
 
-    ``objects``: record them at all. ``events``: record their names too; this runs on the plain memory.
+    ``with_objects``: record objects too. ``events``: record their names too; this runs on the plain memory.
     """
     if not events and choose_memory(memory) == "compiled":
-        return _trace_compiled(level, frames, body, objects)
+        return _trace_compiled(level, frames, body, with_objects)
     static, w = load_plain(level, body == "box")
-    slots = traced_slots(w) if objects else []
+    slots = traced_slots(w) if with_objects else []
     n = w.ninja
     ninja = bytearray()
-    things = bytearray()
+    objects = bytearray()
     names: list[str] = []
     pack_ninja, pack_thing = struct.Struct("<4d2i").pack, struct.Struct("<2di").pack
     for frame in frames:
         step(static, w, frame)
-        ninja += pack_ninja(clean(n.x), clean(n.y), clean(n.px), clean(n.py), n.state, w.gold)
+        ninja += pack_ninja(clean(n.x), clean(n.y), clean(n.prev_x), clean(n.prev_y), n.state, w.gold)
         for slot in slots:
             x, y = place_of(w, slot)
-            things += pack_thing(clean(x), clean(y), status_of(w, slot))
+            objects += pack_thing(clean(x), clean(y), status_of(w, slot))
         if events:
             names.append(" ".join(EVENT_NAMES[event.kind] for event in w.events[: w.event_count]))
-    rows = np.frombuffer(bytes(things), THING_RECORD).reshape(len(frames), len(slots))
+    rows = np.frombuffer(bytes(objects), OBJECT_RECORD).reshape(len(frames), len(slots))
     return RunTrace(np.frombuffer(bytes(ninja), NINJA_RECORD), rows, *_columns(w, slots), tuple(names))
 
 
-def _trace_compiled(level: LevelData, frames: bytes, body: Body, objects: bool) -> RunTrace:
+def _trace_compiled(level: Level, frames: bytes, body: Body, with_objects: bool) -> RunTrace:
     from ninja_game.sim.memory.compiled import load_compiled
 
     trace: Callable[..., Any] = kernels()["trace_world"]
     levels, worlds = load_compiled(kernels(), level, body == "box")
-    kinds = worlds[0]["things"]["kind"][: worlds[0]["ids"] + 1].tolist()
-    slots = [slot for slot, kind in enumerate(kinds) if slot and kind not in (NINJA, INERT)] if objects else []
+    kinds = worlds[0]["objects"]["kind"][: worlds[0]["id_count"] + 1].tolist()
+    slots = [slot for slot, kind in enumerate(kinds) if slot and kind not in (NINJA, INERT)] if with_objects else []
     ninja = np.empty(len(frames), NINJA_RECORD)
-    things = np.empty((len(frames), len(slots)), THING_RECORD)
-    trace(levels, worlds, 0, np.frombuffer(frames, np.uint8), np.array(slots, np.int64), ninja, things)
+    objects = np.empty((len(frames), len(slots)), OBJECT_RECORD)
+    trace(levels, worlds, 0, np.frombuffer(frames, np.uint8), np.array(slots, np.int64), ninja, objects)
     names = tuple(KIND_NAMES[kinds[slot]] for slot in slots)
-    return RunTrace(ninja, things, tuple(slot - 1 for slot in slots), names)
+    return RunTrace(ninja, objects, tuple(slot - 1 for slot in slots), names)
 
 
 def traced_slots(w: World) -> list[int]:
     """The slots of all objects that traces show, in id order."""
-    return [slot for slot in range(1, w.ids + 1) if is_traced(w, slot)]
+    return [slot for slot in range(1, w.id_count + 1) if is_traced(w, slot)]
 
 
 def _columns(w: World, slots: list[int]) -> tuple[tuple[int, ...], tuple[str, ...]]:
     """Ids and kinds of the objects in these slots."""
-    return tuple(w.things[slot].id for slot in slots), tuple(KIND_NAMES[w.things[slot].kind] for slot in slots)
+    return tuple(w.objects[slot].id for slot in slots), tuple(KIND_NAMES[w.objects[slot].kind] for slot in slots)

@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.recording_reader import body_of, named_errors
-from ninja_game.runs.run import NINJA_RECORD, THING_RECORD, RunTrace, run_level, trace_level
+from ninja_game.runs.run import NINJA_RECORD, OBJECT_RECORD, RunTrace, run_level, trace_level
 
 Records: TypeAlias = NDArray[np.void]
-"""An array of NINJA_RECORD or THING_RECORD."""
+"""An array of NINJA_RECORD or OBJECT_RECORD."""
 
 NINJA_NAME = "ninja"
 """Kind of the ninja's rows, beside the kinds of objects."""
@@ -44,7 +44,7 @@ def trace_recording(
             frames = recording.inputs(recording.ticks)
             ticks = run_level(recording.level, frames, body=body, memory=memory).ticks + after
         frames = recording.inputs(ticks)
-        return trace_level(recording.level, frames, body=body, memory=memory, objects=objects, events=events)
+        return trace_level(recording.level, frames, body=body, memory=memory, with_objects=objects, events=events)
 
 
 @dataclass(frozen=True)
@@ -61,12 +61,12 @@ def trace_digests(trace: RunTrace) -> TraceDigests:
     """The digests that tell whether two runs are the same in every bit."""
     ticks = len(trace.ninja)
     ninja = trace.ninja.tobytes()
-    widths = NINJA_RECORD.itemsize, THING_RECORD.itemsize * len(trace.ids)
+    widths = NINJA_RECORD.itemsize, OBJECT_RECORD.itemsize * len(trace.ids)
     rows = np.empty((ticks, sum(widths)), np.uint8)
     rows[:, : widths[0]] = np.frombuffer(ninja, np.uint8).reshape(ticks, widths[0])
-    rows[:, widths[0] :] = np.frombuffer(trace.things.tobytes(), np.uint8).reshape(ticks, widths[1])
+    rows[:, widths[0] :] = np.frombuffer(trace.objects.tobytes(), np.uint8).reshape(ticks, widths[1])
     objects = {
-        id_: sha256(column.tobytes()).hexdigest()[:8] for id_, column in zip(trace.ids, trace.things.T, strict=True)
+        id_: sha256(column.tobytes()).hexdigest()[:8] for id_, column in zip(trace.ids, trace.objects.T, strict=True)
     }
     return TraceDigests(ticks, sha256(ninja).hexdigest(), sha256(rows.tobytes()).hexdigest(), objects)
 
@@ -102,7 +102,7 @@ def first_difference(ours: RunTrace, theirs: RunTrace, section: str = "") -> Dif
     found = _first_unequal(ours.ninja[:shared, np.newaxis], theirs.ninja[:shared, np.newaxis], (NINJA_NAME,))
     if with_things:
         names = tuple(f"object {id_} ({kind})" for id_, kind in zip(ours.ids, ours.kinds, strict=True))
-        thing = _first_unequal(ours.things[:shared], theirs.things[:shared], names)
+        thing = _first_unequal(ours.objects[:shared], theirs.objects[:shared], names)
         found = thing if found is None or (thing and thing[0] < found[0]) else found
     if found:
         return Difference(*found, section)
@@ -136,7 +136,7 @@ def rows(trace: RunTrace) -> Iterator[dict[str, Any]]:
     names = NINJA_RECORD.names or ()
     for tick, ninja in enumerate(trace.ninja.tolist()):
         row: dict[str, Any] = dict(zip(names, ninja, strict=True))
-        row |= {"vx": row["x"] - row["px"], "vy": row["y"] - row["py"]}
+        row |= {"vx": row["x"] - row["prev_x"], "vy": row["y"] - row["prev_y"]}
         yield {"tick": tick, "kind": NINJA_NAME, **row, "events": trace.events[tick] if trace.events else ""}
-        for id_, kind, (x, y, s) in zip(trace.ids, trace.kinds, trace.things[tick].tolist(), strict=True):
+        for id_, kind, (x, y, s) in zip(trace.ids, trace.kinds, trace.objects[tick].tolist(), strict=True):
             yield {"tick": tick, "id": id_, "kind": kind, "x": x, "y": y, "s": s}

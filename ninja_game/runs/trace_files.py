@@ -11,10 +11,10 @@ from typing import IO, Any, NamedTuple
 import numpy as np
 
 from ninja_game.errors import FormatError
-from ninja_game.runs.run import NINJA_RECORD, THING_RECORD, RunTrace
+from ninja_game.runs.run import NINJA_RECORD, OBJECT_RECORD, RunTrace
 from ninja_game.runs.trace import NINJA_NAME, rows
 
-COLUMNS = ("record", "name", "tick", "id", "kind", "x", "y", "s", "px", "py", "vx", "vy", "gold", "events")
+COLUMNS = ("record", "name", "tick", "id", "kind", "x", "y", "s", "prev_x", "prev_y", "vx", "vy", "gold", "events")
 """Of the CSV. The ninja has no id; objects have neither previous position, velocity, gold nor events."""
 
 
@@ -53,18 +53,18 @@ def read_csv(text: Iterable[str], *, file: str = "") -> Iterator[FiledTrace]:
 def _trace_of(table: list[dict[str, str]]) -> RunTrace:
     """One record's rows as a trace. Raises ValueError, KeyError where a row is missing or is no number."""
     ninjas = [row for row in table if row["kind"] == NINJA_NAME]
-    objects = [row for row in table if row["kind"] != NINJA_NAME]
-    first = [row for row in objects if row["tick"] == "0"]
+    others = [row for row in table if row["kind"] != NINJA_NAME]
+    first = [row for row in others if row["tick"] == "0"]
     ninja = np.array([tuple(float(row[name]) for name in NINJA_RECORD.names or ()) for row in ninjas], NINJA_RECORD)
-    things = np.empty((len(ninjas), 0), THING_RECORD)
-    if objects:
-        if len(objects) != len(first) * len(ninjas):
+    objects = np.empty((len(ninjas), 0), OBJECT_RECORD)
+    if others:
+        if len(others) != len(first) * len(ninjas):
             raise ValueError("objects are missing in some ticks")
-        flat = np.array([(float(row["x"]), float(row["y"]), int(row["s"])) for row in objects], THING_RECORD)
-        things = flat.reshape(len(ninjas), len(first))
+        flat = np.array([(float(row["x"]), float(row["y"]), int(row["s"])) for row in others], OBJECT_RECORD)
+        objects = flat.reshape(len(ninjas), len(first))
     return RunTrace(
         ninja=ninja,
-        things=things,
+        objects=objects,
         ids=tuple(int(row["id"]) for row in first),
         kinds=tuple(row["kind"] for row in first),
         events=tuple(row["events"] for row in ninjas),
@@ -77,7 +77,7 @@ def write_npz(traces: Iterable[FiledTrace], out: IO[bytes]) -> None:
     for record, name, run in traces:
         arrays |= {
             f"ninja_{record}": run.ninja,
-            f"things_{record}": run.things,
+            f"things_{record}": run.objects,
             f"ids_{record}": np.array(run.ids, np.int32),
             f"kinds_{record}": np.array(run.kinds, np.str_),
             f"events_{record}": np.array(run.events, np.str_),
@@ -94,7 +94,7 @@ def read_npz(path: Path) -> Iterator[FiledTrace]:
             for record in records:
                 run = RunTrace(
                     ninja=arrays[f"ninja_{record}"].astype(NINJA_RECORD),
-                    things=arrays[f"things_{record}"].astype(THING_RECORD),
+                    objects=arrays[f"things_{record}"].astype(OBJECT_RECORD),
                     ids=tuple(arrays[f"ids_{record}"].tolist()),
                     kinds=tuple(arrays[f"kinds_{record}"].tolist()),
                     events=tuple(arrays[f"events_{record}"].tolist()),

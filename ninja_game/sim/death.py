@@ -1,4 +1,4 @@
-"""Death and win, and what every thing does about it: the idle event (objects.md §4).
+"""Death and win, and what every object does about it: the idle event (objects.md §4).
 
 All reactions stand here in one table, not in the kinds' files: dying needs every kind's reaction and the kinds need
 dying, which would be a circle of imports.
@@ -7,7 +7,7 @@ dying, which would be a circle of imports.
 from __future__ import annotations
 
 from ninja_game.sim.events import CHAINGUN_OFF, DIED, LASER_OFF, WON, emit
-from ninja_game.sim.grid import unfile
+from ninja_game.sim.grid import grid_remove
 from ninja_game.sim.level import DOOR, DRONE, EXIT, FLOOR_GUARD, GOLD, LAUNCHER, TURRET
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import Drone, World
@@ -58,24 +58,24 @@ def win(w: World) -> None:
 
 @fast
 def idle_event(w: World) -> None:
-    """Every thing reacts to a death or a win, highest id first.
+    """Every object reacts to a death or a win, highest id first.
 
     Bounce blocks, pads, one-ways and mines do nothing. What lasts is one flag, ``idled``: thwumps at rest stay there,
     launchers and drones think no more, seekers do not chase, and the ninja's contact pass is off.
     """
-    w.idled = 1
+    w.round_over = 1
     w.contacts_off = 1
-    for slot in range(w.ids, 0, -1):
-        o = w.things[slot]
+    for slot in range(w.id_count, 0, -1):
+        o = w.objects[slot]
         kind = o.kind
         if kind == GOLD:
             if not o.spent:
-                unfile(w, o)
+                grid_remove(w, o)
         elif kind == EXIT:
             if o.spent:
-                unfile(w, o)
+                grid_remove(w, o)
         elif kind == DOOR:
-            unfile(w, o)
+            grid_remove(w, o)
         elif kind == LAUNCHER:
             if o.routine == LAUNCHER_IDLE:
                 end_think(w, o, slot)

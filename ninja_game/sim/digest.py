@@ -1,6 +1,6 @@
 """The canonical digest of a world, and the first difference of two: field by field, the same for both memories.
 
-A digest covers every field of the schema but the events: little-endian, -0.0 as 0.0, every NaN as one; of each thing
+A digest covers every field of the schema but the events: little-endian, -0.0 as 0.0, every NaN as one; of each object
 the common header and the fields of its kind.
 """
 
@@ -27,9 +27,9 @@ from ninja_game.sim.memory.schema import (
     LaunchPad,
     Mine,
     Ninja,
+    Object,
     OneWay,
     Switch,
-    Thing,
     Thwump,
     Turret,
     World,
@@ -67,26 +67,26 @@ def world_digest(w: World) -> str:
     """Sha256 (hex) of a world's canonical form."""
     digest = hashlib.sha256(_WORLD.bytes_of(w) + _NINJA.bytes_of(w.ninja))
     digest.update(struct.pack(f"<{len(w.heads)}h", *w.heads) + bytes(w.edges))
-    for o in w.things[1 : w.used]:
+    for o in w.objects[1 : w.slots_used]:
         digest.update(_THINGS[o.kind].bytes_of(o))
     return digest.hexdigest()
 
 
 def differences(ours: World, theirs: World) -> Iterator[tuple[str, Any, Any]]:
-    """Every field in which two worlds differ: (name, our value, their value), the ninja first, then things by slot."""
+    """Every field in which two worlds differ: (name, our value, their value), the ninja first, then objects by slot."""
     yield from _unequal("ninja", _NINJA, ours.ninja, theirs.ninja)
     yield from _unequal("world", _WORLD, ours, theirs)
-    for slot in range(1, min(ours.used, theirs.used)):
-        mine, other = ours.things[slot], theirs.things[slot]
-        yield from _unequal(thing_name(mine), _THINGS[mine.kind], mine, other)
+    for slot in range(1, min(ours.slots_used, theirs.slots_used)):
+        mine, other = ours.objects[slot], theirs.objects[slot]
+        yield from _unequal(object_name(mine), _THINGS[mine.kind], mine, other)
     for name in ("heads", "edges"):
         for index, (mine, other) in enumerate(zip(getattr(ours, name), getattr(theirs, name), strict=True)):
             if mine != other:
                 yield f"{name}[{index}]", mine, other
 
 
-def thing_name(o: Thing) -> str:
-    """A thing as reports call it: "object 12 (drone)"."""
+def object_name(o: Object) -> str:
+    """An object as reports call it: "object 12 (drone)"."""
     kind = KIND_NAMES[o.kind] if o.kind < len(KIND_NAMES) else ("exit switch", "inert object")[o.kind - len(KIND_NAMES)]
     return f"object {o.id} ({kind})" if o.id >= 0 else f"{kind} at ({o.x}, {o.y})"
 

@@ -1,4 +1,4 @@
-"""Cells, lookup, and the loose grid: each thing sits in the list of one cell (world.md §1, objects.md §2.2)."""
+"""Cells, lookup, and the loose grid: each object sits in the list of one cell (world.md §1, objects.md §2.2)."""
 
 from __future__ import annotations
 
@@ -35,42 +35,42 @@ def link(w: World, o: Header, slot: int, cell: int) -> None:
         o.prev = 0
         o.next = head
         if head:
-            w.things[head].prev = slot
+            w.objects[head].prev = slot
         w.heads[cell] = slot
 
 
 @fast
 def unlink(w: World, o: Header) -> None:
-    """Take out of the cell's list. The thing's own next link is cleared: a walk standing on it ends there (O 3)."""
+    """Take out of the cell's list. The object's own next link is cleared: a walk standing on it ends there (O 3)."""
     if o.cell:
         if o.prev:
-            w.things[o.prev].next = o.next
+            w.objects[o.prev].next = o.next
         else:
             w.heads[o.cell] = o.next
         if o.next:
-            w.things[o.next].prev = o.prev
+            w.objects[o.next].prev = o.prev
     o.next = 0
     o.prev = 0
 
 
 @fast
-def file(w: World, o: Header, slot: int) -> None:
-    """File under the cell of the thing's position and mark it as filed."""
+def grid_insert(w: World, o: Header, slot: int) -> None:
+    """File under the cell of the object's position and mark it as filed."""
     link(w, o, slot, cell_at(o.x, o.y))
-    o.filed = 1
+    o.in_grid = 1
 
 
 @fast
-def unfile(w: World, o: Header) -> None:
-    """Take a filed thing out of the grid for good; nothing for one that is not filed."""
-    if o.filed:
+def grid_remove(w: World, o: Header) -> None:
+    """Take a filed object out of the grid for good; nothing for one that is not filed."""
+    if o.in_grid:
         unlink(w, o)
-        o.filed = 0
+        o.in_grid = 0
 
 
 @fast
-def refile(w: World, o: Header, slot: int) -> int:
-    """Re-register a thing that moved; 1 if its cell changed. In the same cell it keeps its place in the list."""
+def grid_move(w: World, o: Header, slot: int) -> int:
+    """Re-register an object that moved; 1 if its cell changed. In the same cell it keeps its place in the list."""
     # cell_at, written out: moving drones come here every tick, and a call costs the plain memory 3 % of its speed.
     x = o.x
     y = o.y

@@ -22,7 +22,7 @@ VALUE_COUNTS = (2, 2, 4, 2, 3, 2, 6, 3, 3, 9, 2, 4, 2)
 """How many values a record of each type needs; any other number makes an inert object (objects.md §2.1)."""
 
 
-class Record(NamedTuple):
+class ObjectSpec(NamedTuple):
     """One object record of a level string (objects.md §5).
 
     ``kind`` is the type number 0…12, or -1 for a record that creates nothing (unknown type, empty); ``values`` are
@@ -36,7 +36,7 @@ class Record(NamedTuple):
 
 
 @dataclass(frozen=True)
-class LevelData:
+class Level:
     """A level's tiles and object records.
 
     ``tiles``: 713 ids, column by column, 31 columns of 23 rows, top to bottom (world.md §2.3). 0…33 are the shapes;
@@ -45,7 +45,7 @@ class LevelData:
     """
 
     tiles: tuple[int, ...] = field(default=(0,) * TILES)
-    records: tuple[Record, ...] = ()
+    objects: tuple[ObjectSpec, ...] = ()
 
     def tile(self, column: int, row: int) -> int:
         """Tile id at interior cell ``column`` 1…31, ``row`` 1…23 (indices of the full 33 x 25 grid)."""

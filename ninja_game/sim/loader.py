@@ -8,14 +8,14 @@ from typing import NamedTuple
 from ninja_game.errors import LevelError
 from ninja_game.sim.collision.tiles import ODD_HALF_ID, UNDEFINED_ID
 from ninja_game.sim.grid import cell_at
-from ninja_game.sim.level import COLUMNS, EXIT, NINJA, ROWS, VALUE_COUNTS, LevelData
+from ninja_game.sim.level import COLUMNS, EXIT, NINJA, ROWS, VALUE_COUNTS, Level
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import CAPACITY, INERT, Level, Ninja, World
+from ninja_game.sim.memory.schema import CAPACITY, INERT, Ninja, TileMap, World
 from ninja_game.sim.objects.creation import create
 from ninja_game.sim.rules import DRAG, GRAVITY, STRIDE
 
 
-def grid_tiles(data: LevelData) -> list[int]:
+def grid_tiles(data: Level) -> list[int]:
     """The tile of every grid index: the level's 31 x 23 within a border of full tiles within a ring of nothing."""
     tiles = [0] * STRIDE + ([0] + [1] * 33 + [0]) * 25 + [0] * STRIDE
     ids = data.tiles
@@ -36,9 +36,9 @@ class RecordTable(NamedTuple):
     slots: int
 
 
-def record_table(data: LevelData) -> RecordTable:
+def record_table(data: Level) -> RecordTable:
     """The records that make an object. Raises LevelError for a level without a ninja or with too many objects."""
-    records = [record for record in data.records if record.kind >= 0]
+    records = [record for record in data.objects if record.kind >= 0]
     kinds = [record.kind for record in records]
     if NINJA not in kinds:
         raise LevelError("this level cannot be played: it has no ninja", hint="add one, a record of type 5")
@@ -56,19 +56,19 @@ def record_table(data: LevelData) -> RecordTable:
 
 @fast
 def populate(
-    level: Level, w: World, kinds: Sequence[int], counts: Sequence[int], values: Sequence[Sequence[float]]
+    level: TileMap, w: World, kinds: Sequence[int], counts: Sequence[int], values: Sequence[Sequence[float]]
 ) -> None:
-    """Create the object of every record; its id is its index. Edges must be set; things must be zero.
+    """Create the object of every record; its id is its index. Edges must be set; objects must be zero.
 
     ``values`` holds nine numbers a record, ``counts`` how many of them the record really had.
     """
     ids = len(kinds)
-    w.ids = ids
-    w.used = ids + 1
+    w.id_count = ids
+    w.slots_used = ids + 1
     rest(w.ninja, 0.0, 0.0)
     for index in range(ids):
         kind = kinds[index]
-        o = w.things[index + 1]
+        o = w.objects[index + 1]
         o.id = index
         o.kind = INERT
         p = values[index]
@@ -94,8 +94,8 @@ def rest(n: Ninja, x: float, y: float) -> None:
     """A new ninja, standing still (ninja.md §2)."""
     n.x = x
     n.y = y
-    n.px = x
-    n.py = y
+    n.prev_x = x
+    n.prev_y = y
     n.gravity = GRAVITY
     n.drag = DRAG
     n.in_air = 1

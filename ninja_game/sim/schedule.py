@@ -8,61 +8,61 @@ from ninja_game.sim.memory.schema import Header, World
 
 @fast
 def start_update(w: World, o: Header, slot: int) -> None:
-    """Make a thing the newest member of the update set, if it is not in it."""
+    """Make an object the newest member of the update set, if it is not in it."""
     if o.updating:
         return
     o.updating = 1
     o.newer = 0
-    o.older = w.newest
-    if w.newest:
-        w.things[w.newest].newer = slot
-    w.newest = slot
+    o.older = w.update_head
+    if w.update_head:
+        w.objects[w.update_head].newer = slot
+    w.update_head = slot
 
 
 @fast
 def end_update(w: World, o: Header, slot: int) -> None:
-    """Take a thing out of the update set. The pass keeps its place in ``w.cursor``; a removal moves it along."""
+    """Take an object out of the update set. The pass keeps its place in ``w.cursor``; a removal moves it along."""
     if not o.updating:
         return
     o.updating = 0
-    if w.cursor == slot:
-        w.cursor = o.older
+    if w.update_cursor == slot:
+        w.update_cursor = o.older
     if o.newer:
-        w.things[o.newer].older = o.older
+        w.objects[o.newer].older = o.older
     else:
-        w.newest = o.older
+        w.update_head = o.older
     if o.older:
-        w.things[o.older].newer = o.newer
+        w.objects[o.older].newer = o.newer
 
 
 @fast
 def start_think(w: World, o: Header, slot: int) -> None:
-    """Insert a thing right before the cursor of the thinker ring and move the cursor onto it: it thinks next."""
+    """Insert an object right before the cursor of the thinker ring and move the cursor onto it: it thinks next."""
     if o.thinking:
         return
     o.thinking = 1
-    if w.thinker:
-        successor = w.things[w.thinker]
+    if w.think_cursor:
+        successor = w.objects[w.think_cursor]
         o.ring_prev = successor.ring_prev
-        o.ring_next = w.thinker
-        w.things[o.ring_prev].ring_next = slot
+        o.ring_next = w.think_cursor
+        w.objects[o.ring_prev].ring_next = slot
         successor.ring_prev = slot
     else:
         o.ring_prev = slot
         o.ring_next = slot
-    w.thinker = slot
+    w.think_cursor = slot
 
 
 @fast
 def end_think(w: World, o: Header, slot: int) -> None:
-    """Take a thing out of the thinker ring; if the cursor was on it, the cursor goes to its successor."""
+    """Take an object out of the thinker ring; if the cursor was on it, the cursor goes to its successor."""
     if not o.thinking:
         return
     o.thinking = 0
     if o.ring_next == slot:
-        w.thinker = 0
+        w.think_cursor = 0
     else:
-        w.things[o.ring_prev].ring_next = o.ring_next
-        w.things[o.ring_next].ring_prev = o.ring_prev
-        if w.thinker == slot:
-            w.thinker = o.ring_next
+        w.objects[o.ring_prev].ring_next = o.ring_next
+        w.objects[o.ring_next].ring_prev = o.ring_prev
+        if w.think_cursor == slot:
+            w.think_cursor = o.ring_next

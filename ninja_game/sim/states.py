@@ -1,4 +1,4 @@
-"""State and routine numbers: what the ninja and the things are doing. They are part of traces and save-states."""
+"""State and routine numbers: what the ninja and the objects are doing. They are part of traces and save-states."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ OUTCOME_NAMES = ("running", "exit", "dead")
 # Kill types (objects.md §9; the chaingun's bullet and the crushed have numbers of ours).
 ELECTRIC, EXPLOSIVE, WEAK_BULLET, HARD_BULLET, FALL, LASER, BULLET, CRUSHED = range(8)
 
-# Routines of the things; 0 is always the one a thing starts with.
+# Routines of the objects; 0 is always the one an object starts with.
 THWUMP_REST, THWUMP_MOVE = 0, 1
 GUARD_IDLE, GUARD_CHASE = 0, 1
 TURRET_TARGET, TURRET_PRE_FIRE, TURRET_POST_FIRE = 1, 2, 3

@@ -23,14 +23,14 @@ from ninja_game.sim.states import AUTOMATIC, LAUNCHER_FLIGHT, THWUMP_REST
 @fast
 def is_traced(w: World, slot: int) -> bool:
     """Ninjas and inert objects do not show in traces."""
-    kind = w.things[slot].kind
+    kind = w.objects[slot].kind
     return kind != NINJA and kind != INERT
 
 
 @fast
 def place_of(w: World, slot: int) -> tuple[float, float]:
     """Where an object is, px: a turret's aim point, the rocket in flight of a launcher, the filing point of a door."""
-    o = w.things[slot]
+    o = w.objects[slot]
     if o.kind == TURRET:
         return o.aim_x, o.aim_y
     if o.kind == LAUNCHER and o.routine != LAUNCHER_FLIGHT:
@@ -41,7 +41,7 @@ def place_of(w: World, slot: int) -> tuple[float, float]:
 @fast
 def status_of(w: World, slot: int) -> int:
     """What an object is doing, as one number (the table is in docs/replay-format.md)."""
-    o = w.things[slot]
+    o = w.objects[slot]
     kind = o.kind
     if kind == GOLD or kind == MINE:
         return 1 - o.spent

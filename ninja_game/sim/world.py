@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ninja_game.sim.level import BOUNCE_BLOCK, DOOR, DRONE, FLOOR_GUARD, LAUNCHER, THWUMP, TURRET
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.ninja.tick import tick_ninja
 from ninja_game.sim.objects.bounce_block import think_block, update_block
 from ninja_game.sim.objects.door import update_door
@@ -18,34 +18,34 @@ from ninja_game.sim.states import DEAD, DRONE_MOVE
 
 
 @fast
-def step(level: Level, w: World, frame: int) -> None:
+def step(level: TileMap, w: World, frame: int) -> None:
     """Advance the world by one tick. ``frame``: 1 left + 2 right + 4 jump held + 8 jump triggered in this tick."""
     w.event_count = 0
-    # 1. All things in the update set, the most recently started first.
-    if w.newest:
-        update_things(level, w)
+    # 1. All objects in the update set, the most recently started first.
+    if w.update_head:
+        update_objects(level, w)
     # 2. At most one of those that think: one every fourth tick.
-    if w.thinker:
+    if w.think_cursor:
         if w.think_counter > 2:
             w.think_counter = 0
-            think(level, w, w.thinker)
-            if w.thinker:
-                w.thinker = w.things[w.thinker].ring_next
+            think(level, w, w.think_cursor)
+            if w.think_cursor:
+                w.think_cursor = w.objects[w.think_cursor].ring_next
         else:
             w.think_counter += 1
-    # 3. The ninja, which asks the nine cells for things and the touched cells for tiles.
+    # 3. The ninja, which asks the nine cells for objects and the touched cells for tiles.
     if w.ninja.state != DEAD:
         tick_ninja(level, w, frame)
     w.tick += 1
 
 
 @fast
-def update_things(level: Level, w: World) -> None:
-    """The update pass. The cursor lives in the world, so that a thing ended meanwhile can move it along."""
-    slot = w.newest
+def update_objects(level: TileMap, w: World) -> None:
+    """The update pass. The cursor lives in the world, so that an object ended meanwhile can move it along."""
+    slot = w.update_head
     while slot:
-        o = w.things[slot]
-        w.cursor = o.older
+        o = w.objects[slot]
+        w.update_cursor = o.older
         kind = o.kind
         if kind == DRONE:
             if o.routine == DRONE_MOVE:
@@ -64,13 +64,13 @@ def update_things(level: Level, w: World) -> None:
             update_block(o)
         elif kind == DOOR:
             update_door(w, o, slot)
-        slot = w.cursor
+        slot = w.update_cursor
 
 
 @fast
-def think(level: Level, w: World, slot: int) -> None:
-    """The think of one thing, by kind."""
-    o = w.things[slot]
+def think(level: TileMap, w: World, slot: int) -> None:
+    """The think of one object, by kind."""
+    o = w.objects[slot]
     kind = o.kind
     if kind == DRONE:
         think_drone(level, w, o, slot)

@@ -9,7 +9,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.runs.run import record_replay
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 from ninja_game.simulation import Body, Simulation
 
 
@@ -24,7 +24,7 @@ class VerifiedRun:
     ``inputs``: one byte a tick, up to and including the tick of the exit contact; ``digest``: of the world after it.
     """
 
-    level: LevelData
+    level: Level
     body: Body
     inputs: bytes
     gold: int
@@ -36,7 +36,7 @@ class VerifiedRun:
         return len(self.inputs) - 1
 
 
-def verified_run(level: LevelData, inputs: bytes, *, body: Body = "circle", gold: int = 0) -> VerifiedRun:
+def verified_run(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 0) -> VerifiedRun:
     """Play inputs from the start on the plain memory. What comes after the exit is cut off.
 
     Raises UnverifiedRunError if they do not reach the exit, or with less gold than asked for.

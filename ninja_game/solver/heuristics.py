@@ -52,8 +52,8 @@ class Goals:
 
     def __init__(self, kernels: Kernels, levels: Records, worlds: Records) -> None:
         self._spread: Any = kernels["spread"]
-        used = int(worlds["used"][0])
-        things = worlds["things"][0][:used]
+        used = int(worlds["slots_used"][0])
+        objects = worlds["objects"][0][:used]
         self.costs = np.zeros(POINTS, np.float32)
         kernels["free_points"](levels, self.costs)
         self.blocked = np.zeros(POINTS, np.uint8)
@@ -61,11 +61,11 @@ class Goals:
         self._waiting = np.zeros(POINTS, np.uint8)
         exits, doors, gold = [], [], []
         for slot in range(1, used):
-            thing = things[slot]
+            thing = objects[slot]
             kind = int(thing["kind"])
             x, y = float(thing["x"]), float(thing["y"])
             if kind == EXIT:
-                switch = things[int(thing["partner"])]
+                switch = objects[int(thing["partner"])]
                 exits.append(Switchable(slot, False, False, x, y, float(switch["x"]), float(switch["y"]), ()))
             elif kind == DOOR and int(thing["mechanism"]) != AUTOMATIC:
                 trap = int(thing["mechanism"]) != LOCKED

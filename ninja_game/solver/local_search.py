@@ -38,8 +38,8 @@ def score_of(w: Any) -> float:
     """Ticks of a run that has just ended at the exit, less the depth of the contact (0 to 0.99)."""
     n = w.ninja
     nearest = 22.0
-    for slot in range(1, w.ids + 1):
-        o = w.things[slot]
+    for slot in range(1, w.id_count + 1):
+        o = w.objects[slot]
         if o.kind == EXIT and o.spent:
             nearest = min(nearest, sqrt((o.x - n.x) * (o.x - n.x) + (o.y - n.y) * (o.y - n.y)))
     return float(w.tick) - 0.99 * (1.0 - nearest / 22.0)
@@ -66,7 +66,7 @@ def retrace(levels: Any, worlds: Any, words: Any, keys: Any, path: Any, checkpoi
     for k in range(first * CHECKPOINT, limit):
         if k % CHECKPOINT == 0:
             copy_words(checkpoints[k // CHECKPOINT], work_words)
-        step(levels[0], w, trigger(current[k], w.ninja.held))
+        step(levels[0], w, trigger(current[k], w.ninja.jump_held))
         path[k, 0] = w.ninja.x
         path[k, 1] = w.ninja.y
         if w.outcome != OUTCOME_RUNNING:
@@ -81,7 +81,7 @@ def try_run(
     """Play the trial run from tick ``start`` on; the ticks played. It is given up far from the current run's path."""
     trial = keys[TRIAL_ROW]
     for k in range(start, limit):
-        step(level, w, trigger(trial[k], w.ninja.held))
+        step(level, w, trigger(trial[k], w.ninja.jump_held))
         if w.outcome != OUTCOME_RUNNING:
             return k + 1 - start
         if k % 8 == 7:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.world import step
 
 RELEASED, PRESSED, PRESSED_AGAIN = 0, 1, 2
@@ -39,14 +39,14 @@ def macro_frame(direction: int, mode: int, held: int, k: int) -> int:
 
 
 @fast
-def play_macro(level: Level, w: World, direction: int, mode: int, limit: int) -> int:
+def play_macro(level: TileMap, w: World, direction: int, mode: int, limit: int) -> int:
     """Play at most ``limit`` ticks; the number played.
 
     It ends early where there is something new to decide: the ninja lands, leaves the ground or meets a wall, or the
     run ends.
     """
     n = w.ninja
-    held = n.held
+    held = n.jump_held
     in_air = n.in_air
     near_wall = n.near_wall
     for k in range(limit):

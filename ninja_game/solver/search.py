@@ -99,7 +99,7 @@ def expand(place: Any, memory: Any, stages: Any, goals: Any, guide: Any, budget:
         if not take_state(nodes[index], place, memory):
             continue
         counters[EXPANDED] += 1
-        held = here.ninja.held
+        held = here.ninja.jump_held
         for choice in range(CHOICES):
             direction, mode, limit = macro_of(here.ninja, choice, counters, parameters)
             if limit == 0:
@@ -147,12 +147,12 @@ def macro_of(ninja: Any, choice: int, counters: Any, parameters: Any) -> tuple[i
     direction = choice % 3 - 1
     mode = choice // 3
     if mode == PRESSED:
-        useful = ninja.state == JUMPING if ninja.held else not ninja.in_air or wall
+        useful = ninja.state == JUMPING if ninja.jump_held else not ninja.in_air or wall
     elif mode == PRESSED_AGAIN:
-        useful = ninja.held and (wall or not ninja.in_air)
+        useful = ninja.jump_held and (wall or not ninja.in_air)
     elif mode > PRESSED_AGAIN:
         # Waiting: only at rest, and longer than a macro, or it would not be news.
-        slow = abs(ninja.x - ninja.px) + abs(ninja.y - ninja.py) < 0.5
+        slow = abs(ninja.x - ninja.prev_x) + abs(ninja.y - ninja.prev_y) < 0.5
         useful = slow and not ninja.in_air and parameters[REVISITS] >= 2.0
         direction = 0
         mode = RELEASED

@@ -18,7 +18,7 @@ def stage_of(w: Any, goals: Any, stages: Any, counters: Any, guess: int) -> int:
     masks, places, _ = stages
     mask = 0
     for k in range(switches):
-        if w.things[switch_slots[k]].spent:
+        if w.objects[switch_slots[k]].spent:
             mask |= 1 << k
     if masks[guess] == mask and guess < counters[STAGES]:
         return guess
@@ -44,7 +44,7 @@ def gold_hash(w: Any, goals: Any, counters: Any) -> int:
     gold_slots = goals[2]
     mixed = 0
     for k in range(len(gold_slots)):
-        if w.things[gold_slots[k]].spent:
+        if w.objects[gold_slots[k]].spent:
             mixed ^= (k + 1) * 40503
     return mixed & 0xFFFF
 
@@ -60,7 +60,7 @@ def estimate(w: Any, goals: Any, stages: Any, counters: Any, stage: int, point: 
     if needed > 0:
         nearest = 1.0e9
         for k in range(len(gold_slots)):
-            if not w.things[gold_slots[k]].spent and gold_fields[k, point] < nearest:
+            if not w.objects[gold_slots[k]].spent and gold_fields[k, point] < nearest:
                 nearest = 0.0 + gold_fields[k, point]
         return float(nearest + GOLD_STEP * needed)
     # The field of a stage that has just been discovered is not there yet.

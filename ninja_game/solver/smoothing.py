@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import groupby
 
 from ninja_game.runs.run import run_level
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 from ninja_game.simulation import Body
 from ninja_game.solver.macro_actions import held_frames
 
@@ -23,7 +23,7 @@ def inputs_of(rows: list[Row]) -> bytes:
     return held_frames([keys for keys, ticks in rows for _ in range(ticks)])
 
 
-def smoothed(level: LevelData, inputs: bytes, *, body: Body = "circle", gold: int = 0, price: int = 0) -> bytes:
+def smoothed(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 0, price: int = 0) -> bytes:
     """A run to the exit with fewer key changes, at most ``price`` ticks longer than ``inputs``.
 
     Short rows of keys are given to their neighbours, the shortest first, as long as the run still reaches the exit.
@@ -41,9 +41,7 @@ def smoothed(level: LevelData, inputs: bytes, *, body: Body = "circle", gold: in
     return inputs_of(rows).ljust(limit, b"\0")[: run.ticks]
 
 
-def _without_one(
-    rows: list[Row], longest: int, level: LevelData, body: Body, gold: int, limit: int
-) -> list[Row] | None:
+def _without_one(rows: list[Row], longest: int, level: Level, body: Body, gold: int, limit: int) -> list[Row] | None:
     """The rows with one of at most ``longest`` ticks merged into a neighbour; None if no such run passes."""
     for index, (_, ticks) in enumerate(rows):
         if ticks > longest:

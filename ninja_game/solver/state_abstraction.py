@@ -27,7 +27,7 @@ def state_class(w: World) -> int:
     """What the ninja could do next, as a small number."""
     n = w.ninja
     if not n.in_air:
-        return 0 if not n.held else 1
+        return 0 if not n.jump_held else 1
     if n.state == JUMPING:
         return 2 + n.jump_timer // 11
     if n.state == SLIDING:
@@ -43,8 +43,8 @@ def key_of(w: World, stage: int, gold: int, parameters: Any) -> int:
     speed = parameters[SPEED_STEP]
     x = int((n.x + parameters[SHIFT_X]) / cell) & 511
     y = int((n.y + parameters[SHIFT_Y]) / cell) & 511
-    vx = floor((n.x - n.px + parameters[SHIFT_VX]) / speed) & 255
-    vy = floor((n.y - n.py + parameters[SHIFT_VY]) / speed) & 255
+    vx = floor((n.x - n.prev_x + parameters[SHIFT_VX]) / speed) & 255
+    vy = floor((n.y - n.prev_y + parameters[SHIFT_VY]) / speed) & 255
     key = x | y << 9 | vx << 18 | vy << 26 | state_class(w) << 34 | (stage & 511) << 37 | (gold & 0xFFFF) << 46
     return int(key + 1)
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from threading import Event, Lock
 
-from ninja_game.sim.level import GOLD, LevelData
+from ninja_game.sim.level import GOLD, Level
 from ninja_game.simulation import Body
 from ninja_game.solver.certificate import VerifiedRun, verified_run
 from ninja_game.solver.plan import WORK_PER_SECOND
@@ -33,7 +33,7 @@ class Progress:
 class Task:
     """What to solve: ``gold`` pieces at least (-1: all), for ``seconds``, or for so many ticks of ``work`` a job."""
 
-    level: LevelData
+    level: Level
     body: Body = "circle"
     gold: int = 0
     seconds: float = 60.0
@@ -45,7 +45,7 @@ class Task:
     @property
     def gold_wanted(self) -> int:
         """Pieces of gold that a run must collect."""
-        return sum(record.kind == GOLD for record in self.level.records) if self.gold < 0 else self.gold
+        return sum(record.kind == GOLD for record in self.level.objects) if self.gold < 0 else self.gold
 
     @property
     def work_planned(self) -> float:

@@ -22,7 +22,7 @@ from ninja_game.formats.recording import Recording, parse_replays, recording_of
 from ninja_game.formats.replay.text import is_replay, parse_replay, write_replay
 from ninja_game.runs.recording_reader import Unreadable, holds_only_levels
 from ninja_game.runs.verify import Verdict, verify_recording
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 
 RECORDS = 64
 """Records a piece at most: enough that sending it is cheap beside running it."""
@@ -168,6 +168,6 @@ def _recordings(piece: Piece) -> Iterator[Recording | Unreadable]:
 
 
 @lru_cache(LEVELS_KEPT)
-def _level(text: str) -> LevelData:
+def _level(text: str) -> Level:
     """A level by its text."""
     return parse_level_string(text)

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ninja_game import LevelData, Simulation, parse_level
+from ninja_game import Level, Simulation, parse_level
 from ninja_game.batch.batch import Batch
 from ninja_game.batch.thread_pool import Crew
 from ninja_game.compile_cache import MemoryUnavailableError, compiled_available, compiled_sources, kernels
 from ninja_game.sim.level import DRONE, EXIT, MINE
-from ninja_game.sim.memory.layout import THING
+from ninja_game.sim.memory.layout import OBJECT
 from ninja_game.sim.states import OUTCOME_NAMES
 
 FLOOR = "0" * 713
@@ -91,7 +91,7 @@ def test_both_memories_show_the_same_bytes() -> None:
 @pytest.mark.parametrize("memory", MEMORIES)
 def test_observations_are_views_that_stay_current(memory: str) -> None:
     batch = Batch(LEVELS, 5, memory=memory)
-    positions, states, things = batch.positions, batch.states, batch.objects
+    positions, states, objects = batch.positions, batch.states, batch.objects
     assert positions.base is not None
     assert positions.shape == (5, 2)
     batch.run(np.full((40, 5), 2))
@@ -102,11 +102,11 @@ def test_observations_are_views_that_stay_current(memory: str) -> None:
     assert batch.velocities()[1].tolist() == [run.ninja.vx, run.ninja.vy]
     assert states.dtype == np.int32
     assert OUTCOME_NAMES[batch.outcomes[1]] == run.outcome
-    kinds = things["kind"][0, 1 : batch.used[0]].tolist()
+    kinds = objects["kind"][0, 1 : batch.used[0]].tolist()
     assert [kinds.count(kind) for kind in (EXIT, DRONE, MINE)] == [1, 1, 0]
     drone = kinds.index(DRONE) + 1
-    assert batch.places[0, drone].tolist() == [things["x"][0, drone], things["y"][0, drone]]
-    assert things.dtype == THING
+    assert batch.places[0, drone].tolist() == [objects["x"][0, drone], objects["y"][0, drone]]
+    assert objects.dtype == OBJECT
 
 
 @pytest.mark.parametrize("memory", MEMORIES)
@@ -222,6 +222,6 @@ def test_only_sources_of_compiled_functions_count_for_the_cache() -> None:
 
 
 def test_an_empty_choice_of_levels_is_refused() -> None:
-    none: list[LevelData] = []
+    none: list[Level] = []
     with pytest.raises(ValueError, match="0 levels"):
         Batch(none, 1)

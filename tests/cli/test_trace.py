@@ -31,7 +31,7 @@ def test_table_has_every_tick_with_velocity_state_and_events(two: Path) -> None:
     rows = list(csv.DictReader(trace(two, "--record", "0").stdout.splitlines()))
     assert [int(row["tick"]) for row in rows] == list(range(WALK_END + 1))
     assert {row["kind"] for row in rows} == {"ninja"}
-    assert float(rows[5]["vx"]) == float(rows[5]["x"]) - float(rows[5]["px"]) > 0
+    assert float(rows[5]["vx"]) == float(rows[5]["x"]) - float(rows[5]["prev_x"]) > 0
     assert "won" in rows[WALK_END]["events"].split()
     assert rows[WALK_END]["gold"] == "1"
 
@@ -98,7 +98,7 @@ def test_numpy_file_keeps_every_bit(two: Path, tmp_path: Path) -> None:
     with np.load(tmp_path / "run.npz") as arrays:
         run = trace_level(parse_level(WALK), bytes([2] * (WALK_END + 1)), memory="plain")
         assert arrays["ninja_0"].tobytes() == run.ninja.tobytes()
-        assert arrays["things_0"].tobytes() == run.things.tobytes()
+        assert arrays["things_0"].tobytes() == run.objects.tobytes()
 
 
 @pytest.mark.parametrize(

@@ -31,7 +31,7 @@ from ninja_game.sim.collision.tiles import (
     THIN_22,
     THIN_67,
 )
-from ninja_game.sim.level import KIND_NAMES, LAUNCH_PAD, VALUE_COUNTS, Record
+from ninja_game.sim.level import KIND_NAMES, LAUNCH_PAD, VALUE_COUNTS, ObjectSpec
 
 CLASSES = (SLOPE_45, THIN_22, THICK_22, THIN_67, THICK_67, CONCAVE, CONVEX)
 OPEN_SIDES = (
@@ -77,7 +77,7 @@ def test_every_kind_of_object_can_be_drawn() -> None:
 def test_a_drawn_object_is_seen_where_it_is_drawn(symbol: object) -> None:
     drawn = next(s for s in SYMBOLS if s is symbol)
     rows = ["|" + "." * 31 + "|"] * 22 + ["|" + "." * 6 + drawn.char + "." * 24 + "|"]
-    (record,) = parse_ascii_level("ninja-game level 1\n" + "\n".join(rows)).level.records
+    (record,) = parse_ascii_level("ninja-game level 1\n" + "\n".join(rows)).level.objects
     assert record.kind == drawn.kind
     assert len(record.values) == VALUE_COUNTS[drawn.kind]
     assert record.values[:2] == (180.0 + drawn.dx, 564.0 + drawn.dy)
@@ -88,7 +88,7 @@ def test_pads_are_drawn_as_the_key_of_the_numeric_keypad_in_their_direction() ->
     for word, (a, b) in PAD_NORMALS.items():
         digit = int(PAD_DIGITS[word]) - 1
         assert (digit % 3 - 1, 1 - digit // 3) == ((a > 0) - (a < 0), (b > 0) - (b < 0))
-        assert visible_parts(Record(LAUNCH_PAD, (180.0, 564.0, 0.5, b)))[0].char == "5"
+        assert visible_parts(ObjectSpec(LAUNCH_PAD, (180.0, 564.0, 0.5, b)))[0].char == "5"
 
 
 def test_a_floor_pad_lies_on_the_floor_and_a_guard_stands_on_it() -> None:

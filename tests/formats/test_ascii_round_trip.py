@@ -15,18 +15,18 @@ from ninja_game.formats.ascii.object_writer import same_record
 from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level, write_ascii_level
 from ninja_game.formats.ascii.writer import picture_rows
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.sim.level import GOLD, NINJA, TILES, VALUE_COUNTS, LevelData, Record
+from ninja_game.sim.level import GOLD, NINJA, TILES, VALUE_COUNTS, Level, ObjectSpec
 from tests.support.reference import fuzz, levels, random_runs, scenes
 
 EMPTY = "|" + "." * 31 + "|"
 ODD_NUMBERS = (math.nan, math.inf, -math.inf, -0.0, 0.0, 1e300, 5e-324, 0.1, 0.7071067811865468, 408.15000000000003)
 
 
-def same_level(a: LevelData, b: LevelData) -> bool:
-    return a.tiles == b.tiles and len(a.records) == len(b.records) and all(map(same_record, a.records, b.records))
+def same_level(a: Level, b: Level) -> bool:
+    return a.tiles == b.tiles and len(a.objects) == len(b.objects) and all(map(same_record, a.objects, b.objects))
 
 
-def assert_round_trip(level: LevelData) -> str:
+def assert_round_trip(level: Level) -> str:
     text = write_ascii_level(level)
     read = parse_ascii_level(text, file="round trip").level
     assert same_level(read, level), text
@@ -46,20 +46,20 @@ proper = st.sampled_from((0.0, 1.0, 2.0, 3.0))
 
 
 @st.composite
-def records(draw: st.DrawFn) -> Record:
+def records(draw: st.DrawFn) -> ObjectSpec:
     """Objects as real levels have them, and every odd thing beside."""
     kind = draw(st.integers(-1, 12))
     if kind == -1:
-        return Record(-1, tuple(draw(st.lists(coordinates, max_size=2))), draw(st.text(max_size=8)))
+        return ObjectSpec(-1, tuple(draw(st.lists(coordinates, max_size=2))), draw(st.text(max_size=8)))
     drawable = [symbol for symbol in SYMBOLS if symbol.kind == kind and symbol.values is not None]
     if draw(st.booleans()) and drawable:
         symbol = draw(st.sampled_from(drawable))
         place = [draw(cells) + symbol.dx, draw(cells) + symbol.dy, *(symbol.values or ())]
-        return Record(kind, tuple(place + [draw(cells) for _ in range(VALUE_COUNTS[kind] - len(place))]))
+        return ObjectSpec(kind, tuple(place + [draw(cells) for _ in range(VALUE_COUNTS[kind] - len(place))]))
     count = draw(st.one_of(st.just(VALUE_COUNTS[kind]), st.just(VALUE_COUNTS[kind]), st.integers(0, 10)))
     places = [draw(coordinates) for _ in range(min(2, count))]
     rest = [draw(st.one_of(proper, small, cells)) for _ in range(count - len(places))]
-    return Record(kind, tuple(places + rest), draw(st.sampled_from(("", "", "", "text"))))
+    return ObjectSpec(kind, tuple(places + rest), draw(st.sampled_from(("", "", "", "text"))))
 
 
 tiles = st.one_of(
@@ -68,54 +68,54 @@ tiles = st.one_of(
     st.lists(st.sampled_from((0, 1, 2, -1, 34, 1_000_000)), min_size=TILES, max_size=TILES).map(tuple),
 )
 few = st.sampled_from((36.0, 60.0))
-random_levels = st.builds(LevelData, tiles, st.lists(records(), max_size=25).map(tuple))
+random_levels = st.builds(Level, tiles, st.lists(records(), max_size=25).map(tuple))
 
 
 @settings(max_examples=80, deadline=None)
 @given(random_levels)
-def test_random_levels_come_back_to_the_bit(level: LevelData) -> None:
+def test_random_levels_come_back_to_the_bit(level: Level) -> None:
     assert_round_trip(level)
 
 
 @settings(max_examples=100, deadline=None)
 @given(st.lists(st.tuples(records(), few, few), max_size=12))
-def test_objects_that_crowd_few_cells_come_back_in_order(drawn: list[tuple[Record, float, float]]) -> None:
+def test_objects_that_crowd_few_cells_come_back_in_order(drawn: list[tuple[ObjectSpec, float, float]]) -> None:
     crowded = [
-        Record(record.kind, (x, y, *record.values[2:]), record.text)
+        ObjectSpec(record.kind, (x, y, *record.values[2:]), record.text)
         for record, x, y in drawn
         if len(record.values) >= 2
     ]
-    assert_round_trip(LevelData(records=tuple(crowded)))
+    assert_round_trip(Level(objects=tuple(crowded)))
 
 
 @given(st.text(), st.text(), st.text())
 def test_any_name_author_and_comment_come_back(name: str, author: str, comment: str) -> None:
-    text = write_ascii_level(LevelData(), name=name, author=author, comment=comment)
+    text = write_ascii_level(Level(), name=name, author=author, comment=comment)
     read = parse_ascii_level(text)
     assert (read.name, read.author, read.comment) == (name, author, comment)
 
 
 def test_a_level_written_with_its_legend_reads_the_same() -> None:
-    level = LevelData(records=(Record(NINJA, (36.0, 36.0)), Record(GOLD, (60.0, 61.0))))
+    level = Level(objects=(ObjectSpec(NINJA, (36.0, 36.0)), ObjectSpec(GOLD, (60.0, 61.0))))
     assert parse_ascii_level(write_ascii_level(level, legend=True)).level == level
 
 
 def test_objects_in_reading_order_need_no_line() -> None:
-    drawn = (Record(NINJA, (300.0, 300.0)), Record(GOLD, (36.0, 36.0)), Record(GOLD, (60.0, 36.0)))
-    text = write_ascii_level(LevelData(records=drawn))
+    drawn = (ObjectSpec(NINJA, (300.0, 300.0)), ObjectSpec(GOLD, (36.0, 36.0)), ObjectSpec(GOLD, (60.0, 36.0)))
+    text = write_ascii_level(Level(objects=drawn))
     assert "gold" not in text
-    assert "\n\ngold 1,1\n" in assert_round_trip(LevelData(records=(drawn[0], drawn[2], drawn[1])))
+    assert "\n\ngold 1,1\n" in assert_round_trip(Level(objects=(drawn[0], drawn[2], drawn[1])))
 
 
 def test_the_picture_shows_tiles_and_objects() -> None:
-    level = LevelData((1,) * 23 + (0,) * (TILES - 23), (Record(GOLD, (60.0, 36.0)),))
+    level = Level((1,) * 23 + (0,) * (TILES - 23), (ObjectSpec(GOLD, (60.0, 36.0)),))
     rows = picture_rows(level)
     assert len(rows) == 23
     assert rows[0] == "#o" + "." * 29
 
 
 def test_written_levels_are_recognised() -> None:
-    assert is_ascii_level(write_ascii_level(LevelData()))
+    assert is_ascii_level(write_ascii_level(Level()))
     assert not is_ascii_level("")
     assert not is_ascii_level("$name#author##" + "0" * TILES + "|#")
 
@@ -142,7 +142,7 @@ def test_long_rubbish_is_told_shortly(number: int) -> None:
 
 @settings(max_examples=80, deadline=None)
 @given(random_levels, st.lists(st.tuples(st.integers(0, 5000), st.integers(0, 40), st.text(max_size=6)), max_size=4))
-def test_mutated_text_gives_a_level_or_an_error_of_ours(level: LevelData, edits: list[tuple[int, int, str]]) -> None:
+def test_mutated_text_gives_a_level_or_an_error_of_ours(level: Level, edits: list[tuple[int, int, str]]) -> None:
     text = write_ascii_level(level, name="mutant")
     for place, length, new in edits:
         start = place % (len(text) + 1)
@@ -173,6 +173,6 @@ def test_reference_levels_come_back_to_the_bit() -> None:
 
 
 def test_visible_parts_are_in_the_picture() -> None:
-    record = Record(GOLD, (36.0, 36.0))
+    record = ObjectSpec(GOLD, (36.0, 36.0))
     assert [tuple(part) for part in visible_parts(record)] == [("o", 1, 1)]
-    assert visible_parts(Record(GOLD, (37.0, 36.0))) == []
+    assert visible_parts(ObjectSpec(GOLD, (37.0, 36.0))) == []

@@ -49,7 +49,7 @@ def test_art_levels_without_ninja_with_odd_values_and_tiles() -> None:
     art = "o" + TILES[1:] + "|0^396,NaN!2^60,60,-3.51,4.9!8^60,84,7!5^1,2!5^3,4!5^5,6"
     (record,) = read_level_file(f"$art#us#art#{art}#")
     level = parse_level_string(record.level)
-    assert (level.tiles[0], sum(r.kind == NINJA for r in level.records)) == (63, 3)
+    assert (level.tiles[0], sum(r.kind == NINJA for r in level.objects)) == (63, 3)
     assert write_level_string(level) == art
 
 
@@ -71,7 +71,7 @@ def test_exports_of_v2_keep_what_v1_makes_of_them() -> None:
     text = TILES + "|5^60,540!2^60,564,0.0,-1.0!2^84,564,-0.7,-0.7!4^252,570!11^1,2,3,4!11^5,6,7,8"
     (record,) = read_level_file(f"$a#us#v2#{text}#")
     level = parse_level_string(record.level)
-    assert [len(r.values) for r in level.records if r.kind == FLOOR_GUARD] == [2]
+    assert [len(r.values) for r in level.objects if r.kind == FLOOR_GUARD] == [2]
     assert write_level_string(level) == text.replace("0.0,-1.0", "0,-1")
 
 

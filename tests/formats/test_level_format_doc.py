@@ -38,13 +38,13 @@ def test_whole_levels_are_proper(text: str) -> None:
 def test_parts_of_levels_read(text: str) -> None:
     picture, lines = text.split("\n\n")
     rows = picture.splitlines()
-    assert len(parse_ascii_level(with_header([EMPTY] * (23 - len(rows)) + rows, lines)).level.records) == 9
+    assert len(parse_ascii_level(with_header([EMPTY] * (23 - len(rows)) + rows, lines)).level.objects) == 9
 
 
 @pytest.mark.parametrize("text", blocks("picture"))
 def test_fragments_of_pictures_read(text: str) -> None:
     rows = [f"|{row}|" for row in text.splitlines()]
-    assert parse_ascii_level(with_header([EMPTY] * (23 - len(rows)) + rows)).level.records == ()
+    assert parse_ascii_level(with_header([EMPTY] * (23 - len(rows)) + rows)).level.objects == ()
 
 
 @pytest.mark.parametrize("text", blocks("list"))

@@ -15,14 +15,14 @@ from ninja_game.formats.n14.level_string import (
     tidy_level_string,
     write_level_string,
 )
-from ninja_game.sim.level import DRONE, GOLD, NINJA, TILES, LevelData, Record
+from ninja_game.sim.level import DRONE, GOLD, NINJA, TILES, Level, ObjectSpec
 from tests.support.strategies import odd_levels, proper_levels
 
 EMPTY = "0" * TILES
 
 
-def records(objects: str) -> tuple[Record, ...]:
-    return parse_level_string(f"{EMPTY}|{objects}").records
+def records(objects: str) -> tuple[ObjectSpec, ...]:
+    return parse_level_string(f"{EMPTY}|{objects}").objects
 
 
 def test_tiles_run_down_the_columns() -> None:
@@ -37,9 +37,9 @@ def test_every_tile_character_has_its_id() -> None:
 
 def test_records_keep_order_kinds_and_values() -> None:
     assert records("5^132,200!0^396,300!6^252,132,0,1,0,2") == (
-        Record(NINJA, (132.0, 200.0)),
-        Record(GOLD, (396.0, 300.0)),
-        Record(DRONE, (252.0, 132.0, 0.0, 1.0, 0.0, 2.0)),
+        ObjectSpec(NINJA, (132.0, 200.0)),
+        ObjectSpec(GOLD, (396.0, 300.0)),
+        ObjectSpec(DRONE, (252.0, 132.0, 0.0, 1.0, 0.0, 2.0)),
     )
 
 
@@ -59,12 +59,12 @@ def test_a_text_that_starts_with_a_dollar_needs_four_fields(text: str) -> None:
 
 
 def test_only_the_first_two_parts_count() -> None:
-    assert records("0^1,2|0^3,4|5^5,6") == (Record(GOLD, (1.0, 2.0)),)
+    assert records("0^1,2|0^3,4|5^5,6") == (ObjectSpec(GOLD, (1.0, 2.0)),)
 
 
 @pytest.mark.parametrize("text", [EMPTY, EMPTY + "|", EMPTY + "||0^1,2"])
 def test_nothing_after_the_bar_means_no_objects(text: str) -> None:
-    assert parse_level_string(text) == LevelData((0,) * TILES, ())
+    assert parse_level_string(text) == Level((0,) * TILES, ())
 
 
 def test_cells_that_a_short_tile_string_does_not_reach_are_missing() -> None:
@@ -86,24 +86,24 @@ def test_white_space_among_the_tiles_shifts_all_later_cells() -> None:
 
 @pytest.mark.parametrize("text", ["13^1,2", "-1^1,2", "0.5^1,2", "abc^1,2", "^1,2", "99", "nonsense"])
 def test_records_of_unknown_types_are_ignored_but_kept_as_text(text: str) -> None:
-    assert records(f"{text}!0^3,4") == (Record(-1, (), text), Record(GOLD, (3.0, 4.0)))
+    assert records(f"{text}!0^3,4") == (ObjectSpec(-1, (), text), ObjectSpec(GOLD, (3.0, 4.0)))
 
 
 def test_empty_records_are_ignored() -> None:
-    assert records("!0^3,4!") == (Record(-1, (), ""), Record(GOLD, (3.0, 4.0)), Record(-1, (), ""))
+    assert records("!0^3,4!") == (ObjectSpec(-1, (), ""), ObjectSpec(GOLD, (3.0, 4.0)), ObjectSpec(-1, (), ""))
 
 
 @pytest.mark.parametrize("text", [" 0", "+0", "0.0", "0x0", "00", "-0", "0e5"])
 def test_types_are_numbers_like_any_other(text: str) -> None:
-    assert records(f"{text}^3,4") == (Record(GOLD, (3.0, 4.0)),)
+    assert records(f"{text}^3,4") == (ObjectSpec(GOLD, (3.0, 4.0)),)
 
 
 def test_records_without_caret_or_with_wrong_counts_are_made_as_they_are() -> None:
     assert records("7!1^442!0^473,347,1!5^1^2,3") == (
-        Record(7, ()),
-        Record(1, (442.0,)),
-        Record(0, (473.0, 347.0, 1.0)),
-        Record(5, (1.0,)),
+        ObjectSpec(7, ()),
+        ObjectSpec(1, (442.0,)),
+        ObjectSpec(0, (473.0, 347.0, 1.0)),
+        ObjectSpec(5, (1.0,)),
     )
 
 
@@ -115,7 +115,7 @@ def test_values_that_are_no_numbers_are_nan(text: str) -> None:
 
 
 def test_leading_blanks_before_a_number_are_harmless() -> None:
-    assert records(" 0^ 685, 469") == (Record(GOLD, (685.0, 469.0)),)
+    assert records(" 0^ 685, 469") == (ObjectSpec(GOLD, (685.0, 469.0)),)
 
 
 def test_the_number_forms_of_the_page() -> None:
@@ -149,33 +149,33 @@ def test_launch_pads_of_v2_exports_lose_their_superfluous_zeros() -> None:
 @pytest.mark.parametrize(
     "level, message",
     [
-        (LevelData((76, *[0] * 712)), "tile id 76 in column 1, row 1"),
-        (LevelData((*[0] * 712, -49)), "tile id -49 in column 31, row 23"),
-        (LevelData((0xD800, *[0] * 712)), "tile id 55296"),
-        (LevelData((-12, *[0] * 712)), "cannot start with '\\$'"),
-        (LevelData((0,) * 5), "wrong number of tiles; found 5"),
-        (LevelData(records=(Record(-1, (), "a!b"),)), "'a!b'"),
+        (Level((76, *[0] * 712)), "tile id 76 in column 1, row 1"),
+        (Level((*[0] * 712, -49)), "tile id -49 in column 31, row 23"),
+        (Level((0xD800, *[0] * 712)), "tile id 55296"),
+        (Level((-12, *[0] * 712)), "cannot start with '\\$'"),
+        (Level((0,) * 5), "wrong number of tiles; found 5"),
+        (Level(objects=(ObjectSpec(-1, (), "a!b"),)), "'a!b'"),
     ],
 )
-def test_levels_that_no_string_can_say_are_refused(level: LevelData, message: str) -> None:
+def test_levels_that_no_string_can_say_are_refused(level: Level, message: str) -> None:
     with pytest.raises(LevelError, match=message):
         write_level_string(level)
 
 
 @given(odd_levels)
-def test_any_level_reads_back_equal(level: LevelData) -> None:
+def test_any_level_reads_back_equal(level: Level) -> None:
     for exact in (False, True):
         assert parse_level_string(write_level_string(level, exact=exact)) == level
 
 
 @given(proper_levels)
-def test_writing_is_stable(level: LevelData) -> None:
+def test_writing_is_stable(level: Level) -> None:
     text = write_level_string(level)
     assert write_level_string(parse_level_string(text)) == text
 
 
 def test_exact_writing_keeps_what_15_digits_lose() -> None:
-    level = LevelData(records=(Record(GOLD, (2 / 3, 0.1 + 0.2)),))
+    level = Level(objects=(ObjectSpec(GOLD, (2 / 3, 0.1 + 0.2)),))
     assert parse_level_string(write_level_string(level, exact=True)) == level
     assert parse_level_string(write_level_string(level)) != level
 
@@ -183,17 +183,17 @@ def test_exact_writing_keeps_what_15_digits_lose() -> None:
 def test_the_digest_sees_tiles_order_and_every_bit_of_values() -> None:
     level = parse_level_string(EMPTY + "|5^60,60!0^36,36!0^60.5,36")
     others = [
-        LevelData((1, *level.tiles[1:]), level.records),
-        LevelData(level.tiles, level.records[::-1]),
-        LevelData(level.tiles, (*level.records[:2], Record(0, (math.nextafter(60.5, 61), 36.0)))),
-        LevelData(level.tiles, level.records[:2]),
+        Level((1, *level.tiles[1:]), level.objects),
+        Level(level.tiles, level.objects[::-1]),
+        Level(level.tiles, (*level.objects[:2], ObjectSpec(0, (math.nextafter(60.5, 61), 36.0)))),
+        Level(level.tiles, level.objects[:2]),
     ]
     assert len({level_digest(one) for one in (level, *others)}) == 5
 
 
 def test_the_digest_ignores_what_makes_no_difference() -> None:
     level = parse_level_string(EMPTY + "|5^60,60!2^36,36,0,-1")
-    same = LevelData(level.tiles, (Record(-1, (), "99"), level.records[0], Record(2, (36.0, 36.0, -0.0, -1.0))))
+    same = Level(level.tiles, (ObjectSpec(-1, (), "99"), level.objects[0], ObjectSpec(2, (36.0, 36.0, -0.0, -1.0))))
     assert level_digest(level) == level_digest(same)
 
 

@@ -43,9 +43,9 @@ def test_published_levels_are_written_as_they_were() -> None:
     for level in reference.levels():
         data = parse_level_string(level.data)
         assert write_level_string(data) == level.data
-        assert [len(r.values) for r in data.records] == [VALUE_COUNTS[r.kind] for r in data.records]
-        assert [r.kind for r in data.records].count(NINJA) == 1
-        assert data.records[0].kind == NINJA
+        assert [len(r.values) for r in data.objects] == [VALUE_COUNTS[r.kind] for r in data.objects]
+        assert [r.kind for r in data.objects].count(NINJA) == 1
+        assert data.objects[0].kind == NINJA
 
 
 @tables

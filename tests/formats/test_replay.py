@@ -14,7 +14,7 @@ from ninja_game.errors import DemoError, ReplayError
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.replay.input_runs import read_inputs, write_inputs
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
-from ninja_game.sim.level import LevelData, Record
+from ninja_game.sim.level import Level, ObjectSpec
 from tests.support.strategies import inputs, replays
 
 LEVEL = parse_level_string("0" * 713 + "|5^60,540!11^708,540,396,540")
@@ -59,7 +59,7 @@ def test_replays_read_back_equal(replay: Replay) -> None:
 
 @given(st.floats(), st.floats())
 def test_an_embedded_level_keeps_numbers_that_no_level_string_of_n_can_say(x: float, y: float) -> None:
-    level = LevelData(records=(Record(2, (60.0, 60.0, x, y)),))
+    level = Level(objects=(ObjectSpec(2, (60.0, 60.0, x, y)),))
     read = parse_replay(write_replay(replace(REPLAY, level=level))).level
     assert read
     assert level_digest(read) == level_digest(level)

@@ -25,5 +25,5 @@ def test_a_level_of_ours_is_proper(path: Path) -> None:
     assert read.author
     assert read.comment
     assert level_warnings(read.level) == []
-    assert any(record.kind == GOLD for record in read.level.records)
+    assert any(record.kind == GOLD for record in read.level.objects)
     assert parse_ascii_level(write_ascii_level(read.level)).level == read.level

@@ -9,10 +9,10 @@ import pytest
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.levels.warnings import level_warnings, object_name
-from ninja_game.sim.level import EXIT, GOLD, MINE, NINJA, TILES, LevelData, Record
+from ninja_game.sim.level import EXIT, GOLD, MINE, NINJA, TILES, Level, ObjectSpec
 from tests.support.reference import levels
 
-PROPER = (Record(NINJA, (36.0, 564.0)), Record(EXIT, (700.0, 564.0, 300.0, 564.0)))
+PROPER = (ObjectSpec(NINJA, (36.0, 564.0)), ObjectSpec(EXIT, (700.0, 564.0, 300.0, 564.0)))
 
 
 def warnings_of(*lines: str, rows: dict[int, str] | None = None, keep: bool = True) -> list[str]:
@@ -208,7 +208,7 @@ def test_odd_tiles() -> None:
 
 
 def test_many_objects() -> None:
-    level = LevelData(records=PROPER + (Record(MINE, (300.0, 300.0)),) * 2000)
+    level = Level(objects=PROPER + (ObjectSpec(MINE, (300.0, 300.0)),) * 2000)
     assert level_warnings(level) == ["there are 2002 objects, more than 2000: the game may be slow"]
 
 
@@ -255,12 +255,12 @@ def test_nothing_is_certain_for_a_ninja_that_starts_in_a_tile() -> None:
 
 
 def test_names_say_where_an_object_is_in_its_file() -> None:
-    assert object_name(Record(GOLD, (36.0, 42.0)), 3) == "gold at 1,1.25 (object 3)"
-    assert object_name(Record(GOLD, (math.nan, 42.0)), 3) == "gold at nan,42px (object 3)"
+    assert object_name(ObjectSpec(GOLD, (36.0, 42.0)), 3) == "gold at 1,1.25 (object 3)"
+    assert object_name(ObjectSpec(GOLD, (math.nan, 42.0)), 3) == "gold at nan,42px (object 3)"
 
 
 def test_ids_skip_records_that_create_nothing() -> None:
-    level = LevelData((0,) * TILES, (*PROPER, Record(-1, (), "77"), Record(GOLD, (900.0, 36.0))))
+    level = Level((0,) * TILES, (*PROPER, ObjectSpec(-1, (), "77"), ObjectSpec(GOLD, (900.0, 36.0))))
     assert level_warnings(level)[-1] == "gold at 900,36px (object 2): it is outside the grid"
 
 

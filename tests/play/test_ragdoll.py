@@ -7,7 +7,7 @@ from random import Random
 from ninja_game.play.view.ninja.pose import STAND
 from ninja_game.play.view.ninja.ragdoll import STICKS, Ragdoll
 from ninja_game.sim.collision.rays import solid_at
-from ninja_game.sim.level import LevelData, Record
+from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.states import BULLET, EXPLOSIVE
 from ninja_game.simulation import Simulation
 
@@ -17,7 +17,7 @@ def cave(tile: int = 0) -> Simulation:
     tiles = [0] * 713
     for column in range(0, 31, 3):
         tiles[column * 23 + 22] = tile
-    return Simulation(LevelData(tuple(tiles), (Record(5, (396.0, 300.0)),)))
+    return Simulation(Level(tuple(tiles), (ObjectSpec(5, (396.0, 300.0)),)))
 
 
 def drop(run: Simulation, ticks: int, *, kind: int = BULLET, seed: int = 3, push: float = 6.0) -> Ragdoll:

@@ -13,7 +13,7 @@ from ninja_game.play.view.sprites.backdrop import Backdrop
 from ninja_game.play.view.sprites.sprite_book import SpriteBook
 from ninja_game.play.view.sprites.tile_shapes import tile_picture
 from ninja_game.sim.collision.rays import solid_at
-from ninja_game.sim.level import LevelData, Record
+from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.simulation import Simulation
 
 CLASSIC = PALETTES["classic"]
@@ -27,7 +27,7 @@ class OneTile(NamedTuple):
 def test_a_shape_covers_what_is_solid(tile: int) -> None:
     size = 48
     picture = tile_picture(tile, (size, size), CLASSIC.tile)
-    run = Simulation(LevelData((tile, *[0] * 712), (Record(5, (400.0, 300.0)),)))
+    run = Simulation(Level((tile, *[0] * 712), (ObjectSpec(5, (400.0, 300.0)),)))
     for row in range(size):
         for column in range(size):
             x, y = 24 + (column + 0.5) / 2, 24 + (row + 0.5) / 2
@@ -44,7 +44,7 @@ def test_a_shape_covers_what_is_solid(tile: int) -> None:
 @pytest.mark.parametrize("size", [(792, 600), (1000, 700), (1584, 1200), (613, 477)])
 def test_no_seams_between_full_tiles(size: tuple[int, int]) -> None:
     canvas = Canvas(size)
-    run = Simulation(LevelData((1,) * 713, (Record(5, (400.0, 300.0)),)))
+    run = Simulation(Level((1,) * 713, (ObjectSpec(5, (400.0, 300.0)),)))
     backdrop = Backdrop(canvas, CLASSIC, SpriteBook(canvas.scale, CLASSIC), run.static)
     mask = pygame.mask.from_surface(backdrop.tiles, 254)
     assert mask.count() == canvas.size[0] * canvas.size[1]
@@ -58,7 +58,7 @@ def test_slopes_meet_their_neighbours_without_seams() -> None:
         for column in range(31):
             columns[column][10], columns[column][11] = (18, 22)[column % 2] if column % 3 else 2, 1
         tiles = tuple(tile for column in columns for tile in column)
-        run = Simulation(LevelData(tiles, (Record(5, (400.0, 100.0)),)))
+        run = Simulation(Level(tiles, (ObjectSpec(5, (400.0, 100.0)),)))
         backdrop = Backdrop(canvas, CLASSIC, SpriteBook(canvas.scale, CLASSIC), run.static)
         _, border = canvas.point(0, 24 * 12)
         left, right = canvas.point(24, 0)[0], canvas.point(768, 0)[0]

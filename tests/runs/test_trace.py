@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from ninja_game.errors import FormatError
-from ninja_game.runs.run import NINJA_RECORD, THING_RECORD, RunTrace
+from ninja_game.runs.run import NINJA_RECORD, OBJECT_RECORD, RunTrace
 from ninja_game.runs.trace import first_difference, rows, trace_digests
 from ninja_game.runs.trace_files import FiledTrace, read_csv, read_traces, write_csv, write_npz
 from tests.support.reference import scene_traces, scenes
@@ -19,8 +19,8 @@ from tests.support.reference import scene_traces, scenes
 def a_trace() -> RunTrace:
     """Three ticks with two objects, and values that are easy to lose on the way: NaN, tiny ones, many digits."""
     ninja = np.array([(0.1 + k, 0.0, 0.1, 1e-300, k, 2 * k) for k in range(3)], NINJA_RECORD)
-    things = np.array([[(1 / 3, float("nan"), 1), (2.0, 3.0, k)] for k in range(3)], THING_RECORD)
-    return RunTrace(ninja, things, (1, 4), ("gold", "drone"), ("jumped", "", "landed died"))
+    objects = np.array([[(1 / 3, float("nan"), 1), (2.0, 3.0, k)] for k in range(3)], OBJECT_RECORD)
+    return RunTrace(ninja, objects, (1, 4), ("gold", "drone"), ("jumped", "", "landed died"))
 
 
 TWICE = [FiledTrace(0, "a name", a_trace()), FiledTrace(5, "a name", a_trace())]
@@ -28,22 +28,22 @@ TWICE = [FiledTrace(0, "a name", a_trace()), FiledTrace(5, "a name", a_trace())]
 
 def changed(trace: RunTrace, tick: int, column: int, field: str, value: float) -> RunTrace:
     """The same trace with another value; column -1 is the ninja."""
-    ninja, things = trace.ninja.copy(), trace.things.copy()
+    ninja, objects = trace.ninja.copy(), trace.objects.copy()
     if column < 0:
         ninja[field][tick] = value
     else:
-        things[field][tick, column] = value
-    return RunTrace(ninja, things, trace.ids, trace.kinds, trace.events)
+        objects[field][tick, column] = value
+    return RunTrace(ninja, objects, trace.ids, trace.kinds, trace.events)
 
 
 def test_digests_are_over_the_records_in_order() -> None:
     trace = a_trace()
     digests = trace_digests(trace)
-    ninja, things = trace.ninja, trace.things
-    whole = b"".join(ninja[k].tobytes() + things[k].tobytes() for k in range(3))
+    ninja, objects = trace.ninja, trace.objects
+    whole = b"".join(ninja[k].tobytes() + objects[k].tobytes() for k in range(3))
     assert digests.ninja_sha256 == sha256(ninja.tobytes()).hexdigest()
     assert digests.run_sha256 == sha256(whole).hexdigest()
-    assert digests.objects[4] == sha256(b"".join(things[k, 1].tobytes() for k in range(3))).hexdigest()[:8]
+    assert digests.objects[4] == sha256(b"".join(objects[k, 1].tobytes() for k in range(3))).hexdigest()[:8]
 
 
 def test_digests_of_the_reference_scenes() -> None:
@@ -52,9 +52,9 @@ def test_digests_of_the_reference_scenes() -> None:
     for scene, end in list(zip(scenes(), ends, strict=True))[::40]:
         table = np.frombuffer(everything[scene.offset : end], np.uint8).reshape(scene.ticks, -1)
         ninja = table[:, : NINJA_RECORD.itemsize].copy().view(NINJA_RECORD)[:, 0]
-        things = table[:, NINJA_RECORD.itemsize :].copy().view(THING_RECORD)
-        objects = things.shape[1]
-        digests = trace_digests(RunTrace(ninja, things, tuple(range(objects)), ("",) * objects))
+        objects = table[:, NINJA_RECORD.itemsize :].copy().view(OBJECT_RECORD)
+        count = objects.shape[1]
+        digests = trace_digests(RunTrace(ninja, objects, tuple(range(count)), ("",) * count))
         assert (digests.ninja_sha256, digests.run_sha256) == (scene.ninja_sha256, scene.run_sha256), scene.name
 
 
@@ -117,7 +117,7 @@ def test_equal_traces_have_no_difference() -> None:
 
 def test_length_and_missing_objects_are_differences() -> None:
     whole = a_trace()
-    short = RunTrace(whole.ninja[:2], whole.things[:2], whole.ids, whole.kinds)
-    fewer = RunTrace(whole.ninja, whole.things[:, :1], whole.ids[:1], whole.kinds[:1])
+    short = RunTrace(whole.ninja[:2], whole.objects[:2], whole.ids, whole.kinds)
+    fewer = RunTrace(whole.ninja, whole.objects[:, :1], whole.ids[:1], whole.kinds[:1])
     assert str(first_difference(whole, short)) == "tick 2: run: number of ticks is 3, expected 2"
     assert str(first_difference(whole, fewer)) == "tick 0: object 4: kind is drone, expected missing"

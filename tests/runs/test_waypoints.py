@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import pytest
 
-from ninja_game import LevelData, Replay, ReplayError, parse_replay, record_replay, verify_recording, write_replay
+from ninja_game import Level, Replay, ReplayError, parse_replay, record_replay, verify_recording, write_replay
 from ninja_game.formats.recording import parse_replays
-from ninja_game.sim.level import NINJA, Record
+from ninja_game.sim.level import NINJA, ObjectSpec
 
-FLAT = LevelData(records=(Record(NINJA, (100.0, 566.0)),))
+FLAT = Level(objects=(ObjectSpec(NINJA, (100.0, 566.0)),))
 
 
 def running() -> Replay:

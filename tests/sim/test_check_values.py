@@ -10,13 +10,13 @@ from ninja_game.sim.collision.circle import collide_circle
 from ninja_game.sim.collision.rays import ray_box, ray_tiles, sees
 from ninja_game.sim.inputs import HELD, LEFT, RIGHT, TRIGGERED
 from ninja_game.sim.memory.plain import load_plain
-from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.simulation import Simulation
 
 EMPTY = "0" * 713
 
 
-def world_with(tile: int, x: float, y: float) -> tuple[Level, World]:
+def world_with(tile: int, x: float, y: float) -> tuple[TileMap, World]:
     """A world that is empty but for one tile in cell (10, 9), with the ninja at (x, y)."""
     index = 9 * 23 + 8
     tiles = EMPTY[:index] + chr(48 + tile) + EMPTY[index + 1 :]

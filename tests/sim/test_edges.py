@@ -8,7 +8,7 @@ import pytest
 
 from ninja_game.sim.collision.tiles import COLUMN, EXISTS, ODD_HALF_ID, ROW, SHAPE, STEP, UNDEFINED_ID
 from ninja_game.sim.grid import cell_at, cell_index
-from ninja_game.sim.level import NINJA, LevelData, Record
+from ninja_game.sim.level import NINJA, Level, ObjectSpec
 from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.rules import INTERESTING, OFF, SOLID, STRIDE
 
@@ -56,21 +56,21 @@ def test_every_pair_of_tiles_has_the_edge_of_the_table(own: int) -> None:
             beside = (centre[0] + (1, 0, -1, 0)[side], centre[1] + (0, 1, 0, -1)[side])
             for (column, row), tile in ((centre, own), (beside, neighbour)):
                 tiles[(column - 1) * 23 + row - 1] = -1 if tile == UNDEFINED_ID else tile
-            _, w = load_plain(LevelData(tuple(tiles), (Record(NINJA, (30.0, 30.0)),)), box=False)
+            _, w = load_plain(Level(tuple(tiles), (ObjectSpec(NINJA, (30.0, 30.0)),)), box=False)
             place = PLACE_OF_SIDE[side]
             expected = literal_state(FACES[own][place], FACES[neighbour][PLACE_OF_SIDE[side ^ 2]])
             assert w.edges[4 * cell_index(*centre) + side] == STATE[expected], (own, neighbour, side)
 
 
 def test_an_empty_cell_is_solid_towards_the_border() -> None:
-    _, w = load_plain(LevelData(records=(Record(NINJA, (30.0, 30.0)),)), box=False)
+    _, w = load_plain(Level(objects=(ObjectSpec(NINJA, (30.0, 30.0)),)), box=False)
     for column in range(1, 32):
         assert w.edges[4 * cell_index(column, 1) + 3] == SOLID
         assert w.edges[4 * cell_index(column, 23) + 1] == SOLID
 
 
 def test_the_border_is_interesting_towards_what_is_missing() -> None:
-    _, w = load_plain(LevelData(records=(Record(NINJA, (30.0, 30.0)),)), box=False)
+    _, w = load_plain(Level(objects=(ObjectSpec(NINJA, (30.0, 30.0)),)), box=False)
     assert w.edges[4 * cell_index(0, 12) + 2] == INTERESTING
     assert w.edges[4 * cell_index(32, 12) + 0] == INTERESTING
 

@@ -10,8 +10,17 @@ import pytest
 from ninja_game.compile_cache import compiled_available
 from ninja_game.sim.memory.compiled import Compiler, load_compiled
 from ninja_game.sim.memory.declare import ENTRY_POINTS, REGISTERED, f8, fields_of, part
-from ninja_game.sim.memory.layout import LEVEL, STATE_START, THING, WORLD, dtype_of, new_worlds, state_view, used_bytes
-from ninja_game.sim.memory.schema import CAPACITY, Header, Thing
+from ninja_game.sim.memory.layout import (
+    OBJECT,
+    STATE_START,
+    TILE_MAP,
+    WORLD,
+    dtype_of,
+    new_worlds,
+    state_view,
+    used_bytes,
+)
+from ninja_game.sim.memory.schema import CAPACITY, Header, Object
 from tests.support.crowded import crowded_frames, crowded_level
 
 needs_numba = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
@@ -19,12 +28,12 @@ needs_numba = pytest.mark.skipif(not compiled_available(), reason="Numba is not 
 
 def span(name: str) -> range:
     """The bytes of a field of a thing."""
-    assert THING.fields is not None
-    dtype, offset = THING.fields[name][:2]
+    assert OBJECT.fields is not None
+    dtype, offset = OBJECT.fields[name][:2]
     return range(offset, offset + dtype.itemsize)
 
 
-@pytest.mark.parametrize("kind", Thing.__bases__, ids=lambda kind: str(kind.__name__))
+@pytest.mark.parametrize("kind", Object.__bases__, ids=lambda kind: str(kind.__name__))
 def test_fields_of_one_kind_never_overlap(kind: type) -> None:
     for one, other in combinations(fields_of(kind), 2):
         assert not set(span(one.name)) & set(span(other.name)), (one.name, other.name)
@@ -33,11 +42,11 @@ def test_fields_of_one_kind_never_overlap(kind: type) -> None:
 def test_the_header_lies_alike_in_every_thing_and_kinds_share_what_is_behind_it() -> None:
     header = {byte for field in fields_of(Header) for byte in span(field.name)}
     assert header == set(range(len(header)))
-    assert THING.itemsize < sum(len(span(field.name)) for field in fields_of(Thing))
+    assert OBJECT.itemsize < sum(len(span(field.name)) for field in fields_of(Object))
 
 
 def test_every_field_is_aligned() -> None:
-    for dtype in (WORLD, THING, LEVEL):
+    for dtype in (WORLD, OBJECT, TILE_MAP):
         assert dtype.fields is not None
         for name, (field, offset, *_) in dtype.fields.items():
             assert offset % min(8, field.base.itemsize if field.base.fields is None else 8) == 0, name
@@ -56,7 +65,7 @@ def test_worlds_are_packed_by_what_they_use() -> None:
     worlds = new_worlds(3, 70)
     assert used_bytes(70) <= worlds.strides[0] < used_bytes(70) + 64
     assert WORLD.itemsize == used_bytes(CAPACITY)
-    worlds["used"] = 70
+    worlds["slots_used"] = 70
     worlds[1]["ninja"]["x"] = 5.0
     assert not state_view(worlds, 0).any() or worlds[0]["ninja"]["x"] == 0.0
     assert len(state_view(worlds, 1)) == used_bytes(70) - STATE_START
@@ -74,11 +83,13 @@ def test_no_index_is_ever_out_of_range() -> None:
     kernels = Compiler(boundscheck=True).kernels()
     for seed in range(60):
         levels, worlds = load_compiled(kernels, crowded_level(seed), seed % 2 == 1)
-        slots = np.arange(1, int(worlds["ids"][0]) + 1)
+        slots = np.arange(1, int(worlds["id_count"][0]) + 1)
         frames = np.frombuffer(crowded_frames(seed, 150), np.uint8)
-        things = np.empty((150, len(slots)), [("x", "<f8"), ("y", "<f8"), ("s", "<i4")])
-        ninja = np.empty(150, [(name, "<f8") for name in ("x", "y", "px", "py")] + [("s", "<i4"), ("gold", "<i4")])
-        kernels["trace_world"](levels, worlds, 0, frames, slots, ninja, things)
+        objects = np.empty((150, len(slots)), [("x", "<f8"), ("y", "<f8"), ("s", "<i4")])
+        ninja = np.empty(
+            150, [(name, "<f8") for name in ("x", "y", "prev_x", "prev_y")] + [("s", "<i4"), ("gold", "<i4")]
+        )
+        kernels["trace_world"](levels, worlds, 0, frames, slots, ninja, objects)
 
 
 def test_entry_points_are_registered_rules() -> None:

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from ninja_game.compile_cache import compiled_available
 from ninja_game.errors import LevelError
-from ninja_game.sim.level import GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS, LevelData, Record
+from ninja_game.sim.level import GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS, Level, ObjectSpec
 from ninja_game.simulation import BODIES, Body, Simulation
 from tests.support.crowded import crowded_frames, crowded_level
 from tests.support.memories import BOTH
@@ -60,19 +60,19 @@ odd_numbers = st.one_of(
     st.floats(),
     st.sampled_from([0.0, -0.0, 1.0, -1.0, 2.0, 3.0, 0.5, 12.0, 36.0, 300.0, -5.0, 1e308, 1e-310, math.nan, math.inf]),
 )
-odd_records = st.builds(Record, st.integers(0, 12), st.lists(odd_numbers, max_size=10).map(tuple))
+odd_records = st.builds(ObjectSpec, st.integers(0, 12), st.lists(odd_numbers, max_size=10).map(tuple))
 near_records = st.integers(0, 12).flatmap(
     lambda kind: st.builds(
-        Record,
+        ObjectSpec,
         st.just(kind),
         st.lists(odd_numbers, min_size=VALUE_COUNTS[kind], max_size=VALUE_COUNTS[kind]).map(tuple),
     )
 )
 odd_levels = st.builds(
-    LevelData,
+    Level,
     st.lists(st.sampled_from([0, 0, 0, 0, 1, 2, 9, 14, 25, 33, 40, -1]), min_size=713, max_size=713).map(tuple),
     st.lists(st.one_of(odd_records, near_records), max_size=12).map(
-        lambda records: (Record(NINJA, (60.0, 60.0)), *records)
+        lambda records: (ObjectSpec(NINJA, (60.0, 60.0)), *records)
     ),
 )
 
@@ -80,7 +80,7 @@ odd_levels = st.builds(
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 @settings(deadline=None, max_examples=60)
 @given(level=odd_levels, seed=seeds)
-def test_odd_numbers_neither_stop_the_world_nor_part_the_memories(level: LevelData, seed: int) -> None:
+def test_odd_numbers_neither_stop_the_world_nor_part_the_memories(level: Level, seed: int) -> None:
     plain, compiled = (Simulation(level, memory=memory) for memory in ("plain", "compiled"))
     for frame in crowded_frames(seed, 60):
         plain.step_frame(frame)
@@ -92,8 +92,8 @@ def test_odd_numbers_neither_stop_the_world_nor_part_the_memories(level: LevelDa
 @given(seed=seeds, body=bodies)
 def test_the_ninja_never_leaves_the_interior(seed: int, body: Body) -> None:
     level = crowded_level(seed)
-    records = tuple(record for record in level.records if record.kind != LAUNCH_PAD)
-    run = Simulation(LevelData(level.tiles, records), body=body)
+    records = tuple(record for record in level.objects if record.kind != LAUNCH_PAD)
+    run = Simulation(Level(level.tiles, records), body=body)
     for frame in crowded_frames(seed):
         run.step_frame(frame)
         assert 24.0 <= run.ninja.x <= 768.0
@@ -119,7 +119,7 @@ def test_a_save_state_of_another_level_is_refused() -> None:
 
 @pytest.mark.parametrize("memory", BOTH)
 def test_a_jump_key_triggers_once_until_it_is_released(memory: str) -> None:
-    run = Simulation(LevelData(records=(Record(NINJA, (100.0, 566.0)),)), memory=memory)
+    run = Simulation(Level(objects=(ObjectSpec(NINJA, (100.0, 566.0)),)), memory=memory)
     run.step()
     run.step(jump=True)
     assert [event.name for event in run.events] == ["jumped"]
@@ -130,19 +130,19 @@ def test_a_jump_key_triggers_once_until_it_is_released(memory: str) -> None:
 
 def test_a_level_without_a_ninja_cannot_be_played() -> None:
     with pytest.raises(LevelError, match="no ninja"):
-        Simulation(LevelData())
+        Simulation(Level())
 
 
 def test_too_many_objects_are_refused_with_their_number() -> None:
-    records = (Record(NINJA, (100.0, 100.0)), *[Record(GOLD, (200.0, 200.0))] * 20_000)
+    records = (ObjectSpec(NINJA, (100.0, 100.0)), *[ObjectSpec(GOLD, (200.0, 200.0))] * 20_000)
     with pytest.raises(LevelError, match="20001"):
-        Simulation(LevelData(records=records))
+        Simulation(Level(objects=records))
 
 
 @pytest.mark.parametrize("memory", BOTH)
 def test_two_thousand_objects_load_and_run(memory: str) -> None:
-    gold = [Record(GOLD, (30.0 + 7 * (k % 100), 30.0 + 25 * (k // 100))) for k in range(2000)]
-    run = Simulation(LevelData(records=(Record(NINJA, (300.0, 300.0)), *gold)), memory=memory)
+    gold = [ObjectSpec(GOLD, (30.0 + 7 * (k % 100), 30.0 + 25 * (k // 100))) for k in range(2000)]
+    run = Simulation(Level(objects=(ObjectSpec(NINJA, (300.0, 300.0)), *gold)), memory=memory)
     for _ in range(50):
         run.step(right=True)
     assert run.gold > 0
@@ -150,7 +150,7 @@ def test_two_thousand_objects_load_and_run(memory: str) -> None:
 
 
 def test_a_wrong_body_or_memory_is_named() -> None:
-    level = LevelData(records=(Record(NINJA, (100.0, 100.0)),))
+    level = Level(objects=(ObjectSpec(NINJA, (100.0, 100.0)),))
     with pytest.raises(ValueError, match="triangle"):
         Simulation(level, body="triangle")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="cloud"):

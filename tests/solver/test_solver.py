@@ -8,7 +8,7 @@ from ninja_game.compile_cache import compiled_available
 from ninja_game.errors import LevelError
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.runs.run import run_level
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
@@ -41,7 +41,7 @@ CLOSED_IN = parse_level_string("0" * COLUMN * 5 + "1" * COLUMN + "0" * COLUMN * 
 SMALL_WORK = 300_000
 
 
-def replayed(level: LevelData, run: VerifiedRun | None, body: str = "circle") -> VerifiedRun:
+def replayed(level: Level, run: VerifiedRun | None, body: str = "circle") -> VerifiedRun:
     """The run, after it has reached the exit on the plain memory just where it says."""
     assert run is not None
     result = run_level(level, run.inputs, body="box" if body == "box" else "circle", memory="plain")
@@ -55,7 +55,7 @@ def test_the_shortest_walk_is_found() -> None:
 
 
 @pytest.mark.parametrize("level", [LEDGE, LOCKED], ids=["ledge", "locked door"])
-def test_jumps_and_door_switches_are_found(level: LevelData) -> None:
+def test_jumps_and_door_switches_are_found(level: Level) -> None:
     replayed(level, solve(Task(level, work=3_000_000)))
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from ninja_game.compile_cache import compiled_available, kernels
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
@@ -25,7 +25,7 @@ CORRIDOR = ("0" * 10 + "1" * 12 + "0") * 10 + "0" * 23 * 21
 
 def goals_of(text: str) -> Goals:
     """The distance fields of a level."""
-    level: LevelData = parse_level_string(text)
+    level: Level = parse_level_string(text)
     start = Start(kernels(), level, box=False)
     return Goals(kernels(), start.levels, start.worlds)
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.runs.run import NINJA_RECORD, THING_RECORD, RunTrace, run_level, trace_level
+from ninja_game.runs.run import NINJA_RECORD, OBJECT_RECORD, RunTrace, run_level, trace_level
 from ninja_game.runs.trace import first_difference, trace_digests
 from ninja_game.sim.states import STATE_NAMES
 from tests.support import reference
@@ -22,11 +22,11 @@ def scene_difference(scene: reference.SceneRow, memory: str) -> str:
     ours = trace_of(scene.data, scene.demo, scene.ticks, memory)
     if trace_digests(ours).run_sha256 == scene.run_sha256:
         return ""
-    size = NINJA_RECORD.itemsize + THING_RECORD.itemsize * len(ours.ids)
+    size = NINJA_RECORD.itemsize + OBJECT_RECORD.itemsize * len(ours.ids)
     raw = np.frombuffer(reference.scene_traces(), np.uint8, scene.ticks * size, scene.offset).reshape(scene.ticks, size)
     ninja = np.ascontiguousarray(raw[:, : NINJA_RECORD.itemsize]).view(NINJA_RECORD)[:, 0]
-    things = np.ascontiguousarray(raw[:, NINJA_RECORD.itemsize :]).view(THING_RECORD)
-    theirs = RunTrace(ninja, things.reshape(scene.ticks, len(ours.ids)), ours.ids, ours.kinds)
+    objects = np.ascontiguousarray(raw[:, NINJA_RECORD.itemsize :]).view(OBJECT_RECORD)
+    theirs = RunTrace(ninja, objects.reshape(scene.ticks, len(ours.ids)), ours.ids, ours.kinds)
     return f"{scene.rule}: {scene.name}: {first_difference(ours, theirs, scene.rule) or 'only the digest differs'}"
 
 

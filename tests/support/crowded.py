@@ -24,8 +24,8 @@ from ninja_game.sim.level import (
     ROWS,
     THWUMP,
     TURRET,
-    LevelData,
-    Record,
+    Level,
+    ObjectSpec,
 )
 
 TICKS = 300
@@ -67,7 +67,7 @@ class Room:
     bottom: int
 
 
-def crowded_level(seed: int) -> LevelData:
+def crowded_level(seed: int) -> Level:
     """The level of a seed."""
     dice = Dice(seed * 7919 + 1)
     left, top = 1 + dice.roll(12), 1 + dice.roll(8)
@@ -79,12 +79,12 @@ def crowded_level(seed: int) -> LevelData:
             solid = dice.roll(100) < density
             tiles[(column - 1) * ROWS + row - 1] = 1 + dice.roll(33) if solid else 0
     start = (_along(dice, room.left, room.right), _along(dice, room.top, room.bottom))
-    records = [Record(NINJA, start)]
+    records = [ObjectSpec(NINJA, start)]
     kinds = [HARMLESS[dice.roll(len(HARMLESS))] for _ in range(2)]
     if seed % 3:
         kinds += [LETHAL[dice.roll(len(LETHAL))] for _ in range(1 + dice.roll(2))]
     records += [_object(dice, room, kinds[dice.roll(len(kinds))]) for _ in range(3 + dice.roll(22))]
-    return LevelData(tuple(tiles), tuple(records))
+    return Level(tuple(tiles), tuple(records))
 
 
 def _along(dice: Dice, low: int, high: int) -> float:
@@ -94,29 +94,29 @@ def _along(dice: Dice, low: int, high: int) -> float:
     return float(start + (12 if grain == 24 else 0) + dice.roll(span // grain) * grain)
 
 
-def _object(dice: Dice, room: Room, kind: int) -> Record:
+def _object(dice: Dice, room: Room, kind: int) -> ObjectSpec:
     """A random object of a kind in the room."""
     x, y = _along(dice, room.left, room.right), _along(dice, room.top, room.bottom)
     direction = float(dice.roll(4))
     if kind == LAUNCH_PAD:
         straight = dice.pick(-1.0, 1.0)
         normals = ((0.0, straight), (straight, 0.0), (straight * DIAGONAL, dice.pick(-DIAGONAL, DIAGONAL)))
-        return Record(kind, (x, y, *normals[dice.roll(3)]))
+        return ObjectSpec(kind, (x, y, *normals[dice.roll(3)]))
     if kind == FLOOR_GUARD:
-        return Record(kind, (x, y, 1.0))
+        return ObjectSpec(kind, (x, y, 1.0))
     if kind == DRONE:
-        return Record(kind, (x, y, float(dice.roll(6)), float(dice.roll(2)), float(dice.roll(3)), direction))
+        return ObjectSpec(kind, (x, y, float(dice.roll(6)), float(dice.roll(2)), float(dice.roll(3)), direction))
     if kind in (ONE_WAY, THWUMP):
-        return Record(kind, (x, y, direction))
+        return ObjectSpec(kind, (x, y, direction))
     if kind == EXIT:
-        return Record(kind, (x, y, _along(dice, room.left, room.right), _along(dice, room.top, room.bottom)))
+        return ObjectSpec(kind, (x, y, _along(dice, room.left, room.right), _along(dice, room.top, room.bottom)))
     if kind == DOOR:
         column = float(room.left + dice.roll(room.right - room.left + 1))
         row = float(room.top + dice.roll(room.bottom - room.top + 1))
         vertical, trap, locked = float(dice.roll(2)), float(dice.roll(2)), float(dice.roll(3) == 0)
         offset = ((0.0, 0.0), (-1.0, 0.0), (0.0, -1.0))[dice.roll(3)]
-        return Record(kind, (x, y, vertical, trap, column, row, locked, *offset))
-    return Record(kind, (x, y))
+        return ObjectSpec(kind, (x, y, vertical, trap, column, row, locked, *offset))
+    return ObjectSpec(kind, (x, y))
 
 
 def crowded_frames(seed: int, ticks: int = TICKS) -> bytes:

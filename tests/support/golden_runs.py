@@ -10,7 +10,7 @@ from pathlib import Path
 from ninja_game.formats.load import load_replays
 from ninja_game.runs.run import trace_level
 from ninja_game.runs.trace import trace_digests
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 from ninja_game.simulation import Body
 from tests.support.crowded import TICKS, crowded_frames, crowded_level
 from tests.support.own_scenes import SCENES
@@ -32,7 +32,7 @@ class GoldenRun:
     """A run to be compared: level, inputs of every tick, body."""
 
     name: str
-    level: LevelData
+    level: Level
     frames: bytes
     body: Body
 

@@ -9,7 +9,7 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Catalogue, Entry, Episode
 from ninja_game.player.player_data import PlayerData
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME
 
 RIGHT = 2
@@ -17,18 +17,18 @@ EXIT_TICK = 23
 """When a ninja that runs right from the start touches the exit of ``short_level``."""
 
 
-def short_level(number: int = 0, *, gold: int = 0) -> LevelData:
+def short_level(number: int = 0, *, gold: int = 0) -> Level:
     """A flat level whose exit is two steps to the right; ``number`` makes levels differ, gold lies on the way."""
     pieces = "".join(f"!0^{120 + piece},566" for piece in range(gold))
     return parse_level_string("0" * 713 + f"|5^100,566!11^160,564,130,564{pieces}!0^{300 + number},100")
 
 
-def deadly_level() -> LevelData:
+def deadly_level() -> Level:
     """A mine waits to the right of the start."""
     return parse_level_string("0" * 713 + "|5^100,566!12^130,566!11^400,564,500,564")
 
 
-def entry(level: LevelData, name: str = "short") -> Entry:
+def entry(level: Level, name: str = "short") -> Entry:
     """A level as lists have it."""
     return Entry(NamedLevel(name, "tester", "", level, f"{name}.txt"), "game")
 
@@ -48,7 +48,7 @@ def player_data(folder: Path, *episodes: Episode) -> PlayerData:
     return data
 
 
-def played(level: LevelData, *, lifetime: int = LIFETIME, practice: bool = False, wait: int = 0) -> Attempt:
+def played(level: Level, *, lifetime: int = LIFETIME, practice: bool = False, wait: int = 0) -> Attempt:
     """An attempt that runs right, after ``wait`` ticks of standing, until it passes or dies."""
     attempt = Attempt(level, lifetime=lifetime, practice=practice)
     for tick in range(400):

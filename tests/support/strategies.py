@@ -8,7 +8,7 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import NAN, parse_number
 from ninja_game.formats.replay.text import BODIES, OUTCOMES, Replay
 from ninja_game.sim.inputs import Demo
-from ninja_game.sim.level import TILES, VALUE_COUNTS, LevelData, Record
+from ninja_game.sim.level import TILES, VALUE_COUNTS, Level, ObjectSpec
 
 # Decimals of at most 15 digits, as they stand in levels, read by the game's rule.
 decimal_texts = st.one_of(
@@ -26,11 +26,14 @@ values = st.one_of(decimal_texts.map(parse_number), st.just(NAN))
 NO_TEXT = st.just("")
 
 proper_records = st.one_of(
-    [st.builds(Record, st.just(kind), st.tuples(*[values] * count), NO_TEXT) for kind, count in enumerate(VALUE_COUNTS)]
+    [
+        st.builds(ObjectSpec, st.just(kind), st.tuples(*[values] * count), NO_TEXT)
+        for kind, count in enumerate(VALUE_COUNTS)
+    ]
 )
-inert_records = st.builds(Record, st.integers(0, 12), st.lists(values, max_size=11).map(tuple), NO_TEXT)
+inert_records = st.builds(ObjectSpec, st.integers(0, 12), st.lists(values, max_size=11).map(tuple), NO_TEXT)
 ignored_records = st.builds(
-    Record,
+    ObjectSpec,
     st.just(-1),
     st.just(()),
     st.sampled_from(["13^1,2", "abc^3", "99", "-1^0,0", "0.5^2,2", "nothing at all"]),
@@ -50,9 +53,9 @@ def odd_tiles(draw: st.DrawFn) -> tuple[int, ...]:
     return tuple(tiles)
 
 
-proper_levels = st.builds(LevelData, proper_tiles, st.lists(proper_records, max_size=8).map(tuple))
+proper_levels = st.builds(Level, proper_tiles, st.lists(proper_records, max_size=8).map(tuple))
 odd_levels = st.builds(
-    LevelData,
+    Level,
     odd_tiles(),
     st.lists(st.one_of(proper_records, inert_records, ignored_records), max_size=8).map(tuple),
 )

@@ -24,7 +24,7 @@ from ninja_game.sim.level import (
     THWUMP,
     TURRET,
     VALUE_COUNTS,
-    Record,
+    ObjectSpec,
 )
 
 CELL = 24.0
@@ -149,7 +149,7 @@ class Part(NamedTuple):
     row: int
 
 
-def symbol_chars(record: Record) -> tuple[tuple[str, float, float], ...]:
+def symbol_chars(record: ObjectSpec) -> tuple[tuple[str, float, float], ...]:
     """The characters that could draw an object, each with the px point it stands for; none for what has no picture."""
     kind, values = record.kind, record.values
     if not 0 <= kind < len(VALUE_COUNTS) or len(values) != VALUE_COUNTS[kind]:
@@ -170,7 +170,7 @@ def symbol_chars(record: Record) -> tuple[tuple[str, float, float], ...]:
     return ((char, x, y),) if char else ()
 
 
-def visible_parts(record: Record) -> list[Part]:
+def visible_parts(record: ObjectSpec) -> list[Part]:
     """What an object looks like in the picture: only the parts that sit just where a character would put them."""
     parts = []
     for char, x, y in symbol_chars(record):

@@ -9,7 +9,7 @@ from ninja_game.formats.ascii.legend import ODD_TILE, SYMBOL_OF_CHAR, TILE_CHARS
 from ninja_game.formats.ascii.object_lines import Listed, OddTile
 from ninja_game.formats.ascii.picture import Cell, Picture
 from ninja_game.formats.ascii.problems import Problems
-from ninja_game.sim.level import COLUMNS, EXIT, NINJA, ROWS, LevelData, Record
+from ninja_game.sim.level import COLUMNS, EXIT, NINJA, ROWS, Level, ObjectSpec
 
 _NEEDED_LINES = {
     "5": "launch pad {cell} normal 0.6,-0.8",
@@ -38,7 +38,7 @@ class PlacedTile(NamedTuple):
 
 def join(
     picture: Picture, objects: Sequence[Placed], tiles: Sequence[PlacedTile], problems: Problems
-) -> LevelData:  # fmt: skip
+) -> Level:  # fmt: skip
     """The level: drawn objects that no line mentions (ninjas first, then in reading order), then the list in order.
 
     Mistakes are noted in ``problems``; the level is then of no use.
@@ -60,7 +60,7 @@ def join(
         else:
             drawn.append((cell, symbol))
     records = _drawn_records(picture, drawn, problems) + [placed.listed.record for placed in objects]
-    return LevelData(tuple(_tiles(picture, tiles, problems)), tuple(records))
+    return Level(tuple(_tiles(picture, tiles, problems)), tuple(records))
 
 
 def _mentioned(
@@ -97,7 +97,7 @@ def point_of(cell: Cell, symbol: Symbol) -> tuple[float, float]:
     return 24.0 * cell[0] + 12.0 + symbol.dx, 24.0 * cell[1] + 12.0 + symbol.dy
 
 
-def _drawn_records(picture: Picture, drawn: Sequence[tuple[Cell, Symbol]], problems: Problems) -> list[Record]:
+def _drawn_records(picture: Picture, drawn: Sequence[tuple[Cell, Symbol]], problems: Problems) -> list[ObjectSpec]:
     """Records of the objects that the picture alone creates."""
     exits = [cell for cell, symbol in drawn if symbol.char == "X"]
     switches = [cell for cell, symbol in drawn if symbol.char == "x"]
@@ -111,15 +111,15 @@ def _drawn_records(picture: Picture, drawn: Sequence[tuple[Cell, Symbol]], probl
             if exits and switches
             else f"draw {other}, or add a line such as: exit 29,21 switch 3.5,4",
         )
-    ninjas: list[Record] = []
-    others: list[Record] = []
+    ninjas: list[ObjectSpec] = []
+    others: list[ObjectSpec] = []
     for cell, symbol in drawn:
         if symbol.kind == EXIT:
             if symbol.char == "X" and switches:
                 switch = point_of(switches[0], SYMBOL_OF_CHAR["x"])
-                others.append(Record(EXIT, (*point_of(cell, symbol), *switch)))
+                others.append(ObjectSpec(EXIT, (*point_of(cell, symbol), *switch)))
         else:
-            record = Record(symbol.kind, (*point_of(cell, symbol), *(symbol.values or ())))
+            record = ObjectSpec(symbol.kind, (*point_of(cell, symbol), *(symbol.values or ())))
             (ninjas if symbol.kind == NINJA else others).append(record)
     return ninjas + others
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.object_forms import FORMS, Form, Token, at_token, record_values
 from ninja_game.formats.ascii.places import read_cell, read_number, shown
-from ninja_game.sim.level import Record
+from ninja_game.sim.level import ObjectSpec
 
 _TOKEN = re.compile(r';.*|"(?:[^"\\]|\\.)*+"|[^\s;"]+|".*')
 
@@ -19,7 +19,7 @@ _TOKEN = re.compile(r';.*|"(?:[^"\\]|\\.)*+"|[^\s;"]+|".*')
 class Listed(NamedTuple):
     """An object that a line of the list creates, and the column of its place in that line."""
 
-    record: Record
+    record: ObjectSpec
     column: int
 
 
@@ -64,7 +64,9 @@ def read_object_line(text: str) -> list[Listed] | list[OddTile]:
     if not places:
         column = tokens[-1].column + len(tokens[-1].text)
         raise LevelError(f"'{keyword}' without a place", column=column, expected=f"{keyword} 5,7 (column,row)")
-    return [Listed(Record(FORMS[keyword].kind, record_values(keyword, place, given)), place.column) for place in places]
+    return [
+        Listed(ObjectSpec(FORMS[keyword].kind, record_values(keyword, place, given)), place.column) for place in places
+    ]
 
 
 def _split_keyword(tokens: Sequence[Token]) -> tuple[str, Sequence[Token]]:
@@ -156,7 +158,7 @@ def _read_raw(tokens: Sequence[Token]) -> Listed:
     if rest or len(tokens) == 1:
         column = rest[0].column if rest else tokens[0].column
         raise LevelError("not a raw record", column=column, expected=shape)
-    return Listed(Record(kind, values, text), tokens[0].column)
+    return Listed(ObjectSpec(kind, values, text), tokens[0].column)
 
 
 def _read_values(text: str) -> tuple[float, ...]:

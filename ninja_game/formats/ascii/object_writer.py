@@ -10,12 +10,12 @@ from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS
 from ninja_game.formats.ascii.object_forms import DOORS, FORMS, MOVEMENTS, SIDES, WEAPONS, door_middle, natural_offset
 from ninja_game.formats.ascii.object_lines import Listed, read_object_line
 from ninja_game.formats.ascii.places import number_text, place_text, read_cell, same_bits
-from ninja_game.sim.level import DOOR, DRONE, EXIT, FLOOR_GUARD, LAUNCH_PAD, ONE_WAY, THWUMP, VALUE_COUNTS, Record
+from ninja_game.sim.level import DOOR, DRONE, EXIT, FLOOR_GUARD, LAUNCH_PAD, ONE_WAY, THWUMP, VALUE_COUNTS, ObjectSpec
 
 _LINE_WIDTH = 100
 
 
-def same_record(a: Record, b: Record) -> bool:
+def same_record(a: ObjectSpec, b: ObjectSpec) -> bool:
     """Whether two records are the same in kind, text and every bit of their values."""
     return (
         (a.kind, a.text, len(a.values)) == (b.kind, b.text, len(b.values))
@@ -23,7 +23,7 @@ def same_record(a: Record, b: Record) -> bool:
     )  # fmt: skip
 
 
-def write_object_lines(records: Sequence[Record]) -> list[str]:
+def write_object_lines(records: Sequence[ObjectSpec]) -> list[str]:
     """Lines of the list that create just these records, in order; neighbours of one kind share a line."""
     lines: list[str] = []
     head = tail = ""
@@ -39,7 +39,7 @@ def write_object_lines(records: Sequence[Record]) -> list[str]:
     return lines
 
 
-def _readable(record: Record) -> tuple[str, str, str]:
+def _readable(record: ObjectSpec) -> tuple[str, str, str]:
     """Keyword, place and further words of a record's line; ``raw`` if no form gives it back to the last bit."""
     keyword, place, words = best_form(record)
     if keyword:
@@ -55,7 +55,7 @@ def _word(vocabulary: Mapping[str, float], value: float) -> str:
     return next((word for word, number in vocabulary.items() if number == value), "")
 
 
-def best_form(record: Record) -> tuple[str, str, str]:
+def best_form(record: ObjectSpec) -> tuple[str, str, str]:
     """The form that fits a record's kind; keyword '' if none does. Not yet sure to give it back exactly."""
     kind, values = record.kind, record.values
     if not 0 <= kind < len(VALUE_COUNTS) or len(values) != VALUE_COUNTS[kind] or record.text:

@@ -13,7 +13,7 @@ from ninja_game.formats.ascii.picture import ROW_START, read_picture
 from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.problems import Problems
 from ninja_game.formats.ascii.writer import HEADER_KEYS, MAGIC, VERSION, write_ascii_level
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 
 __all__ = ["AsciiLevel", "is_ascii_level", "parse_ascii_level", "write_ascii_level"]
 
@@ -27,7 +27,7 @@ class AsciiLevel:
     name: str
     author: str
     comment: str
-    level: LevelData
+    level: Level
 
 
 def is_ascii_level(text: str) -> bool:
@@ -41,8 +41,8 @@ def parse_ascii_level(text: str, *, file: str = "") -> AsciiLevel:
 
     >>> rows = "\n".join(["|" + "." * 31 + "|"] * 22 + ["|@" + "." * 30 + "|"])
     >>> read = parse_ascii_level("ninja-game level 1\nname: Tiny\n" + rows)
-    >>> read.name, read.level.records
-    ('Tiny', (Record(kind=5, values=(36.0, 564.0), text=''),))
+    >>> read.name, read.level.objects
+    ('Tiny', (ObjectSpec(kind=5, values=(36.0, 564.0), text=''),))
 
     Raises LevelError: the first mistake by line, the others in its ``further``.
     """

@@ -17,7 +17,7 @@ from ninja_game.formats.ascii.legend import (
 from ninja_game.formats.ascii.match import point_of
 from ninja_game.formats.ascii.object_writer import same_record, write_object_lines
 from ninja_game.formats.ascii.picture import FRAME, Cell
-from ninja_game.sim.level import COLUMNS, EXIT, NINJA, ROWS, LevelData, Record
+from ninja_game.sim.level import COLUMNS, EXIT, NINJA, ROWS, Level, ObjectSpec
 
 MAGIC = "ninja-game level"
 VERSION = 1
@@ -31,14 +31,14 @@ RULER = (
 
 
 def write_ascii_level(
-    level: LevelData, *, name: str = "", author: str = "", comment: str = "", legend: bool = False
+    level: Level, *, name: str = "", author: str = "", comment: str = "", legend: bool = False
 ) -> str:
     """A level in our ASCII format; reading it gives the same tiles, records, order and float64 values.
 
     Objects keep their ids: as many as the picture puts in the right order are only drawn, the others are listed too.
     ``legend`` adds the meaning of all characters as comment lines.
     """
-    parts = [visible_parts(record) for record in level.records]
+    parts = [visible_parts(record) for record in level.objects]
     drawn_only = _drawn_only(level, parts)
     rows = _picture(level, parts)
     fields = zip(HEADER_KEYS, (name, author, comment), strict=True)
@@ -47,15 +47,15 @@ def write_ascii_level(
     text += ["\n", RULER]
     text += [f" {row:2d} {FRAME}{chars}{FRAME}\n" for row, chars in enumerate(rows, 1)]
     text.append(RULER)
-    lines = _tile_lines(level) + write_object_lines(level.records[drawn_only:])
+    lines = _tile_lines(level) + write_object_lines(level.objects[drawn_only:])
     text += ["\n", *(f"{line}\n" for line in lines)] if lines else []
     text += ["\n", legend_text()] if legend else []
     return "".join(text)
 
 
-def picture_rows(level: LevelData) -> list[str]:
+def picture_rows(level: Level) -> list[str]:
     """The picture alone, 23 texts of 31 characters: tiles, and every object that a character can show."""
-    return _picture(level, [visible_parts(record) for record in level.records])
+    return _picture(level, [visible_parts(record) for record in level.objects])
 
 
 def _header_text(value: str) -> str:
@@ -67,7 +67,7 @@ def _tile_char(number: int) -> str:
     return TILE_CHARS[number] if 0 <= number < len(TILE_CHARS) else ODD_TILE
 
 
-def _picture(level: LevelData, parts: Sequence[Sequence[Part]]) -> list[str]:
+def _picture(level: Level, parts: Sequence[Sequence[Part]]) -> list[str]:
     """Rows of characters; where several objects share a cell the first one shows."""
     cells = {
         (column, row): _tile_char(level.tile(column, row))
@@ -80,7 +80,7 @@ def _picture(level: LevelData, parts: Sequence[Sequence[Part]]) -> list[str]:
     return ["".join(cells[column, row] for column in range(1, COLUMNS + 1)) for row in range(1, ROWS + 1)]
 
 
-def _tile_lines(level: LevelData) -> list[str]:
+def _tile_lines(level: Level) -> list[str]:
     """A line for each odd tile id, with all its cells."""
     places: dict[int, list[str]] = {}
     for row in range(1, ROWS + 1):
@@ -91,13 +91,13 @@ def _tile_lines(level: LevelData) -> list[str]:
     return [f"tile {' '.join(cells)} id {number}" for number, cells in places.items()]
 
 
-def _drawn_only(level: LevelData, parts: Sequence[Sequence[Part]]) -> int:
+def _drawn_only(level: Level, parts: Sequence[Sequence[Part]]) -> int:
     """How many of the first records the picture alone creates, in this very order."""
     claims = Counter((column, row, SYMBOL_OF_CHAR[char].kind) for group in parts for char, column, row in group)
     taken: set[Cell] = set()
     last = (-1, 0, 0)
     pairs = 0
-    for count, (record, group) in enumerate(zip(level.records, parts, strict=True)):
+    for count, (record, group) in enumerate(zip(level.objects, parts, strict=True)):
         if not group or not same_record(record, _as_drawn(record.kind, group)):
             return count
         cells = {(column, row) for _, column, row in group}
@@ -112,15 +112,15 @@ def _drawn_only(level: LevelData, parts: Sequence[Sequence[Part]]) -> int:
             return count
         taken |= cells
         last = place
-    return len(level.records)
+    return len(level.objects)
 
 
-def _as_drawn(kind: int, group: Sequence[Part]) -> Record:
+def _as_drawn(kind: int, group: Sequence[Part]) -> ObjectSpec:
     """What the picture makes of an object's characters if no line mentions it; no valid record if it needs a line."""
     values: tuple[float, ...] = ()
     for char, column, row in group:
         symbol = SYMBOL_OF_CHAR[char]
         if symbol.values is None:
-            return Record(-1, ())
+            return ObjectSpec(-1, ())
         values += (*point_of((column, row), symbol), *symbol.values)
-    return Record(kind, values)
+    return ObjectSpec(kind, values)

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.numbers import format_exact, format_number, parse_number
-from ninja_game.sim.level import KIND_NAMES, TILES, LevelData, Record
+from ninja_game.sim.level import KIND_NAMES, TILES, Level, ObjectSpec
 
 MISSING_TILE = -1
 """Id of a cell that the tile string does not reach: never solid, yet not empty."""
@@ -23,15 +23,15 @@ _TILE_OF_CHAR = bytes(max(code - 48, 0) for code in range(256))
 _KIND_OF_TEXT = {str(kind): kind for kind in range(_KINDS)}
 
 
-def parse_level_string(text: str, *, file: str = "", line: int = 0) -> LevelData:
+def parse_level_string(text: str, *, file: str = "", line: int = 0) -> Level:
     """The level that the game makes of ``text``, however malformed (game.md §5.2): white space counts as it stands.
 
     Raises LevelError only for a text that starts with ``$`` and has no fourth field; ``file`` and ``line`` say where
     the text stands.
 
     >>> level = parse_level_string("01|5^36,36!0^60,36")
-    >>> level.tiles[:3], level.records
-    ((0, 1, -1), (Record(kind=5, values=(36.0, 36.0), text=''), Record(kind=0, values=(60.0, 36.0), text='')))
+    >>> level.tiles[:3], level.objects
+    ((0, 1, -1), (ObjectSpec(kind=5, values=(36.0, 36.0), text=''), ObjectSpec(kind=0, values=(60.0, 36.0), text='')))
     """
     if text.startswith("$"):
         fields = text.split("#")
@@ -46,7 +46,7 @@ def parse_level_string(text: str, *, file: str = "", line: int = 0) -> LevelData
         text = fields[3]
     tiles, _, rest = text.partition("|")
     objects = rest.partition("|")[0]
-    return LevelData(_parse_tiles(tiles), tuple(map(_parse_record, objects.split("!"))) if objects else ())
+    return Level(_parse_tiles(tiles), tuple(map(_parse_record, objects.split("!"))) if objects else ())
 
 
 def tidy_level_string(text: str) -> str:
@@ -67,21 +67,21 @@ def _parse_tiles(text: str) -> tuple[int, ...]:
     return tuple(ord(char) - 48 for char in text) + (MISSING_TILE,) * (TILES - len(text))
 
 
-def _parse_record(text: str) -> Record:
+def _parse_record(text: str) -> ObjectSpec:
     """One object record: the part before the first ``^`` is the type, the part up to the second the values."""
     kind_text, caret, rest = text.partition("^")
     kind = _KIND_OF_TEXT.get(kind_text, -1)
     if kind < 0:
         number = parse_number(kind_text)
         if number not in range(_KINDS):
-            return Record(-1, (), text)
+            return ObjectSpec(-1, (), text)
         kind = int(number)
     if not caret:
-        return Record(kind, ())
-    return Record(kind, tuple(map(parse_number, rest.partition("^")[0].split(","))))
+        return ObjectSpec(kind, ())
+    return ObjectSpec(kind, tuple(map(parse_number, rest.partition("^")[0].split(","))))
 
 
-def write_level_string(level: LevelData, *, exact: bool = False) -> str:
+def write_level_string(level: Level, *, exact: bool = False) -> str:
     """The level as in-game string (game.md §5.3).
 
     ``exact``: numbers as long as it takes to read back to the same float64, instead of the game's 15 digits. Levels
@@ -91,7 +91,7 @@ def write_level_string(level: LevelData, *, exact: bool = False) -> str:
     ignored record.
     """
     number = format_exact if exact else format_number
-    text = _write_tiles(level.tiles) + "|" + "!".join(_write_record(record, number) for record in level.records)
+    text = _write_tiles(level.tiles) + "|" + "!".join(_write_record(record, number) for record in level.objects)
     if text.startswith("$"):
         raise LevelError("a level string cannot start with '$'", found="tile id -12 in the first cell")
     return text
@@ -108,7 +108,7 @@ def _write_tiles(tiles: tuple[int, ...]) -> str:
     return "".join(chr(tile + 48) for tile in tiles)
 
 
-def _write_record(record: Record, number: Callable[[float], str]) -> str:
+def _write_record(record: ObjectSpec, number: Callable[[float], str]) -> str:
     """``type^value,value,…``; just the type without values; an ignored record's own text."""
     if record.kind < 0:
         if "!" in record.text or "|" in record.text:
@@ -118,14 +118,14 @@ def _write_record(record: Record, number: Callable[[float], str]) -> str:
     return f"{record.kind}^{values}" if record.values else str(record.kind)
 
 
-def level_digest(level: LevelData) -> str:
+def level_digest(level: Level) -> str:
     """The level's sha256, as 64 hex digits: over tile ids and records, values to the last bit.
 
     Ignored records (kind -1) do not count, since they create nothing; the sign of a zero does not count either.
     """
     records = "!".join(
         f"{record.kind}^" + ",".join(repr(value or 0.0) for value in record.values)
-        for record in level.records
+        for record in level.objects
         if record.kind >= 0
     )
     return hashlib.sha256(f"{','.join(map(str, level.tiles))}|{records}".encode()).hexdigest()

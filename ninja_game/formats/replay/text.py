@@ -15,7 +15,7 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import NAN
 from ninja_game.formats.replay.headers import COUNT_LIMIT, Headers, Line
 from ninja_game.formats.replay.input_runs import MAX_TICKS, read_inputs, write_inputs
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 
 MAGIC = "ninja-game replay"
 VERSION = 1
@@ -62,7 +62,7 @@ class Replay:
     level_digest: str = ""
     level_path: str = ""
     level_record: int = 0
-    level: LevelData | None = None
+    level: Level | None = None
     waypoints: tuple[Waypoint, ...] = ()
 
     @property
@@ -129,7 +129,7 @@ def _check_first_line(lines: Sequence[Line], file: str) -> None:
         raise ReplayError("unknown version of the replay format", file, number, 1, match[1], str(VERSION), hint)
 
 
-def _read_level(lines: Sequence[Line], file: str) -> LevelData | None:
+def _read_level(lines: Sequence[Line], file: str) -> Level | None:
     """The embedded ASCII level; None without one. Raises LevelError with the line of the replay."""
     if not lines:
         return None
@@ -138,9 +138,9 @@ def _read_level(lines: Sequence[Line], file: str) -> LevelData | None:
         text[number - 1] = line
     level = parse_ascii_level("\n".join(text), file=file).level
     # With one and the same NaN everywhere a replay equals the one that was written.
-    one_nan = [tuple(NAN if math.isnan(value) else value for value in record.values) for record in level.records]
-    records = [record._replace(values=values) for record, values in zip(level.records, one_nan, strict=True)]
-    return LevelData(level.tiles, tuple(records))
+    one_nan = [tuple(NAN if math.isnan(value) else value for value in record.values) for record in level.objects]
+    records = [record._replace(values=values) for record, values in zip(level.objects, one_nan, strict=True)]
+    return Level(level.tiles, tuple(records))
 
 
 def read_waypoints(lines: Sequence[Line], file: str) -> tuple[Waypoint, ...]:

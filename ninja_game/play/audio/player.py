@@ -13,7 +13,7 @@ import pygame
 from ninja_game.play.audio.table import BY_DEATH, BY_EVENT, CORPSE, LOOPS, OTHER_DEATH, loop_levels
 from ninja_game.sim.events import DIED
 from ninja_game.sim.level import DRONE, FLOOR_GUARD, LAUNCHER
-from ninja_game.sim.memory.schema import Thing, World
+from ninja_game.sim.memory.schema import Object, World
 from ninja_game.sim.rules import WORLD_WIDTH
 from ninja_game.sim.states import WEAPON_LASER
 
@@ -42,7 +42,7 @@ class Sound:
         self._chance = Random()  # noqa: S311 - which thud it is, is no secret
         self._sounds: dict[str, pygame.mixer.Sound | None] = {}
         self._world: World | None = None
-        self._machines: list[Thing] = []
+        self._machines: list[Object] = []
         self._corpse_at = 0.0
         self.works = _open_mixer()
         self.preload(path.stem for path in sorted(folder.glob("*.wav")))
@@ -55,7 +55,7 @@ class Sound:
             return
         if world is not self._world:
             self._world = world
-            self._machines = [thing for thing in world.things[1:] if _has_loop(thing)]
+            self._machines = [thing for thing in world.objects[1:] if _has_loop(thing)]
         heard = set()
         for event in world.events[: world.event_count]:
             names = BY_DEATH.get(event.slot, OTHER_DEATH) if event.kind == DIED else BY_EVENT.get(event.kind, ())
@@ -130,7 +130,7 @@ class Sound:
             self._sound(name)
 
 
-def _has_loop(thing: Thing) -> bool:
+def _has_loop(thing: Object) -> bool:
     """Whether a thing makes a lasting sound at times."""
     return thing.kind in (LAUNCHER, FLOOR_GUARD) or (thing.kind == DRONE and thing.weapon == WEAPON_LASER)
 

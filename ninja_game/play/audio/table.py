@@ -7,7 +7,7 @@ from math import floor
 
 from ninja_game.sim import events
 from ninja_game.sim.level import DRONE, FLOOR_GUARD, LAUNCHER
-from ninja_game.sim.memory.schema import Thing, World
+from ninja_game.sim.memory.schema import Object, World
 from ninja_game.sim.states import (
     DRONE_FIRING,
     ELECTRIC,
@@ -72,11 +72,11 @@ _LASTING = {
 """By kind: the routine that lasts, and its loop."""
 
 
-def loop_levels(world: World, machines: Iterable[Thing]) -> dict[str, float]:
+def loop_levels(world: World, machines: Iterable[Object]) -> dict[str, float]:
     """How loud each loop is, 0 to 1. ``machines``: the launchers, floor guards and laser drones of the world."""
     levels = dict.fromkeys(LOOPS, 0.0)
     ninja = world.ninja
-    vx, vy = ninja.x - ninja.px, ninja.y - ninja.py
+    vx, vy = ninja.x - ninja.prev_x, ninja.y - ninja.prev_y
     if ninja.state == SKIDDING:
         levels["skid"] = _percent(100 * abs(vx * -ninja.floor_y + vy * ninja.floor_x))
     elif ninja.state == SLIDING:

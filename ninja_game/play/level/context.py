@@ -9,7 +9,7 @@ from typing import Protocol
 from ninja_game.errors import LevelError
 from ninja_game.play.screen import Screen
 from ninja_game.player.attempt import Attempt
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.simulation import Body, Simulation
 
@@ -27,7 +27,7 @@ class Course(Protocol):
     """A level in its context: single, of an episode, a time trial. ``lesson``: the keys are told at its start."""
 
     title: str
-    level: LevelData
+    level: Level
     body: Body
     lifetime: int
     practice: bool
@@ -53,7 +53,7 @@ class SingleLevel:
     """A level by itself, without records; the last passing run of this session is its ghost."""
 
     def __init__(
-        self, title: str, level: LevelData, *, body: Body = "circle", lifetime: int = LIFETIME, practice: bool = False
+        self, title: str, level: Level, *, body: Body = "circle", lifetime: int = LIFETIME, practice: bool = False
     ) -> None:
         self.title = title
         self.level = level

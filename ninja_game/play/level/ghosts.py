@@ -10,7 +10,7 @@ from ninja_game.play.level.context import GhostRun
 from ninja_game.play.ui.canvas import Point
 from ninja_game.play.ui.palette import Palette
 from ninja_game.play.view.ninja.ninja_animation import NinjaMotion
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 from ninja_game.sim.states import CELEBRATING, DEAD
 from ninja_game.simulation import Body, SaveState, Simulation
 
@@ -18,7 +18,7 @@ from ninja_game.simulation import Body, SaveState, Simulation
 class Ghost:
     """One recording, ticking along."""
 
-    def __init__(self, run: GhostRun, level: LevelData, body: Body) -> None:
+    def __init__(self, run: GhostRun, level: Level, body: Body) -> None:
         self.label = run.label
         self.frames = run.frames
         self._colour = run.colour

@@ -44,7 +44,7 @@ class LevelPlay(Screen):
         self.practice = Practice(self.attempt)
         self.view = LevelView(self.app, self.attempt.simulation, chance=self.chance.randrange(1 << 30))
         self.view.overlays = self.overlays
-        self.all_gold = sum(record.kind == GOLD for record in course.level.records)
+        self.all_gold = sum(record.kind == GOLD for record in course.level.objects)
         self.shown_lifetime = 0.0
         self._ready()
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from ninja_game.errors import LevelError
 from ninja_game.files.resources import data_folder
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.sim.level import COLUMNS, ROWS, LevelData
+from ninja_game.sim.level import COLUMNS, ROWS, Level
 
 PAGES_FILE = "help/pages.toml"
 
@@ -27,7 +27,7 @@ class Page:
 
     title: str
     text: tuple[str, ...]
-    level: LevelData
+    level: Level
     inputs: bytes
     shows: tuple[str, ...]
 
@@ -54,7 +54,7 @@ def _page(table: dict[str, object], file: str) -> Page:
     return Page(title, tuple(text), level, strokes(str(table["keys"])), tuple(shows))
 
 
-def room_level(room: Sequence[str], objects: Sequence[str]) -> LevelData:
+def room_level(room: Sequence[str], objects: Sequence[str]) -> Level:
     """A level with the rows of a room in its upper left corner and solid all around."""
     rows = [row.ljust(COLUMNS, "#") for row in room]
     rows += ["#" * COLUMNS] * (ROWS - len(rows))

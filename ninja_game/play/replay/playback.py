@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ninja_game.formats.recording import Recording
 from ninja_game.play.replay.timeline import Timeline
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.simulation import Body, Simulation
 
@@ -21,7 +21,7 @@ class Take:
     """Inputs (one byte a tick) on a level. ``lifetime``: ticks at its start."""
 
     title: str
-    level: LevelData
+    level: Level
     frames: bytes
     body: Body = "circle"
     lifetime: int = LIFETIME

@@ -19,7 +19,7 @@ from ninja_game.sim.level import (
     ONE_WAY,
     THWUMP,
 )
-from ninja_game.sim.memory.schema import SWITCH, Thing, World
+from ninja_game.sim.memory.schema import SWITCH, Object, World
 from ninja_game.sim.states import AUTOMATIC
 
 
@@ -47,22 +47,22 @@ _LETHAL = {MINE, FLOOR_GUARD, DRONE, LAUNCHER, THWUMP}
 
 def hit_shapes(world: World) -> Iterator[HitShape]:
     """Of everything that is filed in the grid, and so can be touched; the ninja's last."""
-    for slot in range(1, world.used):
-        o = world.things[slot]
-        if o.filed or (o.kind == SWITCH and not world.things[o.partner].spent):
+    for slot in range(1, world.slots_used):
+        o = world.objects[slot]
+        if o.in_grid or (o.kind == SWITCH and not world.objects[o.partner].spent):
             half = _half(o)
             if half:
                 yield HitShape(o.x, o.y, half, o.kind not in _BOXES, o.kind in _LETHAL and not _unarmed(o))
     n = world.ninja
-    yield HitShape(n.x, n.y, rules.RADIUS, not n.box, ninja=True, vx=n.x - n.px, vy=n.y - n.py)
+    yield HitShape(n.x, n.y, rules.RADIUS, not n.box, ninja=True, vx=n.x - n.prev_x, vy=n.y - n.prev_y)
 
 
-def _half(o: Thing) -> float:
+def _half(o: Object) -> float:
     if o.kind == DOOR:
         return rules.AUTOMATIC_DOOR_RADIUS if o.mechanism == AUTOMATIC else rules.DOOR_SWITCH_RADIUS
     return _DISCS.get(o.kind) or _BOXES.get(o.kind, 0.0)
 
 
-def _unarmed(o: Thing) -> bool:
+def _unarmed(o: Object) -> bool:
     """Drones with a weapon do not hurt by touch."""
     return o.kind == DRONE and o.weapon != 0

@@ -114,7 +114,7 @@ class LevelView:
     def _fall_down(self, world: World) -> None:
         n = world.ninja
         now, before = self.motion.pose(1.0).moved(n.x, n.y), self.motion.pose(0.5).moved(n.x, n.y)
-        velocity = n.x - n.px, n.y - n.py
+        velocity = n.x - n.prev_x, n.y - n.prev_y
         self.doll = Ragdoll(now, before, velocity, self.motion.facing, self._chance, self._corpse_hit)
         for event in world.events[: world.event_count]:
             if event.kind == DIED:

@@ -13,7 +13,7 @@ from ninja_game.play.view.sprites.draw_target import Stage
 from ninja_game.sim.collision.rays import ray_tiles, sees
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS
 from ninja_game.sim.level import DRONE, LAUNCHER, TURRET
-from ninja_game.sim.memory.schema import Thing, World
+from ninja_game.sim.memory.schema import Object, World
 from ninja_game.sim.objects.object_query import NINE_CELLS
 from ninja_game.sim.rules import INTERESTING, OFF, RADIUS, STRIDE
 from ninja_game.sim.states import WEAPON_ZAP
@@ -113,9 +113,9 @@ def _draw_cells(stage: Stage, world: World) -> None:
             _tint(stage, stage.palette.switch, 40, n.cell + offset)
         for cell in touched_cells(n.x, n.y, n.cell):
             _tint(stage, stage.palette.accent, 70, cell, 2)
-    for slot in range(1, world.used):
-        o = world.things[slot]
-        if o.filed and EXISTS[o.cell]:
+    for slot in range(1, world.slots_used):
+        o = world.objects[slot]
+        if o.in_grid and EXISTS[o.cell]:
             _tint(stage, stage.palette.good, 60, o.cell, 7)
 
 
@@ -135,8 +135,8 @@ def _draw_rays(stage: Stage, simulation: Simulation) -> None:
     """From everything that looks for the ninja: to it where it is seen, to the tile in the way where not."""
     world, level = simulation.world, simulation.static
     n = world.ninja
-    for slot in range(1, world.ids + 1):
-        o = world.things[slot]
+    for slot in range(1, world.id_count + 1):
+        o = world.objects[slot]
         if not _looks(o):
             continue
         x, y = (o.base_x, o.base_y) if o.kind == LAUNCHER else (o.x, o.y)
@@ -151,7 +151,7 @@ def _draw_rays(stage: Stage, simulation: Simulation) -> None:
                 stage.disc(stage.palette.faint, end_x, end_y, 1.5)
 
 
-def _looks(o: Thing) -> bool:
+def _looks(o: Object) -> bool:
     return o.kind in {TURRET, LAUNCHER} or (o.kind == DRONE and o.weapon != WEAPON_ZAP)
 
 

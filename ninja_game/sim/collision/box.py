@@ -26,7 +26,7 @@ from ninja_game.sim.collision.tiles import (
 )
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.ninja.contact_response import push_from_tile
 from ninja_game.sim.rules import CELL, DOWN, HALF, LEFT, OFF, RADIUS, RIGHT, SOLID, STRIDE, UP
 
@@ -35,7 +35,7 @@ BOX_HALF = RADIUS
 
 
 @fast
-def collide_box(level: Level, w: World) -> None:
+def collide_box(level: TileMap, w: World) -> None:
     """Push the ninja's box out of the tiles and solid edges that it touches."""
     n = w.ninja
     cell = cell_at(n.x, n.y)
@@ -82,7 +82,7 @@ def collide_box(level: Level, w: World) -> None:
 
 @fast
 def collide_corner(
-    level: Level, w: World, cell: int, edge_h: int, edge_v: int, push_h: float, hx: float, push_v: float, hy: float
+    level: TileMap, w: World, cell: int, edge_h: int, edge_v: int, push_h: float, hx: float, push_v: float, hy: float
 ) -> None:
     """The diagonal stage. ``push_h`` and ``push_v`` are the reports of the sides as they would be on solid edges.
 

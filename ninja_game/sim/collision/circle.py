@@ -12,13 +12,13 @@ from ninja_game.sim.collision.circle_own_tile import own
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.ninja.contact_response import push_from_tile
 from ninja_game.sim.rules import DOWN, HALF, LEFT, OFF, RADIUS, RIGHT, ROOT2, SOLID, STRIDE, UP
 
 
 @fast
-def collide_circle(level: Level, w: World) -> None:
+def collide_circle(level: TileMap, w: World) -> None:
     """Push the ninja's circle out of the tiles and solid edges that it touches."""
     n = w.ninja
     cell = cell_at(n.x, n.y)

@@ -24,7 +24,7 @@ from ninja_game.sim.collision.tiles import (
 )
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import CELL, DOWN, HALF, LEFT, OFF, RADIUS, RIGHT, SOLID, STRIDE, UP
 
 NEVER = 100_000_000.0
@@ -32,7 +32,7 @@ NEVER = 100_000_000.0
 
 
 @fast
-def cast(level: Level, w: World, x: float, y: float, dx: float, dy: float) -> tuple[bool, float, float]:
+def cast(level: TileMap, w: World, x: float, y: float, dx: float, dy: float) -> tuple[bool, float, float]:
     """Follow a ray from (x, y) along the unit vector (dx, dy) until a tile or a solid edge stops it.
 
     Answers (stopped, px, px); the point is (0, 0) for a ray that runs off the grid.
@@ -88,7 +88,7 @@ def cast(level: Level, w: World, x: float, y: float, dx: float, dy: float) -> tu
 
 
 @fast
-def ray_tiles(level: Level, w: World, x: float, y: float, to_x: float, to_y: float) -> tuple[bool, float, float]:
+def ray_tiles(level: TileMap, w: World, x: float, y: float, to_x: float, to_y: float) -> tuple[bool, float, float]:
     """Ray from (x, y) through (to_x, to_y) against tiles and edges: (stopped, stop point px)."""
     vx = to_x - x
     vy = to_y - y
@@ -124,7 +124,7 @@ def ray_circle(
 
 
 @fast
-def sees(level: Level, w: World, x: float, y: float, to_x: float, to_y: float) -> tuple[bool, float, float]:
+def sees(level: TileMap, w: World, x: float, y: float, to_x: float, to_y: float) -> tuple[bool, float, float]:
     """Does a ray from (x, y) through (to_x, to_y) meet the ninja's circle before any tile? And where (px)."""
     n = w.ninja
     vx = to_x - x
@@ -174,7 +174,7 @@ def ray_box(
 
 
 @fast
-def solid_at(level: Level, x: float, y: float) -> bool:
+def solid_at(level: TileMap, x: float, y: float) -> bool:
     """Is a point in the solid part of its cell's tile? Boundaries are solid; edges and doors play no part."""
     cell = cell_at(x, y)
     tile = level.tiles[cell]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import CELL, INTERESTING, OFF, ROOT2, SOLID, STRIDE
 
 EMPTY, FULL, HALF_TILE, SLOPE_45, CONCAVE, CONVEX, THIN_22, THICK_22, THIN_67, THICK_67, UNDEFINED = range(11)
@@ -103,7 +103,7 @@ for _row in range(25):
 
 
 @fast
-def set_edges(level: Level, w: World) -> None:
+def set_edges(level: TileMap, w: World) -> None:
     """Derive all edge states from the tiles, as after loading a map."""
     tiles = level.tiles
     edges = w.edges

@@ -17,11 +17,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 from ninja_game.sim.loader import grid_tiles, record_table
 from ninja_game.sim.memory import kernels as _entry_points  # noqa: F401 - registers the entry points of the simulation
 from ninja_game.sim.memory.declare import ENTRY_POINTS, REGISTERED
-from ninja_game.sim.memory.layout import LEVEL, Records, new_worlds
+from ninja_game.sim.memory.layout import TILE_MAP, Records, new_worlds
 
 Kernels = dict[str, Callable[..., Any]]
 """Compiled entry points by name."""
@@ -75,10 +75,10 @@ def _is_table(values: Iterable[Any]) -> bool:
     return bool(kinds) and kinds <= {int, float}
 
 
-def load_compiled(kernels: Kernels, data: LevelData, box: bool) -> tuple[NDArray[np.void], Records]:
+def load_compiled(kernels: Kernels, data: Level, box: bool) -> tuple[NDArray[np.void], Records]:
     """A level and a new world in it, each as an array of one record. Raises LevelError as ``record_table`` does."""
     table = record_table(data)
-    levels = np.zeros(1, LEVEL)
+    levels = np.zeros(1, TILE_MAP)
     levels[0]["tiles"] = grid_tiles(data)
     worlds = new_worlds(1, table.slots)
     values = np.array(table.values, dtype=np.float64).reshape(-1, 9)

@@ -12,14 +12,14 @@ from ninja_game.sim.arithmetic import clean
 from ninja_game.sim.collision.tiles import set_edges
 from ninja_game.sim.loader import populate
 from ninja_game.sim.memory.declare import entry_point
-from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.traces import place_of, status_of
 from ninja_game.sim.world import step
 
 
 @entry_point
 def load_world(
-    levels: Sequence[Level],
+    levels: Sequence[TileMap],
     worlds: Sequence[World],
     index: int,
     kinds: Sequence[int],
@@ -34,14 +34,14 @@ def load_world(
 
 
 @entry_point
-def step_world(levels: Sequence[Level], worlds: Sequence[World], index: int, frame: int) -> None:
+def step_world(levels: Sequence[TileMap], worlds: Sequence[World], index: int, frame: int) -> None:
     """One tick of one world."""
     step(levels[index], worlds[index], frame)
 
 
 @entry_point
 def run_world(
-    levels: Sequence[Level], worlds: Sequence[World], index: int, frames: Sequence[int], positions: Any, states: Any
+    levels: Sequence[TileMap], worlds: Sequence[World], index: int, frames: Sequence[int], positions: Any, states: Any
 ) -> int:
     """Run until the tick of the first exit contact or death, or to the end of ``frames``; the number of ticks run.
 
@@ -61,7 +61,7 @@ def run_world(
 
 
 @entry_point
-def race_world(levels: Sequence[Level], worlds: Sequence[World], index: int, frames: Sequence[int]) -> int:
+def race_world(levels: Sequence[TileMap], worlds: Sequence[World], index: int, frames: Sequence[int]) -> int:
     """Run like ``run_world``, without a record: only the number of ticks run."""
     level = levels[index]
     w = worlds[index]
@@ -74,17 +74,17 @@ def race_world(levels: Sequence[Level], worlds: Sequence[World], index: int, fra
 
 @entry_point
 def trace_world(
-    levels: Sequence[Level],
+    levels: Sequence[TileMap],
     worlds: Sequence[World],
     index: int,
     frames: Sequence[int],
     slots: Sequence[int],
     ninja: Any,
-    things: Any,
+    objects: Any,
 ) -> None:
     """Run all of ``frames``, whatever happens, and record everything after each tick.
 
-    ``ninja``: NINJA_RECORD (ticks); ``things``: THING_RECORD (ticks x slots) for the things in ``slots``.
+    ``ninja``: NINJA_RECORD (ticks); ``objects``: OBJECT_RECORD (ticks x slots) for the objects in ``slots``.
     """
     level = levels[index]
     w = worlds[index]
@@ -94,14 +94,14 @@ def trace_world(
         row = ninja[tick]
         row.x = clean(n.x)
         row.y = clean(n.y)
-        row.px = clean(n.px)
-        row.py = clean(n.py)
+        row.prev_x = clean(n.prev_x)
+        row.prev_y = clean(n.prev_y)
         row.s = n.state
         row.gold = w.gold
         for k in range(len(slots)):
             slot = slots[k]
             x, y = place_of(w, slot)
-            place = things[tick, k]
+            place = objects[tick, k]
             place.x = clean(x)
             place.y = clean(y)
             place.s = status_of(w, slot)

@@ -1,6 +1,6 @@
 """The compiled memory: the schema as NumPy records, so that a save-state is one copy of bytes.
 
-Kinds overlap: a thing's record has the common header, and behind it every kind's own fields share the same bytes. A
+Kinds overlap: an object's record has the common header, and behind it every kind's own fields share the same bytes. A
 field that several kinds declare has one place. Offsets are given explicitly; NumPy would lose the alignment of nested
 records otherwise.
 """
@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.sim.memory.declare import Field, fields_of
-from ninja_game.sim.memory.schema import Header, Level, Thing, World
+from ninja_game.sim.memory.schema import Header, Object, TileMap, World
 
 _SIZES = {"f8": 8, "i4": 4, "i2": 2, "u1": 1}
 _REFUSED = set(dir(np.recarray)) | set(dir(np.record))
-"""Names that NumPy's record types answer themselves: such a field would silently read the wrong thing."""
+"""Names that NumPy's record types answer themselves: such a field would silently read something else."""
 
 Records = NDArray[np.void]
 
@@ -28,7 +28,7 @@ def dtype_of(cls: type) -> np.dtype[np.void]:
     for field in fields:
         if field.name in _REFUSED:
             raise TypeError(f"{cls.__name__}.{field.name}: NumPy's records have an attribute of this name; rename it")
-    if cls is Thing:
+    if cls is Object:
         return _overlaid(fields)
     offset = 0
     offsets = []
@@ -41,7 +41,7 @@ def dtype_of(cls: type) -> np.dtype[np.void]:
 
 def _overlaid(fields: list[Field]) -> np.dtype[np.void]:
     """Thing's layout: each field at the lowest place that is free in all the kinds that have it."""
-    kinds = [{field.name for field in fields_of(base)} for base in Thing.__bases__]
+    kinds = [{field.name for field in fields_of(base)} for base in Object.__bases__]
     header = {field.name for field in fields_of(Header)}
     taken: list[set[int]] = [set() for _ in kinds]
     offsets = {}
@@ -76,25 +76,25 @@ def _align(offset: int, size: int) -> int:
 
 
 WORLD = dtype_of(World)
-LEVEL = dtype_of(Level)
-THING = dtype_of(Thing)
+TILE_MAP = dtype_of(TileMap)
+OBJECT = dtype_of(Object)
 STATE_START = WORLD.fields["event_count"][1]  # type: ignore[index]
 """A save-state leaves out the events, which come first."""
-THINGS_START = WORLD.fields["things"][1]  # type: ignore[index]
+OBJECTS_START = WORLD.fields["objects"][1]  # type: ignore[index]
 
 
-def used_bytes(things: int) -> int:
-    """Bytes of a world that are in use when ``things`` slots are taken (slot 0, nobody, among them)."""
-    return THINGS_START + things * THING.itemsize
+def used_bytes(objects: int) -> int:
+    """Bytes of a world that are in use when ``objects`` slots are taken (slot 0, nobody, among them)."""
+    return OBJECTS_START + objects * OBJECT.itemsize
 
 
-def new_worlds(count: int, things: int) -> Records:
-    """``count`` zeroed worlds in one block, each with room for ``things`` slots, as an array of records.
+def new_worlds(count: int, objects: int) -> Records:
+    """``count`` zeroed worlds in one block, each with room for ``objects`` slots, as an array of records.
 
     The records are spaced by what they use, not by the full capacity: the array's stride is smaller than its item.
     Unused capacity lies in untouched pages at the end of the block (huge pages would make it resident).
     """
-    stride = _align(used_bytes(things), 64)
+    stride = _align(used_bytes(objects), 64)
     block = mmap.mmap(-1, (count - 1) * stride + WORLD.itemsize)
     if hasattr(mmap, "MADV_NOHUGEPAGE"):
         block.madvise(mmap.MADV_NOHUGEPAGE)
@@ -106,7 +106,7 @@ def state_view(worlds: Records, index: int) -> NDArray[np.uint8]:
 
     ``worlds`` is an array from ``new_worlds``, not a slice of one.
     """
-    used = used_bytes(int(worlds["used"][index]))
+    used = used_bytes(int(worlds["slots_used"][index]))
     return np.ndarray((used - STATE_START,), np.uint8, worlds.base, index * worlds.strides[0] + STATE_START)
 
 
@@ -121,10 +121,10 @@ def plain_copy(worlds: Records, index: int) -> World:
     _fill(w.ninja, record["ninja"].item())
     for event, values in zip(w.events, record["events"][: w.event_count].tolist(), strict=False):
         _fill(event, values)
-    for values in record["things"][1 : w.used].tolist():
-        o = Thing()
+    for values in record["objects"][1 : w.slots_used].tolist():
+        o = Object()
         _fill(o, values)
-        w.things.append(o)
+        w.objects.append(o)
     return w
 
 

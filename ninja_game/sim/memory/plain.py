@@ -7,22 +7,22 @@ from operator import attrgetter
 from typing import Any
 
 from ninja_game.sim.collision.tiles import set_edges
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 from ninja_game.sim.loader import grid_tiles, populate, record_table
 from ninja_game.sim.memory.declare import Field, fields_of
-from ninja_game.sim.memory.schema import Level, Ninja, Thing, World
+from ninja_game.sim.memory.schema import Ninja, Object, TileMap, World
 
 PlainState = tuple[tuple[Any, ...], tuple[Any, ...], list[int], list[int], list[tuple[Any, ...]]]
-"""A save-state of a plain world: its scalars, the ninja, cell heads, edges, things. Never changed once made."""
+"""A save-state of a plain world: its scalars, the ninja, cell heads, edges, objects. Never changed once made."""
 
 
-def load_plain(data: LevelData, box: bool) -> tuple[Level, World]:
+def load_plain(data: Level, box: bool) -> tuple[TileMap, World]:
     """A level and a new world in it. Raises LevelError as ``record_table`` does."""
     table = record_table(data)
-    level = Level()
+    level = TileMap()
     level.tiles = grid_tiles(data)
     w = World()
-    w.things += [Thing() for _ in range(table.slots - 1)]
+    w.objects += [Object() for _ in range(table.slots - 1)]
     set_edges(level, w)
     populate(level, w, table.kinds, table.counts, table.values)
     w.ninja.box = int(box)
@@ -46,22 +46,22 @@ def _setter(fields: list[Field]) -> Callable[[Any, tuple[Any, ...]], None]:
 WORLD_SCALARS = [field for field in fields_of(World) if field.length == 0 and isinstance(field.type, str)]
 _get_scalars, _set_scalars = _getter(WORLD_SCALARS), _setter(WORLD_SCALARS)
 _get_ninja, _set_ninja = _getter(fields_of(Ninja)), _setter(fields_of(Ninja))
-_get_thing, _set_thing = _getter(fields_of(Thing)), _setter(fields_of(Thing))
+_get_thing, _set_thing = _getter(fields_of(Object)), _setter(fields_of(Object))
 
 
 def save_plain(w: World) -> PlainState:
     """Everything that changes during a run, but the events of the last tick."""
-    things = [_get_thing(o) for o in w.things]
-    return _get_scalars(w), _get_ninja(w.ninja), w.heads.copy(), w.edges.copy(), things
+    objects = [_get_thing(o) for o in w.objects]
+    return _get_scalars(w), _get_ninja(w.ninja), w.heads.copy(), w.edges.copy(), objects
 
 
 def restore_plain(w: World, state: PlainState) -> None:
     """Put a world back to a save-state of the same level."""
-    scalars, ninja, heads, edges, things = state
+    scalars, ninja, heads, edges, objects = state
     _set_scalars(w, scalars)
     _set_ninja(w.ninja, ninja)
     w.heads[:] = heads
     w.edges[:] = edges
-    for o, values in zip(w.things, things, strict=True):
+    for o, values in zip(w.objects, objects, strict=True):
         _set_thing(o, values)
     w.event_count = 0

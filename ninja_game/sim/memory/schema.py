@@ -1,7 +1,7 @@
 """The state of a world, described once: what the rules read and write, and what a save-state holds.
 
-Zeroed memory is a valid state: lists are linked by index through ``World.things`` and index 0 is nobody, cell 0 is
-no cell. ``World`` keeps the events of the tick first (a save-state leaves them out) and the things last (it copies
+Zeroed memory is a valid state: lists are linked by index through ``World.objects`` and index 0 is nobody, cell 0 is
+no cell. ``World`` keeps the events of the tick first (a save-state leaves them out) and the objects last (it copies
 only the used part).
 """
 
@@ -13,7 +13,7 @@ from ninja_game.sim.memory.declare import f8, i2, i4, part, struct, u1
 from ninja_game.sim.rules import GRID_CELLS
 
 CAPACITY = 12_288
-"""Slots for things in a compiled world. One number for all levels: another capacity is another type and compile."""
+"""Slots for objects in a compiled world. One number for all levels: another capacity is another type and compile."""
 
 MAX_EVENTS = 48
 """Events kept of one tick; what is beyond is dropped (a crowded death may emit dozens, presentation only)."""
@@ -26,7 +26,7 @@ INERT = 14
 
 
 @struct
-class Level:
+class TileMap:
     """What never changes during a run: the tile of each cell, by grid index."""
 
     tiles: Annotated[list[u1], GRID_CELLS]
@@ -50,18 +50,18 @@ class Ninja:
 
     x: f8
     y: f8
-    px: f8
-    py: f8
+    prev_x: f8
+    prev_y: f8
     gravity: f8
     drag: f8
     wall_x: f8
     wall_y: f8
     floor_x: f8
     floor_y: f8
-    first_x: f8
-    first_y: f8
-    last_x: f8
-    last_y: f8
+    first_floor_x: f8
+    first_floor_y: f8
+    last_floor_x: f8
+    last_floor_y: f8
     impact_x: f8
     impact_y: f8
     state: i4
@@ -69,25 +69,25 @@ class Ninja:
     in_air: i4
     was_in_air: i4
     near_wall: i4
-    contacts: i4
+    floor_contacts: i4
     jump_timer: i4
     direction: i4
-    held: i4
-    triggered: i4
+    jump_held: i4
+    jump_pressed: i4
     celebrated_in_air: i4
     box: i4
 
 
 @part
 class Header:
-    """What every thing has: place, cell list, update set, thinker ring, current routines."""
+    """What every object has: place, cell list, update set, thinker ring, current routines."""
 
     x: f8
     y: f8
     kind: i4
     id: i4
     cell: i4
-    filed: i4
+    in_grid: i4
     next: i4
     prev: i4
     updating: i4
@@ -135,8 +135,8 @@ class BounceBlock(Header):
 
     anchor_x: f8
     anchor_y: f8
-    old_x: f8
-    old_y: f8
+    prev_x: f8
+    prev_y: f8
 
 
 @part
@@ -250,7 +250,7 @@ class Drone(Header):
 
 
 @struct
-class Thing(
+class Object(
     Gold, Mine, Exit, Switch, BounceBlock, LaunchPad, OneWay, Door, Thwump, FloorGuard, Turret, Launcher, Drone
 ):  # fmt: skip
     """Any object. One class for all kinds, so that plain code stays monomorphic; one record in which they overlap."""
@@ -267,15 +267,15 @@ class World:
     gold: i4
     won: i4
     deaths: i4
-    idled: i4
+    round_over: i4
     contacts_off: i4
-    newest: i4
-    cursor: i4
-    thinker: i4
+    update_head: i4
+    update_cursor: i4
+    think_cursor: i4
     think_counter: i4
-    ids: i4
-    used: i4
+    id_count: i4
+    slots_used: i4
     ninja: Ninja
     heads: Annotated[list[i2], GRID_CELLS]
     edges: Annotated[list[u1], EDGE_STATES]
-    things: Annotated[list[Thing], CAPACITY]
+    objects: Annotated[list[Object], CAPACITY]

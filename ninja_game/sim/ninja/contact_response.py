@@ -11,7 +11,7 @@ from ninja_game.sim.states import CRUSHED
 
 @fast
 def push(n: Ninja, qx: float, qy: float, mx: float, my: float) -> None:
-    """A contact with a thing: push (qx, qy) px, normal (mx, my). Never a crush."""
+    """A contact with an object: push (qx, qy) px, normal (mx, my). Never a crush."""
     n.x += qx
     n.y += qy
     note_normal(n, mx, my)
@@ -37,11 +37,11 @@ def note_normal(n: Ninja, mx: float, my: float) -> None:
         n.wall_x = mx
         n.wall_y = my
     elif my < 0.0:
-        if n.contacts == 0:
-            n.first_x = mx
-            n.first_y = my
-            n.contacts = 1
+        if n.floor_contacts == 0:
+            n.first_floor_x = mx
+            n.first_floor_y = my
+            n.floor_contacts = 1
         else:
-            n.last_x = mx
-            n.last_y = my
-            n.contacts = 2
+            n.last_floor_x = mx
+            n.last_floor_y = my
+            n.floor_contacts = 2

@@ -30,10 +30,10 @@ def jump(w: World, n: Ninja, jx: float, jy: float) -> None:
     """Enter JUMPING: a velocity that opposes the jump is dropped, then the position itself jumps."""
     enter_state(w, JUMPING)
     n.gravity = JUMP_GRAVITY
-    if (n.x - n.px) * jx < 0.0:
-        n.px = n.x
-    if (n.y - n.py) * jy < 0.0:
-        n.py = n.y
+    if (n.x - n.prev_x) * jx < 0.0:
+        n.prev_x = n.x
+    if (n.y - n.prev_y) * jy < 0.0:
+        n.prev_y = n.y
     n.x = n.x + jx
     n.y = n.y + jy * JUMP_VERTICAL
     n.jump_timer = 0
@@ -56,23 +56,23 @@ def jump_off_wall(w: World, n: Ninja, jx: float, jy: float) -> None:
 @fast
 def think_in_air(w: World, n: Ninja) -> None:
     """Air control, the end of a jump, wall slide and wall jumps (§7.1)."""
-    vx = n.x - n.px
-    vy = n.y - n.py
+    vx = n.x - n.prev_x
+    vy = n.y - n.prev_y
     a = vx + n.direction * AIR_ACCELERATION
     if abs(a) < TOP_SPEED:
         vx = a
-    n.px = n.x - vx
+    n.prev_x = n.x - vx
 
     state = n.state
     if state <= SKIDDING:
         enter_state(w, FALLING)
     elif state == JUMPING:
         n.jump_timer += 1
-        if not n.held or n.jump_timer > LONGEST_JUMP:
+        if not n.jump_held or n.jump_timer > LONGEST_JUMP:
             enter_state(w, FALLING)
     elif n.near_wall:
         towards = n.direction * n.wall_x
-        if n.triggered:
+        if n.jump_pressed:
             if state == SLIDING and towards < 0.0:
                 jump_off_wall(w, n, n.wall_x, n.wall_y - 0.5)
             else:
@@ -82,7 +82,7 @@ def think_in_air(w: World, n: Ninja) -> None:
                 enter_state(w, FALLING)
             else:
                 vy = vy + (-WALL_FRICTION) * abs(vy)
-                n.py = n.y - vy
+                n.prev_y = n.y - vy
         elif vy > 0.0 and towards < 0.0:
             enter_state(w, SLIDING)
     elif state == SLIDING:
@@ -93,12 +93,12 @@ def think_in_air(w: World, n: Ninja) -> None:
 def think_on_ground(w: World, n: Ninja) -> None:
     """Landing, jumps, running, skidding, standing (§7.2)."""
     direction = n.direction
-    vx = n.x - n.px
-    vy = n.y - n.py
+    vx = n.x - n.prev_x
+    vy = n.y - n.prev_y
     a = vx + direction * GROUND_ACCELERATION
     if abs(a) < TOP_SPEED:
         vx = a
-    n.px = n.x - vx
+    n.prev_x = n.x - vx
 
     state = n.state
     if state >= JUMPING:
@@ -106,7 +106,7 @@ def think_on_ground(w: World, n: Ninja) -> None:
         enter_state(w, RUNNING if vx * direction > 0.0 else SKIDDING)
         return
     floor_x = n.floor_x
-    if n.triggered:
+    if n.jump_pressed:
         if direction * floor_x < 0.0:
             jump_off_floor(w, n, 0.0, -0.7)
         else:
@@ -124,14 +124,14 @@ def think_on_ground(w: World, n: Ninja) -> None:
         elif speed < STAND_SPEED:
             enter_state(w, STANDING)
         else:
-            n.px = n.x - vx * SKID_FRICTION
+            n.prev_x = n.x - vx * SKID_FRICTION
     elif direction != 0:
         enter_state(w, RUNNING)
     elif speed >= STAND_SPEED:
         enter_state(w, SKIDDING)
     else:
-        n.px = n.x - vx * STAND_FRICTION
-        n.py = n.y - vy * STAND_FRICTION
+        n.prev_x = n.x - vx * STAND_FRICTION
+        n.prev_y = n.y - vy * STAND_FRICTION
 
 
 @fast
@@ -143,8 +143,8 @@ def run_uphill(n: Ninja, vx: float, vy: float, a: float) -> None:
     if abs(a) < TOP_SPEED:
         vx = vx + tx * GROUND_ACCELERATION
         vy = vy + ty * GROUND_ACCELERATION
-    n.px = n.x - vx
-    n.py = n.y - vy
+    n.prev_x = n.x - vx
+    n.prev_y = n.y - vy
 
 
 @fast

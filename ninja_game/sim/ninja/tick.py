@@ -10,23 +10,23 @@ from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.death import kill
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Level, Ninja, World
+from ninja_game.sim.memory.schema import Ninja, TileMap, World
 from ninja_game.sim.ninja.control import celebrate, think_in_air, think_on_ground
-from ninja_game.sim.objects.object_query import touch_things
+from ninja_game.sim.objects.object_query import touch_objects
 from ninja_game.sim.rules import FATAL_IMPACT, WALL_PROBE
 from ninja_game.sim.states import CELEBRATING, DEAD, FALL
 
 
 @fast
-def tick_ninja(level: Level, w: World, frame: int) -> None:
+def tick_ninja(level: TileMap, w: World, frame: int) -> None:
     """One tick of the living or celebrating ninja. ``frame``: 1 left + 2 right + 4 jump held + 8 jump triggered."""
     n = w.ninja
     x = n.x
     y = n.y
-    ux = x - n.px
-    uy = y - n.py
-    n.px = x
-    n.py = y
+    ux = x - n.prev_x
+    uy = y - n.prev_y
+    n.prev_x = x
+    n.prev_y = y
     n.x = x + n.drag * ux
     n.y = y + (n.drag * uy + n.gravity)
     n.cell = cell_at(n.x, n.y)
@@ -36,15 +36,15 @@ def tick_ninja(level: Level, w: World, frame: int) -> None:
     n.was_in_air = n.in_air
     n.near_wall = 0
     n.in_air = 1
-    n.contacts = 0
+    n.floor_contacts = 0
 
     if not w.contacts_off:
-        touch_things(w)
+        touch_objects(w)
     if n.box:
         collide_box(level, w)
     else:
         collide_circle(level, w)
-    if n.contacts:
+    if n.floor_contacts:
         evaluate_floor(w, n)
     if n.in_air and not n.near_wall:
         probe_walls(level, n)
@@ -55,8 +55,8 @@ def tick_ninja(level: Level, w: World, frame: int) -> None:
     elif n.state != DEAD:
         # The input is sampled here and only here: after all physics, by a ninja that lives and does not celebrate.
         n.direction = (frame >> 1 & 1) - (frame & 1)
-        n.held = frame >> 2 & 1
-        n.triggered = frame >> 3 & 1
+        n.jump_held = frame >> 2 & 1
+        n.jump_pressed = frame >> 3 & 1
         if n.in_air:
             think_in_air(w, n)
         else:
@@ -67,21 +67,21 @@ def tick_ninja(level: Level, w: World, frame: int) -> None:
 def evaluate_floor(w: World, n: Ninja) -> None:
     """Choose the floor normal from this tick's floor contacts; a hard landing kills."""
     n.in_air = 0
-    if n.contacts == 1:
-        n.floor_x = n.first_x
-        n.floor_y = n.first_y
-    elif n.first_x * n.last_x + n.first_y * n.last_y > 0.9:
+    if n.floor_contacts == 1:
+        n.floor_x = n.first_floor_x
+        n.floor_y = n.first_floor_y
+    elif n.first_floor_x * n.last_floor_x + n.first_floor_y * n.last_floor_y > 0.9:
         # Nearly parallel: keep the normal if it is the first contact's, else take the last one's.
-        if not (n.first_x == n.floor_x and n.first_y == n.floor_y):
-            n.floor_x = n.last_x
-            n.floor_y = n.last_y
+        if not (n.first_floor_x == n.floor_x and n.first_floor_y == n.floor_y):
+            n.floor_x = n.last_floor_x
+            n.floor_y = n.last_floor_y
     else:
-        ax = 0.5 * (n.first_x + n.last_x)
-        ay = 0.5 * (n.first_y + n.last_y)
+        ax = 0.5 * (n.first_floor_x + n.last_floor_x)
+        ay = 0.5 * (n.first_floor_y + n.last_floor_y)
         length = sqrt(ax * ax + ay * ay)
         if length == 0.0:
-            n.floor_x = n.first_x
-            n.floor_y = n.first_y
+            n.floor_x = n.first_floor_x
+            n.floor_y = n.first_floor_y
         else:
             n.floor_x = ax / length
             n.floor_y = ay / length
@@ -92,8 +92,8 @@ def evaluate_floor(w: World, n: Ninja) -> None:
 
 
 @fast
-def probe_walls(level: Level, n: Ninja) -> None:
-    """In the air and without a wall contact: is there a tile just beside the centre? Tiles only, no doors or things."""
+def probe_walls(level: TileMap, n: Ninja) -> None:
+    """In the air and without a wall contact: a tile just beside the centre? Tiles only, no doors or objects."""
     if solid_at(level, n.x + WALL_PROBE, n.y):
         n.near_wall = 1
         n.wall_x = -1.0

@@ -45,10 +45,10 @@ def touch_block(w: World, o: BounceBlock, slot: int) -> None:
 @fast
 def update_block(o: BounceBlock) -> None:
     """Verlet step with drag, then the spring towards the anchor."""
-    vx = o.x - o.old_x
-    vy = o.y - o.old_y
-    o.old_x = o.x
-    o.old_y = o.y
+    vx = o.x - o.prev_x
+    vy = o.y - o.prev_y
+    o.prev_x = o.x
+    o.prev_y = o.y
     o.x = o.x + BLOCK_DRAG * vx
     o.y = o.y + BLOCK_DRAG * vy
     ex = o.anchor_x - o.x
@@ -65,5 +65,5 @@ def think_block(w: World, o: BounceBlock, slot: int) -> None:
     if o.counter > BLOCK_SLEEP:
         end_update(w, o, slot)
         end_think(w, o, slot)
-        o.old_x = o.x
-        o.old_y = o.y
+        o.prev_x = o.x
+        o.prev_y = o.y

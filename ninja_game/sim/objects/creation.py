@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ninja_game.sim.collision.tiles import UNIT_X, UNIT_Y
-from ninja_game.sim.grid import file
+from ninja_game.sim.grid import grid_insert
 from ninja_game.sim.level import (
     BOUNCE_BLOCK,
     DOOR,
@@ -21,7 +21,7 @@ from ninja_game.sim.level import (
     TURRET,
 )
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Level, Thing, World
+from ninja_game.sim.memory.schema import Object, TileMap, World
 from ninja_game.sim.objects.door import create_door
 from ninja_game.sim.objects.drone import create_drone
 from ninja_game.sim.objects.exit import create_switch
@@ -31,19 +31,19 @@ from ninja_game.sim.schedule import start_think
 
 
 @fast
-def create(level: Level, w: World, o: Thing, slot: int, p: Sequence[float]) -> None:
+def create(level: TileMap, w: World, o: Object, slot: int, p: Sequence[float]) -> None:
     """What an object does at load, by kind; its kind and place are set."""
     kind = o.kind
     if kind == GOLD or kind == MINE:
-        file(w, o, slot)
+        grid_insert(w, o, slot)
     elif kind == BOUNCE_BLOCK:
-        o.anchor_x = o.old_x = o.x
-        o.anchor_y = o.old_y = o.y
-        file(w, o, slot)
+        o.anchor_x = o.prev_x = o.x
+        o.anchor_y = o.prev_y = o.y
+        grid_insert(w, o, slot)
     elif kind == LAUNCH_PAD:
         o.face_x = p[2]
         o.face_y = p[3]
-        file(w, o, slot)
+        grid_insert(w, o, slot)
     elif kind == ONE_WAY:
         o.face_x = 0.0
         o.face_y = 1.0
@@ -51,7 +51,7 @@ def create(level: Level, w: World, o: Thing, slot: int, p: Sequence[float]) -> N
             if p[2] == direction:
                 o.face_x = UNIT_X[direction]
                 o.face_y = UNIT_Y[direction]
-        file(w, o, slot)
+        grid_insert(w, o, slot)
     elif kind == EXIT:
         create_switch(w, o, slot, p[2], p[3])
     elif kind == TURRET:

@@ -8,7 +8,7 @@ from math import sqrt
 from ninja_game.sim.arithmetic import is_set
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS
 from ninja_game.sim.events import DOOR_CLOSED, DOOR_OPENED, LOCK_OPENED, TRAP_CLOSED, emit
-from ninja_game.sim.grid import cell_index, file, unfile
+from ninja_game.sim.grid import cell_index, grid_insert, grid_remove
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import Door, World
 from ninja_game.sim.rules import (
@@ -57,7 +57,7 @@ def create_door(w: World, o: Door, slot: int, p: Sequence[float]) -> None:
         if cell_1:
             o.x = CENTRE_X[cell_1] + (0.0 if p[2] == 1.0 else HALF)
             o.y = CENTRE_Y[cell_1] + (HALF if p[2] == 1.0 else 0.0)
-    file(w, o, slot)
+    grid_insert(w, o, slot)
     write_edges(w, o, o.mechanism != TRAP)
 
 
@@ -94,7 +94,7 @@ def touch_door(w: World, o: Door, slot: int) -> None:
     else:
         o.spent = 1
         write_edges(w, o, True)
-        unfile(w, o)
+        grid_remove(w, o)
         emit(w, TRAP_CLOSED, slot, o.x, o.y, 0.0, 0.0)
 
 

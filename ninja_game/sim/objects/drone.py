@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from ninja_game.sim.arithmetic import is_set
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, ROW, STEP, UNIT_X, UNIT_Y
 from ninja_game.sim.events import CHASE_STARTED, emit
-from ninja_game.sim.grid import cell_at, link, refile
+from ninja_game.sim.grid import cell_at, grid_move, link
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import Drone, World
 from ninja_game.sim.rules import CELL, DRONE_SPEED, OFF
@@ -39,7 +39,7 @@ def create_drone(w: World, o: Drone, slot: int, p: Sequence[float]) -> None:
     """Filed where the record says, then snapped to that cell's centre; the first update chooses a goal."""
     cell = cell_at(o.x, o.y)
     link(w, o, slot, cell)
-    o.filed = 1
+    o.in_grid = 1
     start_update(w, o, slot)
     o.x = o.goal_x = CENTRE_X[cell]
     o.y = o.goal_y = CENTRE_Y[cell]
@@ -103,7 +103,7 @@ def move_drone(w: World, o: Drone, slot: int) -> None:
         step = o.speed * 2.0 if o.chasing else o.speed
         o.x = o.x + UNIT_X[o.direction] * step
         o.y = o.y + UNIT_Y[o.direction] * step
-    refile(w, o, slot)
+    grid_move(w, o, slot)
 
 
 @fast
@@ -153,7 +153,7 @@ def chase(w: World, o: Drone) -> bool:
     """Seekers: run in a straight line past a ninja on the same row or column to the first blocked edge (§8.16)."""
     if not o.seeker:
         return False
-    if w.idled:
+    if w.round_over:
         o.grab = 0
         return False
     if o.grab:

@@ -9,7 +9,7 @@ from ninja_game.sim.collision.rays import ray_tiles, sees
 from ninja_game.sim.death import kill, stop_firing
 from ninja_game.sim.events import CHAINGUN_CHARGING, CHAINGUN_ON, CHAINGUN_SHOT, LASER_CHARGING, LASER_ON, emit
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Drone, Level, World
+from ninja_game.sim.memory.schema import Drone, TileMap, World
 from ninja_game.sim.objects.floor_guard import zap
 from ninja_game.sim.rules import (
     CHAINGUN_COOL,
@@ -42,9 +42,9 @@ def touch_drone(w: World, o: Drone) -> None:
 
 
 @fast
-def think_drone(level: Level, w: World, o: Drone, slot: int) -> None:
+def think_drone(level: TileMap, w: World, o: Drone, slot: int) -> None:
     """A weapon drone that sees the ninja stops and prepares to fire."""
-    if w.idled:
+    if w.round_over:
         return
     n = w.ninja
     hit, hit_x, hit_y = sees(level, w, o.x, o.y, n.x, n.y)
@@ -61,7 +61,7 @@ def think_drone(level: Level, w: World, o: Drone, slot: int) -> None:
 
 
 @fast
-def update_weapon(level: Level, w: World, o: Drone, slot: int) -> None:
+def update_weapon(level: TileMap, w: World, o: Drone, slot: int) -> None:
     """Go on with the weapon of a drone that does not move: prepare, fire or cool down."""
     routine = o.routine
     if routine == DRONE_POST_FIRE:
@@ -83,7 +83,7 @@ def update_weapon(level: Level, w: World, o: Drone, slot: int) -> None:
 
 
 @fast
-def aim_beam(level: Level, w: World, o: Drone, slot: int, hit_x: float, hit_y: float) -> None:
+def aim_beam(level: TileMap, w: World, o: Drone, slot: int, hit_x: float, hit_y: float) -> None:
     """Fix the beam when the ninja is sighted: a door that closes later does not shorten it."""
     stopped, end_x, end_y = ray_tiles(level, w, o.x, o.y, hit_x, hit_y)
     if stopped:
@@ -150,7 +150,7 @@ def open_fire(w: World, o: Drone, slot: int) -> None:
         return
     o.aim_x = dx / length
     o.aim_y = dy / length
-    if (n.x - n.px) * (-o.aim_y) + (n.y - n.py) * o.aim_x < 0.0:
+    if (n.x - n.prev_x) * (-o.aim_y) + (n.y - n.prev_y) * o.aim_x < 0.0:
         o.sweep_x = o.aim_y
         o.sweep_y = -o.aim_x
     else:
@@ -160,7 +160,7 @@ def open_fire(w: World, o: Drone, slot: int) -> None:
 
 
 @fast
-def shoot(level: Level, w: World, o: Drone, slot: int) -> None:
+def shoot(level: TileMap, w: World, o: Drone, slot: int) -> None:
     """A shot every sixth tick."""
     o.timer += 1
     if o.timer < CHAINGUN_PAUSE:

@@ -6,31 +6,31 @@ from math import sqrt
 
 from ninja_game.sim.death import win
 from ninja_game.sim.events import EXIT_OPENED, emit
-from ninja_game.sim.grid import file
+from ninja_game.sim.grid import grid_insert
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import SWITCH, Exit, Switch, Thing, World
+from ninja_game.sim.memory.schema import SWITCH, Exit, Object, Switch, World
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS, SWITCH_RADIUS
 
 
 @fast
-def create_switch(w: World, o: Thing, slot: int, x: float, y: float) -> None:
+def create_switch(w: World, o: Object, slot: int, x: float, y: float) -> None:
     """An exit files only its switch, which has no id: it takes a slot behind those of the ids."""
-    switch_slot = w.used
-    w.used = switch_slot + 1
-    switch = w.things[switch_slot]
+    switch_slot = w.slots_used
+    w.slots_used = switch_slot + 1
+    switch = w.objects[switch_slot]
     switch.kind = SWITCH
     switch.id = -1
     switch.x = x
     switch.y = y
     switch.partner = slot
     o.partner = switch_slot
-    file(w, switch, switch_slot)
+    grid_insert(w, switch, switch_slot)
 
 
 @fast
 def touch_switch(w: World, o: Switch) -> None:
     """Open and file the exit. The switch itself is never unfiled: it stays in its list, inert (objects.md §2.2)."""
-    door = w.things[o.partner]
+    door = w.objects[o.partner]
     if door.spent:
         return
     n = w.ninja
@@ -38,7 +38,7 @@ def touch_switch(w: World, o: Switch) -> None:
     dy = o.y - n.y
     if sqrt(dx * dx + dy * dy) < SWITCH_RADIUS + RADIUS:
         door.spent = 1
-        file(w, door, o.partner)
+        grid_insert(w, door, o.partner)
         emit(w, EXIT_OPENED, o.partner, o.x, o.y, 0.0, 0.0)
 
 

@@ -7,22 +7,22 @@ from math import sqrt
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, ROW, UNDEFINED_ID
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import GUARD_STARTED, emit
-from ninja_game.sim.grid import cell_at, file, refile
+from ninja_game.sim.grid import cell_at, grid_insert, grid_move
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import INERT, FloorGuard, Level, World
+from ninja_game.sim.memory.schema import INERT, FloorGuard, TileMap, World
 from ninja_game.sim.rules import DOWN, GUARD_RADIUS, GUARD_SPEED, HALF, RADIUS, SOLID
 from ninja_game.sim.schedule import start_update
 from ninja_game.sim.states import ELECTRIC, GUARD_CHASE, GUARD_IDLE
 
 
 @fast
-def empty_for_guard(level: Level, cell: int) -> bool:
+def empty_for_guard(level: TileMap, cell: int) -> bool:
     """A floor guard's scan stops at tile ids above 0; a malformed id below 0 is not one."""
     return level.tiles[cell] == 0 or level.tiles[cell] == UNDEFINED_ID
 
 
 @fast
-def create_guard(level: Level, w: World, o: FloorGuard, slot: int) -> None:
+def create_guard(level: TileMap, w: World, o: FloorGuard, slot: int) -> None:
     """Scan the corridor (floor edges as they are at this moment of loading) and the sight range along the row.
 
     In column 0 or 32 or outside the grid the original hangs while loading; here such a guard is inert.
@@ -31,7 +31,7 @@ def create_guard(level: Level, w: World, o: FloorGuard, slot: int) -> None:
     if cell == 0 or COLUMN[cell] == 0 or COLUMN[cell] == 32:
         o.kind = INERT
         return
-    file(w, o, slot)
+    grid_insert(w, o, slot)
     start_update(w, o, slot)
     o.facing = 1.0
     o.y = CENTRE_Y[cell] + HALF - 6.0
@@ -78,7 +78,7 @@ def chase_to_end(w: World, o: FloorGuard, slot: int) -> None:
         o.routine = GUARD_IDLE
     else:
         o.x = o.x + o.facing * GUARD_SPEED
-    refile(w, o, slot)
+    grid_move(w, o, slot)
 
 
 @fast

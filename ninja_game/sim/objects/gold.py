@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 from ninja_game.sim.events import GOLD_TAKEN, emit
-from ninja_game.sim.grid import unfile
+from ninja_game.sim.grid import grid_remove
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import Gold, World
 from ninja_game.sim.rules import GOLD_RADIUS, RADIUS
@@ -20,5 +20,5 @@ def touch_gold(w: World, o: Gold, slot: int) -> None:
     if sqrt(dx * dx + dy * dy) < GOLD_RADIUS + RADIUS:
         o.spent = 1
         w.gold += 1
-        unfile(w, o)
+        grid_remove(w, o)
         emit(w, GOLD_TAKEN, slot, o.x, o.y, 0.0, 0.0)

@@ -32,9 +32,9 @@ def touch_pad(w: World, o: LaunchPad, slot: int) -> None:
 def launch(w: World, slot: int, lx: float, ly: float) -> None:
     """Replace the ninja's velocity. Leaves whatever state it was in: also the dead come back to life (quirk, O 3)."""
     n = w.ninja
-    n.px = n.x
-    n.py = n.y
+    n.prev_x = n.x
+    n.prev_y = n.y
     n.x = n.x + lx
     n.y = n.y + ly
     enter_state(w, FALLING)
-    emit(w, LAUNCHED, slot, n.px, n.py, lx, ly)
+    emit(w, LAUNCHED, slot, n.prev_x, n.prev_y, lx, ly)

@@ -9,9 +9,9 @@ from ninja_game.sim.collision.rays import sees, solid_at
 from ninja_game.sim.collision.tiles import STEP
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import ROCKET_EXPLODED, ROCKET_LAUNCHED, emit
-from ninja_game.sim.grid import file, refile, unfile
+from ninja_game.sim.grid import grid_insert, grid_move, grid_remove
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Launcher, Level, World
+from ninja_game.sim.memory.schema import Launcher, TileMap, World
 from ninja_game.sim.rules import (
     OFF,
     RADIUS,
@@ -27,7 +27,7 @@ from ninja_game.sim.states import EXPLOSIVE, LAUNCHER_FLIGHT, LAUNCHER_IDLE, LAU
 
 
 @fast
-def think_launcher(level: Level, w: World, o: Launcher, slot: int) -> None:
+def think_launcher(level: TileMap, w: World, o: Launcher, slot: int) -> None:
     """Prepare a rocket when the ninja is in sight."""
     n = w.ninja
     if sees(level, w, o.base_x, o.base_y, n.x, n.y)[0]:
@@ -38,7 +38,7 @@ def think_launcher(level: Level, w: World, o: Launcher, slot: int) -> None:
 
 
 @fast
-def update_launcher(level: Level, w: World, o: Launcher, slot: int) -> None:
+def update_launcher(level: TileMap, w: World, o: Launcher, slot: int) -> None:
     """Count down to the launch, then fly."""
     if o.routine == LAUNCHER_PREPARE:
         o.counter += 1
@@ -56,7 +56,7 @@ def fire_rocket(w: World, o: Launcher, slot: int) -> None:
     o.speed = 0.0
     o.x = o.base_x
     o.y = o.base_y
-    file(w, o, slot)
+    grid_insert(w, o, slot)
     o.routine = LAUNCHER_FLIGHT
     dx = n.x - o.base_x
     dy = n.y - o.base_y
@@ -68,7 +68,7 @@ def fire_rocket(w: World, o: Launcher, slot: int) -> None:
 
 
 @fast
-def fly(level: Level, w: World, o: Launcher, slot: int) -> None:
+def fly(level: TileMap, w: World, o: Launcher, slot: int) -> None:
     """Accelerate, move, explode in a tile or on a solid edge, and turn towards where the ninja will be."""
     if o.speed < ROCKET_SPEED:
         o.acceleration = o.acceleration * ROCKET_GROWTH
@@ -81,7 +81,7 @@ def fly(level: Level, w: World, o: Launcher, slot: int) -> None:
         explode(w, o, slot)
         return
     old = o.cell
-    if refile(w, o, slot) and edge_between(w, old, o.cell) == SOLID:
+    if grid_move(w, o, slot) and edge_between(w, old, o.cell) == SOLID:
         explode(w, o, slot)
         return
     steer(w, o)
@@ -101,8 +101,8 @@ def edge_between(w: World, old: int, new: int) -> int:
 def steer(w: World, o: Launcher) -> None:
     """Turn the heading. There is no test for a distance of 0: heading and place then become NaN for ever (quirk)."""
     n = w.ninja
-    dx = 2.0 * n.x - n.px - (o.x + o.speed * o.heading_x)
-    dy = 2.0 * n.y - n.py - (o.y + o.speed * o.heading_y)
+    dx = 2.0 * n.x - n.prev_x - (o.x + o.speed * o.heading_x)
+    dy = 2.0 * n.y - n.prev_y - (o.y + o.speed * o.heading_y)
     length = sqrt(dx * dx + dy * dy)
     dx = div(dx, length)
     dy = div(dy, length)
@@ -132,8 +132,8 @@ def touch_rocket(w: World, o: Launcher, slot: int) -> None:
 def explode(w: World, o: Launcher, slot: int) -> None:
     """The rocket is gone; the launcher thinks again, unless the ninja has died or won."""
     end_update(w, o, slot)
-    unfile(w, o)
+    grid_remove(w, o)
     o.routine = LAUNCHER_IDLE
-    if not w.idled:
+    if not w.round_over:
         start_think(w, o, slot)
     emit(w, ROCKET_EXPLODED, slot, o.x, o.y, 0.0, 0.0)

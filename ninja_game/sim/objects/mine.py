@@ -6,7 +6,7 @@ from math import sqrt
 
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import MINE_EXPLODED, emit
-from ninja_game.sim.grid import unfile
+from ninja_game.sim.grid import grid_remove
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import Mine, World
 from ninja_game.sim.rules import MINE_RADIUS, RADIUS
@@ -22,5 +22,5 @@ def touch_mine(w: World, o: Mine, slot: int) -> None:
     if sqrt(dx * dx + dy * dy) < MINE_RADIUS + RADIUS:
         kill(w, EXPLOSIVE, -dx, -dy, o.x, o.y)
         o.spent = 1
-        unfile(w, o)
+        grid_remove(w, o)
         emit(w, MINE_EXPLODED, slot, o.x, o.y, 0.0, 0.0)

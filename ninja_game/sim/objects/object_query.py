@@ -35,10 +35,10 @@ NINE_CELLS = [0, STRIDE, STRIDE + 1, STRIDE - 1, -1, -STRIDE - 1, 1, -STRIDE + 1
 
 
 @fast
-def touch_things(w: World) -> None:
+def touch_objects(w: World) -> None:
     """Test the ninja against everything filed in the nine cells about its registered cell.
 
-    The link to the next thing is read after the contact: one that unfiles itself ends the walk of its list (quirk).
+    The link to the next object is read after the contact: one that unfiles itself ends the walk of its list (quirk).
     """
     centre = w.ninja.cell
     if centre == 0:
@@ -48,13 +48,13 @@ def touch_things(w: World) -> None:
         slot = heads[centre + step]
         while slot:
             touch(w, slot)
-            slot = w.things[slot].next
+            slot = w.objects[slot].next
 
 
 @fast
 def touch(w: World, slot: int) -> None:
-    """The contact of one thing, by kind."""
-    o = w.things[slot]
+    """The contact of one object, by kind."""
+    o = w.objects[slot]
     kind = o.kind
     if kind == GOLD:
         touch_gold(w, o, slot)

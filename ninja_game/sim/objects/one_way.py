@@ -18,13 +18,13 @@ def touch_one_way(w: World, o: OneWay) -> None:
         return
     if o.face_x == 0.0:
         face = o.face_y
-        if (n.y - n.py) * face <= 0.0:
-            gap = n.py - face * RADIUS - (o.y + face * ONE_WAY_HALF)
+        if (n.y - n.prev_y) * face <= 0.0:
+            gap = n.prev_y - face * RADIUS - (o.y + face * ONE_WAY_HALF)
             if 0.0 <= gap * face:
                 push(n, 0.0, o.y + face * ONE_WAY_HALF - (n.y - face * RADIUS), 0.0, face)
     else:
         face = o.face_x
-        if (n.x - n.px) * face <= 0.0:
-            gap = n.px - face * RADIUS - (o.x + face * ONE_WAY_HALF)
+        if (n.x - n.prev_x) * face <= 0.0:
+            gap = n.prev_x - face * RADIUS - (o.x + face * ONE_WAY_HALF)
             if 0.0 <= gap * face:
                 push(n, o.x + face * ONE_WAY_HALF - (n.x - face * RADIUS), 0.0, face, 0.0)

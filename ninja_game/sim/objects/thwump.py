@@ -5,9 +5,9 @@ from __future__ import annotations
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW, STEP, UNIT_X, UNIT_Y
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import THWUMP_FELL, THWUMP_LANDED, emit
-from ninja_game.sim.grid import cell_at, file, refile
+from ninja_game.sim.grid import cell_at, grid_insert, grid_move
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Level, Thwump, World
+from ninja_game.sim.memory.schema import Thwump, TileMap, World
 from ninja_game.sim.ninja.contact_response import push
 from ninja_game.sim.rules import CELL, RADIUS, THWUMP_FALL, THWUMP_HALF, THWUMP_RISE, THWUMP_SIGHT
 from ninja_game.sim.schedule import start_update
@@ -15,9 +15,9 @@ from ninja_game.sim.states import ELECTRIC, THWUMP_MOVE, THWUMP_REST
 
 
 @fast
-def create_thwump(level: Level, w: World, o: Thwump, slot: int, direction: float) -> None:
+def create_thwump(level: TileMap, w: World, o: Thwump, slot: int, direction: float) -> None:
     """Scan the free cells ahead: the goal is 9 px beyond the centre of the last one. Edges and doors are ignored."""
-    file(w, o, slot)
+    grid_insert(w, o, slot)
     start_update(w, o, slot)
     o.anchor_x = o.x
     o.anchor_y = o.y
@@ -59,7 +59,7 @@ def update_thwump(w: World, o: Thwump, slot: int) -> None:
     """At rest: look for the ninja. Otherwise fall to the goal, then rise to the anchor, without a pause."""
     if o.routine == THWUMP_MOVE:
         move_thwump(w, o, slot)
-    elif not w.idled:
+    elif not w.round_over:
         n = w.ninja
         if o.face_x == 0.0:
             triggered = abs(o.x - n.x) < THWUMP_SIGHT and o.low <= ROW[n.cell] <= o.high
@@ -93,7 +93,7 @@ def move_thwump(w: World, o: Thwump, slot: int) -> None:
     else:
         o.x = o.x + o.sign * o.face_x * o.speed
         o.y = o.y + o.sign * o.face_y * o.speed
-    refile(w, o, slot)
+    grid_move(w, o, slot)
 
 
 @fast

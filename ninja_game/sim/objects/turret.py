@@ -8,7 +8,7 @@ from ninja_game.sim.collision.rays import sees
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import TURRET_FIRED, TURRET_LOCKED, emit
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Level, Turret, World
+from ninja_game.sim.memory.schema import TileMap, Turret, World
 from ninja_game.sim.rules import (
     AIM_FAR,
     AIM_FAR_SQUARED,
@@ -31,13 +31,13 @@ from ninja_game.sim.states import (
 
 
 @fast
-def sees_ninja(level: Level, w: World, o: Turret) -> bool:
+def sees_ninja(level: TileMap, w: World, o: Turret) -> bool:
     """Tell whether the way from the turret to the ninja is free."""
     return sees(level, w, o.x, o.y, w.ninja.x, w.ninja.y)[0]
 
 
 @fast
-def think_turret(level: Level, w: World, o: Turret, slot: int) -> None:
+def think_turret(level: TileMap, w: World, o: Turret, slot: int) -> None:
     """Waiting: start targeting what is seen. Targeting: stop when it is out of sight."""
     seen = sees_ninja(level, w, o)
     if o.think == TURRET_WAITING:
@@ -67,7 +67,7 @@ def stop_targeting(w: World, o: Turret, slot: int) -> None:
 
 
 @fast
-def update_turret(level: Level, w: World, o: Turret, slot: int) -> None:
+def update_turret(level: TileMap, w: World, o: Turret, slot: int) -> None:
     """Target, then stand still before the shot, then after it."""
     if o.routine == TURRET_TARGET:
         target(w, o, slot)
@@ -90,8 +90,8 @@ def update_turret(level: Level, w: World, o: Turret, slot: int) -> None:
 def target(w: World, o: Turret, slot: int) -> None:
     """Move the crosshair towards where the ninja will be; near it the shot comes sooner."""
     n = w.ninja
-    ex = o.aim_x - (2.0 * n.x - n.px)
-    ey = o.aim_y - (2.0 * n.y - n.py)
+    ex = o.aim_x - (2.0 * n.x - n.prev_x)
+    ey = o.aim_y - (2.0 * n.y - n.prev_y)
     o.aim_x = o.aim_x - o.aim_factor * ex
     o.aim_y = o.aim_y - o.aim_factor * ey
     distance = ex * ex + ey * ey
@@ -114,7 +114,7 @@ def target(w: World, o: Turret, slot: int) -> None:
 
 
 @fast
-def fire(level: Level, w: World, o: Turret, slot: int) -> None:
+def fire(level: TileMap, w: World, o: Turret, slot: int) -> None:
     """Shoot through the crosshair: kills if that ray meets the ninja before any tile."""
     hit, hit_x, hit_y = sees(level, w, o.x, o.y, o.aim_x, o.aim_y)
     emit(w, TURRET_FIRED, slot, o.x, o.y, o.aim_x - o.x, o.aim_y - o.y)

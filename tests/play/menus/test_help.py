@@ -26,7 +26,7 @@ def test_demonstration_contains_what_it_should_show(page: Page) -> None:
 
 
 def test_every_kind_of_object_has_a_page() -> None:
-    shown = {record.kind for page in PAGES for record in page.level.records}
+    shown = {record.kind for page in PAGES for record in page.level.objects}
     assert shown == set(range(len(KIND_NAMES)))
 
 

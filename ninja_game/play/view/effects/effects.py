@@ -10,7 +10,7 @@ from ninja_game.play.view.effects.particles import Particle, Particles
 from ninja_game.sim import events as ev
 from ninja_game.sim.collision.rays import ray_tiles
 from ninja_game.sim.level import DRONE, LAUNCHER
-from ninja_game.sim.memory.schema import Event, Level, World
+from ninja_game.sim.memory.schema import Event, TileMap, World
 from ninja_game.sim.states import (
     DRONE_FIRING,
     DRONE_PRE_FIRE,
@@ -39,7 +39,7 @@ class Effects:
         self.particles.clear()
         self.now = 0.0
 
-    def ticked(self, level: Level, world: World) -> None:
+    def ticked(self, level: TileMap, world: World) -> None:
         """What a tick throws up."""
         self.now += 1.0
         self.particles.expire(self.now)
@@ -48,8 +48,8 @@ class Effects:
             if react:
                 react(self, level, world, event)
         self._wall_and_floor(world)
-        for slot in range(1, world.ids + 1):
-            o = world.things[slot]
+        for slot in range(1, world.id_count + 1):
+            o = world.objects[slot]
             if o.kind == LAUNCHER and o.routine == LAUNCHER_FLIGHT:
                 self._smoke(o.x, o.y, o.heading_x, o.heading_y)
             elif o.kind == DRONE and o.weapon == WEAPON_LASER and o.routine in {DRONE_PRE_FIRE, DRONE_FIRING}:
@@ -107,7 +107,7 @@ class Effects:
 
     def _wall_and_floor(self, world: World) -> None:
         n = world.ninja
-        vx, vy = n.x - n.px, n.y - n.py
+        vx, vy = n.x - n.prev_x, n.y - n.prev_y
         if n.state not in {SKIDDING, SLIDING}:
             return
         self._skid_count += 1
@@ -142,19 +142,19 @@ class Effects:
 # --- reactions to events ---
 
 
-def _jumped(e: Effects, level: Level, world: World, event: Event) -> None:
+def _jumped(e: Effects, level: TileMap, world: World, event: Event) -> None:
     # The event comes after the jump's displacement; the dust stays where the feet were.
     x, y = event.x - event.dx * 11, event.y - event.dy * 12 + (3 if event.dy else 0)
     e.puffs(x, y, event.dx, event.dy, 20, 7)
 
 
-def _landed(e: Effects, level: Level, world: World, event: Event) -> None:
+def _landed(e: Effects, level: TileMap, world: World, event: Event) -> None:
     n = world.ninja
     hardness = 4 + abs(event.dx) + max(0.0, event.dy)
     e.puffs(event.x - n.floor_x * 10, event.y - n.floor_y * 10, n.floor_x, n.floor_y, 40, hardness)
 
 
-def _died(e: Effects, level: Level, world: World, event: Event) -> None:
+def _died(e: Effects, level: TileMap, world: World, event: Event) -> None:
     n = world.ninja
     if event.slot == ELECTRIC:
         for _ in range(6):
@@ -168,49 +168,49 @@ def _died(e: Effects, level: Level, world: World, event: Event) -> None:
     e.blood(event.x, event.y, event.dx, event.dy, e.chance.randint(8, 14))
 
 
-def _gold(e: Effects, level: Level, world: World, event: Event) -> None:
+def _gold(e: Effects, level: TileMap, world: World, event: Event) -> None:
     e.add("gold", event.x, event.y, life=28)
 
 
-def _explosion(e: Effects, level: Level, world: World, event: Event) -> None:
+def _explosion(e: Effects, level: TileMap, world: World, event: Event) -> None:
     e.explosion(event.x, event.y)
 
 
-def _launched(e: Effects, level: Level, world: World, event: Event) -> None:
+def _launched(e: Effects, level: TileMap, world: World, event: Event) -> None:
     length = hypot(event.dx, event.dy) or 1.0
     e.puffs(event.x, event.y + 6, event.dx / length, event.dy / length, 55, 9)
 
 
-def _thud(e: Effects, level: Level, world: World, event: Event) -> None:
+def _thud(e: Effects, level: TileMap, world: World, event: Event) -> None:
     x, y = event.x + event.dx * 9, event.y + event.dy * 9
     e.puffs(x, y, -event.dx, -event.dy, 25, 9)
 
 
-def _line_of_fire(level: Level, world: World, event: Event) -> tuple[float, float]:
+def _line_of_fire(level: TileMap, world: World, event: Event) -> tuple[float, float]:
     """Where a shot from an event's place in its direction ends: a tile, or the ninja on the way."""
     hit, x, y = ray_tiles(level, world, event.x, event.y, event.x + event.dx, event.y + event.dy)
     return (x, y) if hit else (event.x + 30 * event.dx, event.y + 30 * event.dy)
 
 
-def _turret_fired(e: Effects, level: Level, world: World, event: Event) -> None:
+def _turret_fired(e: Effects, level: TileMap, world: World, event: Event) -> None:
     x, y = _line_of_fire(level, world, event)
     e.add("shot", event.x, event.y, x - event.x, y - event.y, life=14)
     e.add("muzzle", event.x, event.y, event.dx, event.dy, life=7)
     e.spread("debris", x, y, 5, 18, life=16)
 
 
-def _bullet(e: Effects, level: Level, world: World, event: Event) -> None:
+def _bullet(e: Effects, level: TileMap, world: World, event: Event) -> None:
     x, y = _line_of_fire(level, world, event)
     e.add("bullet", event.x + 12 * event.dx, event.y + 12 * event.dy, x - event.x, y - event.y, life=8)
     e.add("muzzle", event.x + 11 * event.dx, event.y + 11 * event.dy, event.dx, event.dy, life=8)
     e.spread("debris", x, y, 3, 14, life=13)
 
 
-def _rocket(e: Effects, level: Level, world: World, event: Event) -> None:
+def _rocket(e: Effects, level: TileMap, world: World, event: Event) -> None:
     e.spread("smoke", event.x, event.y, 5, 12, life=26)
 
 
-REACTIONS: dict[int, Callable[[Effects, Level, World, Event], None]] = {
+REACTIONS: dict[int, Callable[[Effects, TileMap, World, Event], None]] = {
     ev.JUMPED: _jumped,
     ev.WALL_JUMPED: _jumped,
     ev.LANDED: _landed,

@@ -25,7 +25,7 @@ from ninja_game.sim.collision.tiles import (
     UNDEFINED,
 )
 from ninja_game.sim.grid import cell_at
-from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import DOWN, LEFT, OFF, RIGHT, SOLID, STRIDE, UP
 
 Push = tuple[float, float, float, float]
@@ -43,7 +43,7 @@ class Box:
         self.half = half
 
 
-def tile_pushes(level: Level, world: World, box: Box) -> Iterator[Push]:
+def tile_pushes(level: TileMap, world: World, box: Box) -> Iterator[Push]:
     """Push a box out of tiles and closed doors; each push is done when it is given."""
     cell = cell_at(box.x, box.y)
     if not cell:
@@ -78,7 +78,7 @@ def tile_pushes(level: Level, world: World, box: Box) -> Iterator[Push]:
         yield from _narrow(level, box, corner, a, b)
 
 
-def _side(level: Level, world: World, box: Box, cell: int, side: int, a: float, b: float) -> Iterator[Push]:
+def _side(level: TileMap, world: World, box: Box, cell: int, side: int, a: float, b: float) -> Iterator[Push]:
     """Over one edge of the own cell: a solid edge pushes back, an interesting one asks the tile behind it."""
     edge = world.edges[4 * cell + side]
     if edge == SOLID:
@@ -93,7 +93,7 @@ def _push(box: Box, a: float, b: float, nx: float, ny: float) -> Push:
     return a, b, nx, ny
 
 
-def _narrow(level: Level, box: Box, cell: int, a: float, b: float) -> Iterator[Push]:
+def _narrow(level: TileMap, box: Box, cell: int, a: float, b: float) -> Iterator[Push]:
     """One tile: out along its surface, or along the axis (a, b) if that is shorter."""
     tile = level.tiles[cell]
     shape = SHAPE[tile]

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from ninja_game.play.view.ninja.box_contact import Box
 from ninja_game.sim.level import BOUNCE_BLOCK, DRONE, FLOOR_GUARD, LAUNCH_PAD, ONE_WAY, THWUMP
-from ninja_game.sim.memory.schema import Thing, World
+from ninja_game.sim.memory.schema import Object, World
 from ninja_game.sim.rules import BLOCK_HALF, THWUMP_HALF
 from ninja_game.sim.states import WEAPON_ZAP
 
@@ -15,8 +15,8 @@ _PAD_KICK, _ZAP_KICK, _GUARD_KICK, _THWUMP_KICK = 6.0, 5.0, 6.0, 4.0
 
 def thing_pushes(world: World, box: Box) -> Iterator[tuple[float, float, float]]:
     """Normals of the things that a box touches, and how hard (px/tick) they kick it; it is pushed out as they come."""
-    for slot in range(1, world.ids + 1):
-        o = world.things[slot]
+    for slot in range(1, world.id_count + 1):
+        o = world.objects[slot]
         if o.kind in CONTACTS and abs(o.x - box.x) < 26 and abs(o.y - box.y) < 26:
             half, kick = CONTACTS[o.kind]
             if o.kind == LAUNCH_PAD:
@@ -27,7 +27,7 @@ def thing_pushes(world: World, box: Box) -> Iterator[tuple[float, float, float]]
                 yield from _square(o, box, half, kick)
 
 
-def _square(o: Thing, box: Box, half: float, kick: float) -> Iterator[tuple[float, float, float]]:
+def _square(o: Object, box: Box, half: float, kick: float) -> Iterator[tuple[float, float, float]]:
     dx, dy = box.x - o.x, box.y - o.y
     ox, oy = half + box.half - abs(dx), half + box.half - abs(dy)
     if ox <= 0 or oy <= 0:
@@ -47,14 +47,14 @@ def _square(o: Thing, box: Box, half: float, kick: float) -> Iterator[tuple[floa
         yield sign, 0.0, live
 
 
-def _pad(o: Thing, box: Box) -> Iterator[tuple[float, float, float]]:
+def _pad(o: Object, box: Box) -> Iterator[tuple[float, float, float]]:
     dx, dy = o.x - box.x, o.y - box.y
     if dx * dx + dy * dy < (6 + box.half) ** 2:
         length = (o.face_x * o.face_x + o.face_y * o.face_y) ** 0.5 or 1.0
         yield o.face_x / length, o.face_y / length, _PAD_KICK
 
 
-def _one_way(o: Thing, box: Box) -> Iterator[tuple[float, float, float]]:
+def _one_way(o: Object, box: Box) -> Iterator[tuple[float, float, float]]:
     """Only from its face, and only near it."""
     dx, dy = box.x - o.x, box.y - o.y
     across = abs(dy) if o.face_x else abs(dx)

@@ -45,8 +45,8 @@ class NinjaMotion:
         """Facing: the wall while sliding, else the way it moves."""
         if n.state == SLIDING:
             self.facing = -1 if n.wall_x > 0 else 1
-        elif abs(n.x - n.px) > 1e-9:
-            self.facing = 1 if n.x > n.px else -1
+        elif abs(n.x - n.prev_x) > 1e-9:
+            self.facing = 1 if n.x > n.prev_x else -1
 
     def ticked(self, world: World) -> None:
         """Follow a tick."""
@@ -64,7 +64,7 @@ class NinjaMotion:
         else:
             self.since += 1.0
         self._face(n)
-        self.velocity = n.x - n.px, n.y - n.py
+        self.velocity = n.x - n.prev_x, n.y - n.prev_y
         self.phase_before = self.phase
         if n.state == RUNNING:
             self.phase += self.speed(n) / CYCLE
@@ -79,7 +79,7 @@ class NinjaMotion:
     @staticmethod
     def speed(n: Ninja) -> float:
         """Speed along the floor, px/tick."""
-        vx, vy = n.x - n.px, n.y - n.py
+        vx, vy = n.x - n.prev_x, n.y - n.prev_y
         return abs(vx * -n.floor_y + vy * n.floor_x) if n.floor_x or n.floor_y else abs(vx)
 
     def local_pose(self, fraction: float) -> Pose:

@@ -10,7 +10,7 @@ from ninja_game.play.ui.canvas import Point
 from ninja_game.play.view.ninja.box_contact import Box, tile_pushes
 from ninja_game.play.view.ninja.corpse_contacts import thing_pushes
 from ninja_game.play.view.ninja.pose import Pose
-from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.states import EXPLOSIVE, FALL
 
 GRAVITY = 0.15
@@ -120,7 +120,7 @@ class Ragdoll:
 
     # --- every tick ---
 
-    def step(self, level: Level, world: World) -> None:
+    def step(self, level: TileMap, world: World) -> None:
         """One tick: move, pull together, push out of what is solid."""
         for p in self.particles:
             p.sx, p.sy = p.x, p.y
@@ -148,7 +148,7 @@ class Ragdoll:
             b.x -= dx * pull * (1 - stick.share)
             b.y -= dy * pull * (1 - stick.share)
 
-    def _collide(self, level: Level, world: World, p: Particle) -> None:
+    def _collide(self, level: TileMap, world: World, p: Particle) -> None:
         """At the end of the way, and for a fast particle at places before it."""
         vx, vy = p.x - p.sx, p.y - p.sy
         square = vx * vx + vy * vy

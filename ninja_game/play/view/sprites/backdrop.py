@@ -14,7 +14,7 @@ from ninja_game.play.view.sprites.static_sprite_state import SETTLED_TICKS, Look
 from ninja_game.play.view.sprites.tile_shapes import tile_picture
 from ninja_game.sim.collision.tiles import EMPTY, SHAPE
 from ninja_game.sim.level import GOLD, MINE
-from ninja_game.sim.memory.schema import Level, World
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import STRIDE
 
 _COLUMNS, _ROWS = 33, 25
@@ -23,7 +23,7 @@ _COLUMNS, _ROWS = 33, 25
 class Backdrop:
     """Background, fixtures and tiles of one level in one size. Px here count from the stage's upper left corner."""
 
-    def __init__(self, canvas: Canvas, palette: Palette, book: SpriteBook, level: Level) -> None:
+    def __init__(self, canvas: Canvas, palette: Palette, book: SpriteBook, level: TileMap) -> None:
         self.canvas = canvas
         self.palette = palette
         self._book = book
@@ -40,7 +40,7 @@ class Backdrop:
         px, py = self.canvas.point(x, y)
         return px - self.canvas.origin[0], py - self.canvas.origin[1]
 
-    def _draw_tiles(self, level: Level) -> None:
+    def _draw_tiles(self, level: TileMap) -> None:
         """Each cell into the px between its rounded edges."""
         pictures: dict[tuple[int, int, int], pygame.Surface] = {}
         for row in range(_ROWS):
@@ -61,7 +61,7 @@ class Backdrop:
         self._moving.clear()
         # Walls first, then what lies before them.
         front = {GOLD, MINE}
-        self._order = sorted(motions.fixtures, key=lambda slot: world.things[slot].kind in front)
+        self._order = sorted(motions.fixtures, key=lambda slot: world.objects[slot].kind in front)
         self._blits.clear()
         self._rects.clear()
         for slot in self._order:

@@ -8,7 +8,7 @@ from math import atan2, cos, degrees, sin
 from ninja_game.play.view.sprites.draw_target import Stage
 from ninja_game.play.view.sprites.object_animation import Motions
 from ninja_game.sim.level import BOUNCE_BLOCK, DRONE, FLOOR_GUARD, LAUNCHER, THWUMP, TURRET
-from ninja_game.sim.memory.schema import Thing, World
+from ninja_game.sim.memory.schema import Object, World
 from ninja_game.sim.states import (
     DRONE_FIRING,
     DRONE_MOVE,
@@ -33,34 +33,34 @@ _COOL_FRAMES = 60
 def draw_movers(stage: Stage, world: World, motions: Motions, fraction: float) -> None:
     """All things that move, beams first so that they come out of their drones."""
     for slot in motions.movers:
-        o = world.things[slot]
+        o = world.objects[slot]
         if o.kind == DRONE and o.weapon == WEAPON_LASER:
             _beam(stage, o, slot, motions, fraction)
     for slot in motions.movers:
-        o = world.things[slot]
+        o = world.objects[slot]
         x, y = motions.place(slot, fraction)
         # A rocket that met its target point exactly is nowhere (not a number).
         if x == x and y == y:  # noqa: PLR0124 - the test for NaN
             PAINTERS[o.kind](stage, o, slot, x, y, motions, fraction)
 
 
-def _block(stage: Stage, o: Thing, slot: int, x: float, y: float, motions: Motions, fraction: float) -> None:
+def _block(stage: Stage, o: Object, slot: int, x: float, y: float, motions: Motions, fraction: float) -> None:
     stage.sprite(("block", 0, 8, o.updating), x, y)
 
 
-def _thwump(stage: Stage, o: Thing, slot: int, x: float, y: float, motions: Motions, fraction: float) -> None:
+def _thwump(stage: Stage, o: Object, slot: int, x: float, y: float, motions: Motions, fraction: float) -> None:
     mood = 0 if o.routine == THWUMP_REST else 1 if o.sign > 0 else 2
     # Its face looks where it falls: drawn for a fall downwards.
     turn = round(degrees(atan2(-o.face_x, o.face_y))) if o.face_x or o.face_y else 0
     stage.sprite(("thwump", turn, 8, mood, motions.tick // 3 % 2), x, y)
 
 
-def _guard(stage: Stage, o: Thing, slot: int, x: float, y: float, motions: Motions, fraction: float) -> None:
+def _guard(stage: Stage, o: Object, slot: int, x: float, y: float, motions: Motions, fraction: float) -> None:
     active = 1 if o.routine and o.updating else 0
     stage.sprite(("guard", 0, 8, active, motions.tick // 2 % 2 if active else 0), x, y)
 
 
-def _crosshair(stage: Stage, o: Thing, slot: int, x: float, y: float, motions: Motions, fraction: float) -> None:
+def _crosshair(stage: Stage, o: Object, slot: int, x: float, y: float, motions: Motions, fraction: float) -> None:
     if not o.updating:
         return
     if o.routine != TURRET_TARGET:
@@ -71,7 +71,7 @@ def _crosshair(stage: Stage, o: Thing, slot: int, x: float, y: float, motions: M
     stage.sprite(("crosshair", 0, 8, look), x, y)
 
 
-def _rocket(stage: Stage, o: Thing, slot: int, x: float, y: float, motions: Motions, fraction: float) -> None:
+def _rocket(stage: Stage, o: Object, slot: int, x: float, y: float, motions: Motions, fraction: float) -> None:
     trail = motions.trails.get(slot, [])
     for k, (tx, ty) in enumerate(trail[:-1]):
         step = min(7, len(trail) - 2 - k)
@@ -81,7 +81,7 @@ def _rocket(stage: Stage, o: Thing, slot: int, x: float, y: float, motions: Moti
         stage.sprite(("rocket", turn, 8, motions.tick % 4), x, y)
 
 
-def _drone(stage: Stage, o: Thing, slot: int, x: float, y: float, motions: Motions, fraction: float) -> None:
+def _drone(stage: Stage, o: Object, slot: int, x: float, y: float, motions: Motions, fraction: float) -> None:
     seeker = 1 if o.seeker and o.weapon == WEAPON_ZAP else 0
     heat = _heat(o, slot, motions, fraction)
     stage.sprite(("drone", 0, 8, o.weapon, seeker, o.chasing, heat if o.weapon == WEAPON_LASER else 0), x, y)
@@ -95,7 +95,7 @@ def _drone(stage: Stage, o: Thing, slot: int, x: float, y: float, motions: Motio
     stage.sprite(("eye", turn, 8, mood), x + _EYE_OUT * cos(angle), y + _EYE_OUT * sin(angle))
 
 
-def _heat(o: Thing, slot: int, motions: Motions, fraction: float) -> int:
+def _heat(o: Object, slot: int, motions: Motions, fraction: float) -> int:
     if o.routine == DRONE_PRE_FIRE:
         return motions.step(slot, fraction, _HEAT_FRAMES.get(o.weapon, 90))
     if o.routine == DRONE_FIRING:
@@ -103,7 +103,7 @@ def _heat(o: Thing, slot: int, motions: Motions, fraction: float) -> int:
     return 8 - motions.step(slot, fraction, _COOL_FRAMES) if o.routine == DRONE_POST_FIRE else 0
 
 
-def _beam(stage: Stage, o: Thing, slot: int, motions: Motions, fraction: float) -> None:
+def _beam(stage: Stage, o: Object, slot: int, motions: Motions, fraction: float) -> None:
     palette = stage.palette
     if o.routine == DRONE_PRE_FIRE:
         stage.line(palette.warning, o.x, o.y, o.end_x, o.end_y)
@@ -115,7 +115,7 @@ def _beam(stage: Stage, o: Thing, slot: int, motions: Motions, fraction: float) 
         stage.sprite(("burst", motions.tick % 5 * 15, 8, step), o.end_x, o.end_y)
 
 
-Painter = Callable[[Stage, Thing, int, float, float, Motions, float], None]
+Painter = Callable[[Stage, Object, int, float, float, Motions, float], None]
 PAINTERS: dict[int, Painter] = {
     BOUNCE_BLOCK: _block,
     THWUMP: _thwump,

@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import atan2, pi
 
 from ninja_game.sim.level import BOUNCE_BLOCK, DOOR, DRONE, FLOOR_GUARD, LAUNCHER, NINJA, THWUMP, TURRET
-from ninja_game.sim.memory.schema import INERT, Thing, World
+from ninja_game.sim.memory.schema import INERT, Object, World
 from ninja_game.sim.states import DRONE_MOVE, LAUNCHER_FLIGHT
 
 MOVERS = frozenset({BOUNCE_BLOCK, THWUMP, FLOOR_GUARD, DRONE, TURRET, LAUNCHER})
@@ -22,12 +22,12 @@ _DIRECTIONS = (0.0, pi / 2, pi, -pi / 2)
 Place = tuple[float, float]
 
 
-def state_of(o: Thing) -> tuple[int, int, int]:
+def state_of(o: Object) -> tuple[int, int, int]:
     """What must change for a thing to look different, apart from its place."""
     return o.spent if o.kind != DRONE else o.chasing, o.routine, o.updating
 
 
-def drawn_place(o: Thing) -> Place:
+def drawn_place(o: Object) -> Place:
     """The place of a thing that moves; of a turret its crosshair."""
     return (o.aim_x, o.aim_y) if o.kind == TURRET else (o.x, o.y)
 
@@ -41,15 +41,17 @@ class Motions:
     def reset(self, world: World) -> None:
         """Forget everything: a new run, or a jump in time."""
         self.tick = 0
-        slots = range(1, world.used)
-        self.movers = [slot for slot in slots if world.things[slot].kind in MOVERS]
-        self.fixtures = [slot for slot in slots if world.things[slot].kind not in {NINJA, INERT}]
-        self.states = {slot: state_of(world.things[slot]) for slot in self.fixtures}
+        slots = range(1, world.slots_used)
+        self.movers = [slot for slot in slots if world.objects[slot].kind in MOVERS]
+        self.fixtures = [slot for slot in slots if world.objects[slot].kind not in {NINJA, INERT}]
+        self.states = {slot: state_of(world.objects[slot]) for slot in self.fixtures}
         self.since = dict.fromkeys(self.fixtures, LONG_AGO)
         self.changed: set[int] = set()
-        self.now = {slot: drawn_place(world.things[slot]) for slot in self.movers}
+        self.now = {slot: drawn_place(world.objects[slot]) for slot in self.movers}
         self.before = dict(self.now)
-        self.eyes = {slot: _gaze(world, world.things[slot]) for slot in self.movers if world.things[slot].kind == DRONE}
+        self.eyes = {
+            slot: _gaze(world, world.objects[slot]) for slot in self.movers if world.objects[slot].kind == DRONE
+        }
         self.trails: dict[int, list[Place]] = {}
         n = world.ninja
         self.ninja_now = self.ninja_before = (n.x, n.y)
@@ -59,7 +61,7 @@ class Motions:
         self.tick += 1
         self.before, self.now = self.now, {}
         for slot in self.movers:
-            o = world.things[slot]
+            o = world.objects[slot]
             self.now[slot] = drawn_place(o)
             if o.kind == DRONE:
                 turn = (_gaze(world, o) - self.eyes[slot] + pi) % (2 * pi) - pi
@@ -67,19 +69,19 @@ class Motions:
             elif o.kind == LAUNCHER:
                 self._follow_rocket(slot, o)
         for slot in self.fixtures:
-            state = state_of(world.things[slot])
+            state = state_of(world.objects[slot])
             if state != self.states[slot]:
                 self.states[slot] = state
                 self.since[slot] = self.tick
                 self.changed.add(slot)
         for event in world.events[: world.event_count]:
-            if event.slot in self.since and world.things[event.slot].kind not in MOVERS | {DOOR}:
+            if event.slot in self.since and world.objects[event.slot].kind not in MOVERS | {DOOR}:
                 self.since[event.slot] = self.tick
                 self.changed.add(event.slot)
         self.ninja_before = self.ninja_now
         self.ninja_now = world.ninja.x, world.ninja.y
 
-    def _follow_rocket(self, slot: int, o: Thing) -> None:
+    def _follow_rocket(self, slot: int, o: Object) -> None:
         """The last places of a rocket, newest last; they fade when it is gone."""
         trail = self.trails.setdefault(slot, [])
         if o.routine == LAUNCHER_FLIGHT:
@@ -109,7 +111,7 @@ class Motions:
         return max(0, min(8, int(self.age(slot, fraction) * 3 / frames * 8)))
 
 
-def _gaze(world: World, o: Thing) -> float:
+def _gaze(world: World, o: Object) -> float:
     """Where a drone looks, radians clockwise from the right: at its aim, or where it goes."""
     if o.routine != DRONE_MOVE:
         return atan2(world.ninja.y - o.y, world.ninja.x - o.x)

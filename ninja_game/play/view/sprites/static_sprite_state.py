@@ -8,7 +8,7 @@ from ninja_game.play.view.sprites.object_animation import Motions
 from ninja_game.play.view.sprites.sprite_book import Key
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.level import DOOR, EXIT, GOLD, LAUNCH_PAD, LAUNCHER, MINE, ONE_WAY, TURRET
-from ninja_game.sim.memory.schema import SWITCH, Thing, World
+from ninja_game.sim.memory.schema import SWITCH, Object, World
 from ninja_game.sim.states import AUTOMATIC, LAUNCHER_PREPARE, TRAP, TURRET_POST_FIRE, TURRET_PRE_FIRE
 
 Look = tuple[Key, float, float]
@@ -23,7 +23,7 @@ SETTLED_TICKS = LONGEST_FRAMES / 3
 
 def fixture_looks(world: World, slot: int, motions: Motions, fraction: float) -> list[Look]:
     """The drawings of one thing; [] if nothing of it is fixed to the walls, or it is gone."""
-    o = world.things[slot]
+    o = world.objects[slot]
     kind = o.kind
     if kind in {GOLD, MINE}:
         return [] if o.spent else [(("gold" if kind == GOLD else "mine", 0, 8), o.x, o.y)]
@@ -31,7 +31,7 @@ def fixture_looks(world: World, slot: int, motions: Motions, fraction: float) ->
         step = motions.step(slot, fraction, _EXIT_FRAMES) if o.spent else 0
         return [(("exit", 0, 8, step), o.x, o.y)]
     if kind == SWITCH:
-        return [(("switch", 0, 8, world.things[o.partner].spent), o.x, o.y)]
+        return [(("switch", 0, 8, world.objects[o.partner].spent), o.x, o.y)]
     if kind == DOOR:
         return _door_looks(o, slot, motions, fraction)
     if kind == LAUNCH_PAD:
@@ -53,7 +53,7 @@ def _upright(face_x: float, face_y: float) -> int:
     return round(degrees(atan2(sign_x, -sign_y)))
 
 
-def _turret_step(o: Thing, slot: int, motions: Motions, fraction: float) -> int:
+def _turret_step(o: Object, slot: int, motions: Motions, fraction: float) -> int:
     if not o.updating:
         return 0
     if o.routine == TURRET_PRE_FIRE:
@@ -61,7 +61,7 @@ def _turret_step(o: Thing, slot: int, motions: Motions, fraction: float) -> int:
     return 8 - motions.step(slot, fraction, 9) if o.routine == TURRET_POST_FIRE else 0
 
 
-def door_place(o: Thing) -> tuple[float, float, int] | None:
+def door_place(o: Object) -> tuple[float, float, int] | None:
     """Middle of a door's bar, px, and its turn in degrees; None for a door that is nowhere."""
     if not o.edge_1:
         return None
@@ -70,7 +70,7 @@ def door_place(o: Thing) -> tuple[float, float, int] | None:
     return CENTRE_X[cell] + dx, CENTRE_Y[cell] + dy, 0 if dx else 90
 
 
-def _door_looks(o: Thing, slot: int, motions: Motions, fraction: float) -> list[Look]:
+def _door_looks(o: Object, slot: int, motions: Motions, fraction: float) -> list[Look]:
     looks: list[Look] = []
     place = door_place(o)
     step = motions.step(slot, fraction, _door_frames(o))
@@ -84,7 +84,7 @@ def _door_looks(o: Thing, slot: int, motions: Motions, fraction: float) -> list[
     return looks
 
 
-def _door_frames(o: Thing) -> int:
+def _door_frames(o: Object) -> int:
     if o.mechanism == AUTOMATIC:
         return _DOOR_OPENING if o.spent else _DOOR_CLOSING
     return _TRAP_FRAMES if o.mechanism == TRAP else _LOCK_FRAMES

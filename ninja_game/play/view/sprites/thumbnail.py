@@ -16,9 +16,9 @@ from ninja_game.play.view.sprites.draw_moving import draw_movers
 from ninja_game.play.view.sprites.draw_target import Stage
 from ninja_game.play.view.sprites.object_animation import Motions
 from ninja_game.play.view.sprites.sprite_book import SpriteBook
-from ninja_game.sim.level import LevelData
+from ninja_game.sim.level import Level
 from ninja_game.sim.loader import grid_tiles
-from ninja_game.sim.memory.schema import Level
+from ninja_game.sim.memory.schema import TileMap
 from ninja_game.simulation import Simulation
 
 
@@ -28,14 +28,14 @@ def _book(scale: float, palette: str) -> SpriteBook:
     return SpriteBook(scale, PALETTES[palette])
 
 
-def thumbnail(level: LevelData, palette: Palette, width: int) -> pygame.Surface:
+def thumbnail(level: Level, palette: Palette, width: int) -> pygame.Surface:
     """The level at its start, ``width`` px wide; only the tiles of one that cannot be played."""
     canvas = Canvas((width, max(1, round(width * HEIGHT / WIDTH))))
     book = _book(canvas.scale, palette.name)
     try:
         run = Simulation(level)
     except LevelError:
-        static = Level()
+        static = TileMap()
         static.tiles = grid_tiles(level)
         picture = pygame.Surface(canvas.size)
         picture.fill(palette.background)
