@@ -72,7 +72,7 @@ def main() -> int:
         print(f"{options.count} files made", flush=True)
         report = folder / "report.json"
         words = [sys.executable, "-m", "ninja_game", "verify", str(folder / "archive"), "-q"]
-        words += ["--resume", str(folder / "journal"), "--report", str(report)]
+        words += ["--resume", str(folder / "log"), "--report", str(report)]
         for kill_after in (options.kill_after, 0.0):
             code, seconds, memory = run(words, kill_after)
             print(f"exit code {code} after {seconds:.1f} s, at most {memory:.0f} MiB", flush=True)

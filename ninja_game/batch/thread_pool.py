@@ -47,8 +47,8 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-class _Errand:
-    """One call of ``Crew.share``: whoever is free takes the next range."""
+class _ParallelCall:
+    """One call of ``ThreadPool.share``: whoever is free takes the next range."""
 
     def __init__(self, work: Work, ranges: list[tuple[int, int]]) -> None:
         self.work = work
@@ -80,16 +80,16 @@ class _Errand:
         return total
 
 
-class Crew:
+class ThreadPool:
     """A fixed number of threads, the caller's own among them."""
 
     def __init__(self, threads: int) -> None:
         if threads < 1:
             raise ValueError(f"threads is {threads}; expected at least 1")
         self.threads = threads
-        self._queues: list[SimpleQueue[_Errand]] = [SimpleQueue() for _ in range(threads - 1)]
+        self._queues: list[SimpleQueue[_ParallelCall]] = [SimpleQueue() for _ in range(threads - 1)]
         for queue in self._queues:
-            Thread(target=_serve, args=(queue,), name="ninja-game crew", daemon=True).start()
+            Thread(target=_serve, args=(queue,), name="ninja-game worker", daemon=True).start()
 
     def share(self, work: Work, count: int, ticks: int = SMALL_CHUNK) -> int:
         """Do items 0 … ``count`` - 1, of ``ticks`` each, on all threads; the sum of what ``work`` says.
@@ -99,20 +99,20 @@ class Crew:
         ranges = chunks(count, ticks, self.threads)
         if len(ranges) == 1:
             return work(0, count)
-        errand = _Errand(work, ranges)
+        call = _ParallelCall(work, ranges)
         for queue in self._queues:
-            queue.put(errand)
-        errand.run()
-        return errand.total()
+            queue.put(call)
+        call.run()
+        return call.total()
 
 
-def _serve(queue: SimpleQueue[_Errand]) -> None:
-    """The life of a crew's thread."""
+def _serve(queue: SimpleQueue[_ParallelCall]) -> None:
+    """Worker loop: takes calls from its queue for as long as the process runs."""
     while True:
         queue.get().run()
 
 
 @cache
-def crew(threads: int) -> Crew:
-    """The crew of that size; all batches of a process share it."""
-    return Crew(threads)
+def thread_pool(threads: int) -> ThreadPool:
+    """The pool of that size; all batches of a process share it."""
+    return ThreadPool(threads)

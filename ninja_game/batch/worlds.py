@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.batch import kernels as _entry_points  # noqa: F401 - registers the entry point run_worlds
-from ninja_game.batch.thread_pool import crew
+from ninja_game.batch.thread_pool import thread_pool
 from ninja_game.compile_cache import kernels
 from ninja_game.sim.digest import KIND_CLASSES
 from ninja_game.sim.level import Level
@@ -99,7 +99,7 @@ class CompiledWorlds:
         def work(first: int, last: int) -> int:
             return int(entry(self._levels, level_of, self._block, frames, first, last, int(stop)))
 
-        return crew(threads).share(work, len(self.records), len(frames))
+        return thread_pool(threads).share(work, len(self.records), len(frames))
 
     def save(self, worlds: Numbers) -> NDArray[np.uint8]:
         """The states of worlds as a matrix of bytes."""

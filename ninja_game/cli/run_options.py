@@ -1,4 +1,4 @@
-"""What the commands that run recordings have in common: their options, a progress bar, one exit code."""
+"""What the commands that run recordings have in common: two options and a progress bar."""
 
 from __future__ import annotations
 
@@ -6,12 +6,11 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import click
 
 T = TypeVar("T")
-F = TypeVar("F", bound=Callable[..., Any])
 
 PATIENCE = 1.0
 """Seconds after which work is long enough for a progress bar."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -73,7 +72,9 @@ body_option = click.option(
 
 def default_threads(jobs: int | None) -> int:
     """As many as asked for, else one a core."""
-    return jobs or os.cpu_count() or 1
+    from ninja_game.batch.thread_pool import cores
+
+    return jobs or cores()
 
 
 def choose_level(path: Path, record: int | None) -> NamedLevel:

@@ -34,7 +34,7 @@ FAILED = 1
 )  # fmt: skip
 @click.option("--cluster", metavar="ADDRESS", default="", help="Run on the Dask cluster with this scheduler.")
 @click.option(
-    "--resume", metavar="JOURNAL", type=click.Path(dir_okay=False, path_type=Path),
+    "--resume", metavar="LOG", type=click.Path(dir_okay=False, path_type=Path),
     help="Note in this file what is done; what it has already is not run again.",
 )  # fmt: skip
 @click.option(
@@ -69,7 +69,7 @@ def command(
       ninja-game verify tests/replays/
       ninja-game verify demos.txt --json
       ninja-game verify demos.txt --memory both
-      ninja-game verify archive/ -q --resume archive.journal --report archive.json
+      ninja-game verify archive/ -q --resume archive.log --report archive.json
       ninja-game verify archive/ -q --cluster tcp://10.0.0.5:8786
     """
     from ninja_game.runs.recording_reader import Unreadable

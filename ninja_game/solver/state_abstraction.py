@@ -37,7 +37,7 @@ def state_class(w: World) -> int:
 
 @fast
 def key_of(w: World, stage: int, gold: int, parameters: Any) -> int:
-    """The key of a moment, never 0. ``gold``: a hash (10 bits) of what was collected, 0 where gold does not matter."""
+    """The key of a moment, never 0. ``gold``: a hash (16 bits) of what was collected, 0 where gold does not matter."""
     n = w.ninja
     cell = parameters[CELL_PX]
     speed = parameters[SPEED_STEP]

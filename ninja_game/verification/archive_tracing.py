@@ -51,17 +51,17 @@ def trace_all(
         return
     # Compiled code leaves the interpreter's lock, plain code needs processes.
     processes = choose_memory(memory) == "plain" or bool(options.get("events"))
-    with workers(jobs or cores(), processes=processes) as crew:
-        for job, results in in_order(crew, partial(_trace_job, trace), chain([first], _bundles(rest))):
+    with workers(jobs or cores(), processes=processes) as pool:
+        for job, results in in_order(pool, partial(_trace_job, trace), chain([first], _batches(rest))):
             if isinstance(results, WorkerLostError):
                 yield Unreadable(f"{len(job)} recordings: {results}")
             else:
                 yield from results
 
 
-def _bundles(items: Iterator[Recording | Unreadable]) -> Iterator[Job]:
-    while bundle := list(islice(items, JOB)):
-        yield bundle
+def _batches(items: Iterator[Recording | Unreadable]) -> Iterator[Job]:
+    while batch := list(islice(items, JOB)):
+        yield batch
 
 
 def _trace_job(trace: Callable[[Recording | Unreadable], Result], job: Job) -> list[Result]:

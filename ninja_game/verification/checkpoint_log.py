@@ -1,7 +1,7 @@
-"""The journal of a long verification: what is done already, so that it can be stopped and taken up again.
+"""The checkpoint log of a long verification: what is done already, so that it can be stopped and resumed.
 
-A text file, one JSON object a line: first what the journal is of, then each piece with its results, as soon as it is
-done. A line that was not finished, because the program or the machine died, is cut off and its piece done again.
+A text file, one JSON object a line: first what it is a log of, then each chunk with its results, as soon as it is
+done. A line that was not finished, because the program or the machine died, is cut off and its chunk done again.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.verify import Verdict
 from ninja_game.verification.chunks import Result
 
-HEADER = {"journal": "ninja-game verify", "version": __version__, "rules": RULES_VERSION}
+HEADER = {"checkpoint-log": "ninja-game verify", "version": __version__, "rules": RULES_VERSION}
 
 
-class Journal:
-    """A journal that is open for reading and writing; a context manager.
+class CheckpointLog:
+    """A checkpoint log that is open for reading and writing; a context manager.
 
     ``path`` is made if it is missing. Raises FormatError for a file that is something else, OSError.
     """
@@ -38,7 +38,7 @@ class Journal:
             raise
 
     def _read(self) -> None:
-        """Note where the results of every finished piece stand, and cut off what was not finished."""
+        """Note where the results of every finished chunk stand, and cut off what was not finished."""
         whole = 0
         for number, line in enumerate(self._file, 1):
             if not line.endswith(b"\n"):
@@ -46,9 +46,9 @@ class Journal:
             found = self._parse(line, number)
             if number == 1:
                 if found != HEADER:
-                    raise self._odd(number, line, f"{json.dumps(HEADER)}; start another journal")
+                    raise self._odd(number, line, f"{json.dumps(HEADER)}; start another file")
             else:
-                self._places[str(found["piece"])] = whole
+                self._places[str(found["chunk"])] = whole
             whole += len(line)
         self._file.truncate(whole)
         self._file.seek(whole)
@@ -61,13 +61,15 @@ class Journal:
             found = json.loads(line)
         except ValueError:
             found = None
-        if not isinstance(found, dict) or (number > 1 and not {"piece", "results"} <= found.keys()):
+        if not isinstance(found, dict) or (number > 1 and not {"chunk", "results"} <= found.keys()):
             raise self._odd(number, line, "a line that `ninja-game verify --resume` wrote")
         return found
 
     def _odd(self, number: int, line: bytes, expected: str) -> FormatError:
         found = repr(line[:60].decode("utf-8", "replace"))
-        return FormatError("not a journal that can be taken up", str(self.path), number, found=found, expected=expected)
+        return FormatError(
+            "not a checkpoint log that can be resumed", str(self.path), number, found=found, expected=expected
+        )
 
     def _write(self, line: dict[str, Any]) -> None:
         self._file.write(json.dumps(line).encode() + b"\n")
@@ -80,7 +82,7 @@ class Journal:
         return key in self._places
 
     def __getitem__(self, key: str) -> list[Result]:
-        """The results of a finished piece."""
+        """The results of a finished chunk."""
         end = self._file.tell()
         self._file.seek(self._places[key])
         line = json.loads(self._file.readline())
@@ -88,9 +90,9 @@ class Journal:
         return [_result(fields) for fields in line["results"]]
 
     def add(self, key: str, results: Sequence[Result]) -> None:
-        """Note that a piece is finished."""
+        """Note that a chunk is finished."""
         self._places[key] = self._file.tell()
-        self._write({"piece": key, "results": [_fields(result) for result in results]})
+        self._write({"chunk": key, "results": [_fields(result) for result in results]})
 
     def __enter__(self) -> Self:
         return self

@@ -1,7 +1,7 @@
-"""Recordings cut into pieces that can be verified anywhere: some files, or some records of a large one.
+"""Recordings cut into chunks that can be verified anywhere: some files, or some records of a large one.
 
-A piece carries its text, so that it can be sent to a machine that does not see the files. Only levels that a replay
-of ours names by path are read where the piece is verified; ``self_contained`` puts them inside first.
+A chunk carries its text, so that it can be sent to a machine that does not see the files. Only levels that a replay
+of ours names by path are read where the chunk is verified; ``self_contained`` puts them inside first.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from ninja_game.runs.verify import Verdict, verify_recording
 from ninja_game.sim.level import Level
 
 RECORDS = 64
-"""Records a piece at most: enough that sending it is cheap beside running it."""
+"""Records a chunk at most: enough that sending it is cheap beside running it."""
 
 LEVELS_KEPT = 512
 """Levels that are kept read, some 10 MB: recordings of one level often stand near each other."""
@@ -34,12 +34,12 @@ Result = Verdict | Unreadable
 
 
 @dataclass(frozen=True)
-class Piece:
+class Chunk:
     """A file, or records ``first`` … of one.
 
     ``text``: of the whole file, if ``records`` is empty; ``problem``: why the file cannot be read, '' if it can;
     ``named``: whether the caller named the file, or it was found in a folder; ``stamp``: size and time of change;
-    ``done``: its key if a journal has its results.
+    ``done``: its key if the checkpoint log has its results.
     """
 
     file: str
@@ -53,7 +53,7 @@ class Piece:
 
     @property
     def key(self) -> str:
-        """What tells it from all other pieces, and from this one after its file was changed."""
+        """What tells it from all other chunks, and from this one after its file was changed."""
         return f"{self.file}:{self.first}+{len(self.records)}:{self.stamp[0]}:{self.stamp[1]}"
 
     @property
@@ -73,31 +73,31 @@ def files_below(path: Path) -> Iterator[str]:
             yield str(path / name)
 
 
-def pieces_in(paths: Iterable[Path]) -> Iterator[Piece]:
-    """All pieces of files and folders, in order, each read when it is asked for."""
+def chunks_in(paths: Iterable[Path]) -> Iterator[Chunk]:
+    """All chunks of files and folders, in order, each read when it is asked for."""
     for path in paths:
         if not path.is_dir():
-            yield from _pieces_of(str(path), named=True)
+            yield from _chunks_of(str(path), named=True)
             continue
         empty = True
         for file in files_below(path):
-            yield from _pieces_of(file, named=False)
+            yield from _chunks_of(file, named=False)
             empty = False
         if empty:
-            yield Piece(str(path), problem=f"{path}: no recordings here")
+            yield Chunk(str(path), problem=f"{path}: no recordings here")
 
 
-def _pieces_of(file: str, *, named: bool) -> Iterator[Piece]:
-    """The pieces of one file."""
+def _chunks_of(file: str, *, named: bool) -> Iterator[Chunk]:
+    """The chunks of one file."""
     try:
         about = Path(file).stat()
-        whole = Piece(file, named=named, stamp=(about.st_size, about.st_mtime_ns))
+        whole = Chunk(file, named=named, stamp=(about.st_size, about.st_mtime_ns))
         text = read_text(Path(file))
     except NinjaGameError as error:
-        yield Piece(file, problem=str(error))
+        yield Chunk(file, problem=str(error))
         return
     except OSError as error:
-        yield Piece(file, problem=f"{file}: {error.strerror or error}")
+        yield Chunk(file, problem=f"{file}: {error.strerror or error}")
         return
     records = _records(text, file)
     if len(records) < 2:
@@ -118,26 +118,26 @@ def _records(text: str, file: str) -> list[LevelRecord]:
     return records if any(record.demo for record in records) else []
 
 
-def self_contained(piece: Piece) -> Piece:
-    """The same piece with the level inside, where a replay of ours names it by path; what is wrong stays as it is."""
-    if not piece.text or not is_replay(piece.text):
-        return piece
+def self_contained(chunk: Chunk) -> Chunk:
+    """The same chunk with the level inside, where a replay of ours names it by path; what is wrong stays as it is."""
+    if not chunk.text or not is_replay(chunk.text):
+        return chunk
     try:
-        parsed = parse_replay(piece.text, file=piece.file)
+        parsed = parse_replay(chunk.text, file=chunk.file)
         if parsed.level is not None:
-            return piece
-        level = level_of_replay(parsed, piece.file)
-        return replace(piece, text=write_replay(replace(parsed, level=level, level_path="")))
+            return chunk
+        level = level_of_replay(parsed, chunk.file)
+        return replace(chunk, text=write_replay(replace(parsed, level=level, level_path="")))
     except NinjaGameError as error:
-        return replace(piece, problem=str(error))
+        return replace(chunk, problem=str(error))
 
 
-def verify_piece(piece: Piece, memory: str = "auto") -> list[Result]:
-    """A verdict on every recording of a piece, in order; what cannot be read is said and stops nothing."""
-    if piece.problem:
-        return [Unreadable(piece.problem)]
+def verify_chunk(chunk: Chunk, memory: str = "auto") -> list[Result]:
+    """A verdict on every recording of a chunk, in order; what cannot be read is said and stops nothing."""
+    if chunk.problem:
+        return [Unreadable(chunk.problem)]
     results: list[Result] = []
-    for recording in _recordings(piece):
+    for recording in _recordings(chunk):
         if isinstance(recording, Unreadable):
             results.append(recording)
             continue
@@ -148,21 +148,21 @@ def verify_piece(piece: Piece, memory: str = "auto") -> list[Result]:
     return results
 
 
-def _recordings(piece: Piece) -> Iterator[Recording | Unreadable]:
-    """The recordings of a piece."""
-    if not piece.records:
+def _recordings(chunk: Chunk) -> Iterator[Recording | Unreadable]:
+    """The recordings of a chunk."""
+    if not chunk.records:
         try:
-            yield from parse_replays(piece.text, file=piece.file)
+            yield from parse_replays(chunk.text, file=chunk.file)
         except NinjaGameError as error:
-            if piece.named or not holds_only_levels(piece.text, piece.file):
+            if chunk.named or not holds_only_levels(chunk.text, chunk.file):
                 yield Unreadable(str(error))
         except OSError as error:
-            yield Unreadable(f"{piece.file}: {error.strerror or error}")
+            yield Unreadable(f"{chunk.file}: {error.strerror or error}")
         return
-    for record in piece.records:
+    for record in chunk.records:
         try:
             level = _level(record.level) if record.level else None
-            yield recording_of(record, piece.file, level)
+            yield recording_of(record, chunk.file, level)
         except NinjaGameError as error:
             yield Unreadable(str(error))
 

@@ -24,14 +24,14 @@ from typing import IO, Any, TypeAlias
 from ninja_game.batch.thread_pool import cores
 from ninja_game.compile_cache import choose_memory, kernels
 from ninja_game.runs.recording_reader import Unreadable
-from ninja_game.verification.checkpoint_log import Journal
-from ninja_game.verification.chunks import Piece, Result, pieces_in, self_contained, verify_piece
+from ninja_game.verification.checkpoint_log import CheckpointLog
+from ninja_game.verification.chunks import Chunk, Result, chunks_in, self_contained, verify_chunk
 from ninja_game.verification.workers import ClusterError, WorkerLostError, Workers, in_order, workers
 
 JOB_WEIGHT = 64
 """Files or records a job."""
 
-Job: TypeAlias = tuple[Piece, ...]
+Job: TypeAlias = tuple[Chunk, ...]
 Done: TypeAlias = Iterable[tuple[Job, list[list[Result]] | WorkerLostError]]
 
 
@@ -48,30 +48,31 @@ def verify_all(
 
     ``jobs``: how many run at a time, by default as many as there are cores. ``processes``: on processes instead of
     threads; by default where the interpreter's lock would be in the way, on the plain memory. ``cluster``: address of a
-    Dask scheduler whose workers do it instead. ``resume``: a journal; what it has is not run again.
+    Dask scheduler whose workers do it instead. ``resume``: a checkpoint log; what it has is not run again.
 
     Results never depend on who computed them, nor on workers that died meanwhile. Raises ClusterError, FormatError for
-    a file that is no journal, OSError.
+    a file that is no checkpoint log, OSError.
     """
     if processes is None:
         processes = memory == "both" or choose_memory(memory) == "plain"
     with ExitStack() as stack:
-        journal = stack.enter_context(Journal(resume)) if resume else None
-        pieces: Iterable[Piece] = pieces_in(paths)
+        log = stack.enter_context(CheckpointLog(resume)) if resume else None
+        chunks: Iterable[Chunk] = chunks_in(paths)
         if cluster:
-            pieces = map(self_contained, pieces)
-        bundles = bundled(pieces, journal)
+            chunks = map(self_contained, chunks)
+        batches = batched(chunks, log)
         # Few recordings are done before a second worker has started.
-        first = next(bundles, ())
-        second = next(bundles, ())
+        first = next(batches, ())
+        second = next(batches, ())
         if not cluster and not second:
-            yield from _told(zip([first], [_verify(memory, first)], strict=True), journal)
+            yield from _record_results(zip([first], [_verify(memory, first)], strict=True), log)
             return
-        crew: Workers = stack.enter_context(workers(jobs or cores(), processes=processes, cluster=cluster))
+        pool: Workers = stack.enter_context(workers(jobs or cores(), processes=processes, cluster=cluster))
         if not processes and not cluster and choose_memory(memory) == "compiled":
             kernels()  # once, before several threads ask for it
         try:
-            yield from _told(_narrowed(crew, partial(_verify, memory), _chain(first, second, bundles)), journal)
+            done = _isolate_failing(pool, partial(_verify, memory), _chain(first, second, batches))
+            yield from _record_results(done, log)
         except (CancelledError, ConnectionError) as error:
             if not cluster:
                 raise
@@ -80,52 +81,52 @@ def verify_all(
 
 
 def _chain(first: Job, second: Job, rest: Iterator[Job]) -> Iterator[Job]:
-    """All jobs that have pieces."""
+    """All jobs that have chunks."""
     yield from filter(None, (first, second))
     yield from rest
 
 
-def bundled(pieces: Iterable[Piece], journal: Journal | None) -> Iterator[Job]:
-    """Pieces in jobs of some weight, neighbours together. What a journal has counts as no work."""
-    bundle: list[Piece] = []
+def batched(chunks: Iterable[Chunk], log: CheckpointLog | None) -> Iterator[Job]:
+    """Chunks in jobs of some weight, neighbours together. What the checkpoint log has counts as no work."""
+    batch: list[Chunk] = []
     weight = 0
-    for piece in pieces:
-        done = journal is not None and piece.key in journal
-        bundle.append(Piece(piece.file, piece.first, stamp=piece.stamp, done=piece.key) if done else piece)
-        weight += 0 if done else piece.weight
-        if weight >= JOB_WEIGHT or len(bundle) >= 16 * JOB_WEIGHT:
-            yield tuple(bundle)
-            bundle, weight = [], 0
-    if bundle:
-        yield tuple(bundle)
+    for chunk in chunks:
+        done = log is not None and chunk.key in log
+        batch.append(Chunk(chunk.file, chunk.first, stamp=chunk.stamp, done=chunk.key) if done else chunk)
+        weight += 0 if done else chunk.weight
+        if weight >= JOB_WEIGHT or len(batch) >= 16 * JOB_WEIGHT:
+            yield tuple(batch)
+            batch, weight = [], 0
+    if batch:
+        yield tuple(batch)
 
 
 def _verify(memory: str, job: Job) -> list[list[Result]]:
-    """Verdicts on every piece of a job that is not done yet."""
-    return [[] if piece.done else verify_piece(piece, memory) for piece in job]
+    """Verdicts on every chunk of a job that is not done yet."""
+    return [[] if chunk.done else verify_chunk(chunk, memory) for chunk in job]
 
 
-def _narrowed(crew: Workers, function: Callable[[Job], list[list[Result]]], jobs: Iterator[Job]) -> Done:
-    """All jobs with their results; one that kills its workers is done again piece by piece, to find the one piece."""
-    for job, found in in_order(crew, function, jobs):
+def _isolate_failing(pool: Workers, function: Callable[[Job], list[list[Result]]], jobs: Iterator[Job]) -> Done:
+    """All jobs with their results; one that kills its workers is done again chunk by chunk, to find the one chunk."""
+    for job, found in in_order(pool, function, jobs):
         if isinstance(found, WorkerLostError) and len(job) > 1:
-            yield from in_order(crew, function, ((piece,) for piece in job))
+            yield from in_order(pool, function, ((chunk,) for chunk in job))
         else:
             yield job, found
 
 
-def _told(done: Done, journal: Journal | None) -> Iterator[Result]:
-    """The results of all jobs, noted in the journal as they are told; what that has already is taken from it."""
+def _record_results(done: Done, log: CheckpointLog | None) -> Iterator[Result]:
+    """The results of all jobs, noted in the checkpoint log as they come; what it has already is taken from it."""
     for job, found in done:
         if isinstance(found, WorkerLostError):
-            yield from (Unreadable(f"{piece.file}: {found}") for piece in job)
+            yield from (Unreadable(f"{chunk.file}: {found}") for chunk in job)
             continue
-        for piece, results in zip(job, found, strict=True):
-            if journal is not None and piece.done:
-                yield from journal[piece.done]
+        for chunk, results in zip(job, found, strict=True):
+            if log is not None and chunk.done:
+                yield from log[chunk.done]
                 continue
-            if journal is not None:
-                journal.add(piece.key, results)
+            if log is not None:
+                log.add(chunk.key, results)
             yield from results
 
 

@@ -166,43 +166,43 @@ def workers(count: int, *, processes: bool = False, cluster: str = "") -> Iterat
         found.close()
 
 
-def in_order(crew: Workers, function: Callable[[J], R], jobs: Iterable[J]) -> Iterator[tuple[J, R | WorkerLostError]]:
+def in_order(pool: Workers, function: Callable[[J], R], jobs: Iterable[J]) -> Iterator[tuple[J, R | WorkerLostError]]:
     """Every job with its result, in the jobs' order; WorkerLostError for one that kills every worker it meets."""
     flying: deque[tuple[J, Any]] = deque()
     waiting = iter(jobs)
     try:
         while True:
-            for job in islice(waiting, max(0, AHEAD * crew.count - len(flying))):
-                flying.append((job, crew.submit(function, job)))
+            for job in islice(waiting, max(0, AHEAD * pool.count - len(flying))):
+                flying.append((job, pool.submit(function, job)))
             if not flying:
                 return
             job, future = flying.popleft()
             try:
                 result = future.result()
-            except crew.lost:
+            except pool.lost:
                 # Whose fault it was is not known: this job goes again alone, then all that fell with it.
-                result = _retry(crew, function, job)
-                flying = deque((job, _kept(crew, function, job, future)) for job, future in flying)
+                result = _retry(pool, function, job)
+                flying = deque((job, _kept(pool, function, job, future)) for job, future in flying)
             yield job, result
     finally:
         for _, future in flying:
             future.cancel()
 
 
-def _retry(crew: Workers, function: Callable[[J], R], job: J) -> R | WorkerLostError:
+def _retry(pool: Workers, function: Callable[[J], R], job: J) -> R | WorkerLostError:
     """The result of a job that was lost with its worker."""
-    for _ in range(crew.tries - 1):
-        crew.renew()
+    for _ in range(pool.tries - 1):
+        pool.renew()
         try:
-            result: R = crew.submit(function, job).result()
-        except crew.lost:
+            result: R = pool.submit(function, job).result()
+        except pool.lost:
             continue
         return result
-    crew.renew()
+    pool.renew()
     return WorkerLostError("the worker died again and again")
 
 
-def _kept(crew: Workers, function: Callable[[J], R], job: J, future: Any) -> Any:
+def _kept(pool: Workers, function: Callable[[J], R], job: J, future: Any) -> Any:
     """The job's future, or a new one if it was lost too."""
-    lost = future.done() and not future.cancelled() and isinstance(future.exception(), crew.lost)
-    return crew.submit(function, job) if lost else future
+    lost = future.done() and not future.cancelled() and isinstance(future.exception(), pool.lost)
+    return pool.submit(function, job) if lost else future

@@ -10,7 +10,7 @@ import pytest
 
 from ninja_game import Level, Simulation, parse_level
 from ninja_game.batch.batch import Batch
-from ninja_game.batch.thread_pool import Crew
+from ninja_game.batch.thread_pool import ThreadPool
 from ninja_game.compile_cache import MemoryUnavailableError, compiled_available, compiled_sources, kernels
 from ninja_game.sim.level import DRONE, EXIT, MINE
 from ninja_game.sim.memory.layout import OBJECT
@@ -200,19 +200,19 @@ def test_a_crew_does_every_item_once_and_raises_what_fails() -> None:
             seen.extend(range(first, last))
         return last - first
 
-    hands = Crew(3)
+    pool = ThreadPool(3)
     for count in (1, 2, 23, 24, 25, 255, 256, 257, 1000, 10_000):
         for ticks in (0, 1, 7, 64, 5000):
             seen.clear()
-            assert hands.share(work, count, ticks) == count
+            assert pool.share(work, count, ticks) == count
             assert sorted(seen) == list(range(count))
 
     def fail(first: int, last: int) -> int:
         raise LookupError(f"{first} {last}")
 
     with pytest.raises(LookupError):
-        hands.share(fail, 100)
-    assert hands.share(work, 24) == 24
+        pool.share(fail, 100)
+    assert pool.share(work, 24) == 24
 
 
 def test_only_sources_of_compiled_functions_count_for_the_cache() -> None:

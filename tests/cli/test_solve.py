@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import os
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game.cli.main import cli
+from ninja_game.cli.solver_options import default_threads
 from ninja_game.compile_cache import compiled_available
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.text import parse_replay
@@ -31,6 +33,13 @@ def level_file(folder: Path, text: str, name: str = "level.txt") -> Path:
     path = folder / name
     path.write_text(text + "\n", "utf-8")
     return path
+
+
+@pytest.mark.skipif(not hasattr(os, "sched_getaffinity"), reason="this system has no affinity")
+def test_threads_default_to_the_cores_that_this_process_may_use(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: {3})
+    assert default_threads(None) == 1
+    assert default_threads(5) == 5
 
 
 def test_solve_writes_a_replay_that_passes(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""`ninja-game verify` on archives: reports, journals, workers, clusters; `ninja-game bench --scaling`."""
+"""`ninja-game verify` on archives: reports, checkpoint logs, workers, clusters; `ninja-game bench --scaling`."""
 
 from __future__ import annotations
 
@@ -48,18 +48,18 @@ def test_a_report_is_else_the_table_of_the_terminal(archive: Path, tmp_path: Pat
 
 
 def test_resuming_tells_the_same(archive: Path, tmp_path: Path) -> None:
-    journal = tmp_path / "journal"
-    first = verify(archive, "--resume", journal, "--jobs", "2", "--workers", "threads")
-    again = verify(archive, "--resume", journal)
+    log = tmp_path / "log"
+    first = verify(archive, "--resume", log, "--jobs", "2", "--workers", "threads")
+    again = verify(archive, "--resume", log)
     assert first.stdout == again.stdout == verify(archive).stdout
-    assert len(journal.read_text().splitlines()) == 1 + 3
+    assert len(log.read_text().splitlines()) == 1 + 3
 
 
 def test_a_file_that_is_no_journal_is_left_alone(archive: Path, tmp_path: Path) -> None:
     (tmp_path / "notes").write_text("mine\n")
     result = verify(archive, "--resume", tmp_path / "notes")
     assert result.exit_code == 2
-    assert "not a journal" in result.stderr
+    assert "not a checkpoint log" in result.stderr
     assert (tmp_path / "notes").read_text() == "mine\n"
 
 

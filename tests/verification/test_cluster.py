@@ -53,10 +53,8 @@ def test_a_killed_worker_changes_nothing_in_the_report(
     alone = list(write_report(verify_all([archive], memory="plain", jobs=1, processes=False), here))
     with distributed.Client(cluster.scheduler_address) as client:
         pids = sorted(client.run(os.getpid).values())
-    journal = tmp_path / "journal"
-    results = write_report(
-        verify_all([archive], memory="plain", cluster=cluster.scheduler_address, resume=journal), there
-    )
+    log = tmp_path / "log"
+    results = write_report(verify_all([archive], memory="plain", cluster=cluster.scheduler_address, resume=log), there)
     together = [next(results)]
     os.kill(pids[0], signal.SIGKILL)
     together += results
@@ -64,8 +62,8 @@ def test_a_killed_worker_changes_nothing_in_the_report(
     assert there.getvalue() == here.getvalue()
     with distributed.Client(cluster.scheduler_address) as client:
         assert pids[0] not in client.run(os.getpid).values()
-    # Every piece stands once in the journal.
-    keys = [line.split(b'"results"')[0] for line in journal.read_bytes().splitlines()[1:]]
+    # Every chunk stands once in the log.
+    keys = [line.split(b'"results"')[0] for line in log.read_bytes().splitlines()[1:]]
     assert len(keys) == len(set(keys)) == RUNS + 2
 
 

@@ -1,4 +1,4 @@
-"""Verification at scale: the same results whoever computes them; journals; workers that die."""
+"""Verification at scale: the same results whoever computes them; checkpoint logs; workers that die."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ import pytest
 from ninja_game.errors import FormatError
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.verification import verify_many as verification
-from ninja_game.verification.checkpoint_log import Journal
-from ninja_game.verification.chunks import RECORDS, Piece, Result, files_below, pieces_in, self_contained, verify_piece
+from ninja_game.verification.checkpoint_log import CheckpointLog
+from ninja_game.verification.chunks import RECORDS, Chunk, Result, chunks_in, files_below, self_contained, verify_chunk
 from ninja_game.verification.verify_many import Tally, verify_all, write_report
 from ninja_game.verification.workers import Local, WorkerLostError, in_order, workers
 from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
@@ -44,7 +44,7 @@ def archive(tmp_path: Path) -> Path:
 
 def expected(archive: Path) -> list[Result]:
     """The results, one worker, nothing fancy."""
-    return [result for piece in pieces_in([archive]) for result in verify_piece(piece, "plain")]
+    return [result for chunk in chunks_in([archive]) for result in verify_chunk(chunk, "plain")]
 
 
 def test_nothing_stops_the_rest(archive: Path) -> None:
@@ -87,28 +87,28 @@ def test_a_report_holds_all_results_and_their_sums(archive: Path) -> None:
     assert report["results"][0]["name"] == "Run 0"
 
 
-# --- journals ---
+# --- checkpoint logs ---
 
 
 def test_a_journal_lets_a_stopped_run_go_on_where_it_was(
     archive: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(verification, "JOB_WEIGHT", 1)
-    path = tmp_path / "journal"
+    path = tmp_path / "log"
     stopped = verify_plainly([archive], jobs=1, processes=False, resume=path)
     for _ in range(RECORDS + 3):
         next(stopped)
     stopped.close()  # type: ignore[attr-defined]
-    with Journal(path) as journal:
-        done = len(journal)
+    with CheckpointLog(path) as log:
+        done = len(log)
     assert 1 < done < 8
     ran: list[str] = []
 
-    def spy(piece: Piece, memory: str) -> list[Result]:
-        ran.append(piece.key)
-        return verify_piece(piece, memory)
+    def spy(chunk: Chunk, memory: str) -> list[Result]:
+        ran.append(chunk.key)
+        return verify_chunk(chunk, memory)
 
-    monkeypatch.setattr(verification, "verify_piece", spy)
+    monkeypatch.setattr(verification, "verify_chunk", spy)
     assert list(verify_plainly([archive], jobs=1, processes=False, resume=path)) == expected(archive)
     assert len(ran) == 8 - done
     ran.clear()
@@ -117,18 +117,18 @@ def test_a_journal_lets_a_stopped_run_go_on_where_it_was(
 
 
 def test_a_line_that_was_not_finished_is_done_again(archive: Path, tmp_path: Path) -> None:
-    path = tmp_path / "journal"
+    path = tmp_path / "log"
     list(verify_plainly([archive], resume=path))
     whole = path.read_bytes()
     path.write_bytes(whole[:-9])
-    with Journal(path) as journal:
-        assert len(journal) == 7
+    with CheckpointLog(path) as log:
+        assert len(log) == 7
     assert list(verify_plainly([archive], resume=path)) == expected(archive)
     assert path.read_bytes() == whole
 
 
 def test_a_file_that_changed_is_verified_again(tmp_path: Path) -> None:
-    path, run = tmp_path / "journal", tmp_path / "run.replay.txt"
+    path, run = tmp_path / "log", tmp_path / "run.replay.txt"
     run.write_text(replay_of_walk(gold=7))
     (first,) = verify_plainly([run], resume=path)
     run.write_text(replay_of_walk())
@@ -137,12 +137,12 @@ def test_a_file_that_changed_is_verified_again(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["nonsense\n", '{"journal": "ninja-game verify", "version": "0", "rules": 1}\n', "[1]\n[2]\n"]
+    "text", ["nonsense\n", '{"checkpoint-log": "ninja-game verify", "version": "0", "rules": 1}\n', "[1]\n[2]\n"]
 )
 def test_another_file_is_no_journal(text: str, tmp_path: Path) -> None:
-    path = tmp_path / "journal"
+    path = tmp_path / "log"
     path.write_text(text)
-    with pytest.raises(FormatError, match="not a journal that can be taken up"):
+    with pytest.raises(FormatError, match="not a checkpoint log that can be resumed"):
         list(verify_plainly([tmp_path / "x.txt"], resume=path))
     assert path.read_text() == text
 
@@ -179,24 +179,24 @@ def test_jobs_are_taken_as_they_are_needed() -> None:
             taken.append(number)
             yield number
 
-    with workers(2) as crew:
-        results = in_order(crew, double, jobs())
+    with workers(2) as pool:
+        results = in_order(pool, double, jobs())
         assert [next(results) for _ in range(3)] == [(0, 0), (1, 2), (2, 4)]
         assert len(taken) < 20
 
 
 def test_what_a_dead_process_had_is_done_again_and_counted_once(tmp_path: Path) -> None:
-    crew = Local(2, processes=True)
-    results = list(in_order(crew, partial(die_once, str(tmp_path / "mark")), range(20)))
-    crew.close()
+    pool = Local(2, processes=True)
+    results = list(in_order(pool, partial(die_once, str(tmp_path / "mark")), range(20)))
+    pool.close()
     assert results == [(number, 2 * number) for number in range(20)]
     assert (tmp_path / "mark").exists()
 
 
 def test_a_job_that_kills_every_process_is_named(tmp_path: Path) -> None:
-    crew = Local(2, processes=True)
-    results = dict(in_order(crew, die, range(6)))
-    crew.close()
+    pool = Local(2, processes=True)
+    results = dict(in_order(pool, die, range(6)))
+    pool.close()
     assert isinstance(results.pop(3), WorkerLostError)
     assert results == {number: 2 * number for number in (0, 1, 2, 4, 5)}
 
@@ -207,7 +207,7 @@ def test_a_piece_for_another_machine_holds_its_level(tmp_path: Path) -> None:
     level.write_text(WALK)
     run = tmp_path / "walk.replay.txt"
     run.write_text(replay_of_walk(level=None, level_path="levels/walk.txt"))
-    (piece,) = map(self_contained, pieces_in([run]))
+    (chunk,) = map(self_contained, chunks_in([run]))
     level.unlink()
-    (verdict,) = verify_piece(piece, "plain")
+    (verdict,) = verify_chunk(chunk, "plain")
     assert getattr(verdict, "good", verdict) is True
