@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from ninja_game.compile_cache import choose_memory, kernels
-from ninja_game.sim.digest import differences, world_digest
+from ninja_game.sim.digest import differences, replay_digest, world_digest
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import HELD, LEFT, RIGHT, TRIGGERED
 from ninja_game.sim.level import KIND_NAMES, Level
@@ -218,8 +218,12 @@ class Simulation:
         return id(self.level), self.body, self.memory
 
     def digest(self) -> str:
-        """Sha256 (hex) of the whole state in canonical form: the same for both memories."""
+        """Sha256 (hex) of the whole state in canonical form: the same for both memories, not for other versions."""
         return world_digest(self.world)
+
+    def replay_digest(self) -> str:
+        """Sha256 (hex) of what the world shows, as replays state it (docs/replay-format.md)."""
+        return replay_digest(self.world)
 
     @property
     def inputs(self) -> bytes:

@@ -54,7 +54,7 @@ JUNK = [
     "-1e999",
     "0x7fffffff",
 ]
-JUNK += ["1e-400", "9" * 400, "%24", "%zz", "&userdata=", "0" * 713, "ninja-game level 1\n", "ninja-game replay 1\n"]
+JUNK += ["1e-400", "9" * 400, "%24", "%zz", "&userdata=", "0" * 713, "ninja-game level 1\n", "ninja-game replay 2\n"]
 
 
 def read_level(text: str) -> None:

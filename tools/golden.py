@@ -1,4 +1,4 @@
-"""Write the golden digests anew: `python3 tools/dev.py golden` (see tests/golden/README.md)."""
+"""Write the golden digests and our replays anew: `python3 tools/dev.py golden` (see tests/golden/README.md)."""
 
 from __future__ import annotations
 
@@ -11,4 +11,4 @@ from tests.support.golden_runs import GOLDEN, write_golden_files
 
 if __name__ == "__main__":
     write_golden_files()
-    print(f"wrote {', '.join(sorted(path.name for path in GOLDEN.glob('*.tsv')))}")
+    print(f"wrote tests/replays and {', '.join(sorted(path.name for path in GOLDEN.glob('*.tsv')))}")

@@ -64,6 +64,8 @@ MIGRATIONS = (
     ) WITHOUT ROWID;
     CREATE TABLE fact (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
     """,
+    # The digest of a replay became one of what the world shows; the older ones mean nothing any more.
+    "UPDATE replay SET digest = '';",
 )
 """Each brings a file from the version of its index to the next; they are never edited once released."""
 

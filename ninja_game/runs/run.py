@@ -22,7 +22,7 @@ from ninja_game.compile_cache import choose_memory, kernels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.replay.text import WAYPOINT_TICKS, Replay, Waypoint
 from ninja_game.sim.arithmetic import clean
-from ninja_game.sim.digest import world_digest
+from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.level import KIND_NAMES, NINJA, Level
 from ninja_game.sim.memory.plain import load_plain
@@ -47,8 +47,8 @@ class RunResult:
     """What came of a run, up to and including the tick of the first exit contact or death.
 
     ``outcome``: "exit", "dead" or "running"; ``end_tick``: the tick of that contact or death, -1 while running;
-    ``positions``: float64 (ticks, 2), px, the ninja after each tick; ``states``: uint8 (ticks,). ``digest``: of the
-    world after the last tick, where it was asked for.
+    ``positions``: float64 (ticks, 2), px, the ninja after each tick; ``states``: uint8 (ticks,). ``digest``: of
+    what the world shows after the last tick, as replays have it, where it was asked for.
     """
 
     outcome: str
@@ -84,7 +84,7 @@ def run_level(
     """Run a level with one input a tick until the first exit contact or death, or to the end of ``frames``.
 
     ``frames``: one byte a tick, 1 left + 2 right + 4 jump held + 8 jump triggered (``Demo.inputs`` gives them).
-    ``digest``: tell the digest of the world at the end too. Raises LevelError for a level that cannot be played.
+    ``digest``: tell the digest at the end too, as replays have it. Raises LevelError for a level that cannot be played.
     """
     if choose_memory(memory) == "compiled":
         return _run_compiled(level, frames, body, digest=digest)
@@ -99,7 +99,7 @@ def run_level(
         if w.outcome:
             break
     positions = np.array(places, np.float64).reshape(-1, 2)
-    end = world_digest(w) if digest else ""
+    end = replay_digest(w) if digest else ""
     return RunResult(OUTCOME_NAMES[w.outcome], w.gold, positions, np.frombuffer(bytes(states), np.uint8), end)
 
 
@@ -112,7 +112,7 @@ def _run_compiled(level: Level, frames: bytes, body: Body, *, digest: bool) -> R
     states = np.empty(len(frames), np.uint8)
     ticks = kernels()["run_world"](levels, worlds, 0, np.frombuffer(frames, np.uint8), positions, states)
     outcome, gold = OUTCOME_NAMES[int(worlds["outcome"][0])], int(worlds["gold"][0])
-    end = world_digest(plain_copy(worlds, 0)) if digest else ""
+    end = replay_digest(plain_copy(worlds, 0)) if digest else ""
     return RunResult(outcome, gold, positions[:ticks], states[:ticks], end)
 
 
@@ -146,7 +146,7 @@ def record_replay(
         final_tick=w.tick - 1,
         outcome=OUTCOME_NAMES[w.outcome],
         gold=w.gold,
-        digest=world_digest(w),
+        digest=replay_digest(w),
         name=name,
         author=author,
         body=body,

@@ -1,7 +1,8 @@
-"""The canonical digest of a world, and the first difference of two: field by field, the same for both memories.
+"""The canonical digests of a world, and the first difference of two worlds: the same for both memories.
 
-A digest covers every field of the schema but the events: little-endian, -0.0 as 0.0, every NaN as one; of each object
-the common header and the fields of its kind.
+``world_digest`` covers every field of the schema but the events; of each object the common header and the fields of its
+kind. It compares the two memories; a change of the schema changes it. ``replay_digest`` covers what anybody can see; it
+stands in replays, and nothing inside the world can change it. Numbers are little-endian, -0.0 as 0.0, every NaN as one.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ from ninja_game.sim.memory.schema import (
     World,
 )
 from ninja_game.sim.rules import NAN
+from ninja_game.sim.traces import is_traced, place_of, status_of
 
 KIND_CLASSES: tuple[type, ...] = (
     Gold, BounceBlock, LaunchPad, Turret, FloorGuard, Header, Drone,
@@ -55,7 +57,12 @@ class _Reader:
 
     def bytes_of(self, o: Any) -> bytes:
         """The fields of an object, packed canonically."""
-        return self.pack(*[NAN if value != value else value + 0 for value in self.get(o)])
+        return self.pack(*map(_canonical, self.get(o)))
+
+
+def _canonical(value: Any) -> Any:
+    """The number, with one zero and one NaN."""
+    return NAN if value != value else value + 0
 
 
 _WORLD = _Reader(_SCALARS)
@@ -69,6 +76,24 @@ def world_digest(w: World) -> str:
     digest.update(struct.pack(f"<{len(w.heads)}h", *w.heads) + bytes(w.edges))
     for o in w.objects[1 : w.slots_used]:
         digest.update(_THINGS[o.kind].bytes_of(o))
+    return digest.hexdigest()
+
+
+def replay_digest(w: World) -> str:
+    """Sha256 (hex) of what a world shows after a tick, as replays of version 2 state it (docs/replay-format.md).
+
+    The ninja's x, y, prev_x, prev_y (px, float64), state, body (1: box), gold, outcome and ticks run (int32); then of
+    every traced object in id order: x, y (px, float64), id, kind and status (int32). Another list is another version of
+    the replay format.
+    """
+    n = w.ninja
+    ninja = map(_canonical, (n.x, n.y, n.prev_x, n.prev_y))
+    digest = hashlib.sha256(struct.pack("<4d5i", *ninja, n.state, n.box, w.gold, w.outcome, w.tick))
+    for slot in range(1, w.id_count + 1):
+        if is_traced(w, slot):
+            o = w.objects[slot]
+            x, y = map(_canonical, place_of(w, slot))
+            digest.update(struct.pack("<2d3i", x, y, o.id, o.kind, status_of(w, slot)))
     return digest.hexdigest()
 
 

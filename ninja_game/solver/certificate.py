@@ -21,7 +21,8 @@ class UnverifiedRunError(NinjaGameError):
 class VerifiedRun:
     """A run to the exit that the plain memory has confirmed from tick 0.
 
-    ``inputs``: one byte a tick, up to and including the tick of the exit contact; ``digest``: of the world after it.
+    ``inputs``: one byte a tick, up to and including the tick of the exit contact; ``digest``: what a replay
+    states after it.
     """
 
     level: Level
@@ -50,7 +51,7 @@ def verified_run(level: Level, inputs: bytes, *, body: Body = "circle", gold: in
         raise UnverifiedRunError(f"the run does not reach the exit: {run.outcome} after {run.tick} ticks")
     if run.gold < gold:
         raise UnverifiedRunError(f"the run collects {run.gold} pieces of gold, {gold} were asked for")
-    return VerifiedRun(level, body, inputs[: run.tick], run.gold, run.digest())
+    return VerifiedRun(level, body, inputs[: run.tick], run.gold, run.replay_digest())
 
 
 def replay_of(run: VerifiedRun, *, name: str = "", author: str = "") -> Replay:

@@ -20,7 +20,7 @@ from tests.support.strategies import inputs, replays
 LEVEL = parse_level_string("0" * 713 + "|5^60,540!11^708,540,396,540")
 REPLAY = Replay(bytes([2, 2, 14, 6, 0]), 9, "exit", 3, name="A walk", level_path="../levels/hill.txt", digest="0f" * 32)
 TEXT = """\
-ninja-game replay 1
+ninja-game replay 2
 name: A walk
 level: ../levels/hill.txt
 rules: 1
@@ -119,8 +119,9 @@ def test_a_byte_that_is_no_input_is_refused() -> None:
         ("RJ*2", "RJ*", "a.txt:11:7: ~a count is"),
         ("RJ*2", "!", "a.txt:11:7: ~write .!"),
         ("RJ*2", ".*9999999", "a.txt:11:7: the replay is too long; found 10000001 ticks; expected at most 1000000"),
-        ("replay 1", "replay 2", "a.txt:1:1: unknown version of the replay format; found 2; expected 1; ~newer"),
-        ("ninja-game", "ninja", "a.txt:1:1: not a replay of ninja-game; found 'ninja replay 1'; expected 'ninja-game"),
+        ("replay 2", "replay 3", "a.txt:1:1: unknown version of the replay format; found 3; expected 2; ~newer"),
+        ("replay 2", "replay 1", "a.txt:1:1: a replay written by an older version~; write 'ninja-game replay 2'"),
+        ("ninja-game", "ninja", "a.txt:1:1: not a replay of ninja-game; found 'ninja replay 2'; expected 'ninja-game"),
         ("body: circle", "body: square", "a.txt:5:7: an unknown body; found 'square'; expected circle or box"),
         ("body: circle\n", "", "a.txt: an incomplete replay; expected a line with 'body'"),
         ("body: circle", "bodi: circle", "a.txt:5:1: an unknown header; found 'bodi'; ~; did you mean 'body'?"),
@@ -171,7 +172,7 @@ def test_a_replay_is_told_by_its_first_words() -> None:
 
 def test_the_example_of_the_page_is_a_replay(root: Path) -> None:
     page = (root / "docs" / "replay-format.md").read_text(encoding="utf-8")
-    examples = re.findall(r"```text\n(ninja-game replay 1\n.*?)```", page, re.DOTALL)
+    examples = re.findall(r"```text\n(ninja-game replay 2\n.*?)```", page, re.DOTALL)
     assert examples
     for example in examples:
         replay = parse_replay(example)

@@ -155,3 +155,12 @@ def test_a_wrong_body_or_memory_is_named() -> None:
         Simulation(level, body="triangle")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="cloud"):
         Simulation(level, memory="cloud")
+
+
+def test_the_digest_of_replays_covers_what_the_world_shows_and_nothing_inside_it() -> None:
+    run = Simulation(Level(objects=(ObjectSpec(NINJA, (100.0, 566.0)), ObjectSpec(GOLD, (160.0, 566.0)))))
+    whole, shown = run.digest(), run.replay_digest()
+    run.world.think_counter += 1
+    assert (run.digest() != whole, run.replay_digest()) == (True, shown)
+    run.world.objects[2].spent = 1
+    assert run.replay_digest() != shown

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ninja_game.formats.load import load_replays
-from ninja_game.runs.run import trace_level
+from ninja_game.formats.replay.text import write_replay
+from ninja_game.runs.recording_reader import body_of
+from ninja_game.runs.run import record_replay, trace_level
 from ninja_game.runs.trace import trace_digests
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Body
@@ -90,7 +92,13 @@ def difference(ours: dict[str, str], golden: dict[str, str] | None) -> str:
 
 
 def write_golden_files() -> None:
-    """Write the files anew from what the world does now (plain memory)."""
+    """Write the golden files and our replays anew from what the world does now (plain memory)."""
+    for path in sorted(REPLAYS.glob("*.replay.txt")):
+        (old,) = load_replays(path)
+        assert old.replay, f"{path.name} is no replay of ours"
+        body, ticks = body_of(old), old.replay.ticks
+        new = record_replay(old.level, old.replay.inputs, ticks=ticks, body=body, name=old.name, author=old.author)
+        path.write_text(write_replay(new), "utf-8")
     for name, runs in FILES.items():
         with (GOLDEN / f"{name}.tsv").open("w", encoding="utf-8", newline="") as out:
             table = csv.DictWriter(out, COLUMNS, delimiter="\t", lineterminator="\n")

@@ -42,5 +42,5 @@ def replay_of_walk(**changes: object) -> str:
     inputs = bytes([2] * (WALK_END + 1))
     for frame in inputs:
         world.step_frame(frame)
-    replay = Replay(inputs, WALK_END, world.outcome, world.gold, world.digest(), name="walk", level=level)
+    replay = Replay(inputs, WALK_END, world.outcome, world.gold, world.replay_digest(), name="walk", level=level)
     return write_replay(replace(replay, **changes))  # type: ignore[arg-type]

@@ -18,7 +18,8 @@ from ninja_game.formats.replay.input_runs import MAX_TICKS, read_inputs, write_i
 from ninja_game.sim.level import Level
 
 MAGIC = "ninja-game replay"
-VERSION = 1
+VERSION = 2
+"""Version 1 had another digest: of the world's inner state."""
 RULES_VERSION = 1
 """The rules that replays are recorded under; a change of the world that changes any replay raises it."""
 
@@ -44,10 +45,10 @@ class Replay:
     """A run of one level: inputs, and what they lead to.
 
     ``inputs``: one byte a tick as in demos (1 left, 2 right, 4 jump held, 8 triggered); in ticks beyond them no key is
-    down. ``final_tick``: the last tick that is run, counted from 0; ``outcome``, ``gold`` and ``digest`` (of the world,
-    64 hex digits or '') are as after it. The level is given by one or more of: its digest, a path from the replay's
-    folder with the number of the record in that file, the level itself. ``waypoints``: where the ninja passes, by tick,
-    so that a run that goes another way is noticed where it does.
+    down. ``final_tick``: the last tick that is run, counted from 0; ``outcome``, ``gold`` and ``digest`` (64 hex
+    digits of what the world shows, or '') are as after it. The level is given by one or more of: its digest, a path
+    from the replay's folder with the number of the record in that file, the level itself. ``waypoints``: where the
+    ninja passes, by tick, so that a run that goes another way is noticed where it does.
     """
 
     inputs: bytes
@@ -125,8 +126,11 @@ def _check_first_line(lines: Sequence[Line], file: str) -> None:
     if match is None:
         raise ReplayError("not a replay of ninja-game", file, number, 1, repr(first[:40]), expected)
     if int(match[1]) != VERSION:
-        hint = "a replay from a newer ninja-game needs a newer ninja-game"
-        raise ReplayError("unknown version of the replay format", file, number, 1, match[1], str(VERSION), hint)
+        what, hint = "unknown version of the replay format", "a replay from a newer ninja-game needs a newer ninja-game"
+        if int(match[1]) == 1:
+            what = "a replay written by an older version of ninja-game, with a digest that is no longer used"
+            hint = f"write '{MAGIC} {VERSION}' in the first line and delete the line 'digest:'"
+        raise ReplayError(what, file, number, 1, match[1], str(VERSION), hint)
 
 
 def _read_level(lines: Sequence[Line], file: str) -> Level | None:
