@@ -105,7 +105,7 @@ def measure(presses: int, rate: int) -> list[tuple[float, float]]:
     with tempfile.TemporaryDirectory() as home:
         ready = prepare(Path(home))
         controls = NotingBindings()
-        app = App(ready.options, controls, ready.ear, size=(792, 600))
+        app = App(ready.options, controls, ready.audio_output, size=(792, 600))
         screen = LevelScreen(app, SingleLevel("latency", LEVEL))
         app.push(screen)
         screen.begin()

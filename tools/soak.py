@@ -47,7 +47,7 @@ def soak(minutes: float, *, real_time: bool = False, report: bool = False) -> tu
     """Run attract mode for so long; growth of memory after warming up (MiB), pictures drawn, replays begun."""
     with tempfile.TemporaryDirectory() as home:
         ready = prepare(Path(home))
-        app = App(ready.options, ready.controls, ready.ear, size=(792, 600))
+        app = App(ready.options, ready.controls, ready.audio_output, size=(792, 600))
         app.player = ready.player
         menu = MainMenu(app)
         app.push(menu)

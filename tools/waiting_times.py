@@ -59,7 +59,7 @@ def measure(rounds: int) -> dict[str, list[float]]:
     with tempfile.TemporaryDirectory() as home:
         found["main menu"] = [timed(lambda: start_of_program(home)) for _ in range(rounds)]
         ready = prepare(Path(home))
-        app = App(ready.options, ready.controls, ready.ear, size=SIZE)
+        app = App(ready.options, ready.controls, ready.audio_output, size=SIZE)
         app.player = ready.player
         app.push(MainMenu(app))
         app.frame(16)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.audio.output import Ear, Silence
+from ninja_game.play.audio.output import AudioOutput, NullAudio
 from ninja_game.play.input.controls import Controls, Keyboard
 from ninja_game.play.options import Options
 from ninja_game.play.screen import TITLE, Panels, Screen, ScreenStack
@@ -28,7 +28,7 @@ FALLBACK_RATE = 60
 class App:
     """The window with its stack of screens, and what all screens share.
 
-    ``controls``: keys to actions. ``ear``: sound. ``options``: what the player chose; after a change call
+    ``controls``: keys to actions. ``audio_output``: sound. ``options``: what the player chose; after a change call
     ``apply_options``. ``size``: px of the window; by default the stage times the largest whole number that fits.
     """
 
@@ -36,7 +36,7 @@ class App:
         self,
         options: Options | None = None,
         controls: Controls | None = None,
-        ear: Ear | None = None,
+        audio_output: AudioOutput | None = None,
         *,
         size: tuple[int, int] | None = None,
     ) -> None:
@@ -45,7 +45,7 @@ class App:
         prefer_shared_memory()
         self.options = options or Options()
         self.controls: Controls = controls or Keyboard()
-        self.ear: Ear = ear or Silence()
+        self.audio_output: AudioOutput = audio_output or NullAudio()
         self.stack = ScreenStack()
         self.player: PlayerData | None = None
         self.panels: Panels | None = None

@@ -53,7 +53,7 @@ def main(
 def prepared_app(size: tuple[int, int] | None = None) -> App:
     """The app with options, controls, sound and records as the player's settings have them."""
     ready = prepare()
-    app = App(ready.options, ready.controls, ready.ear, size=size)
+    app = App(ready.options, ready.controls, ready.audio_output, size=size)
     app.player = ready.player
     app.hiding = BossScreen
     return app

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import pygame
 
-from ninja_game.play.audio.output import Ear
+from ninja_game.play.audio.output import AudioOutput
 from ninja_game.play.input.controls import Controls
 from ninja_game.play.options import Options
 from ninja_game.play.ui.canvas import Canvas
@@ -31,7 +31,7 @@ class Host(Protocol):
 
     options: Options
     controls: Controls
-    ear: Ear
+    audio_output: AudioOutput
     canvas: Canvas
     theme: Theme
     stack: ScreenStack

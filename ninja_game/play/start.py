@@ -24,7 +24,7 @@ class Prepared(NamedTuple):
 
     options: Options
     controls: Bindings
-    ear: Sound
+    audio_output: Sound
     player: PlayerData
 
 
@@ -56,8 +56,8 @@ def apply_settings(app: Host, settings: Settings) -> str:
     if isinstance(app.controls, Bindings):
         app.controls.bind(settings.keys, settings.pad)
         app.controls.pads.dead_zone = settings.dead_zone
-    if isinstance(app.ear, Sound):
-        app.ear.set_volumes(settings.volume, settings.loop_volume)
+    if isinstance(app.audio_output, Sound):
+        app.audio_output.set_volumes(settings.volume, settings.loop_volume)
     if vars(app.options) != before:
         app.apply_options()
     return message

@@ -21,7 +21,7 @@ class Attempt:
     """One try at a level, from its start to the exit, to death, or to giving up.
 
     ``lifetime``: ticks left, which gold adds to. ``frames``: the recording, one byte a tick. ``score``: ticks, taken at
-    the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``practised``: tools
+    the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``assisted``: tools
     were used (or it is practice), so it is no record.
     """
 
@@ -41,7 +41,7 @@ class Attempt:
         self.score = 0
         self.ended_tick = -1
         self.own_hand = False
-        self.practised = self.practice
+        self.assisted = self.practice
 
     @property
     def outcome(self) -> str:
@@ -107,7 +107,7 @@ class Attempt:
         self.simulation.restore(state)
         self.frames[:] = frames
         self.score = level_score(self.gold, self.ended_tick) if self.outcome == "exit" else 0
-        self.practised = True
+        self.assisted = True
 
     def rewound(self) -> None:
         """Take note that the simulation was put back to an earlier tick of this recording."""
@@ -121,7 +121,7 @@ class Attempt:
             # After a death by the player's own hand ticks went on without input.
             self.frames.extend(bytes(tick - len(self.frames)))
             self.ended_tick, self.score, self.own_hand = -1, 0, False
-        self.practised = True
+        self.assisted = True
 
     # --- recordings ---
 

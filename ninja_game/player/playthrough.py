@@ -44,7 +44,7 @@ class LevelRun:
         with self.data.store.change():
             _count(self.data, self.entry, attempt, killer=None)
             return (
-                [] if attempt.practised else _save_best(self.data, attempt.replay(self.entry.title, _player(self.data)))
+                [] if attempt.assisted else _save_best(self.data, attempt.replay(self.entry.title, _player(self.data)))
             )
 
     def died(self, attempt: Attempt) -> None:
@@ -80,7 +80,7 @@ class EpisodeRun:
 
     def passed(self, attempt: Attempt) -> list[str]:
         """Save what a passed attempt is worth, for its level and for the episode; notices about it."""
-        legitimate = self.legitimate and not attempt.practised
+        legitimate = self.legitimate and not attempt.assisted
         self.legitimate = legitimate
         self.score = attempt.lifetime
         try:

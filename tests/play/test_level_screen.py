@@ -197,7 +197,7 @@ def test_practice_goes_back_to_a_saved_moment_exactly(
     frames(app, 1, 0)
     assert screen.attempt.simulation.digest() == saved
     assert bytes(screen.attempt.frames) == played
-    assert screen.attempt.practised
+    assert screen.attempt.assisted
 
 
 def test_rewind_runs_the_recording_backwards(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
@@ -240,7 +240,7 @@ def test_tools_do_nothing_outside_practice(stage: tuple[App, ScriptedControls], 
     press("rewind")
     frames(app, 5)
     assert screen.attempt.simulation.tick == 35
-    assert not screen.attempt.practised
+    assert not screen.attempt.assisted
 
 
 def test_a_key_for_both_retry_and_replay_replays_where_it_can(

@@ -47,14 +47,14 @@ def scene(
     inputs = recording.inputs(ticks)
     for frame in inputs:
         run.step_frame(frame)
-        view.ticked()
+        view.on_tick()
     if fatal >= 0:
         n = run.world.ninja
         kill(run.world, fatal, 4.0, -3.0, n.x, n.y - 4)
-        view.killed()
+        view.on_death()
         for _ in range(5):
             run.step_frame(0)
-            view.ticked()
+            view.on_tick()
     surface = pygame.Surface(SIZE)
     view.draw(surface, 0.5, whole=True)
     return surface

@@ -70,7 +70,7 @@ def test_hearing_plays_the_tick_and_leaves_the_world_alone(folder: Path) -> None
     for tick in range(60):
         for run in (heard, silent):
             run.step(right=True, jump=tick > 30)
-        sound.hear(heard.world)
+        sound.play_events(heard.world)
     assert heard.gold == 1
     assert heard.digest() == silent.digest()
     sound.quiet()
@@ -86,7 +86,7 @@ def test_no_sound_device_is_no_error(folder: Path, monkeypatch: pytest.MonkeyPat
     assert not sound.works
     run = Simulation(FLAT)
     run.step(jump=True)
-    sound.hear(run.world)
+    sound.play_events(run.world)
     sound.corpse(4.0)
     sound.play("gold")
     sound.set_volumes(0, 0)

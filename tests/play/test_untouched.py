@@ -96,7 +96,7 @@ def test_looking_only_reads() -> None:
     for frame in recording.inputs(recording.ticks):
         bare.step_frame(frame)
         seen.step_frame(frame)
-        view.ticked()
+        view.on_tick()
         view.draw(surface, 0.3)
         view.draw(surface, 0.8)
         assert bare.first_difference(seen) is None

@@ -65,7 +65,7 @@ def test_lifetime_runs_out_only_once_a_picture_and_kills_then() -> None:
 def test_practice_has_no_countdown_but_gold_adds() -> None:
     attempt = played(short_level(gold=1), practice=True)
     assert attempt.lifetime == LIFETIME + 80
-    assert attempt.practised
+    assert attempt.assisted
 
 
 def test_retry_gives_lifetime_gold_and_recording_back() -> None:

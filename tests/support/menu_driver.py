@@ -37,7 +37,7 @@ class Stage:
         settings = ready.player.settings
         self.keys = ScriptedKeys(settings.keys, settings.pad)
         self.keys.script = []
-        self.app = App(ready.options, self.keys, ready.ear, size=size)
+        self.app = App(ready.options, self.keys, ready.audio_output, size=size)
         self.app.player = ready.player
         self.app.push(MainMenu(self.app))
         self.frames(2)

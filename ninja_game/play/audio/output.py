@@ -7,10 +7,10 @@ from typing import Protocol
 from ninja_game.sim.memory.schema import World
 
 
-class Ear(Protocol):
+class AudioOutput(Protocol):
     """Hears what happens. Presentation only: it reads the world."""
 
-    def hear(self, world: World) -> None:
+    def play_events(self, world: World) -> None:
         """Called after every tick that is seen: its events, and loops by state and speed."""
 
     def corpse(self, speed: float) -> None:
@@ -20,10 +20,10 @@ class Ear(Protocol):
         """End all sounds."""
 
 
-class Silence:
+class NullAudio:
     """No sound."""
 
-    def hear(self, world: World) -> None:
+    def play_events(self, world: World) -> None:
         """Nothing."""
 
     def corpse(self, speed: float) -> None:

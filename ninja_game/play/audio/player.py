@@ -49,7 +49,7 @@ class Sound:
 
     # --- what is heard ---
 
-    def hear(self, world: World) -> None:
+    def play_events(self, world: World) -> None:
         """After a tick: its events once each, and the loops of what goes on."""
         if not self.works or not self.volume:
             return

@@ -69,7 +69,7 @@ class SingleLevel:
 
     def passed(self, attempt: Attempt) -> list[str]:
         """Keep the run if it is the best so far."""
-        if attempt.practised or (self.best and self.best[0] >= attempt.score):
+        if attempt.assisted or (self.best and self.best[0] >= attempt.score):
             return []
         first = self.best is None
         self.best = attempt.score, bytes(attempt.frames)

@@ -9,7 +9,7 @@ import pygame
 from ninja_game.play.level.context import GhostRun
 from ninja_game.play.ui.canvas import Point
 from ninja_game.play.ui.palette import Palette
-from ninja_game.play.view.ninja.ninja_animation import NinjaMotion
+from ninja_game.play.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import CELEBRATING, DEAD
 from ninja_game.simulation import Body, SaveState, Simulation
@@ -24,7 +24,7 @@ class Ghost:
         self._colour = run.colour
         self.simulation = Simulation(level, body=body)
         self._start: SaveState = self.simulation.save()
-        self.motion = NinjaMotion(self.simulation.world, Random(1))  # noqa: S311 - presentation
+        self.ninja_animation = NinjaAnimation(self.simulation.world, Random(1))  # noqa: S311 - presentation
         self._before = self._now = self._place()
 
     def _place(self) -> Point:
@@ -40,21 +40,21 @@ class Ghost:
         tick = self.simulation.tick
         self.simulation.step_frame(self.frames[tick] if tick < len(self.frames) else 0)
 
-    def ticked(self) -> None:
+    def on_tick(self) -> None:
         """One more tick."""
         self._before = self._now
         if not self.over:
             self._step()
-            self.motion.ticked(self.simulation.world)
+            self.ninja_animation.on_tick(self.simulation.world)
             self._now = self._place()
 
-    def jumped(self, tick: int) -> None:
+    def on_seek(self, tick: int) -> None:
         """Be where the recording is after that many ticks."""
         if tick < self.simulation.tick or self.over:
             self.simulation.restore(self._start)
         while self.simulation.tick < tick and not self.over:
             self._step()
-        self.motion.reset(self.simulation.world)
+        self.ninja_animation.reset(self.simulation.world)
         self._before = self._now = self._place()
 
     def place(self, fraction: float) -> Point:

@@ -58,7 +58,7 @@ class LevelPlay(Screen):
         self.after_end = 0
         self.killer = ""
         self._ghosts()
-        self.view.jumped()
+        self.view.on_seek()
         self.redraw = True
 
     def _ghosts(self) -> None:
@@ -75,7 +75,7 @@ class LevelPlay(Screen):
 
     def leave(self) -> None:
         """No sound from a covered level."""
-        self.app.ear.quiet()
+        self.app.audio_output.quiet()
 
     def begin(self) -> None:
         """Start to play."""
@@ -88,7 +88,7 @@ class LevelPlay(Screen):
         if self.phase is not Phase.PLAY:
             return
         self.phase = Phase.PAUSED
-        self.app.ear.quiet()
+        self.app.audio_output.quiet()
         self.redraw = True
         panel = self.app.panels.pause(self) if self.app.panels else None
         if panel is not None:
@@ -102,7 +102,7 @@ class LevelPlay(Screen):
 
     def retry(self) -> None:
         """Back to the level's start, at once."""
-        self.app.ear.quiet()
+        self.app.audio_output.quiet()
         self.attempt.restart()
         self.practice.restarted()
         self.shown_lifetime = float(self.attempt.lifetime)
@@ -118,7 +118,7 @@ class LevelPlay(Screen):
         elif following is self.course:
             self.retry()
         else:
-            self.app.ear.quiet()
+            self.app.audio_output.quiet()
             self._start(following)
 
     def skip(self) -> None:
@@ -162,14 +162,14 @@ class LevelPlay(Screen):
         """The suicide key: an explosion or a shot, thrown at random (game.md §2)."""
         chance = self.chance
         self.attempt.give_up(chance.random(), chance.uniform(-5, 5), -6 * chance.random())
-        self.view.killed()
+        self.view.on_death()
         self._note_end()
 
     def put_back(self) -> None:
         """The attempt is at another moment: so is everything that shows it."""
         self.phase = PHASE_OF_OUTCOME[self.attempt.outcome]
         self.after_end = 0
-        self.view.jumped()
+        self.view.on_seek()
         self.clock.reset()
         self.redraw = True
 
@@ -213,13 +213,13 @@ class LevelPlay(Screen):
             # Sampled right before the tick: as late as can be.
             self.last_frame = self.app.controls.held() if self.phase is Phase.PLAY else 0
             self.attempt.tick(self.last_frame)
-            self.view.ticked()
-            self.practice.ticked()
+            self.view.on_tick()
+            self.practice.on_tick()
             self._note_end()
         if due and self.phase is Phase.PLAY:
             self.attempt.check_time()
             if self.attempt.outcome == "dead":
-                self.view.killed()
+                self.view.on_death()
                 self._note_end()
 
     def _note_end(self) -> None:
@@ -244,6 +244,6 @@ class LevelPlay(Screen):
         due = self.clock.ticks_due(real_ms)
         if due:
             self.practice.rewind(due * REWIND_TICKS)
-            self.view.jumped()
+            self.view.on_seek()
             self.phase = Phase.PLAY if self.attempt.outcome == "running" else self.phase
             self.redraw = True

@@ -29,7 +29,7 @@ class Practice:
         self.timeline = Timeline(self.attempt.simulation, spacing=_SPACING, most=_MOST)
         self.rewinding = False
 
-    def ticked(self) -> None:
+    def on_tick(self) -> None:
         """Call it after every tick."""
         self.timeline.note()
 

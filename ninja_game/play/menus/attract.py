@@ -57,7 +57,7 @@ class Attract:
                 continue
             self._inputs = recording.inputs(recording.ticks)
             self._until = len(self._inputs) + REST_TICKS
-            self.view = LevelView(self.app, simulation, chance=self.shown, loud=False)
+            self.view = LevelView(self.app, simulation, chance=self.shown, audible=False)
             self.name = recording.name
             self.shown += 1
             return
@@ -77,7 +77,7 @@ class Attract:
                 return
             if tick < len(self._inputs) or simulation.outcome != "running":
                 simulation.step_frame(self._inputs[tick] if tick < len(self._inputs) else 0)
-                self.view.ticked()
+                self.view.on_tick()
             else:
                 self._until = 0
 

@@ -149,7 +149,7 @@ class Demonstration:
 
     def _begin(self) -> None:
         self.simulation = Simulation(self.page.level)
-        self.view = LevelView(self.app, self.simulation, loud=False)
+        self.view = LevelView(self.app, self.simulation, audible=False)
         self._whole = True
 
     def update(self, real_ms: int) -> None:
@@ -161,7 +161,7 @@ class Demonstration:
                 return
             self.frame = self.page.inputs[tick] if tick < len(self.page.inputs) else 0
             self.simulation.step_frame(self.frame)
-            self.view.ticked()
+            self.view.on_tick()
 
     def draw(self, surface: pygame.Surface) -> pygame.Rect:
         """Draw the stage on the sheet, and show the part of it that matters; the px it covers."""

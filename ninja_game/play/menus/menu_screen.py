@@ -117,8 +117,8 @@ class MenuScreen(Screen):
 
     def chime(self, name: str) -> None:
         """A sound of the menus."""
-        if isinstance(self.app.ear, Sound):
-            self.app.ear.play(name)
+        if isinstance(self.app.audio_output, Sound):
+            self.app.audio_output.play(name)
 
     def focus_on(self, widget: Widget | None) -> None:
         """Give a widget the focus."""

@@ -44,7 +44,7 @@ def film_pictures(take: Take, size: tuple[int, int], options: Options | None = N
     for tick in range(film_length(playback)):
         if tick:
             playback.step()
-            view.ticked()
+            view.on_tick()
         view.draw(surface, 1.0, whole=tick == 0)
         view.also_covered(hud.label(surface, take.title))
         yield surface

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.formats.recording import Recording
-from ninja_game.play.audio.output import Ear, Silence
+from ninja_game.play.audio.output import AudioOutput, NullAudio
 from ninja_game.play.level.context import GhostRun
 from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
@@ -68,7 +68,7 @@ class ReplayScreen(Screen):
 
     def leave(self) -> None:
         """No sound from a covered screen; a film that is being made is given up."""
-        self.app.ear.quiet()
+        self.app.audio_output.quiet()
         if self.export:
             self.export.cancel()
 
@@ -88,22 +88,22 @@ class ReplayScreen(Screen):
             # A corpse lies where it fell: its fall is run again.
             start = playback.end
         playback.seek(start)
-        self.view.jumped()
-        ear, self.app.ear = self.app.ear, _SILENCE
+        self.view.on_seek()
+        ear, self.app.audio_output = self.app.audio_output, _SILENCE
         while self.tick < tick:
             playback.step()
-            self.view.ticked()
-        self.app.ear = ear
+            self.view.on_tick()
+        self.app.audio_output = ear
         self.clock.reset()
         self.redraw = True
 
     def _play_tick(self) -> None:
         self.playback.step()
-        self.view.ticked()
+        self.view.on_tick()
         if self.tick >= self.playback.length:
             self.seek(0)
             self.still_ms = _STILL_MS
-            self.app.ear.quiet()
+            self.app.audio_output.quiet()
 
     def update(self, real_ms: int) -> None:
         """Play on."""
@@ -152,13 +152,13 @@ class ReplayScreen(Screen):
         self.paused = not self.paused
         self.still_ms = 0
         self.clock.reset()
-        self.app.ear.quiet()
+        self.app.audio_output.quiet()
         self.redraw = True
 
     def step(self, ticks: int) -> None:
         """A tick back or on, and stop."""
         self.paused = True
-        self.app.ear.quiet()
+        self.app.audio_output.quiet()
         self.seek(self.tick + ticks)
 
     def _change_speed(self, by: int) -> None:
@@ -212,4 +212,4 @@ class ReplayScreen(Screen):
         )
 
 
-_SILENCE: Ear = Silence()
+_SILENCE: AudioOutput = NullAudio()

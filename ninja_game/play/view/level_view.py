@@ -12,13 +12,13 @@ from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.view.effects.effects import Effects
 from ninja_game.play.view.effects.particles import Particles
 from ninja_game.play.view.ninja.appearance import draw_ghost, draw_ninja, draw_ragdoll
-from ninja_game.play.view.ninja.ninja_animation import NinjaMotion
+from ninja_game.play.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.play.view.ninja.ragdoll import Ragdoll
 from ninja_game.play.view.render_context import Scene
 from ninja_game.play.view.sprites.backdrop import Backdrop
 from ninja_game.play.view.sprites.draw_moving import draw_movers
 from ninja_game.play.view.sprites.draw_target import Stage
-from ninja_game.play.view.sprites.object_animation import Motions
+from ninja_game.play.view.sprites.object_animation import ObjectAnimation
 from ninja_game.play.view.sprites.sprite_book import SpriteBook
 from ninja_game.sim.events import DIED
 from ninja_game.sim.memory.schema import World
@@ -35,24 +35,24 @@ Area = tuple[float, float, float, float]
 class LevelView:
     """Draws a world, in the whole window or in an ``area`` of it (logical px x, y, width, height).
 
-    Call ``ticked`` after every tick of the simulation, ``jumped`` after any other change of it (restart, restore).
-    ``chance``: seed of what is drawn at random. ``loud``: whether the app's ear hears this world.
+    Call ``on_tick`` after every tick of the simulation, ``on_seek`` after any other change of it (restart, restore).
+    ``chance``: seed of what is drawn at random. ``audible``: whether its events are played as sounds.
     """
 
     def __init__(
-        self, app: Scene, simulation: Simulation, *, area: Area | None = None, chance: int = 0, loud: bool = True
+        self, app: Scene, simulation: Simulation, *, area: Area | None = None, chance: int = 0, audible: bool = True
     ) -> None:
         self.app = app
         self.simulation = simulation
-        self.loud = loud
+        self.audible = audible
         self._area = area
         self._chance = Random(chance)  # noqa: S311 - presentation
         self.ghosts: Sequence[Ghost] = ()
         self.overlays: Overlays | None = None
         self.particles = Particles()
         self.effects = Effects(self.particles, self._chance)
-        self.motions = Motions(simulation.world)
-        self.motion = NinjaMotion(simulation.world, self._chance)
+        self.object_animation = ObjectAnimation(simulation.world)
+        self.ninja_animation = NinjaAnimation(simulation.world, self._chance)
         self.doll: Ragdoll | None = None
         self._covered: list[pygame.Rect] = []
         self._look: tuple[object, ...] = ()
@@ -60,39 +60,39 @@ class LevelView:
 
     # --- the world goes on ---
 
-    def ticked(self) -> None:
+    def on_tick(self) -> None:
         """Take note of a tick: its events become particles, animations, a corpse, sound."""
         world = self.simulation.world
         self._follow_options()
-        self.motions.ticked(world)
-        self.motion.ticked(world)
-        self.effects.ticked(self.simulation.static, world)
+        self.object_animation.on_tick(world)
+        self.ninja_animation.on_tick(world)
+        self.effects.on_tick(self.simulation.static, world)
         self._follow_death(world)
         for ghost in self.ghosts:
-            ghost.ticked()
-        if self.loud:
-            self.app.ear.hear(world)
+            ghost.on_tick()
+        if self.audible:
+            self.app.audio_output.play_events(world)
 
-    def killed(self) -> None:
+    def on_death(self) -> None:
         """Take note of a death between two ticks: out of time, or by the player's own hand."""
         world = self.simulation.world
-        self.motion.ticked(world)
-        self.effects.ticked(self.simulation.static, world)
+        self.ninja_animation.on_tick(world)
+        self.effects.on_tick(self.simulation.static, world)
         self._follow_death(world)
-        if self.loud:
-            self.app.ear.hear(world)
+        if self.audible:
+            self.app.audio_output.play_events(world)
 
-    def jumped(self) -> None:
+    def on_seek(self) -> None:
         """Forget what was seen: the world was restarted or put back to another moment."""
         world = self.simulation.world
-        self.motions.reset(world)
-        self.motion.reset(world)
+        self.object_animation.reset(world)
+        self.ninja_animation.reset(world)
         self.effects.reset()
         self.doll = None
-        self._backdrop.reset(world, self.motions)
+        self._backdrop.reset(world, self.object_animation)
         self._whole = True
         for ghost in self.ghosts:
-            ghost.jumped(world.tick)
+            ghost.on_seek(world.tick)
         if world.ninja.state == DEAD:
             self._fall_down(world)
 
@@ -113,9 +113,9 @@ class LevelView:
 
     def _fall_down(self, world: World) -> None:
         n = world.ninja
-        now, before = self.motion.pose(1.0).moved(n.x, n.y), self.motion.pose(0.5).moved(n.x, n.y)
+        now, before = self.ninja_animation.pose(1.0).moved(n.x, n.y), self.ninja_animation.pose(0.5).moved(n.x, n.y)
         velocity = n.x - n.prev_x, n.y - n.prev_y
-        self.doll = Ragdoll(now, before, velocity, self.motion.facing, self._chance, self._corpse_hit)
+        self.doll = Ragdoll(now, before, velocity, self.ninja_animation.facing, self._chance, self._corpse_hit)
         for event in world.events[: world.event_count]:
             if event.kind == DIED:
                 gory = not self.app.options.reduced_gore
@@ -124,8 +124,8 @@ class LevelView:
                     self.effects.blood(n.x, n.y, 0.0, -2.0, 12)
 
     def _corpse_hit(self, x: float, y: float, into: float, along: float) -> None:
-        if into > 1.0 and self.loud:
-            self.app.ear.corpse(into)
+        if into > 1.0 and self.audible:
+            self.app.audio_output.corpse(into)
         if into > 3.0:
             self.effects.blood(x, y, 0.0, -1.0, 1)
         if along * along > 0.3 and self._chance.random() < 0.12:
@@ -141,7 +141,7 @@ class LevelView:
         book = SpriteBook(self.canvas.scale, palette)
         self.stage = Stage(self.canvas, palette, book)
         self._backdrop = Backdrop(self.canvas, palette, book, self.simulation.static)
-        self._backdrop.reset(self.simulation.world, self.motions)
+        self._backdrop.reset(self.simulation.world, self.object_animation)
         self._look = self._wanted_look()
         self._whole = True
 
@@ -178,7 +178,7 @@ class LevelView:
     def _restore(self, surface: pygame.Surface, whole: bool, fraction: float) -> list[pygame.Rect]:
         """Put the backdrop where things were drawn last time, and where it changed."""
         origin = self.canvas.origin
-        mended = [r.move(origin) for r in self._backdrop.update(self.simulation.world, self.motions, fraction)]
+        mended = [r.move(origin) for r in self._backdrop.update(self.simulation.world, self.object_animation, fraction)]
         if whole:
             if self._area is None:
                 surface.fill(self.stage.palette.tile)
@@ -193,14 +193,14 @@ class LevelView:
         stage, now = self.stage, self.effects.now + fraction - 1
         stage.begin(surface)
         Particles.draw(self.particles.rear, stage, now)
-        draw_movers(stage, self.simulation.world, self.motions, fraction)
+        draw_movers(stage, self.simulation.world, self.object_animation, fraction)
         if self.app.options.show_ghost:
             for ghost in self.ghosts:
-                draw_ghost(stage, ghost.motion, ghost.place(fraction), fraction, ghost.colour(stage.palette))
+                draw_ghost(stage, ghost.ninja_animation, ghost.place(fraction), fraction, ghost.colour(stage.palette))
         if self.doll is not None:
             draw_ragdoll(stage, self.doll, fraction, self.colour)
         else:
-            draw_ninja(stage, self.motion, self.motions.ninja_place(fraction), fraction, self.colour)
+            draw_ninja(stage, self.ninja_animation, self.object_animation.ninja_place(fraction), fraction, self.colour)
         Particles.draw(self.particles.front, stage, now)
 
     def _cover_by_tiles(self, surface: pygame.Surface) -> None:

@@ -1,10 +1,10 @@
-"""What a picture of a world needs: options, palette, canvas, an ear. The app is one; so is a sheet of paper."""
+"""What a picture of a world needs: options, palette, canvas, audio output. `App` has it, and so has `Sheet`."""
 
 from __future__ import annotations
 
 from typing import Protocol
 
-from ninja_game.play.audio.output import Ear, Silence
+from ninja_game.play.audio.output import AudioOutput, NullAudio
 from ninja_game.play.options import Options
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.palette import PALETTES
@@ -17,7 +17,7 @@ class Scene(Protocol):
     options: Options
     theme: Theme
     canvas: Canvas
-    ear: Ear
+    audio_output: AudioOutput
 
 
 class Sheet:
@@ -27,4 +27,4 @@ class Sheet:
         self.options = options or Options()
         self.canvas = Canvas(size)
         self.theme = Theme(PALETTES[self.options.palette], self.canvas)
-        self.ear: Ear = Silence()
+        self.audio_output: AudioOutput = NullAudio()

@@ -39,7 +39,7 @@ class Effects:
         self.particles.clear()
         self.now = 0.0
 
-    def ticked(self, level: TileMap, world: World) -> None:
+    def on_tick(self, level: TileMap, world: World) -> None:
         """What a tick throws up."""
         self.now += 1.0
         self.particles.expire(self.now)

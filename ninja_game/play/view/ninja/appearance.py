@@ -7,29 +7,29 @@ import pygame
 from ninja_game.play.ui.canvas import Point
 from ninja_game.play.ui.palette import mixed
 from ninja_game.play.view.ninja.figure import HEAD, band_ends, ninja_sprite, paint_arm, paint_leg
-from ninja_game.play.view.ninja.ninja_animation import NinjaMotion
+from ninja_game.play.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.play.view.ninja.ragdoll import PELVIS, SHOULDER, TRUNK, Ragdoll
 from ninja_game.play.view.sprites.draw_target import Stage, is_near
 from ninja_game.play.view.sprites.sketch import Sketch
 
 
-def draw_ninja(stage: Stage, motion: NinjaMotion, at: Point, fraction: float, colour: pygame.Color) -> None:
+def draw_ninja(stage: Stage, animation: NinjaAnimation, at: Point, fraction: float, colour: pygame.Color) -> None:
     """The living ninja about a point."""
     if not is_near(*at):
         return
     px, py = stage.canvas.exact(*at)
     offset = px - round(px), py - round(py)
     sprite = ninja_sprite(
-        stage.canvas.scale, stage.palette, motion.pose(fraction), motion.facing, motion.velocity,
+        stage.canvas.scale, stage.palette, animation.pose(fraction), animation.facing, animation.velocity,
         colour=colour, offset=offset,
     )  # fmt: skip
     stage.picture(sprite, *at)
 
 
-def draw_ghost(stage: Stage, motion: NinjaMotion, at: Point, fraction: float, colour: pygame.Color) -> None:
+def draw_ghost(stage: Stage, animation: NinjaAnimation, at: Point, fraction: float, colour: pygame.Color) -> None:
     """A figure that one can look through."""
     sprite = ninja_sprite(
-        stage.canvas.scale, stage.palette, motion.pose(fraction), motion.facing, motion.velocity,
+        stage.canvas.scale, stage.palette, animation.pose(fraction), animation.facing, animation.velocity,
         colour=colour, alpha=0.45, banded=False,
     )  # fmt: skip
     stage.picture(sprite, *at)

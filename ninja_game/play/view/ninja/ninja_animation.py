@@ -16,7 +16,7 @@ _UPRIGHT = 0.9
 """Share of its rotation that a body in the air keeps each tick."""
 
 
-class NinjaMotion:
+class NinjaAnimation:
     """The ninja's figure between ticks. ``chance``: picks the dances, never read by the world."""
 
     def __init__(self, world: World, chance: Random) -> None:
@@ -48,7 +48,7 @@ class NinjaMotion:
         elif abs(n.x - n.prev_x) > 1e-9:
             self.facing = 1 if n.x > n.prev_x else -1
 
-    def ticked(self, world: World) -> None:
+    def on_tick(self, world: World) -> None:
         """Follow a tick."""
         n = world.ninja
         if n.state == DEAD:

@@ -7,7 +7,7 @@ import pygame
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.palette import Palette
 from ninja_game.play.view.sprites.draw_target import is_near
-from ninja_game.play.view.sprites.object_animation import Motions
+from ninja_game.play.view.sprites.object_animation import ObjectAnimation
 from ninja_game.play.view.sprites.sketch import Sprite
 from ninja_game.play.view.sprites.sprite_book import SpriteBook
 from ninja_game.play.view.sprites.static_sprite_state import SETTLED_TICKS, Look, fixture_looks
@@ -56,16 +56,16 @@ class Backdrop:
                 self.tiles.blit(pictures[key], (left, top))
                 self._solid[row * _COLUMNS + column] = True
 
-    def reset(self, world: World, motions: Motions) -> None:
+    def reset(self, world: World, animation: ObjectAnimation) -> None:
         """Draw all of it for a world as it is now."""
         self._moving.clear()
         # Walls first, then what lies before them.
         front = {GOLD, MINE}
-        self._order = sorted(motions.fixtures, key=lambda slot: world.objects[slot].kind in front)
+        self._order = sorted(animation.fixtures, key=lambda slot: world.objects[slot].kind in front)
         self._blits.clear()
         self._rects.clear()
         for slot in self._order:
-            self._place(slot, fixture_looks(world, slot, motions, 1.0))
+            self._place(slot, fixture_looks(world, slot, animation, 1.0))
         self._mend(self.picture.get_rect())
 
     def _place(self, slot: int, looks: list[Look]) -> pygame.Rect:
@@ -98,14 +98,14 @@ class Backdrop:
         self.picture.blit(self.tiles, area, area, pygame.BLEND_PREMULTIPLIED)
         self.picture.set_clip(None)
 
-    def update(self, world: World, motions: Motions, fraction: float) -> list[pygame.Rect]:
+    def update(self, world: World, animation: ObjectAnimation, fraction: float) -> list[pygame.Rect]:
         """Mend what changed since the last picture; the px that did."""
-        self._moving |= motions.changed
-        motions.changed.clear()
+        self._moving |= animation.changed
+        animation.changed.clear()
         mended = []
         for slot in list(self._moving):
-            looks = fixture_looks(world, slot, motions, fraction)
-            if motions.age(slot, fraction) > SETTLED_TICKS:
+            looks = fixture_looks(world, slot, animation, fraction)
+            if animation.age(slot, fraction) > SETTLED_TICKS:
                 self._moving.discard(slot)
             rect = self._place(slot, looks)
             if rect.width:

@@ -32,7 +32,7 @@ def drawn_place(o: Object) -> Place:
     return (o.aim_x, o.aim_y) if o.kind == TURRET else (o.x, o.y)
 
 
-class Motions:
+class ObjectAnimation:
     """The memory of one view. ``tick`` counts the ticks that were seen."""
 
     def __init__(self, world: World) -> None:
@@ -56,7 +56,7 @@ class Motions:
         n = world.ninja
         self.ninja_now = self.ninja_before = (n.x, n.y)
 
-    def ticked(self, world: World) -> None:
+    def on_tick(self, world: World) -> None:
         """Take note of the world after a tick."""
         self.tick += 1
         self.before, self.now = self.now, {}

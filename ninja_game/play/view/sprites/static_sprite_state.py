@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import atan2, degrees
 
-from ninja_game.play.view.sprites.object_animation import Motions
+from ninja_game.play.view.sprites.object_animation import ObjectAnimation
 from ninja_game.play.view.sprites.sprite_book import Key
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.level import DOOR, EXIT, GOLD, LAUNCH_PAD, LAUNCHER, MINE, ONE_WAY, TURRET
@@ -21,28 +21,28 @@ SETTLED_TICKS = LONGEST_FRAMES / 3
 """After so many ticks without change a fixture looks the same for ever."""
 
 
-def fixture_looks(world: World, slot: int, motions: Motions, fraction: float) -> list[Look]:
+def fixture_looks(world: World, slot: int, animation: ObjectAnimation, fraction: float) -> list[Look]:
     """The drawings of one thing; [] if nothing of it is fixed to the walls, or it is gone."""
     o = world.objects[slot]
     kind = o.kind
     if kind in {GOLD, MINE}:
         return [] if o.spent else [(("gold" if kind == GOLD else "mine", 0, 8), o.x, o.y)]
     if kind == EXIT:
-        step = motions.step(slot, fraction, _EXIT_FRAMES) if o.spent else 0
+        step = animation.step(slot, fraction, _EXIT_FRAMES) if o.spent else 0
         return [(("exit", 0, 8, step), o.x, o.y)]
     if kind == SWITCH:
         return [(("switch", 0, 8, world.objects[o.partner].spent), o.x, o.y)]
     if kind == DOOR:
-        return _door_looks(o, slot, motions, fraction)
+        return _door_looks(o, slot, animation, fraction)
     if kind == LAUNCH_PAD:
-        step = 8 - motions.step(slot, fraction, _PAD_FRAMES)
+        step = 8 - animation.step(slot, fraction, _PAD_FRAMES)
         return [(("pad", _upright(o.face_x, o.face_y), 8, step), o.x, o.y)]
     if kind == ONE_WAY:
         return [(("one-way", _upright(o.face_x, o.face_y), 8), o.x, o.y)]
     if kind == TURRET:
-        return [(("turret", 0, 8, _turret_step(o, slot, motions, fraction)), o.x, o.y)]
+        return [(("turret", 0, 8, _turret_step(o, slot, animation, fraction)), o.x, o.y)]
     if kind == LAUNCHER:
-        step = motions.step(slot, fraction, _PREPARE_FRAMES) if o.routine == LAUNCHER_PREPARE else 0
+        step = animation.step(slot, fraction, _PREPARE_FRAMES) if o.routine == LAUNCHER_PREPARE else 0
         return [(("launcher", 0, 8, step), o.base_x, o.base_y)]
     return []
 
@@ -53,12 +53,12 @@ def _upright(face_x: float, face_y: float) -> int:
     return round(degrees(atan2(sign_x, -sign_y)))
 
 
-def _turret_step(o: Object, slot: int, motions: Motions, fraction: float) -> int:
+def _turret_step(o: Object, slot: int, animation: ObjectAnimation, fraction: float) -> int:
     if not o.updating:
         return 0
     if o.routine == TURRET_PRE_FIRE:
-        return motions.step(slot, fraction, _AIM_FRAMES)
-    return 8 - motions.step(slot, fraction, 9) if o.routine == TURRET_POST_FIRE else 0
+        return animation.step(slot, fraction, _AIM_FRAMES)
+    return 8 - animation.step(slot, fraction, 9) if o.routine == TURRET_POST_FIRE else 0
 
 
 def door_place(o: Object) -> tuple[float, float, int] | None:
@@ -70,10 +70,10 @@ def door_place(o: Object) -> tuple[float, float, int] | None:
     return CENTRE_X[cell] + dx, CENTRE_Y[cell] + dy, 0 if dx else 90
 
 
-def _door_looks(o: Object, slot: int, motions: Motions, fraction: float) -> list[Look]:
+def _door_looks(o: Object, slot: int, animation: ObjectAnimation, fraction: float) -> list[Look]:
     looks: list[Look] = []
     place = door_place(o)
-    step = motions.step(slot, fraction, _door_frames(o))
+    step = animation.step(slot, fraction, _door_frames(o))
     closed = o.spent == (o.mechanism == TRAP)
     # A trap door cannot be seen until it is sprung.
     if place and not (o.mechanism == TRAP and not o.spent):

@@ -14,7 +14,7 @@ from ninja_game.play.view.ninja.pose import STAND
 from ninja_game.play.view.sprites.backdrop import Backdrop
 from ninja_game.play.view.sprites.draw_moving import draw_movers
 from ninja_game.play.view.sprites.draw_target import Stage
-from ninja_game.play.view.sprites.object_animation import Motions
+from ninja_game.play.view.sprites.object_animation import ObjectAnimation
 from ninja_game.play.view.sprites.sprite_book import SpriteBook
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import grid_tiles
@@ -41,12 +41,12 @@ def thumbnail(level: Level, palette: Palette, width: int) -> pygame.Surface:
         picture.fill(palette.background)
         picture.blit(Backdrop(canvas, palette, book, static).tiles, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
         return picture
-    motions = Motions(run.world)
+    animation = ObjectAnimation(run.world)
     backdrop = Backdrop(canvas, palette, book, run.static)
-    backdrop.reset(run.world, motions)
+    backdrop.reset(run.world, animation)
     stage = Stage(canvas, palette, book)
     stage.begin(backdrop.picture)
-    draw_movers(stage, run.world, motions, 1.0)
+    draw_movers(stage, run.world, animation, 1.0)
     n = run.world.ninja
     stage.picture(ninja_sprite(canvas.scale, palette, STAND, 1, (0.0, 0.0), colour=palette.ninja), n.x, n.y)
     backdrop.picture.blit(backdrop.tiles, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
