@@ -22,65 +22,71 @@ import pygame
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.palette import PALETTES, Palette
 from ninja_game.play.ui.theme import Theme
+from ninja_game.play.view.effects import particle_shapes
 from ninja_game.play.view.ninja.dances import DANCES
 from ninja_game.play.view.ninja.figure import ninja_sprite
 from ninja_game.play.view.ninja.pose import FALL, FLOAT, RISE, SKID, SLIDE, STAND, Pose, run_pose
-from ninja_game.play.view.sprites.sprite_book import Key, SpriteBook
+from ninja_game.play.view.sprites import moving_sprites as moving
+from ninja_game.play.view.sprites import static_sprites as static
+from ninja_game.play.view.sprites.drawing import SpriteKey
+from ninja_game.play.view.sprites.sprite_book import SpriteBook
 
 SCALE = 3.0
 CELL = 150, 138
 COLUMNS = 12
 MARGIN = 24
 
-Shown = tuple[str, list[tuple[Key, float, float]]]
+Shown = tuple[str, list[tuple[SpriteKey, float, float]]]
 """A label, and drawings with where their points lie, px from the middle of the cell."""
 
 
-def one(label: str, *key: object, at: tuple[float, float] = (0, 0)) -> Shown:
+def one(label: str, key: SpriteKey, at: tuple[float, float] = (0, 0)) -> Shown:
     """A cell with a single drawing."""
     return label, [(key, *at)]
 
 
 def drone(label: str, weapon: int, *, seeker: int = 0, chasing: int = 0, heat: int = 0, mood: int = 0) -> Shown:
     """A drone with its eye, and its barrel if it has one."""
-    body: Key = ("drone", 0, 8, weapon, seeker, chasing, heat if weapon == 1 else 0)
-    parts: list[tuple[Key, float, float]] = [(body, 0, 3)]
+    body = moving.drone(weapon, seeker, chasing, heat if weapon == 1 else 0)
+    parts: list[tuple[SpriteKey, float, float]] = [(body, 0, 3)]
     if weapon == 2:
-        parts.append((("barrel", 0, 8, 0, heat), 0, 3))
-    parts.append((("eye", 0, 8, mood), 4.5, 3))
+        parts.append((moving.barrel(0, heat), 0, 3))
+    parts.append((moving.eye(mood), 4.5, 3))
     return label, parts
 
 
 THINGS: list[Shown] = [
-    one("gold", "gold", 0, 8),
-    *(one(f"gold taken {k}", "streak", 0, 8, k, at=(0, 14)) for k in (2, 5)),
-    one("mine", "mine", 0, 8),
-    one("exit, closed", "exit", 0, 8, 0), one("exit, opening", "exit", 0, 8, 4), one("exit, open", "exit", 0, 8, 8),
-    one("switch", "switch", 0, 8, 0), one("switch, pressed", "switch", 0, 8, 1),
-    one("door, closed", "door", 0, 8, 0, 0), one("door, half", "door", 0, 8, 0, 4),
-    one("door, open", "door", 0, 8, 0, 8),
-    one("lock, closed", "door", 0, 8, 1, 0), one("lock, opening", "door", 0, 8, 1, 4),
-    one("lock, open", "door", 0, 8, 1, 8),
-    one("key", "door switch", 0, 8, 1, 0), one("key, used", "door switch", 0, 8, 1, 1),
-    one("trap, closing", "door", 0, 8, 2, 4), one("trap, closed", "door", 0, 8, 2, 0),
-    one("snare", "door switch", 0, 8, 2, 0), one("snare, used", "door switch", 0, 8, 2, 1),
-    one("pad", "pad", 0, 8, 0), one("pad, sprung", "pad", 0, 8, 8), one("pad, slanted", "pad", 45, 8, 0),
-    one("one-way", "one-way", 0, 8), one("one-way, left", "one-way", -90, 8),
-    one("turret", "turret", 0, 8, 0), one("turret, locked", "turret", 0, 8, 8),
-    *(one(f"crosshair, {name}", "crosshair", 0, 8, k) for k, name in enumerate(("far", "mid", "near", "locked"))),
-    one("launcher", "launcher", 0, 8, 0), one("launcher, ready", "launcher", 0, 8, 8),
-    ("rocket", [*((("flame", 0, 2 + k, 6 - k), 2.6 * k - 14, 0) for k in range(6)), (("rocket", 0, 8, 1), 12, 0)]),
-    one("block", "block", 0, 8, 0), one("block, awake", "block", 0, 8, 1),
-    one("thwump", "thwump", 0, 8, 0, 0), one("thwump, falling", "thwump", 0, 8, 1, 1),
-    one("thwump, rising", "thwump", 0, 8, 2, 0), one("thwump, left", "thwump", 90, 8, 0, 0),
-    one("guard", "guard", 0, 8, 0, 0), one("guard, running", "guard", 0, 8, 1, 1),
+    one("gold", static.gold()),
+    *(one(f"gold taken {k}", static.gold_streak(k), at=(0, 14)) for k in (2, 5)),
+    one("mine", static.mine()),
+    one("exit, closed", static.exit_door(0)), one("exit, opening", static.exit_door(4)),
+    one("exit, open", static.exit_door(8)),
+    one("switch", static.exit_switch(0)), one("switch, pressed", static.exit_switch(1)),
+    one("door, closed", static.door(0, 0)), one("door, half", static.door(0, 4)),
+    one("door, open", static.door(0, 8)),
+    one("lock, closed", static.door(1, 0)), one("lock, opening", static.door(1, 4)),
+    one("lock, open", static.door(1, 8)),
+    one("key", static.door_switch(1, 0)), one("key, used", static.door_switch(1, 1)),
+    one("trap, closing", static.door(2, 4)), one("trap, closed", static.door(2, 0)),
+    one("snare", static.door_switch(2, 0)), one("snare, used", static.door_switch(2, 1)),
+    one("pad", static.launch_pad(0)), one("pad, sprung", static.launch_pad(8)),
+    one("pad, slanted", static.launch_pad(0).turned(45)),
+    one("one-way", static.one_way()), one("one-way, left", static.one_way().turned(-90)),
+    one("turret", static.turret_base(0)), one("turret, locked", static.turret_base(8)),
+    *(one(f"crosshair, {name}", static.crosshair(k)) for k, name in enumerate(("far", "mid", "near", "locked"))),
+    one("launcher", static.launcher_base(0)), one("launcher, ready", static.launcher_base(8)),
+    ("rocket", [*((moving.flame(6 - k).faded(2 + k), 2.6 * k - 14, 0) for k in range(6)), (moving.rocket(1), 12, 0)]),
+    one("block", moving.bounce_block(0)), one("block, awake", moving.bounce_block(1)),
+    one("thwump", moving.thwump(0, 0)), one("thwump, falling", moving.thwump(1, 1)),
+    one("thwump, rising", moving.thwump(2, 0)), one("thwump, left", moving.thwump(0, 0).turned(90)),
+    one("guard", moving.floor_guard(0, 0)), one("guard, running", moving.floor_guard(1, 1)),
     drone("zap drone", 0), drone("seeker", 0, seeker=1), drone("seeker, chasing", 0, seeker=1, chasing=1, mood=1),
     drone("laser drone", 1), drone("laser, charging", 1, heat=5, mood=2), drone("laser, firing", 1, heat=8, mood=2),
     drone("chaingun drone", 2), drone("chaingun, firing", 2, heat=8, mood=2),
-    one("laser burst", "burst", 0, 8, 8), one("lightning", "lightning", 0, 8, 0),
-    one("fireball", "fireball", 0, 8, 2, 0), one("fireball, late", "fireball", 0, 5, 6, 1),
-    one("explosion", "burst star", 0, 8, 3), one("muzzle flash", "muzzle", 0, 8, 1),
-    one("dust", "puff", 0, 8, "dust", 2, 0), one("smoke", "puff", 0, 6, "smoke", 5, 1),
+    one("laser burst", moving.impact_burst(8)), one("lightning", static.lightning(0)),
+    one("fireball", particle_shapes.fireball(2, 0)), one("fireball, late", particle_shapes.fireball(6, 1).faded(5)),
+    one("explosion", particle_shapes.burst_star(3)), one("muzzle flash", particle_shapes.muzzle(1)),
+    one("dust", particle_shapes.puff("dust", 2, 0)), one("smoke", particle_shapes.puff("smoke", 5, 1).faded(6)),
 ]  # fmt: skip
 """Every thing in every state that looks different."""
 

@@ -9,7 +9,7 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.play.ui.palette import PALETTES
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import OVERLAY_ACTIONS, Overlays
-from ninja_game.play.view.render_context import Sheet
+from ninja_game.play.view.render_context import OffscreenContext
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.sim.death import kill
 from ninja_game.sim.states import EXPLOSIVE
@@ -34,7 +34,7 @@ ODD = {
 def test_it_is_drawn(name: str) -> None:
     level = parse_level_string(f"{TILES}|{ODD[name]}")
     run = Simulation(level)
-    view = LevelView(Sheet((264, 200)), run)
+    view = LevelView(OffscreenContext((264, 200)), run)
     view.overlays = Overlays()
     view.overlays.on = set(OVERLAY_ACTIONS)
     surface = pygame.Surface((264, 200))
@@ -59,4 +59,4 @@ def test_a_level_without_ninja_has_a_thumbnail() -> None:
 
 def test_undefined_and_odd_tiles_are_drawn() -> None:
     run = Simulation(parse_level_string("!o~Q1" + "0" * 708 + f"|{NINJA}"))
-    LevelView(Sheet((264, 200)), run).draw(pygame.Surface((264, 200)))
+    LevelView(OffscreenContext((264, 200)), run).draw(pygame.Surface((264, 200)))

@@ -6,13 +6,20 @@ import pygame
 import pytest
 
 from ninja_game.play.ui.palette import PALETTES, ROLES, Palette
-from ninja_game.play.view.sprites.registry import DRAWINGS
+from ninja_game.play.view.effects import particle_shapes
+from ninja_game.play.view.sprites import moving_sprites as moving
+from ninja_game.play.view.sprites import static_sprites as static
+from ninja_game.play.view.sprites.drawing import Drawing, SpriteKey
 from ninja_game.play.view.sprites.sprite_book import SpriteBook
 from ninja_game.player.settings import PALETTES as OFFERED
 
-STATES: dict[str, tuple[object, ...]] = {
-    "mine": (), "turret": (0,), "thwump": (0, 0), "guard": (0, 0), "drone": (0, 0, 0, 0),
-}  # fmt: skip
+AT_REST = (
+    static.mine(),
+    static.turret_base(0),
+    moving.thwump(0, 0),
+    moving.floor_guard(0, 0),
+    moving.drone(0, 0, 0, 0),
+)
 """What is dangerous, at rest."""
 
 
@@ -44,27 +51,32 @@ def test_text_and_ninja_stand_out(palette: Palette) -> None:
 
 
 @pytest.mark.parametrize("palette", PALETTES.values(), ids=lambda palette: palette.name)
-@pytest.mark.parametrize("name", STATES)
-def test_safe_palettes_mark_danger_by_shape(palette: Palette, name: str) -> None:
+@pytest.mark.parametrize("key", AT_REST)
+def test_safe_palettes_mark_danger_by_shape(palette: Palette, key: SpriteKey) -> None:
     """In one ink the drawing with marks differs from the drawing without."""
-    if not palette.shapes:
+    if not palette.danger_by_shape:
         return
     ink = {role: pygame.Color("black") for role in ROLES}
-    plain = SpriteBook(4.0, Palette("plain", shapes=False, **ink)).sprite((name, 0, 8, *STATES[name])).surface
-    marked = SpriteBook(4.0, Palette("marked", shapes=True, **ink)).sprite((name, 0, 8, *STATES[name])).surface
+    plain = SpriteBook(4.0, Palette("plain", danger_by_shape=False, **ink)).sprite(key).surface
+    marked = SpriteBook(4.0, Palette("marked", danger_by_shape=True, **ink)).sprite(key).surface
     assert pygame.mask.from_surface(plain).count() != pygame.mask.from_surface(marked).count()
 
 
 @pytest.mark.parametrize("palette", PALETTES.values(), ids=lambda palette: palette.name)
 def test_every_drawing_can_be_made(palette: Palette) -> None:
-    examples: dict[str, tuple[object, ...]] = STATES | {
-        "gold": (), "one-way": (), "exit": (5,), "switch": (1,), "door": (2, 0), "door switch": (1, 0), "pad": (3,),
-        "launcher": (2,), "crosshair": (3,), "streak": (2,), "lightning": (1,), "block": (1,), "barrel": (1, 4),
-        "eye": (2,), "rocket": (1,), "flame": (3,), "burst": (4,), "puff": ("dust", 3, 1), "fireball": (2, 1),
-        "burst star": (3,), "muzzle": (1,),
+    examples = (
+        *AT_REST, static.gold(), static.one_way(), static.exit_door(5), static.exit_switch(1), static.door(2, 0),
+        static.door_switch(1, 0), static.launch_pad(3), static.launcher_base(2), static.crosshair(3),
+        static.gold_streak(2), static.lightning(1), moving.bounce_block(1), moving.barrel(1, 4), moving.eye(2),
+        moving.rocket(1), moving.flame(3), moving.impact_burst(4), particle_shapes.puff("dust", 3, 1),
+        particle_shapes.fireball(2, 1), particle_shapes.burst_star(3), particle_shapes.muzzle(1),
+    )  # fmt: skip
+    all_drawings = {
+        value for module in (static, moving, particle_shapes) for value in vars(module).values()
+        if isinstance(value, Drawing)
     }  # fmt: skip
-    assert set(examples) == set(DRAWINGS)
+    assert {key.drawing for key in examples} == all_drawings
     book = SpriteBook(2.0, palette)
-    for name, parameters in examples.items():
+    for key in examples:
         for turn in (0, 45):
-            assert pygame.mask.from_surface(book.sprite((name, turn, 8, *parameters)).surface).count() > 0, name
+            assert pygame.mask.from_surface(book.sprite(key.turned(turn)).surface).count() > 0, key

@@ -17,7 +17,7 @@ from ninja_game.play.options import Options
 from ninja_game.play.ui.palette import PALETTES
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import OVERLAY_ACTIONS, Overlays
-from ninja_game.play.view.render_context import Sheet
+from ninja_game.play.view.render_context import OffscreenContext
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.sim.death import kill
 from ninja_game.sim.states import ELECTRIC, EXPLOSIVE
@@ -40,7 +40,7 @@ def scene(
     path = sorted((ROOT / "tests" / "replays").glob("*.replay.txt"))[number]
     recording = load_replays(path)[0]
     run = Simulation(recording.level)
-    view = LevelView(Sheet(SIZE, options), run, chance=7)
+    view = LevelView(OffscreenContext(SIZE, options), run, chance=7)
     if overlays:
         view.overlays = Overlays()
         view.overlays.on = set(OVERLAY_ACTIONS)

@@ -13,7 +13,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.options import Options
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import OVERLAY_ACTIONS
-from ninja_game.play.view.render_context import Sheet
+from ninja_game.play.view.render_context import OffscreenContext
 from ninja_game.simulation import Simulation
 from tests.support.scripted import frames, press, release, scripted_app
 
@@ -85,7 +85,7 @@ def test_looking_only_reads() -> None:
     """A view drawn twice as often, with a ghost, leaves a world in which every field is as without."""
     recording = load_replays(REPLAYS[-1])[0]
     bare, seen = Simulation(recording.level), Simulation(recording.level)
-    sheet = Sheet((396, 300))
+    sheet = OffscreenContext((396, 300))
     view = LevelView(sheet, seen, chance=5)
     import pygame
 

@@ -29,7 +29,7 @@ class ScriptedKeys(Bindings):
         return self.script.pop(0) if self.script else 0
 
 
-class Stage:
+class MenuDriver:
     """The program with its main menu. ``keys``: what plays."""
 
     def __init__(self, folder: Path, size: tuple[int, int] = (792, 600)) -> None:

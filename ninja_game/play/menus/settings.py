@@ -11,7 +11,7 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.rebinding import BindingTable, binding_widgets
 from ninja_game.play.start import apply_settings
 from ninja_game.play.ui.canvas import WIDTH
-from ninja_game.play.ui.palette import FLAVOURS, PALETTES
+from ninja_game.play.ui.palette import NINJA_COLOURS, PALETTES
 from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.ui.widgets import Button, Choice, Label, Slider, Widget
 from ninja_game.player.unlocks import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
@@ -82,10 +82,10 @@ class SettingsScreen(MenuScreen):
 
     def _picture(self) -> list[Widget]:
         columns, present = self.player.columns_complete, self.player.columns_present
-        count = len(FLAVOURS) if custom_colour_unlocked(columns, present) else 1 + unlocked_colours(columns)
+        count = len(NINJA_COLOURS) if custom_colour_unlocked(columns, present) else 1 + unlocked_colours(columns)
         palettes = [(name, name) for name in PALETTES]
-        colours = list(zip(COLOUR_NAMES, FLAVOURS, strict=True))[:count]
-        more = "Complete columns of episodes for more" if count < len(FLAVOURS) else ""
+        colours = list(zip(COLOUR_NAMES, NINJA_COLOURS, strict=True))[:count]
+        more = "Complete columns of episodes for more" if count < len(NINJA_COLOURS) else ""
         return [
             self._choice(0, "Palette", "palette", palettes, "contrast and safe mark danger by shape too"),
             self._choice(1, "Ninja colour", "flavour", colours, more),

@@ -20,7 +20,7 @@ from ninja_game.play.options import Options
 from ninja_game.play.replay.playback import Playback, Take
 from ninja_game.play.ui.palette import PALETTES, ROLES, Palette, mixed
 from ninja_game.play.view.level_view import LevelView
-from ninja_game.play.view.render_context import Sheet
+from ninja_game.play.view.render_context import OffscreenContext
 
 if TYPE_CHECKING:
     from ninja_game.player.player_data import PlayerData
@@ -36,7 +36,7 @@ _LONG_FILM = 600
 
 def film_pictures(take: Take, size: tuple[int, int], options: Options | None = None) -> Iterator[pygame.Surface]:
     """One picture a tick, always the same surface; the first shows the start."""
-    sheet = Sheet(size, options)
+    sheet = OffscreenContext(size, options)
     playback = Playback(take)
     view = LevelView(sheet, playback.simulation)
     surface = pygame.Surface(size)

@@ -9,10 +9,10 @@ import pygame
 
 @dataclass(frozen=True)
 class Palette:
-    """Colours by role. ``shapes``: danger is marked by spikes and bars too, not only by colour."""
+    """Colours by role. ``danger_by_shape``: danger is marked by spikes and bars too, not only by colour."""
 
     name: str
-    shapes: bool
+    danger_by_shape: bool
 
     # The stage and the interface.
     background: pygame.Color
@@ -74,9 +74,10 @@ _CLASSIC = dict(  # noqa: C408 - one form for all palettes
 )  # fmt: skip
 
 
-def _palette(name: str, *, shapes: bool = False, **colours: str) -> Palette:
+def _palette(name: str, *, danger_by_shape: bool = False, **colours: str) -> Palette:
     """A palette: the classic one with some colours changed."""
-    return Palette(name, shapes, **{role: pygame.Color(colour) for role, colour in (_CLASSIC | colours).items()})
+    inks = {role: pygame.Color(colour) for role, colour in (_CLASSIC | colours).items()}
+    return Palette(name, danger_by_shape, **inks)
 
 
 CLASSIC = _palette("classic")
@@ -93,7 +94,7 @@ DARK = _palette(
 )  # fmt: skip
 
 CONTRAST = _palette(
-    "contrast", shapes=True, background="#ffffff", tile="#3a3a3a", text="#000000", faint="#333333",
+    "contrast", danger_by_shape=True, background="#ffffff", tile="#3a3a3a", text="#000000", faint="#333333",
     on_tile="#ffffff", panel="#ffffff", panel_edge="#000000", accent="#0033cc", good="#006000", bad="#b00000",
     bar_full="#0033cc", bar_empty="#b00000", ninja="#000000", band="#0033cc", ghost="#4a6fff", blood="#c00000",
     outline="#000000", dark="#333333", middle="#888888", light="#c4c4c4", bright="#ffffff",
@@ -105,7 +106,7 @@ CONTRAST = _palette(
 
 # Blue and orange differ for every common kind of colour blindness; danger is always orange to vermilion, and spiked.
 SAFE = _palette(
-    "safe", shapes=True, background="#d3d5d8", tile="#6f7680", text="#14161a", faint="#565c66",
+    "safe", danger_by_shape=True, background="#d3d5d8", tile="#6f7680", text="#14161a", faint="#565c66",
     on_tile="#eef0f3", panel="#e3e5e8", panel_edge="#8f959f", accent="#0060a8", good="#0060a8", bad="#c24a00",
     bar_full="#0072b2", bar_empty="#d55e00", ninja="#101216", band="#0060a8", ghost="#0072b2", blood="#8a2c00",
     gold="#e6c200", gold_light="#fff27a", gold_dark="#6b5900", exit="#56b4e9", exit_light="#c9e8fb",
@@ -115,7 +116,7 @@ SAFE = _palette(
 )  # fmt: skip
 
 SAFE_DARK = _palette(
-    "safe-dark", shapes=True, background="#1e2227", tile="#4b525c", text="#eceff3", faint="#a2a9b3",
+    "safe-dark", danger_by_shape=True, background="#1e2227", tile="#4b525c", text="#eceff3", faint="#a2a9b3",
     on_tile="#eceff3", panel="#2a2f36", panel_edge="#5a626d", accent="#56b4e9", good="#56b4e9", bad="#ff9a4d",
     bar_full="#56b4e9", bar_empty="#ff8c33", ninja="#f4f6f8", band="#56b4e9", ghost="#56b4e9", blood="#d06a2c",
     outline="#0c0e10", dark="#78808c", middle="#8f97a3", light="#aab1bc", bright="#e6e9ee",
@@ -127,10 +128,10 @@ SAFE_DARK = _palette(
 
 PALETTES: dict[str, Palette] = {palette.name: palette for palette in (CLASSIC, DARK, CONTRAST, SAFE, SAFE_DARK)}
 
-ROLES = tuple(entry.name for entry in fields(Palette) if entry.name not in {"name", "shapes"})
+ROLES = tuple(entry.name for entry in fields(Palette) if entry.name not in {"name", "danger_by_shape"})
 """All colour roles."""
 
-FLAVOURS = (
+NINJA_COLOURS = (
     "", "#d9127f", "#7d7700", "#1a6488", "#765484", "#6a2424", "#f7f7f7", "#c79400", "#787887", "#bfbfc6",
 )  # fmt: skip
 """The ninja's colours: the palette's own, then one per completed column (game.md §8)."""

@@ -14,10 +14,10 @@ from ninja_game.play.view.effects.particles import Particles
 from ninja_game.play.view.ninja.appearance import draw_ghost, draw_ninja, draw_ragdoll
 from ninja_game.play.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.play.view.ninja.ragdoll import Ragdoll
-from ninja_game.play.view.render_context import Scene
+from ninja_game.play.view.render_context import RenderContext
 from ninja_game.play.view.sprites.backdrop import Backdrop
-from ninja_game.play.view.sprites.draw_moving import draw_movers
-from ninja_game.play.view.sprites.draw_target import Stage
+from ninja_game.play.view.sprites.draw_moving import draw_moving
+from ninja_game.play.view.sprites.draw_target import DrawTarget
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
 from ninja_game.play.view.sprites.sprite_book import SpriteBook
 from ninja_game.sim.events import DIED
@@ -40,7 +40,13 @@ class LevelView:
     """
 
     def __init__(
-        self, app: Scene, simulation: Simulation, *, area: Area | None = None, chance: int = 0, audible: bool = True
+        self,
+        app: RenderContext,
+        simulation: Simulation,
+        *,
+        area: Area | None = None,
+        chance: int = 0,
+        audible: bool = True,
     ) -> None:
         self.app = app
         self.simulation = simulation
@@ -139,7 +145,7 @@ class LevelView:
         self.canvas = canvas if self._area is None else Canvas.inside(canvas.rect(*self._area))
         palette = self.app.theme.palette
         book = SpriteBook(self.canvas.scale, palette)
-        self.stage = Stage(self.canvas, palette, book)
+        self.target = DrawTarget(self.canvas, palette, book)
         self._backdrop = Backdrop(self.canvas, palette, book, self.simulation.static)
         self._backdrop.reset(self.simulation.world, self.object_animation)
         self._look = self._wanted_look()
@@ -151,7 +157,7 @@ class LevelView:
     @property
     def colour(self) -> pygame.Color:
         """The ninja's colour."""
-        return pygame.Color(self.app.options.flavour) if self.app.options.flavour else self.stage.palette.ninja
+        return pygame.Color(self.app.options.flavour) if self.app.options.flavour else self.target.palette.ninja
 
     def draw(self, surface: pygame.Surface, fraction: float = 1.0, *, whole: bool = False) -> list[pygame.Rect] | None:
         """Draw the world ``fraction`` of a tick after the last but one; the px that changed, None for all.
@@ -169,10 +175,10 @@ class LevelView:
         self._draw_moving(surface, fraction)
         self._cover_by_tiles(surface)
         if self.overlays is not None:
-            self.overlays.draw(self.stage, self.simulation)
+            self.overlays.draw(self.target, self.simulation)
         surface.set_clip(None)
-        changed = self._covered + self.stage.covered + mended
-        self._covered = self.stage.covered
+        changed = self._covered + self.target.covered + mended
+        self._covered = self.target.covered
         return None if whole else changed
 
     def _restore(self, surface: pygame.Surface, whole: bool, fraction: float) -> list[pygame.Rect]:
@@ -181,7 +187,7 @@ class LevelView:
         mended = [r.move(origin) for r in self._backdrop.update(self.simulation.world, self.object_animation, fraction)]
         if whole:
             if self._area is None:
-                surface.fill(self.stage.palette.tile)
+                surface.fill(self.target.palette.tile)
             surface.blit(self._backdrop.picture, origin)
             return mended
         for rect in self._covered + mended:
@@ -190,27 +196,27 @@ class LevelView:
 
     def _draw_moving(self, surface: pygame.Surface, fraction: float) -> None:
         """From back to front, as presentation.md §1 has it."""
-        stage, now = self.stage, self.effects.now + fraction - 1
-        stage.begin(surface)
-        Particles.draw(self.particles.rear, stage, now)
-        draw_movers(stage, self.simulation.world, self.object_animation, fraction)
+        target, now = self.target, self.effects.now + fraction - 1
+        target.begin(surface)
+        Particles.draw(self.particles.rear, target, now)
+        draw_moving(target, self.simulation.world, self.object_animation, fraction)
         if self.app.options.show_ghost:
             for ghost in self.ghosts:
-                draw_ghost(stage, ghost.ninja_animation, ghost.place(fraction), fraction, ghost.colour(stage.palette))
+                draw_ghost(target, ghost.ninja_animation, ghost.place(fraction), fraction, ghost.colour(target.palette))
         if self.doll is not None:
-            draw_ragdoll(stage, self.doll, fraction, self.colour)
+            draw_ragdoll(target, self.doll, fraction, self.colour)
         else:
-            draw_ninja(stage, self.ninja_animation, self.object_animation.ninja_place(fraction), fraction, self.colour)
-        Particles.draw(self.particles.front, stage, now)
+            draw_ninja(target, self.ninja_animation, self.object_animation.ninja_place(fraction), fraction, self.colour)
+        Particles.draw(self.particles.front, target, now)
 
     def _cover_by_tiles(self, surface: pygame.Surface) -> None:
         """Tiles are in front of everything that moves."""
         origin, backdrop = self.canvas.origin, self._backdrop
-        for rect in self.stage.covered:
+        for rect in self.target.covered:
             local = rect.move(-origin[0], -origin[1])
             if backdrop.has_tile(local):
                 surface.blit(backdrop.tiles, rect, local, pygame.BLEND_PREMULTIPLIED)
 
     def also_covered(self, rect: pygame.Rect) -> None:
-        """Something else was drawn over the stage there; it is taken away before the next picture."""
+        """Something else was drawn over the level there; it is taken away before the next picture."""
         self._covered.append(rect)

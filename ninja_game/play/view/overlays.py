@@ -9,7 +9,7 @@ import pygame
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.palette import Palette
 from ninja_game.play.view.hit_shapes import HitShape, hit_shapes
-from ninja_game.play.view.sprites.draw_target import Stage
+from ninja_game.play.view.sprites.draw_target import DrawTarget
 from ninja_game.sim.collision.rays import ray_tiles, sees
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS
 from ninja_game.sim.level import DRONE, LAUNCHER, TURRET
@@ -40,33 +40,33 @@ class Overlays:
         self.on ^= {action}
         return True
 
-    def draw(self, stage: Stage, simulation: Simulation) -> None:
-        """Draw what is on over the stage."""
+    def draw(self, target: DrawTarget, simulation: Simulation) -> None:
+        """Draw what is switched on over the level."""
         if not self.on:
             return
         world = simulation.world
         if self.on & {GRID, EDGES}:
-            self._draw_sheet(stage, world)
+            self._draw_sheet(target, world)
         if CELLS in self.on:
-            _draw_cells(stage, world)
+            _draw_cells(target, world)
         if RAYS in self.on:
-            _draw_rays(stage, simulation)
+            _draw_rays(target, simulation)
         if HIT_BOXES in self.on:
             for shape in hit_shapes(world):
-                _draw_shape(stage, shape)
+                _draw_shape(target, shape)
 
-    def _draw_sheet(self, stage: Stage, world: World) -> None:
+    def _draw_sheet(self, target: DrawTarget, world: World) -> None:
         """Grid and edges change seldom: they are drawn once and laid over."""
-        wanted = (stage.canvas, stage.palette.name, GRID in self.on, EDGES in self.on, bytes(world.edges))
+        wanted = (target.canvas, target.palette.name, GRID in self.on, EDGES in self.on, bytes(world.edges))
         if self._sheet is None or wanted != self._sheet_of:
             self._sheet_of = wanted
-            self._sheet = pygame.Surface(stage.canvas.size, pygame.SRCALPHA)
-            local = Canvas(stage.canvas.size)
+            self._sheet = pygame.Surface(target.canvas.size, pygame.SRCALPHA)
+            local = Canvas(target.canvas.size)
             if GRID in self.on:
-                _paint_grid(self._sheet, local, stage.palette)
+                _paint_grid(self._sheet, local, target.palette)
             if EDGES in self.on:
-                _paint_edges(self._sheet, local, stage.palette, world)
-        stage.covered.append(stage.surface.blit(self._sheet, stage.canvas.origin))
+                _paint_edges(self._sheet, local, target.palette, world)
+        target.covered.append(target.surface.blit(self._sheet, target.canvas.origin))
 
 
 def _paint_grid(sheet: pygame.Surface, canvas: Canvas, palette: Palette) -> None:
@@ -98,25 +98,25 @@ def _paint_edges(sheet: pygame.Surface, canvas: Canvas, palette: Palette, world:
             pygame.draw.line(sheet, colour, canvas.point(x + ax, y + ay), canvas.point(x + bx, y + by), width)
 
 
-def _tint(stage: Stage, colour: pygame.Color, alpha: int, cell: int, inset: float = 0) -> None:
+def _tint(target: DrawTarget, colour: pygame.Color, alpha: int, cell: int, inset: float = 0) -> None:
     if not EXISTS[cell]:
         return
     x, y, w = CENTRE_X[cell] - 12 + inset, CENTRE_Y[cell] - 12 + inset, 24 - 2 * inset
-    stage.covered.append(stage.canvas.fill_rect(stage.surface, (colour.r, colour.g, colour.b, alpha), x, y, w, w))
+    target.covered.append(target.canvas.fill_rect(target.surface, (colour.r, colour.g, colour.b, alpha), x, y, w, w))
 
 
-def _draw_cells(stage: Stage, world: World) -> None:
+def _draw_cells(target: DrawTarget, world: World) -> None:
     """The nine cells that are asked for things; stronger, the cells whose tiles the body touches; things' own cells."""
     n = world.ninja
     if EXISTS[n.cell]:
         for offset in NINE_CELLS:
-            _tint(stage, stage.palette.switch, 40, n.cell + offset)
+            _tint(target, target.palette.switch, 40, n.cell + offset)
         for cell in touched_cells(n.x, n.y, n.cell):
-            _tint(stage, stage.palette.accent, 70, cell, 2)
+            _tint(target, target.palette.accent, 70, cell, 2)
     for slot in range(1, world.slots_used):
         o = world.objects[slot]
         if o.in_grid and EXISTS[o.cell]:
-            _tint(stage, stage.palette.good, 60, o.cell, 7)
+            _tint(target, target.palette.good, 60, o.cell, 7)
 
 
 def touched_cells(x: float, y: float, cell: int) -> list[int]:
@@ -131,7 +131,7 @@ def touched_cells(x: float, y: float, cell: int) -> list[int]:
     return cells
 
 
-def _draw_rays(stage: Stage, simulation: Simulation) -> None:
+def _draw_rays(target: DrawTarget, simulation: Simulation) -> None:
     """From everything that looks for the ninja: to it where it is seen, to the tile in the way where not."""
     world, level = simulation.world, simulation.static
     n = world.ninja
@@ -143,38 +143,38 @@ def _draw_rays(stage: Stage, simulation: Simulation) -> None:
         if not (x == x and y == y):  # noqa: PLR0124 - the test for NaN
             continue
         if sees(level, world, x, y, n.x, n.y)[0]:
-            stage.line(stage.palette.bad, x, y, n.x, n.y, 0.8)
+            target.line(target.palette.bad, x, y, n.x, n.y, 0.8)
         else:
             stopped, end_x, end_y = ray_tiles(level, world, x, y, n.x, n.y)
             if stopped:
-                stage.line(stage.palette.faint, x, y, end_x, end_y)
-                stage.disc(stage.palette.faint, end_x, end_y, 1.5)
+                target.line(target.palette.faint, x, y, end_x, end_y)
+                target.disc(target.palette.faint, end_x, end_y, 1.5)
 
 
 def _looks(o: Object) -> bool:
     return o.kind in {TURRET, LAUNCHER} or (o.kind == DRONE and o.weapon != WEAPON_ZAP)
 
 
-def _draw_circle(stage: Stage, shape: HitShape, colour: pygame.Color) -> pygame.Rect:
-    centre = stage.canvas.point(shape.x, shape.y)
-    return pygame.draw.aacircle(stage.surface, colour, centre, max(1, round(shape.half * stage.canvas.scale)), 1)
+def _draw_circle(target: DrawTarget, shape: HitShape, colour: pygame.Color) -> pygame.Rect:
+    centre = target.canvas.point(shape.x, shape.y)
+    return pygame.draw.aacircle(target.surface, colour, centre, max(1, round(shape.half * target.canvas.scale)), 1)
 
 
-def _draw_box(stage: Stage, shape: HitShape, colour: pygame.Color) -> pygame.Rect:
+def _draw_box(target: DrawTarget, shape: HitShape, colour: pygame.Color) -> pygame.Rect:
     half = shape.half
-    return stage.canvas.frame_rect(
-        stage.surface, colour, shape.x - half, shape.y - half, 2 * half, 2 * half, 0.5
+    return target.canvas.frame_rect(
+        target.surface, colour, shape.x - half, shape.y - half, 2 * half, 2 * half, 0.5
     )  # fmt: skip
 
 
-_FORMS: dict[bool, Callable[[Stage, HitShape, pygame.Color], pygame.Rect]] = {True: _draw_circle, False: _draw_box}
+_FORMS: dict[bool, Callable[[DrawTarget, HitShape, pygame.Color], pygame.Rect]] = {True: _draw_circle, False: _draw_box}
 
 
-def _draw_shape(stage: Stage, shape: HitShape) -> None:
-    colour = stage.palette.bad if shape.lethal else stage.palette.switch
+def _draw_shape(target: DrawTarget, shape: HitShape) -> None:
+    colour = target.palette.bad if shape.lethal else target.palette.switch
     if shape.ninja:
-        colour = stage.palette.good
+        colour = target.palette.good
         a, b = (shape.x, shape.y), (shape.x + 6 * shape.vx, shape.y + 6 * shape.vy)
-        stage.line(colour, *a, *b)
+        target.line(colour, *a, *b)
     if -50 < shape.x < 850 and -50 < shape.y < 650:
-        stage.covered.append(_FORMS[shape.round](stage, shape, colour).inflate(2, 2))
+        target.covered.append(_FORMS[shape.round](target, shape, colour).inflate(2, 2))

@@ -1,4 +1,4 @@
-"""What a picture of a world needs: options, palette, canvas, audio output. `App` has it, and so has `Sheet`."""
+"""What a picture of a world needs: options, palette, canvas, audio output. `App` is one, `OffscreenContext` another."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ninja_game.play.ui.palette import PALETTES
 from ninja_game.play.ui.theme import Theme
 
 
-class Scene(Protocol):
+class RenderContext(Protocol):
     """Where a level is shown."""
 
     options: Options
@@ -20,7 +20,7 @@ class Scene(Protocol):
     audio_output: AudioOutput
 
 
-class Sheet:
+class OffscreenContext:
     """A silent scene without a window, for pictures and films. ``size``: px."""
 
     def __init__(self, size: tuple[int, int], options: Options | None = None) -> None:

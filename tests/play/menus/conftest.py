@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.menu_driver import Stage
+from tests.support.menu_driver import MenuDriver
 
 
 @pytest.fixture
-def stage(tmp_path: Path) -> Iterator[Stage]:
+def driver(tmp_path: Path) -> Iterator[MenuDriver]:
     """The program at its main menu, with an empty folder of the player's."""
-    stage = Stage(tmp_path)
-    yield stage
-    stage.close()
+    driver = MenuDriver(tmp_path)
+    yield driver
+    driver.close()

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from ninja_game.play.menus.main_menu import MainMenu
-from tests.support.menu_driver import Stage
+from tests.support.menu_driver import MenuDriver
 
 
-def test_one_replay_follows_another(stage: Stage) -> None:
-    menu = stage.top()
+def test_one_replay_follows_another(driver: MenuDriver) -> None:
+    menu = driver.top()
     assert isinstance(menu, MainMenu)
     names = set()
     for _ in range(3000):
@@ -17,14 +17,14 @@ def test_one_replay_follows_another(stage: Stage) -> None:
             break
     assert menu.attract.shown > 4
     assert len(names) > 3
-    assert not stage.player.records.replays()
+    assert not driver.player.records.replays()
 
 
-def test_reduced_motion_shows_a_still_picture(stage: Stage) -> None:
-    menu = stage.top()
+def test_reduced_motion_shows_a_still_picture(driver: MenuDriver) -> None:
+    menu = driver.top()
     assert isinstance(menu, MainMenu)
-    stage.app.options.reduced_motion = True
+    driver.app.options.reduced_motion = True
     assert menu.attract.view is not None
     tick = menu.attract.view.simulation.tick
-    stage.frames(20)
+    driver.frames(20)
     assert menu.attract.view.simulation.tick == tick

@@ -9,7 +9,7 @@ from ninja_game.play.menus.demonstrations import Page, read_pages, room_level, s
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.sim.level import KIND_NAMES
 from ninja_game.simulation import Simulation
-from tests.support.menu_driver import Stage
+from tests.support.menu_driver import MenuDriver
 
 PAGES = read_pages()
 
@@ -37,17 +37,17 @@ def test_wrong_strokes_and_rooms_are_named() -> None:
         room_level(["@..,.."], ["nonsense 5,5"])
 
 
-def test_every_page_plays_and_loops(stage: Stage) -> None:
-    screen = stage.open("Help")
+def test_every_page_plays_and_loops(driver: MenuDriver) -> None:
+    screen = driver.open("Help")
     assert isinstance(screen, HelpScreen)
     for index, page in enumerate(PAGES):
         screen.list._select(index)
         assert screen.demonstration is not None
         first = screen.demonstration.simulation
-        stage.frames(3)
+        driver.frames(3)
         for _ in range(len(page.inputs) + 70):
             screen.update(25)
         assert screen.demonstration.simulation is not first
     screen.list._select(len(PAGES))
-    stage.frames(2)
+    driver.frames(2)
     assert screen.demonstration is None

@@ -13,53 +13,53 @@ from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.progress import UNLOCKED
-from tests.support.menu_driver import Stage
+from tests.support.menu_driver import MenuDriver
 
 
-def test_first_episode_is_played_to_its_end(stage: Stage) -> None:
-    stage.open("Play")
-    stage.press("return")
+def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
+    driver.open("Play")
+    driver.press("return")
     for number in range(1, 6):
-        level = stage.top()
+        level = driver.top()
         assert isinstance(level, LevelScreen)
         assert level.course.title.startswith(f"Episode 0 Level {number - 1}")
         assert level.course.lesson == (number == 1)
         level.begin()
-        stage.play_replay(number)
+        driver.play_replay(number)
         assert level.phase is Phase.PASSED
         assert "saved" in " ".join(level.notices)
-        stage.press("space")
-    passed = stage.top()
+        driver.press("space")
+    passed = driver.top()
     assert isinstance(passed, EpisodePassed)
-    assert stage.player.progress.state(1) == UNLOCKED
-    best = stage.player.records.episode_best(passed.run.episode.key)
+    assert driver.player.progress.state(1) == UNLOCKED
+    best = driver.player.records.episode_best(passed.run.episode.key)
     assert best is not None
     assert best.score == passed.run.score
-    stage.frames(3)
-    stage.press("down", "return")
-    assert isinstance(stage.top(), ReplayScreen)
-    stage.press("escape", "up", "return")
-    following = stage.top()
+    driver.frames(3)
+    driver.press("down", "return")
+    assert isinstance(driver.top(), ReplayScreen)
+    driver.press("escape", "up", "return")
+    following = driver.top()
     assert isinstance(following, LevelScreen)
     assert following.course.title.startswith("Episode 1 Level 0")
-    stage.press("q")
-    assert isinstance(stage.top(), EpisodeGrid)
+    driver.press("q")
+    assert isinstance(driver.top(), EpisodeGrid)
 
 
-def test_best_run_of_a_level_runs_along_the_next_time(stage: Stage, tmp_path: Path) -> None:
-    browser = stage.open("Levels")
+def test_best_run_of_a_level_runs_along_the_next_time(driver: MenuDriver, tmp_path: Path) -> None:
+    browser = driver.open("Levels")
     assert isinstance(browser, Browser)
-    stage.press("return")
-    level = stage.top()
+    driver.press("return")
+    level = driver.top()
     assert isinstance(level, LevelScreen)
     assert not level.view.ghosts
     level.begin()
-    stage.play_replay(1)
+    driver.play_replay(1)
     assert level.phase is Phase.PASSED
-    stage.press("q")
-    stage.close()
+    driver.press("q")
+    driver.close()
     # The next start of the program.
-    again = Stage(tmp_path)
+    again = MenuDriver(tmp_path)
     again.open("Levels")
     again.press("return")
     level = again.top()
@@ -79,30 +79,30 @@ def test_best_run_of_a_level_runs_along_the_next_time(stage: Stage, tmp_path: Pa
     again.close()
 
 
-def test_deaths_are_counted_and_retry_is_one_key(stage: Stage) -> None:
-    stage.open("Play")
-    stage.press("return", "space")
-    level = stage.top()
+def test_deaths_are_counted_and_retry_is_one_key(driver: MenuDriver) -> None:
+    driver.open("Play")
+    driver.press("return", "space")
+    level = driver.top()
     assert isinstance(level, LevelScreen)
-    stage.press("k")
+    driver.press("k")
     assert level.phase is Phase.DEAD
-    assert stage.player.statistics.deaths()["player"] == 1
-    stage.press("space")
+    assert driver.player.statistics.deaths()["player"] == 1
+    driver.press("space")
     assert level.attempt.simulation.tick == 0
 
 
-def test_practice_saves_no_record_and_unlocks_nothing(stage: Stage) -> None:
-    grid = stage.open("Play")
+def test_practice_saves_no_record_and_unlocks_nothing(driver: MenuDriver) -> None:
+    grid = driver.open("Play")
     assert isinstance(grid, EpisodeGrid)
     grid._set_practice(True)
-    stage.press("return")
+    driver.press("return")
     for number in range(1, 6):
-        level = stage.top()
+        level = driver.top()
         assert isinstance(level, LevelScreen)
         level.begin()
-        stage.play_replay(number)
+        driver.play_replay(number)
         assert level.phase is Phase.PASSED
-        stage.press("space")
-    assert isinstance(stage.top(), EpisodePassed)
-    assert stage.player.records.level_bests() == {}
-    assert stage.player.progress.state(1) != UNLOCKED
+        driver.press("space")
+    assert isinstance(driver.top(), EpisodePassed)
+    assert driver.player.records.level_bests() == {}
+    assert driver.player.progress.state(1) != UNLOCKED

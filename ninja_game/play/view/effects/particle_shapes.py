@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from ninja_game.play.ui.palette import Palette, mixed
-from ninja_game.play.view.sprites.registry import drawing
+from ninja_game.play.view.sprites.drawing import drawing
 from ninja_game.play.view.sprites.sketch import Sketch, star
 
 
-@drawing("puff", 7)
+@drawing(7)
 def puff(s: Sketch, p: Palette, role: str, step: int, variant: int) -> None:
     """A cloudlet that widens. ``step`` 0…7."""
     r = 1.1 + 0.55 * step
@@ -19,7 +19,7 @@ def puff(s: Sketch, p: Palette, role: str, step: int, variant: int) -> None:
         s.disc(colour, x * r, y * r, share * r)
 
 
-@drawing("fireball", 13)
+@drawing(13)
 def fireball(s: Sketch, p: Palette, step: int, variant: int) -> None:
     """A tongue of fire that swells and turns to smoke."""
     r = 3.5 + 0.9 * step
@@ -30,7 +30,7 @@ def fireball(s: Sketch, p: Palette, step: int, variant: int) -> None:
     s.disc(mixed(inner, p.background, max(0, step - 4) / 5), 0, 0, r * (0.55 - 0.05 * step))
 
 
-@drawing("burst star", 26)
+@drawing(26)
 def burst_star(s: Sketch, p: Palette, step: int) -> None:
     """The flash of an explosion: a star that grows and goes hollow."""
     r = 9 + 1.9 * step
@@ -39,7 +39,7 @@ def burst_star(s: Sketch, p: Palette, step: int) -> None:
     s.disc(p.bright, 0, 0, r * 0.3)
 
 
-@drawing("muzzle", -2, -5, 12, 5)
+@drawing(-2, -5, 12, 5)
 def muzzle(s: Sketch, p: Palette, step: int) -> None:
     """A flash at a muzzle, to the right."""
     far = 10 - step

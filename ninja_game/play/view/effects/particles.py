@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from math import atan2, degrees
 
 from ninja_game.play.ui.palette import mixed
-from ninja_game.play.view.sprites.draw_target import Stage
+from ninja_game.play.view.effects import particle_shapes as shapes
+from ninja_game.play.view.sprites.draw_target import DrawTarget
+from ninja_game.play.view.sprites.static_sprites import gold_streak, lightning
 
 MOST = 100
 """At most so many in front of the ninja and behind it; the oldest goes first."""
@@ -57,15 +59,15 @@ class Particles:
                 layer.popleft()
 
     @staticmethod
-    def draw(layer: deque[Particle], stage: Stage, now: float) -> None:
+    def draw(layer: deque[Particle], target: DrawTarget, now: float) -> None:
         """Draw a layer at a time in ticks."""
         for particle in layer:
             t = (now - particle.born) / particle.life
             if 0.0 <= t < 1.0:
-                PAINTERS[particle.kind](particle, stage, t)
+                PAINTERS[particle.kind](particle, target, t)
 
 
-# --- painters: (particle, stage, t), t from 0 to 1 over its life ---
+# --- painters: (particle, target, t), t from 0 to 1 over its life ---
 
 
 def _eased(p: Particle, t: float) -> tuple[float, float]:
@@ -78,67 +80,66 @@ def _turn(p: Particle, step: int = 10) -> int:
     return round(degrees(atan2(p.dy, p.dx)) / step) * step
 
 
-def _cloud(role: str) -> Callable[[Particle, Stage, float], None]:
-    def paint(p: Particle, stage: Stage, t: float) -> None:
+def _cloud(role: str) -> Callable[[Particle, DrawTarget, float], None]:
+    def paint(p: Particle, target: DrawTarget, t: float) -> None:
         x, y = _eased(p, t)
         step = min(7, int(t * 8 * p.size))
-        stage.sprite(("puff", 0, max(1, 8 - int(7 * t)), role, step, p.variant % 2), x, y)
+        target.sprite(shapes.puff(role, step, p.variant % 2).faded(max(1, 8 - int(7 * t))), x, y)
 
     return paint
 
 
-def _streak(role: str, width: float) -> Callable[[Particle, Stage, float], None]:
-    def paint(p: Particle, stage: Stage, t: float) -> None:
+def _streak(role: str, width: float) -> Callable[[Particle, DrawTarget, float], None]:
+    def paint(p: Particle, target: DrawTarget, t: float) -> None:
         x, y = _eased(p, t)
         bx, by = _eased(p, max(0.0, t - 0.22))
         fall = 14.0 * p.size
-        palette = stage.palette
+        palette = target.palette
         colour = mixed(getattr(palette, role), palette.background, max(0.0, t - 0.6) * 2)
-        stage.line(colour, bx, by + fall * max(0.0, t - 0.22) ** 2, x, y + fall * t * t, width * (1 - 0.6 * t))
+        target.line(colour, bx, by + fall * max(0.0, t - 0.22) ** 2, x, y + fall * t * t, width * (1 - 0.6 * t))
 
     return paint
 
 
-def _ray(role: str, width: float) -> Callable[[Particle, Stage, float], None]:
-    def paint(p: Particle, stage: Stage, t: float) -> None:
-        palette = stage.palette
+def _ray(role: str, width: float) -> Callable[[Particle, DrawTarget, float], None]:
+    def paint(p: Particle, target: DrawTarget, t: float) -> None:
+        palette = target.palette
         colour = mixed(getattr(palette, role), palette.background, t)
-        stage.line(colour, p.x, p.y, p.x + p.dx, p.y + p.dy, width * (1 - t))
+        target.line(colour, p.x, p.y, p.x + p.dx, p.y + p.dy, width * (1 - t))
 
     return paint
 
 
-def _zap(p: Particle, stage: Stage, t: float) -> None:
-    stage.sprite(
-        ("lightning", _turn(p, 15), 8 - int(5 * t), (p.variant + int(t * 6)) % 3), p.x + p.dx / 2, p.y + p.dy / 2
-    )
+def _zap(p: Particle, target: DrawTarget, t: float) -> None:
+    key = lightning((p.variant + int(t * 6)) % 3).turned(_turn(p, 15)).faded(8 - int(5 * t))
+    target.sprite(key, p.x + p.dx / 2, p.y + p.dy / 2)
 
 
-def _fireball(p: Particle, stage: Stage, t: float) -> None:
+def _fireball(p: Particle, target: DrawTarget, t: float) -> None:
     x, y = _eased(p, t)
-    stage.sprite(("fireball", 0, 8 - int(5 * t * t), min(7, int(8 * t)), p.variant % 3), x, y)
+    target.sprite(shapes.fireball(min(7, int(8 * t)), p.variant % 3).faded(8 - int(5 * t * t)), x, y)
 
 
-def _burst(p: Particle, stage: Stage, t: float) -> None:
-    stage.sprite(("burst star", 0, max(1, 8 - int(8 * t)), min(7, int(8 * t))), p.x, p.y)
+def _burst(p: Particle, target: DrawTarget, t: float) -> None:
+    target.sprite(shapes.burst_star(min(7, int(8 * t))).faded(max(1, 8 - int(8 * t))), p.x, p.y)
 
 
-def _streak_of_gold(p: Particle, stage: Stage, t: float) -> None:
-    stage.sprite(("streak", 0, 8 - int(4 * t), min(8, int(9 * t))), p.x, p.y)
+def _streak_of_gold(p: Particle, target: DrawTarget, t: float) -> None:
+    target.sprite(gold_streak(min(8, int(9 * t))).faded(8 - int(4 * t)), p.x, p.y)
 
 
-def _muzzle(p: Particle, stage: Stage, t: float) -> None:
-    stage.sprite(("muzzle", _turn(p), 8, min(7, int(8 * t))), p.x, p.y)
+def _muzzle(p: Particle, target: DrawTarget, t: float) -> None:
+    target.sprite(shapes.muzzle(min(7, int(8 * t))).turned(_turn(p)), p.x, p.y)
 
 
-def _charge(p: Particle, stage: Stage, t: float) -> None:
+def _charge(p: Particle, target: DrawTarget, t: float) -> None:
     """A drop that falls inward, faster and faster."""
     way = t * t
     x, y = p.x + p.dx * way, p.y + p.dy * way
-    stage.line(stage.palette.weapon, x, y, x + p.dx * 0.12, y + p.dy * 0.12, 1.2)
+    target.line(target.palette.weapon, x, y, x + p.dx * 0.12, y + p.dy * 0.12, 1.2)
 
 
-PAINTERS: dict[str, Callable[[Particle, Stage, float], None]] = {
+PAINTERS: dict[str, Callable[[Particle, DrawTarget, float], None]] = {
     "dust": _cloud("dust"),
     "smoke": _cloud("smoke"),
     "blood": _streak("blood", 1.4),

@@ -10,7 +10,7 @@ from ninja_game.play.view.sprites.draw_target import is_near
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
 from ninja_game.play.view.sprites.sketch import Sprite
 from ninja_game.play.view.sprites.sprite_book import SpriteBook
-from ninja_game.play.view.sprites.static_sprite_state import SETTLED_TICKS, Look, fixture_looks
+from ninja_game.play.view.sprites.static_sprite_state import SETTLED_TICKS, PlacedSprite, static_sprites_of
 from ninja_game.play.view.sprites.tile_shapes import tile_picture
 from ninja_game.sim.collision.tiles import EMPTY, SHAPE
 from ninja_game.sim.level import GOLD, MINE
@@ -21,7 +21,7 @@ _COLUMNS, _ROWS = 33, 25
 
 
 class Backdrop:
-    """Background, fixtures and tiles of one level in one size. Px here count from the stage's upper left corner."""
+    """Background, static sprites and tiles of a level in one size. Px here count from the stage's upper left corner."""
 
     def __init__(self, canvas: Canvas, palette: Palette, book: SpriteBook, level: TileMap) -> None:
         self.canvas = canvas
@@ -61,19 +61,19 @@ class Backdrop:
         self._moving.clear()
         # Walls first, then what lies before them.
         front = {GOLD, MINE}
-        self._order = sorted(animation.fixtures, key=lambda slot: world.objects[slot].kind in front)
+        self._order = sorted(animation.static_slots, key=lambda slot: world.objects[slot].kind in front)
         self._blits.clear()
         self._rects.clear()
         for slot in self._order:
-            self._place(slot, fixture_looks(world, slot, animation, 1.0))
+            self._place(slot, static_sprites_of(world, slot, animation, 1.0))
         self._mend(self.picture.get_rect())
 
-    def _place(self, slot: int, looks: list[Look]) -> pygame.Rect:
+    def _place(self, slot: int, sprites: list[PlacedSprite]) -> pygame.Rect:
         """Take down and put up the drawings of a thing; the px that it covered and covers."""
         old = self._rects.pop(slot, None)
         blits = []
         rect: pygame.Rect | None = None
-        for key, x, y in looks:
+        for key, x, y in sprites:
             if not is_near(x, y):
                 continue
             sprite = self._book.sprite(key)
@@ -104,10 +104,10 @@ class Backdrop:
         animation.changed.clear()
         mended = []
         for slot in list(self._moving):
-            looks = fixture_looks(world, slot, animation, fraction)
+            sprites = static_sprites_of(world, slot, animation, fraction)
             if animation.age(slot, fraction) > SETTLED_TICKS:
                 self._moving.discard(slot)
-            rect = self._place(slot, looks)
+            rect = self._place(slot, sprites)
             if rect.width:
                 self._mend(rect)
                 mended.append(rect)

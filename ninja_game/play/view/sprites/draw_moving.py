@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import atan2, cos, degrees, sin
+from typing import NamedTuple
 
-from ninja_game.play.view.sprites.draw_target import Stage
+from ninja_game.play.view.sprites import moving_sprites as drawings
+from ninja_game.play.view.sprites.draw_target import DrawTarget
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
+from ninja_game.play.view.sprites.static_sprites import crosshair
 from ninja_game.sim.level import BOUNCE_BLOCK, DRONE, FLOOR_GUARD, LAUNCHER, THWUMP, TURRET
 from ninja_game.sim.memory.schema import Object, World
 from ninja_game.sim.states import (
@@ -24,47 +27,59 @@ from ninja_game.sim.states import (
 
 _EYE_OUT = 4.5
 """How far a drone's eye is off the centre, px."""
-_SHOWN_BY_SHAPE = 15
-"""Turns of rockets and barrels are drawn in steps of so many degrees."""
+_TURN_STEP = 15
+"""Barrels and eyes turn in steps of so many degrees."""
 _HEAT_FRAMES = {WEAPON_LASER: 90, WEAPON_CHAINGUN: 105}
 _COOL_FRAMES = 60
 
 
-def draw_movers(stage: Stage, world: World, animation: ObjectAnimation, fraction: float) -> None:
-    """All things that move, beams first so that they come out of their drones."""
-    for slot in animation.movers:
-        o = world.objects[slot]
-        if o.kind == DRONE and o.weapon == WEAPON_LASER:
-            _beam(stage, o, slot, animation, fraction)
-    for slot in animation.movers:
-        o = world.objects[slot]
-        x, y = animation.place(slot, fraction)
+class Moving(NamedTuple):
+    """An object that moves: its slot, where it is drawn (px), and the moment, ``fraction`` of a tick after the last."""
+
+    o: Object
+    slot: int
+    x: float
+    y: float
+    animation: ObjectAnimation
+    fraction: float
+
+    def step(self, frames: float) -> int:
+        """How far an animation of so many frames has come since the last change, 0…8."""
+        return self.animation.step(self.slot, self.fraction, frames)
+
+
+def draw_moving(target: DrawTarget, world: World, animation: ObjectAnimation, fraction: float) -> None:
+    """All objects that move, beams first so that they come out of their drones."""
+    shown = [Moving(world.objects[s], s, *animation.place(s, fraction), animation, fraction)
+             for s in animation.moving_slots]  # fmt: skip
+    for m in shown:
+        if m.o.kind == DRONE and m.o.weapon == WEAPON_LASER:
+            _beam(target, m)
+    for m in shown:
         # A rocket that met its target point exactly is nowhere (not a number).
-        if x == x and y == y:  # noqa: PLR0124 - the test for NaN
-            PAINTERS[o.kind](stage, o, slot, x, y, animation, fraction)
+        if m.x == m.x and m.y == m.y:
+            PAINTERS[m.o.kind](target, m)
 
 
-def _block(stage: Stage, o: Object, slot: int, x: float, y: float, animation: ObjectAnimation, fraction: float) -> None:
-    stage.sprite(("block", 0, 8, o.updating), x, y)
+def _block(target: DrawTarget, m: Moving) -> None:
+    target.sprite(drawings.bounce_block(m.o.updating), m.x, m.y)
 
 
-def _thwump(
-    stage: Stage, o: Object, slot: int, x: float, y: float, animation: ObjectAnimation, fraction: float
-) -> None:
+def _thwump(target: DrawTarget, m: Moving) -> None:
+    o = m.o
     mood = 0 if o.routine == THWUMP_REST else 1 if o.sign > 0 else 2
     # Its face looks where it falls: drawn for a fall downwards.
     turn = round(degrees(atan2(-o.face_x, o.face_y))) if o.face_x or o.face_y else 0
-    stage.sprite(("thwump", turn, 8, mood, animation.tick // 3 % 2), x, y)
+    target.sprite(drawings.thwump(mood, m.animation.tick // 3 % 2).turned(turn), m.x, m.y)
 
 
-def _guard(stage: Stage, o: Object, slot: int, x: float, y: float, animation: ObjectAnimation, fraction: float) -> None:
-    active = 1 if o.routine and o.updating else 0
-    stage.sprite(("guard", 0, 8, active, animation.tick // 2 % 2 if active else 0), x, y)
+def _guard(target: DrawTarget, m: Moving) -> None:
+    active = 1 if m.o.routine and m.o.updating else 0
+    target.sprite(drawings.floor_guard(active, m.animation.tick // 2 % 2 if active else 0), m.x, m.y)
 
 
-def _crosshair(
-    stage: Stage, o: Object, slot: int, x: float, y: float, animation: ObjectAnimation, fraction: float
-) -> None:
+def _crosshair(target: DrawTarget, m: Moving) -> None:
+    o = m.o
     if not o.updating:
         return
     if o.routine != TURRET_TARGET:
@@ -72,57 +87,54 @@ def _crosshair(
     else:
         distance = o.aim_factor
         look = 0 if distance <= 0.03 else 1 if distance < 0.05 else 2
-    stage.sprite(("crosshair", 0, 8, look), x, y)
+    target.sprite(crosshair(look), m.x, m.y)
 
 
-def _rocket(
-    stage: Stage, o: Object, slot: int, x: float, y: float, animation: ObjectAnimation, fraction: float
-) -> None:
-    trail = animation.trails.get(slot, [])
+def _rocket(target: DrawTarget, m: Moving) -> None:
+    trail = m.animation.trails.get(m.slot, [])
     for k, (tx, ty) in enumerate(trail[:-1]):
         step = min(7, len(trail) - 2 - k)
-        stage.sprite(("flame", 0, max(2, 7 - step), step), tx, ty)
-    if o.routine == LAUNCHER_FLIGHT:
-        turn = round(degrees(atan2(o.heading_y, o.heading_x)) / 6) * 6
-        stage.sprite(("rocket", turn, 8, animation.tick % 4), x, y)
+        target.sprite(drawings.flame(step).faded(max(2, 7 - step)), tx, ty)
+    if m.o.routine == LAUNCHER_FLIGHT:
+        turn = round(degrees(atan2(m.o.heading_y, m.o.heading_x)) / 6) * 6
+        target.sprite(drawings.rocket(m.animation.tick % 4).turned(turn), m.x, m.y)
 
 
-def _drone(stage: Stage, o: Object, slot: int, x: float, y: float, animation: ObjectAnimation, fraction: float) -> None:
+def _drone(target: DrawTarget, m: Moving) -> None:
+    o = m.o
     seeker = 1 if o.seeker and o.weapon == WEAPON_ZAP else 0
-    heat = _heat(o, slot, animation, fraction)
-    stage.sprite(("drone", 0, 8, o.weapon, seeker, o.chasing, heat if o.weapon == WEAPON_LASER else 0), x, y)
-    angle = animation.eyes[slot]
+    heat = _heat(m)
+    target.sprite(drawings.drone(o.weapon, seeker, o.chasing, heat if o.weapon == WEAPON_LASER else 0), m.x, m.y)
+    angle = m.animation.eyes[m.slot]
+    turn = round(degrees(angle) / _TURN_STEP) * _TURN_STEP
     if o.weapon == WEAPON_CHAINGUN:
-        turn = round(degrees(angle) / _SHOWN_BY_SHAPE) * _SHOWN_BY_SHAPE
-        spin = animation.tick // 2 % 2 if o.routine in {DRONE_PRE_FIRE, DRONE_FIRING} else 0
-        stage.sprite(("barrel", turn, 8, spin, heat), x, y)
+        spin = m.animation.tick // 2 % 2 if o.routine in {DRONE_PRE_FIRE, DRONE_FIRING} else 0
+        target.sprite(drawings.barrel(spin, heat).turned(turn), m.x, m.y)
     mood = 1 if o.chasing else 2 if o.routine != DRONE_MOVE else 0
-    turn = round(degrees(angle) / _SHOWN_BY_SHAPE) * _SHOWN_BY_SHAPE
-    stage.sprite(("eye", turn, 8, mood), x + _EYE_OUT * cos(angle), y + _EYE_OUT * sin(angle))
+    target.sprite(drawings.eye(mood).turned(turn), m.x + _EYE_OUT * cos(angle), m.y + _EYE_OUT * sin(angle))
 
 
-def _heat(o: Object, slot: int, animation: ObjectAnimation, fraction: float) -> int:
+def _heat(m: Moving) -> int:
+    o = m.o
     if o.routine == DRONE_PRE_FIRE:
-        return animation.step(slot, fraction, _HEAT_FRAMES.get(o.weapon, 90))
+        return m.step(_HEAT_FRAMES.get(o.weapon, 90))
     if o.routine == DRONE_FIRING:
         return 8
-    return 8 - animation.step(slot, fraction, _COOL_FRAMES) if o.routine == DRONE_POST_FIRE else 0
+    return 8 - m.step(_COOL_FRAMES) if o.routine == DRONE_POST_FIRE else 0
 
 
-def _beam(stage: Stage, o: Object, slot: int, animation: ObjectAnimation, fraction: float) -> None:
-    palette = stage.palette
+def _beam(target: DrawTarget, m: Moving) -> None:
+    o, palette, tick = m.o, target.palette, m.animation.tick
     if o.routine == DRONE_PRE_FIRE:
-        stage.line(palette.warning, o.x, o.y, o.end_x, o.end_y)
+        target.line(palette.warning, o.x, o.y, o.end_x, o.end_y)
     elif o.routine == DRONE_FIRING:
-        flicker = (3.0, 2.4, 3.4, 2.7)[animation.tick % 4]
-        stage.line(palette.laser, o.x, o.y, o.end_x, o.end_y, flicker)
-        stage.line(palette.flame, o.x, o.y, o.end_x, o.end_y, 0.8)
+        target.line(palette.laser, o.x, o.y, o.end_x, o.end_y, (3.0, 2.4, 3.4, 2.7)[tick % 4])
+        target.line(palette.flame, o.x, o.y, o.end_x, o.end_y, 0.8)
         step = min(8, int(o.timer / 80 * 9))
-        stage.sprite(("burst", animation.tick % 5 * 15, 8, step), o.end_x, o.end_y)
+        target.sprite(drawings.impact_burst(step).turned(tick % 5 * 15), o.end_x, o.end_y)
 
 
-Painter = Callable[[Stage, Object, int, float, float, ObjectAnimation, float], None]
-PAINTERS: dict[int, Painter] = {
+PAINTERS: dict[int, Callable[[DrawTarget, Moving], None]] = {
     BOUNCE_BLOCK: _block,
     THWUMP: _thwump,
     FLOOR_GUARD: _guard,

@@ -6,11 +6,12 @@ import pygame
 
 from ninja_game.play.ui.canvas import Canvas, Colour
 from ninja_game.play.ui.palette import Palette
+from ninja_game.play.view.sprites.drawing import SpriteKey
 from ninja_game.play.view.sprites.sketch import Sprite
-from ninja_game.play.view.sprites.sprite_book import Key, SpriteBook
+from ninja_game.play.view.sprites.sprite_book import SpriteBook
 
 _FAR = 4000
-"""Logical px beyond which nothing is drawn: some levels hold things far off the stage."""
+"""Logical px beyond which nothing is drawn: some levels hold objects far off the stage."""
 
 
 def is_near(x: float, y: float) -> bool:
@@ -18,8 +19,8 @@ def is_near(x: float, y: float) -> bool:
     return abs(x) < _FAR and abs(y) < _FAR
 
 
-class Stage:
-    """A surface with the stage on it. ``covered``: px rectangles drawn so far in this picture."""
+class DrawTarget:
+    """A surface that shows the stage. ``covered``: px rectangles drawn so far in this picture."""
 
     def __init__(self, canvas: Canvas, palette: Palette, book: SpriteBook) -> None:
         self.canvas = canvas
@@ -33,8 +34,8 @@ class Stage:
         self.surface = surface
         self.covered = []
 
-    def sprite(self, key: Key, x: float, y: float) -> None:
-        """A drawing of the book, its point at (x, y)."""
+    def sprite(self, key: SpriteKey, x: float, y: float) -> None:
+        """A sprite of the book, its point at (x, y)."""
         if is_near(x, y):
             self.covered.append(self.book.sprite(key).blit(self.surface, self.canvas.point(x, y)))
 

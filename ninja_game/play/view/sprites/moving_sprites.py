@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import cos, radians, sin
 
 from ninja_game.play.ui.palette import Palette, mixed
-from ninja_game.play.view.sprites.registry import drawing
+from ninja_game.play.view.sprites.drawing import drawing
 from ninja_game.play.view.sprites.sketch import Sketch, arc
 
 
-@drawing("block", 11)
+@drawing(11)
 def bounce_block(s: Sketch, p: Palette, awake: int) -> None:
     """A plain springy square."""
     s.framed_box(mixed(p.light, p.bright, 0.55), p.outline, -9.6, -9.6, 19.2, 19.2, 0.9)
@@ -19,7 +19,7 @@ def bounce_block(s: Sketch, p: Palette, awake: int) -> None:
         s.path(p.dark, [(-3, side * 3.4), (-1.5, side * 1.4), (0, side * 3.4), (1.5, side * 1.4), (3, side * 3.4)], 0.7)
 
 
-@drawing("thwump", 12)
+@drawing(12)
 def thwump(s: Sketch, p: Palette, mood: int, flicker: int) -> None:
     """A heavy square whose lower side is live. ``mood``: 0 at rest, 1 falling, 2 rising."""
     s.framed_box(mixed(p.dark, p.middle, 0.45), p.outline, -9, -9, 18, 18, 1.0)
@@ -42,12 +42,12 @@ def thwump(s: Sketch, p: Palette, mood: int, flicker: int) -> None:
     s.box(p.electric, -8.3, 6.2, 16.6, 2.8)
     bump = 1.0 if flicker % 2 else -1.0
     s.path(p.spark, [(-8 + 4 * k, 7.6 + (0.9 * bump if k % 2 else -0.9 * bump)) for k in range(5)], 0.8)
-    if p.shapes:
+    if p.danger_by_shape:
         for x in (-6, -2, 2, 6):
             s.polygon(p.electric, [(x - 2, 9), (x + 2, 9), (x, 11.4)])
 
 
-@drawing("guard", 8)
+@drawing(8)
 def floor_guard(s: Sketch, p: Palette, active: int, flicker: int) -> None:
     """A dome that hugs the floor, 6 px below its point."""
     dome = [*arc(0, 0.2, 6, 180, 360), (6, 6), (-6, 6)]
@@ -60,12 +60,12 @@ def floor_guard(s: Sketch, p: Palette, active: int, flicker: int) -> None:
     )
     s.box(p.outline, -5.1, 1.2, 10.2, 2.2)
     s.box(p.bright if active else p.middle, -1.2 + (1.2 if flicker % 2 else -1.2) * active, 1.5, 2.6, 1.6)
-    if p.shapes or active:
+    if p.danger_by_shape or active:
         for x in (-3.6, 0, 3.6):
             s.stroke(p.spark if active else p.outline, (x, -4.6 + abs(x) * 0.5), (x, -7.2 + abs(x) * 0.5), 0.9)
 
 
-@drawing("drone", -11, -17, 11, 11)
+@drawing(-11, -17, 11, 11)
 def drone(s: Sketch, p: Palette, weapon: int, seeker: int, chasing: int, heat: int) -> None:
     """A round shell without its eye. ``weapon``: 0 zap, 1 laser, 2 chaingun; ``heat`` 0…8: how far it is charged."""
     if seeker:
@@ -80,7 +80,7 @@ def drone(s: Sketch, p: Palette, weapon: int, seeker: int, chasing: int, heat: i
             s.polygon(
                 rim, [*arc(0, 0, 7.7, angle + 8, angle + 37, 4), *reversed(arc(0, 0, 6.1, angle + 8, angle + 37, 4))]
             )
-        if p.shapes or chasing:
+        if p.danger_by_shape or chasing:
             for angle in range(0, 360, 45):
                 a = radians(angle)
                 s.stroke(p.electric, (8.4 * cos(a), 8.4 * sin(a)), (10 * cos(a), 10 * sin(a)), 1.0)
@@ -99,7 +99,7 @@ def drone(s: Sketch, p: Palette, weapon: int, seeker: int, chasing: int, heat: i
         s.ring(p.middle, 0, 0, 7.4, 1.2)
 
 
-@drawing("barrel", -4, -5, 15, 5)
+@drawing(-4, -5, 15, 5)
 def barrel(s: Sketch, p: Palette, spin: int, heat: int) -> None:
     """The chaingun's barrels, along x."""
     s.box(p.outline, 1, -2.9, 11.4, 5.8)
@@ -110,7 +110,7 @@ def barrel(s: Sketch, p: Palette, spin: int, heat: int) -> None:
     s.disc(p.outline, 0, 0, 3.6)
 
 
-@drawing("eye", 4)
+@drawing(4)
 def eye(s: Sketch, p: Palette, mood: int) -> None:
     """A drone's eye, its pupil looking to the right. ``mood``: 0 calm, 1 hunting, 2 armed."""
     s.disc(p.outline, 0, 0, 3.0)
@@ -118,7 +118,7 @@ def eye(s: Sketch, p: Palette, mood: int) -> None:
     s.disc((p.outline, p.electric, p.weapon)[mood], 0.8, 0, 1.15)
 
 
-@drawing("rocket", 9)
+@drawing(9)
 def rocket(s: Sketch, p: Palette, flame: int) -> None:
     """A dart with its tip at the point, flying to the right, and the root of its flame."""
     length = (3.2, 4.4, 3.7, 5.0)[flame % 4]
@@ -132,7 +132,7 @@ def rocket(s: Sketch, p: Palette, flame: int) -> None:
     s.box(p.weapon, -4.4, -1.2, 1.2, 2.4)
 
 
-@drawing("flame", -10, -4, 3, 4)
+@drawing(-10, -4, 3, 4)
 def flame(s: Sketch, p: Palette, step: int) -> None:
     """A puff of the flame behind a rocket; ``step`` 0 hot … 7 cold."""
     colours = (p.spark, p.flame, p.flame, p.ember, p.ember, p.smoke, p.smoke, p.smoke)
@@ -140,7 +140,7 @@ def flame(s: Sketch, p: Palette, step: int) -> None:
     s.disc(colours[step], 0, 0, radius)
 
 
-@drawing("burst", 11)
+@drawing(11)
 def impact_burst(s: Sketch, p: Palette, step: int) -> None:
     """Where a laser burns: a flickering star that grows over the shot."""
     reach = 2.6 + 6.4 * step / 8

@@ -8,10 +8,10 @@ from __future__ import annotations
 from math import atan2, pi
 
 from ninja_game.sim.level import BOUNCE_BLOCK, DOOR, DRONE, FLOOR_GUARD, LAUNCHER, NINJA, THWUMP, TURRET
-from ninja_game.sim.memory.schema import INERT, Object, World
+from ninja_game.sim.memory.schema import INERT, SWITCH, Object, World
 from ninja_game.sim.states import DRONE_MOVE, LAUNCHER_FLIGHT
 
-MOVERS = frozenset({BOUNCE_BLOCK, THWUMP, FLOOR_GUARD, DRONE, TURRET, LAUNCHER})
+MOVING_KINDS = frozenset({BOUNCE_BLOCK, THWUMP, FLOOR_GUARD, DRONE, TURRET, LAUNCHER})
 LONG_AGO = -100_000
 _JUMP = 30.0
 """A thing that is farther away than this (px) after a tick was put there, it did not move."""
@@ -22,8 +22,11 @@ _DIRECTIONS = (0.0, pi / 2, pi, -pi / 2)
 Place = tuple[float, float]
 
 
-def state_of(o: Object) -> tuple[int, int, int]:
-    """What must change for a thing to look different, apart from its place."""
+def state_of(world: World, o: Object) -> tuple[int, int, int]:
+    """What must change for an object to look different, apart from its place."""
+    if o.kind == SWITCH:
+        # An exit's switch has no state of its own: it is pressed when the exit is open.
+        o = world.objects[o.partner]
     return o.spent if o.kind != DRONE else o.chasing, o.routine, o.updating
 
 
@@ -42,15 +45,15 @@ class ObjectAnimation:
         """Forget everything: a new run, or a jump in time."""
         self.tick = 0
         slots = range(1, world.slots_used)
-        self.movers = [slot for slot in slots if world.objects[slot].kind in MOVERS]
-        self.fixtures = [slot for slot in slots if world.objects[slot].kind not in {NINJA, INERT}]
-        self.states = {slot: state_of(world.objects[slot]) for slot in self.fixtures}
-        self.since = dict.fromkeys(self.fixtures, LONG_AGO)
+        self.moving_slots = [slot for slot in slots if world.objects[slot].kind in MOVING_KINDS]
+        self.static_slots = [slot for slot in slots if world.objects[slot].kind not in {NINJA, INERT}]
+        self.states = {slot: state_of(world, world.objects[slot]) for slot in self.static_slots}
+        self.since = dict.fromkeys(self.static_slots, LONG_AGO)
         self.changed: set[int] = set()
-        self.now = {slot: drawn_place(world.objects[slot]) for slot in self.movers}
+        self.now = {slot: drawn_place(world.objects[slot]) for slot in self.moving_slots}
         self.before = dict(self.now)
         self.eyes = {
-            slot: _gaze(world, world.objects[slot]) for slot in self.movers if world.objects[slot].kind == DRONE
+            slot: _gaze(world, world.objects[slot]) for slot in self.moving_slots if world.objects[slot].kind == DRONE
         }
         self.trails: dict[int, list[Place]] = {}
         n = world.ninja
@@ -60,7 +63,7 @@ class ObjectAnimation:
         """Take note of the world after a tick."""
         self.tick += 1
         self.before, self.now = self.now, {}
-        for slot in self.movers:
+        for slot in self.moving_slots:
             o = world.objects[slot]
             self.now[slot] = drawn_place(o)
             if o.kind == DRONE:
@@ -68,14 +71,14 @@ class ObjectAnimation:
                 self.eyes[slot] += _EYE_TURN * turn
             elif o.kind == LAUNCHER:
                 self._follow_rocket(slot, o)
-        for slot in self.fixtures:
-            state = state_of(world.objects[slot])
+        for slot in self.static_slots:
+            state = state_of(world, world.objects[slot])
             if state != self.states[slot]:
                 self.states[slot] = state
                 self.since[slot] = self.tick
                 self.changed.add(slot)
         for event in world.events[: world.event_count]:
-            if event.slot in self.since and world.objects[event.slot].kind not in MOVERS | {DOOR}:
+            if event.slot in self.since and world.objects[event.slot].kind not in MOVING_KINDS | {DOOR}:
                 self.since[event.slot] = self.tick
                 self.changed.add(event.slot)
         self.ninja_before = self.ninja_now

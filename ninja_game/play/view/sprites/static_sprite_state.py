@@ -4,46 +4,47 @@ from __future__ import annotations
 
 from math import atan2, degrees
 
+from ninja_game.play.view.sprites import static_sprites as drawings
+from ninja_game.play.view.sprites.drawing import SpriteKey
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
-from ninja_game.play.view.sprites.sprite_book import Key
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.level import DOOR, EXIT, GOLD, LAUNCH_PAD, LAUNCHER, MINE, ONE_WAY, TURRET
 from ninja_game.sim.memory.schema import SWITCH, Object, World
 from ninja_game.sim.states import AUTOMATIC, LAUNCHER_PREPARE, TRAP, TURRET_POST_FIRE, TURRET_PRE_FIRE
 
-Look = tuple[Key, float, float]
+PlacedSprite = tuple[SpriteKey, float, float]
 """A drawing and where its point lies, px."""
 
 _EXIT_FRAMES, _PAD_FRAMES, _LOCK_FRAMES, _TRAP_FRAMES = 30, 18, 18, 18
 _DOOR_OPENING, _DOOR_CLOSING, _AIM_FRAMES, _PREPARE_FRAMES = 15, 16, 15, 30
 LONGEST_FRAMES = 30
 SETTLED_TICKS = LONGEST_FRAMES / 3
-"""After so many ticks without change a fixture looks the same for ever."""
+"""After so many ticks without change a fixture sprites the same for ever."""
 
 
-def fixture_looks(world: World, slot: int, animation: ObjectAnimation, fraction: float) -> list[Look]:
+def static_sprites_of(world: World, slot: int, animation: ObjectAnimation, fraction: float) -> list[PlacedSprite]:
     """The drawings of one thing; [] if nothing of it is fixed to the walls, or it is gone."""
     o = world.objects[slot]
     kind = o.kind
     if kind in {GOLD, MINE}:
-        return [] if o.spent else [(("gold" if kind == GOLD else "mine", 0, 8), o.x, o.y)]
+        return [] if o.spent else [((drawings.gold if kind == GOLD else drawings.mine)(), o.x, o.y)]
     if kind == EXIT:
         step = animation.step(slot, fraction, _EXIT_FRAMES) if o.spent else 0
-        return [(("exit", 0, 8, step), o.x, o.y)]
+        return [(drawings.exit_door(step), o.x, o.y)]
     if kind == SWITCH:
-        return [(("switch", 0, 8, world.objects[o.partner].spent), o.x, o.y)]
+        return [(drawings.exit_switch(world.objects[o.partner].spent), o.x, o.y)]
     if kind == DOOR:
-        return _door_looks(o, slot, animation, fraction)
+        return _door_sprites(o, slot, animation, fraction)
     if kind == LAUNCH_PAD:
         step = 8 - animation.step(slot, fraction, _PAD_FRAMES)
-        return [(("pad", _upright(o.face_x, o.face_y), 8, step), o.x, o.y)]
+        return [(drawings.launch_pad(step).turned(_upright(o.face_x, o.face_y)), o.x, o.y)]
     if kind == ONE_WAY:
-        return [(("one-way", _upright(o.face_x, o.face_y), 8), o.x, o.y)]
+        return [(drawings.one_way().turned(_upright(o.face_x, o.face_y)), o.x, o.y)]
     if kind == TURRET:
-        return [(("turret", 0, 8, _turret_step(o, slot, animation, fraction)), o.x, o.y)]
+        return [(drawings.turret_base(_turret_step(o, slot, animation, fraction)), o.x, o.y)]
     if kind == LAUNCHER:
         step = animation.step(slot, fraction, _PREPARE_FRAMES) if o.routine == LAUNCHER_PREPARE else 0
-        return [(("launcher", 0, 8, step), o.base_x, o.base_y)]
+        return [(drawings.launcher_base(step), o.base_x, o.base_y)]
     return []
 
 
@@ -70,18 +71,18 @@ def door_place(o: Object) -> tuple[float, float, int] | None:
     return CENTRE_X[cell] + dx, CENTRE_Y[cell] + dy, 0 if dx else 90
 
 
-def _door_looks(o: Object, slot: int, animation: ObjectAnimation, fraction: float) -> list[Look]:
-    looks: list[Look] = []
+def _door_sprites(o: Object, slot: int, animation: ObjectAnimation, fraction: float) -> list[PlacedSprite]:
+    sprites: list[PlacedSprite] = []
     place = door_place(o)
     step = animation.step(slot, fraction, _door_frames(o))
     closed = o.spent == (o.mechanism == TRAP)
     # A trap door cannot be seen until it is sprung.
     if place and not (o.mechanism == TRAP and not o.spent):
         x, y, turn = place
-        looks.append((("door", turn, 8, o.mechanism, 8 - step if closed else step), x, y))
+        sprites.append((drawings.door(o.mechanism, 8 - step if closed else step).turned(turn), x, y))
     if o.mechanism != AUTOMATIC:
-        looks.append((("door switch", 0, 8, o.mechanism, o.spent), o.x, o.y))
-    return looks
+        sprites.append((drawings.door_switch(o.mechanism, o.spent), o.x, o.y))
+    return sprites
 
 
 def _door_frames(o: Object) -> int:

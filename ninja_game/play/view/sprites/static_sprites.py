@@ -8,11 +8,11 @@ from __future__ import annotations
 from math import cos, radians, sin
 
 from ninja_game.play.ui.palette import Palette, mixed
-from ninja_game.play.view.sprites.registry import drawing
+from ninja_game.play.view.sprites.drawing import drawing
 from ninja_game.play.view.sprites.sketch import Sketch, star
 
 
-@drawing("gold", 4.5)
+@drawing(4.5)
 def gold(s: Sketch, p: Palette) -> None:
     """A small bevelled ingot seen from above."""
     s.box(p.gold_dark, -3.4, -3.4, 6.8, 6.8)
@@ -23,16 +23,16 @@ def gold(s: Sketch, p: Palette) -> None:
     )
 
 
-@drawing("mine", 5.6)
+@drawing(5.6)
 def mine(s: Sketch, p: Palette) -> None:
     """A spiked disc."""
-    s.polygon(p.mine, star(8, 5.2 if p.shapes else 4.6, 2.5))
+    s.polygon(p.mine, star(8, 5.2 if p.danger_by_shape else 4.6, 2.5))
     s.disc(p.mine, 0, 0, 2.9)
     s.disc(mixed(p.mine, p.outline, 0.55), 0, 0, 1.9)
     s.disc(p.bright, -0.6, -0.6, 0.6)
 
 
-@drawing("exit", -26, -14, 26, 14)
+@drawing(-26, -14, 26, 14)
 def exit_door(s: Sketch, p: Palette, step: int) -> None:
     """Two leaves before a lit doorway; they slide apart."""
     gap = 12.4 * step / 8
@@ -49,7 +49,7 @@ def exit_door(s: Sketch, p: Palette, step: int) -> None:
         s.box(p.exit, x + (8.9 if side < 0 else 1.5), -2.5, 1.7, 5)
 
 
-@drawing("switch", 8)
+@drawing(8)
 def exit_switch(s: Sketch, p: Palette, pressed: int) -> None:
     """A small panel with a key: lit until it is pressed."""
     s.framed_box(p.dark if pressed else p.light, p.outline, -6.2, -3.9, 12.4, 7.8)
@@ -58,7 +58,7 @@ def exit_switch(s: Sketch, p: Palette, pressed: int) -> None:
         s.box(p.exit_light, -3.2, -1.3, 6.4, 1.1)
 
 
-@drawing("door", 14)
+@drawing(14)
 def door(s: Sketch, p: Palette, mechanism: int, step: int) -> None:
     """A bar across x = 0 from y -12 to 12; ``step``: how far its halves have shrunk into stubs."""
     half = 12 - 9 * step / 8
@@ -78,12 +78,12 @@ def door(s: Sketch, p: Palette, mechanism: int, step: int) -> None:
     elif mechanism == 2:
         for y in range(-8, 9, 4):
             s.polygon(
-                p.bright if not p.shapes else p.outline,
+                p.bright if not p.danger_by_shape else p.outline,
                 [(-2.4, y - 1.4), (2.4, y + 0.6), (2.4, y + 1.8), (-2.4, y - 0.2)],
             )
 
 
-@drawing("door switch", 6.5)
+@drawing(6.5)
 def door_switch(s: Sketch, p: Palette, mechanism: int, used: int) -> None:
     """A key plate (locked doors) or a snare (trap doors)."""
     if mechanism == 1:
@@ -98,7 +98,7 @@ def door_switch(s: Sketch, p: Palette, mechanism: int, used: int) -> None:
             s.stroke(p.bright, (-1.2, 1.2), (1.2, -1.2), 0.8)
 
 
-@drawing("pad", -9.5, -12, 9.5, 3)
+@drawing(-9.5, -12, 9.5, 3)
 def launch_pad(s: Sketch, p: Palette, step: int) -> None:
     """A spring plate lying on the surface at its point; ``step`` 8: just sprung, 0: settled."""
     top = -4.6 - 4.5 * step / 8
@@ -112,7 +112,7 @@ def launch_pad(s: Sketch, p: Palette, step: int) -> None:
     s.box(p.outline, -7.6, -0.7, 15.2, 0.9)
 
 
-@drawing("one-way", 13)
+@drawing(13)
 def one_way(s: Sketch, p: Palette) -> None:
     """A bar on the side that carries, here the upper one, with teeth that show the way through."""
     s.framed_box(p.light, p.outline, -12, -12, 24, 3.4, 0.7)
@@ -120,20 +120,20 @@ def one_way(s: Sketch, p: Palette) -> None:
         s.polygon(p.dark, [(x - 3, -6.2), (x, -8.8), (x + 3, -6.2), (x + 1.8, -6.2), (x, -7.6), (x - 1.8, -6.2)])
 
 
-@drawing("turret", 7)
+@drawing(7)
 def turret_base(s: Sketch, p: Palette, step: int) -> None:
     """A round base; its dot grows before the shot."""
     s.disc(p.outline, 0, 0, 6.3)
     s.disc(p.turret, 0, 0, 5.4)
     s.disc(mixed(p.turret, p.outline, 0.5), 0, 0, 3.7)
     s.disc(p.bright if step else p.warning, 0, 0, 1.1 + 2.2 * step / 8)
-    if p.shapes:
+    if p.danger_by_shape:
         for angle in (45, 135, 225, 315):
             a = radians(angle)
             s.stroke(p.outline, (4.2 * cos(a), 4.2 * sin(a)), (6.6 * cos(a), 6.6 * sin(a)), 1.4)
 
 
-@drawing("launcher", 7)
+@drawing(7)
 def launcher_base(s: Sketch, p: Palette, step: int) -> None:
     """A round base with a rocket's head in its tube; it glows while the rocket is prepared."""
     s.disc(p.outline, 0, 0, 6.3)
@@ -146,7 +146,7 @@ def launcher_base(s: Sketch, p: Palette, step: int) -> None:
         s.disc(p.light, 4.6 * cos(a), 4.6 * sin(a), 0.7)
 
 
-@drawing("crosshair", 9)
+@drawing(9)
 def crosshair(s: Sketch, p: Palette, look: int) -> None:
     """``look``: 0 far, 1 mid, 2 near, 3 locked (before and after the shot)."""
     radius = (2.3, 4.5, 6.8, 6.8)[look]
@@ -164,7 +164,7 @@ def crosshair(s: Sketch, p: Palette, look: int) -> None:
         s.disc(p.laser, 0, 0, 1.3)
 
 
-@drawing("streak", -5, -38, 5, 6)
+@drawing(-5, -38, 5, 6)
 def gold_streak(s: Sketch, p: Palette, step: int) -> None:
     """Collected gold: squeezed into a streak that shoots up."""
     t = step / 8
@@ -174,7 +174,7 @@ def gold_streak(s: Sketch, p: Palette, step: int) -> None:
     s.polygon(p.gold_light, [(-width * 0.5, bottom), (0, top - 2), (width * 0.5, bottom)])
 
 
-@drawing("lightning", -20, -8, 20, 8)
+@drawing(-20, -8, 20, 8)
 def lightning(s: Sketch, p: Palette, variant: int) -> None:
     """A jagged flash along x."""
     zigzag = ((0, 3, -4, 2, -2, 0), (0, -4, 3, -3, 4, 0), (0, 5, -1, 3, -5, 0))[variant]

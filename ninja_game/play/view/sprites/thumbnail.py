@@ -12,8 +12,8 @@ from ninja_game.play.ui.palette import PALETTES, Palette
 from ninja_game.play.view.ninja.figure import ninja_sprite
 from ninja_game.play.view.ninja.pose import STAND
 from ninja_game.play.view.sprites.backdrop import Backdrop
-from ninja_game.play.view.sprites.draw_moving import draw_movers
-from ninja_game.play.view.sprites.draw_target import Stage
+from ninja_game.play.view.sprites.draw_moving import draw_moving
+from ninja_game.play.view.sprites.draw_target import DrawTarget
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
 from ninja_game.play.view.sprites.sprite_book import SpriteBook
 from ninja_game.sim.level import Level
@@ -44,10 +44,10 @@ def thumbnail(level: Level, palette: Palette, width: int) -> pygame.Surface:
     animation = ObjectAnimation(run.world)
     backdrop = Backdrop(canvas, palette, book, run.static)
     backdrop.reset(run.world, animation)
-    stage = Stage(canvas, palette, book)
-    stage.begin(backdrop.picture)
-    draw_movers(stage, run.world, animation, 1.0)
+    target = DrawTarget(canvas, palette, book)
+    target.begin(backdrop.picture)
+    draw_moving(target, run.world, animation, 1.0)
     n = run.world.ninja
-    stage.picture(ninja_sprite(canvas.scale, palette, STAND, 1, (0.0, 0.0), colour=palette.ninja), n.x, n.y)
+    target.picture(ninja_sprite(canvas.scale, palette, STAND, 1, (0.0, 0.0), colour=palette.ninja), n.x, n.y)
     backdrop.picture.blit(backdrop.tiles, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
     return backdrop.picture

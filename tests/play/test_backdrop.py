@@ -1,0 +1,63 @@
+"""The backdrop is mended piece by piece; what it shows is what it would show if it were painted anew."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pygame
+import pytest
+
+from ninja_game.formats.load import load_replays
+from ninja_game.play.ui.canvas import Canvas
+from ninja_game.play.ui.palette import CLASSIC
+from ninja_game.play.view.sprites.backdrop import Backdrop
+from ninja_game.play.view.sprites.object_animation import ObjectAnimation
+from ninja_game.play.view.sprites.sprite_book import SpriteBook
+from ninja_game.sim.events import EXIT_OPENED
+from ninja_game.sim.memory.schema import SWITCH
+from ninja_game.simulation import Simulation
+
+REPLAYS = sorted((Path(__file__).parent.parent / "replays").glob("*.replay.txt"))
+CANVAS = Canvas((396, 300))
+
+
+def painted(run: Simulation, animation: ObjectAnimation, book: SpriteBook) -> Backdrop:
+    backdrop = Backdrop(CANVAS, CLASSIC, book, run.static)
+    backdrop.reset(run.world, animation)
+    return backdrop
+
+
+def pixels(backdrop: Backdrop) -> bytes:
+    return pygame.image.tobytes(backdrop.picture, "RGB")
+
+
+@pytest.mark.parametrize("path", REPLAYS, ids=lambda path: path.name.split(".")[0])
+def test_mended_backdrop_is_the_backdrop_painted_anew(path: Path) -> None:
+    recording = load_replays(path)[0]
+    run, book = Simulation(recording.level), SpriteBook(CANVAS.scale, CLASSIC)
+    animation = ObjectAnimation(run.world)
+    backdrop = painted(run, animation, book)
+    for tick, frame in enumerate(recording.inputs(recording.ticks)):
+        run.step_frame(frame)
+        animation.on_tick(run.world)
+        backdrop.update(run.world, animation, 1.0)
+        if tick % 15 == 0:
+            assert pixels(backdrop) == pixels(painted(run, animation, book)), tick
+
+
+def test_exit_switch_looks_pressed_from_its_tick_on() -> None:
+    recording = load_replays(REPLAYS[0])[0]
+    run, book = Simulation(recording.level), SpriteBook(CANVAS.scale, CLASSIC)
+    animation = ObjectAnimation(run.world)
+    backdrop = painted(run, animation, book)
+    switch = next(o for o in run.world.objects[: run.world.slots_used] if o.kind == SWITCH)
+    place = pygame.Rect(CANVAS.point(switch.x - 4, switch.y - 2), (4, 2))
+    lit = pygame.transform.average_color(backdrop.picture, place)
+    for frame in recording.inputs(recording.ticks):
+        run.step_frame(frame)
+        animation.on_tick(run.world)
+        backdrop.update(run.world, animation, 1.0)
+        if any(event.kind == EXIT_OPENED for event in run.world.events[: run.world.event_count]):
+            break
+        assert pygame.transform.average_color(backdrop.picture, place) == lit
+    assert pygame.transform.average_color(backdrop.picture, place) != lit
