@@ -40,6 +40,10 @@ class FormatError(NinjaGameError):
         return text
 
 
+class FileError(FormatError):
+    """A file that cannot be read or written: no regular file, too large, no text, or one that must not be replaced."""
+
+
 class LevelError(FormatError):
     """A level (in-game string, level file or ASCII level) that cannot be loaded."""
 

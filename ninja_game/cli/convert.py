@@ -48,11 +48,11 @@ def command(source: Path, target: str, form: str | None, legend: bool) -> None:
     levels = load_levels(source)
     form = form or _form_for(target, levels)
     if form == "ascii" and (_is_folder(target) or (len(levels) > 1 and target != STANDARD_STREAM)):
-        _write_folder(Path(target), levels, legend)
+        _write_folder(Path(target), levels, legend, source)
     elif form == "ascii":
-        _write(target, "\n".join(_ascii_text(level, legend) for level in levels))
+        _write(target, "\n".join(_ascii_text(level, legend) for level in levels), source)
     else:
-        _write(target, _level_file_text(levels) if form == "file" else _strings_text(levels))
+        _write(target, _level_file_text(levels) if form == "file" else _strings_text(levels), source)
 
 
 def _form_for(target: str, levels: Sequence[NamedLevel]) -> str:
@@ -91,17 +91,17 @@ def _strings_text(levels: Sequence[NamedLevel]) -> str:
     return "".join(write_level_string(level.level) + "\n" for level in levels)
 
 
-def _write(target: str, text: str) -> None:
-    """Write one file, or to the terminal."""
+def _write(target: str, text: str, source: Path) -> None:
+    """Write one file, never the one that was read, or to the terminal."""
     from ninja_game.files.writing import write_atomically
 
     if target == STANDARD_STREAM:
         click.echo(text, nl=False)
     else:
-        write_atomically(Path(target), text)
+        write_atomically(Path(target), text, keep=[source])
 
 
-def _write_folder(folder: Path, levels: Sequence[NamedLevel], legend: bool) -> None:
+def _write_folder(folder: Path, levels: Sequence[NamedLevel], legend: bool, source: Path) -> None:
     """Write one readable file a level, named after its place and its name."""
     from ninja_game.files.writing import write_atomically
 
@@ -111,7 +111,7 @@ def _write_folder(folder: Path, levels: Sequence[NamedLevel], legend: bool) -> N
         )
     folder.mkdir(parents=True, exist_ok=True)
     for name, level in zip(_file_names(levels), levels, strict=True):
-        write_atomically(folder / name, _ascii_text(level, legend))
+        write_atomically(folder / name, _ascii_text(level, legend), keep=[source])
     click.echo(f"{len(levels)} level{'s' * (len(levels) != 1)} written to {folder}", err=True)
 
 

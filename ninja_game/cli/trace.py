@@ -84,7 +84,7 @@ def command(
     elif against:
         different = _compare(traces, against)
     else:
-        _write(traces, output)
+        _write(traces, output, files)
     if not traces.count and not traces.unreadable:
         raise click.UsageError(f"there is no record {record}")
     ctx.exit(2 if traces.unreadable else 1 if different else 0)
@@ -142,7 +142,7 @@ def _compare(traces: Traces, against: Path) -> int:
     return different
 
 
-def _write(traces: Traces, output: Path | None) -> None:
+def _write(traces: Traces, output: Path | None, files: Sequence[Path]) -> None:
     """Write the table: to the terminal, to a .npz file, or as CSV to any other file."""
     from ninja_game.files.writing import write_atomically
     from ninja_game.runs.trace_files import write_csv, write_npz
@@ -151,9 +151,9 @@ def _write(traces: Traces, output: Path | None) -> None:
     if output is None:
         write_csv(runs, sys.stdout)
     elif output.suffix == ".npz":
-        write_atomically(output, partial(write_npz, runs))
+        write_atomically(output, partial(write_npz, runs), keep=files)
     else:
-        write_atomically(output, partial(_fill_csv, runs))
+        write_atomically(output, partial(_fill_csv, runs), keep=files)
 
 
 def _fill_csv(runs: Iterator[FiledTrace], file: IO[bytes]) -> None:

@@ -87,7 +87,7 @@ def command(
             resume=resume,
         )
         if report:
-            results = _reported(results, report, stack)
+            results = _reported(results, report, files, stack)
         for result in with_progress(results, "runs"):
             tally.add(result)
             if isinstance(result, Unreadable):
@@ -101,12 +101,12 @@ def command(
     ctx.exit(2 if tally.unreadable else FAILED if tally.failed else 0)
 
 
-def _reported(results: Iterable[Result], report: Path, stack: ExitStack) -> Iterator[Result]:
+def _reported(results: Iterable[Result], report: Path, files: Sequence[Path], stack: ExitStack) -> Iterator[Result]:
     """The same results, written to a report as they pass."""
     from ninja_game.files.writing import open_atomically
     from ninja_game.verification.verify_many import write_report
 
-    out = stack.enter_context(open_atomically(report))
+    out = stack.enter_context(open_atomically(report, keep=files))
     return write_report(results, out) if report.suffix.lower() == ".json" else _write_table(results, out)
 
 

@@ -1,36 +1,118 @@
-"""Text files as people have them: any encoding, any line ends, alone or in folders."""
+"""Files as people have them: texts in any encoding, with any line ends, alone or in folders. Only regular files."""
 
 from __future__ import annotations
 
 import codecs
+import os
+import stat
+from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
-from ninja_game.errors import LevelError
+from ninja_game.errors import FileError
 
 SUFFIXES = (".txt", ".nlevel", ".level", ".replay", ".demo")
 """Which files of a folder are looked at."""
 
 MAX_BYTES = 64 * 2**20
-"""No level file comes near this size; a larger one is something else."""
+"""No file of levels or replays comes near this size; a larger one is something else."""
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """What a walk through a folder could not look at, and why."""
+
+    path: Path
+    why: str
+
+    def __str__(self) -> str:
+        return f"{self.path}: {self.why}"
+
+
+def files_below(folder: Path) -> Iterator[Path | LeftOut]:
+    """The files below a folder that may hold levels or recordings, in order of their names, hidden ones apart.
+
+    Links are followed; every folder is visited once, so that loops end. Only the folders on the way to the present
+    file are in memory. What cannot be looked at is given as LeftOut and stops nothing.
+    """
+    visited: set[tuple[int, int]] = set()
+    waiting = [(folder, True)]
+    while waiting:
+        path, is_folder = waiting.pop()
+        try:
+            about = path.stat()
+            if not is_folder:
+                yield path if stat.S_ISREG(about.st_mode) else LeftOut(path, f"{what_it_is(about.st_mode)}, not a file")
+                continue
+            if (about.st_dev, about.st_ino) in visited:
+                yield LeftOut(path, "a link to a folder that is visited already")
+                continue
+            visited.add((about.st_dev, about.st_ino))
+            with os.scandir(path) as entries:
+                names = sorted(((each.name, _is_folder(each)) for each in entries), reverse=True)
+        except (OSError, ValueError) as error:
+            yield LeftOut(path, getattr(error, "strerror", "") or str(error))
+            continue
+        waiting += [
+            (path / name, below)
+            for name, below in names
+            if not name.startswith(".") and (below or name.lower().endswith(SUFFIXES))
+        ]
+
+
+def _is_folder(entry: os.DirEntry[str]) -> bool:
+    try:
+        return entry.is_dir()
+    except OSError:
+        # A link that leads in a circle: the walk names it if it has the name of a file.
+        return False
 
 
 def text_files(path: Path) -> list[Path]:
-    """The file itself, or the files below a folder that may hold levels or recordings, in order of their names."""
+    """The file itself, or ``files_below`` a folder without what had to be left out."""
     if not path.is_dir():
         return [path]
-    files = sorted(file for file in path.rglob("*") if file.suffix.lower() in SUFFIXES and file.is_file())
-    return [file for file in files if not any(part.startswith(".") for part in file.relative_to(path).parts)]
+    return [file for file in files_below(path) if isinstance(file, Path)]
+
+
+def read_bytes(path: Path, limit: int = MAX_BYTES) -> bytes:
+    """A regular file's content.
+
+    Raises FileError for a folder, device or pipe, and for a file of more than ``limit`` bytes; OSError as it comes.
+    """
+    try:
+        # A pipe that nobody writes would block here without O_NONBLOCK.
+        handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+    except ValueError as error:
+        raise FileError("no file has this name", ascii(str(path)), found=str(error)) from None
+    mode = os.fstat(handle).st_mode
+    if not stat.S_ISREG(mode):
+        os.close(handle)
+        raise FileError("only a regular file is read", str(path), found=what_it_is(mode))
+    with os.fdopen(handle, "rb") as file:
+        data = file.read(limit + 1)
+    if len(data) > limit:
+        raise FileError("the file is too large", str(path), expected=f"at most {limit >> 20} MiB")
+    return data
+
+
+def read_utf8(path: Path, limit: int = MAX_BYTES) -> str:
+    """A file of ours as text. Raises FileError, with line and column, where it is not UTF-8; else as ``read_bytes``."""
+    data = read_bytes(path, limit)
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        before = data[: error.start].split(b"\n")
+        place = len(before), len(before[-1]) + 1
+        raise FileError("not a text in UTF-8", str(path), *place, f"the byte {data[error.start]:#04x}") from None
 
 
 def read_text(path: Path) -> str:
     """A text file's content with plain line ends: UTF-8, UTF-16 with its mark, or else Latin-1.
 
-    Raises LevelError for a file that is no text; OSError as it comes.
+    Raises FileError for a file that is no text; else as ``read_bytes``.
     """
-    with path.open("rb") as file:
-        data = file.read(MAX_BYTES + 1)
-    if len(data) > MAX_BYTES:
-        raise LevelError("too large for a file of levels", str(path), expected=f"at most {MAX_BYTES >> 20} MiB")
+    data = read_bytes(path)
     try:
         if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
             text = data.decode("utf-16")
@@ -38,6 +120,20 @@ def read_text(path: Path) -> str:
             text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
         text = data.decode("latin-1")
+    text = text.replace("\r\n", "\n").replace("\r", "\n")
     if "\0" in text:
-        raise LevelError("not a text file", str(path), found="a zero byte")
-    return text.replace("\r\n", "\n").replace("\r", "\n")
+        raise FileError("not a text file", str(path), text[: text.index("\0")].count("\n") + 1, found="a zero byte")
+    return text
+
+
+def what_it_is(mode: int) -> str:
+    """The kind of a file by its mode, in words.
+
+    >>> what_it_is(stat.S_IFIFO)
+    'a pipe'
+    """
+    kinds = {
+        stat.S_IFDIR: "a folder", stat.S_IFIFO: "a pipe", stat.S_IFSOCK: "a socket", stat.S_IFLNK: "a link",
+        stat.S_IFCHR: "a device", stat.S_IFBLK: "a device", stat.S_IFREG: "a regular file",
+    }  # fmt: skip
+    return kinds.get(stat.S_IFMT(mode), "something else")

@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from ninja_game.errors import FileError
+
 HOME_VARIABLE = "NINJA_GAME_HOME"
 """Environment variable that moves the folder."""
 
@@ -16,10 +18,16 @@ SETTINGS, RECORDS = "settings.toml", "records.sqlite"
 
 
 def user_folder() -> Path:
-    """The folder, whether it exists or not: ``NINJA_GAME_HOME``, else the system's place for data of programs."""
+    """The folder, whether it exists or not: ``NINJA_GAME_HOME``, else the system's place for data of programs.
+
+    Raises FileError where ``NINJA_GAME_HOME`` begins with a ``~name`` that is no user's.
+    """
     moved = os.environ.get(HOME_VARIABLE)
     if moved:
-        return Path(moved).expanduser()
+        try:
+            return Path(moved).expanduser()
+        except RuntimeError:
+            raise FileError(f"{HOME_VARIABLE} names no folder", found=moved, expected="a path") from None
     from platformdirs import user_data_path
 
     return user_data_path("ninja-game", appauthor=False)
@@ -33,7 +41,7 @@ def make_user_folder(folder: Path | None = None) -> Path:
     return folder
 
 
-def set_aside(path: Path, why: str) -> Path:
+def quarantine(path: Path, why: str) -> Path:
     """Move a file that cannot be used out of the way, and what SQLite keeps beside it; its new path.
 
     ``why``: one word for the new name. Nothing is ever overwritten. Raises OSError.

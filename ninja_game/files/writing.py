@@ -1,40 +1,181 @@
-"""Files that are whole or not there: written beside their place, then moved into it."""
+"""Files that are whole or not there: written beside their place, brought to the disk, then moved into it.
+
+Only regular files are written. A symbolic link stays, and the file that it leads to is replaced; an existing file
+keeps its mode. Other hard links to it keep the old content.
+"""
 
 from __future__ import annotations
 
+import errno
 import os
-import tempfile
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+import secrets
+import stat
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO
 
+from ninja_game.errors import FileError
+from ninja_game.files.reading import SUFFIXES, what_it_is
 
-def write_atomically(path: Path, fill: Callable[[IO[bytes]], object] | bytes | str) -> None:
-    """Put a file at ``path``, whole or not at all.
+PART_PREFIX, PART_SUFFIX = ".ninja-game-", ".part"
+"""Name of a temporary file; it lies in the folder of the file that it will become."""
 
-    ``fill`` is the content (text becomes UTF-8) or a function that writes it into a binary file. Raises OSError.
+_tidied: set[Path] = set()
+"""Folders in which this process has looked for what killed writers left behind."""
+
+
+def write_atomically(
+    path: Path, fill: Callable[[IO[bytes]], object] | bytes | str, *, keep: Iterable[Path] = ()
+) -> None:
+    """Put a file at ``path``, whole or not at all; when this returns it is on the disk.
+
+    ``fill`` is the content (text becomes UTF-8, lone surrogates question marks) or a function that writes it into a
+    binary file. ``keep``: as in ``open_atomically``, with the same errors.
     """
-    with open_atomically(path) as file:
+    with open_atomically(path, keep=keep) as file:
         if callable(fill):
             fill(file)
         else:
-            file.write(fill.encode("utf-8") if isinstance(fill, str) else fill)
+            file.write(fill.encode("utf-8", "replace") if isinstance(fill, str) else fill)
 
 
 @contextmanager
-def open_atomically(path: Path) -> Iterator[IO[bytes]]:
-    """A binary file that appears at ``path`` when the block ends, and never if it ends in an exception."""
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    part = Path(name)
+def open_atomically(path: Path, *, keep: Iterable[Path] = ()) -> Iterator[IO[bytes]]:
+    """A binary file that appears at ``path`` when the block ends, and never if it ends in an exception.
+
+    ``keep``: files and folders that the block reads; a ``path`` that would replace one of them is refused.
+
+    Raises FileError for a path that cannot be written on principle, OSError with the name ``path`` for the rest.
+    """
+    target, about = _target(path, keep)
+    remove_leftovers(target.parent)
+    part = None
     try:
+        handle, part = _new_part(target.parent)
         with os.fdopen(handle, "wb") as file:
             yield file
-        # mkstemp makes files private; this one is as open as any other new file.
-        mask = os.umask(0)
-        os.umask(mask)
-        part.chmod(0o666 & ~mask)
-        part.replace(path)
-    except BaseException:
-        part.unlink(missing_ok=True)
+            file.flush()
+            if about is not None:
+                _keep_rights(part, about)
+            os.fsync(file.fileno())
+            if sys.platform != "win32":
+                # While it is open and locked, so that no other process takes it for a leftover.
+                part.replace(target)
+        if sys.platform == "win32":
+            part.replace(target)
+        _sync_folder(target.parent)
+    except BaseException as error:
+        if part is not None:
+            with suppress(OSError):
+                part.unlink(missing_ok=True)
+        if isinstance(error, OSError) and _is_about_the_file(error):
+            raise OSError(error.errno, error.strerror or str(error), str(path)) from None
         raise
+
+
+def remove_leftovers(folder: Path) -> None:
+    """Remove the temporary files of killed writers from a folder; once for each folder and process."""
+    if folder in _tidied:
+        return
+    _tidied.add(folder)
+    try:
+        with os.scandir(folder) as entries:
+            parts = [each.path for each in entries if each.name.startswith(PART_PREFIX)]
+    except OSError:
+        return
+    for part in parts:
+        if part.endswith(PART_SUFFIX):
+            with suppress(OSError):
+                _remove_unlocked(Path(part))
+
+
+def _target(path: Path, keep: Iterable[Path]) -> tuple[Path, os.stat_result | None]:
+    """The file behind ``path`` and what is there already. Raises FileError, OSError."""
+    try:
+        target = path.resolve()
+    except (ValueError, RuntimeError) as error:
+        raise FileError("no file can have this name", ascii(str(path)), found=str(error)) from None
+    try:
+        about = target.stat()
+    except FileNotFoundError:
+        return target, None
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from None
+    if not stat.S_ISREG(about.st_mode):
+        raise FileError("only a regular file is written", str(path), found=what_it_is(about.st_mode))
+    if any(_reads(each, target) for each in keep):
+        raise FileError("this file is read by the same command", str(path), hint="choose another name for the output")
+    if not os.access(target, os.W_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
+    return target, about
+
+
+def _keep_rights(part: Path, about: os.stat_result) -> None:
+    """Give the new file the mode and, where that is allowed, the owner of the one it replaces."""
+    if sys.platform != "win32":
+        with suppress(OSError):
+            os.chown(part, about.st_uid, about.st_gid)
+    part.chmod(stat.S_IMODE(about.st_mode))
+
+
+def _reads(source: Path, target: Path) -> bool:
+    """Whether who reads ``source``, a file or a folder, reads ``target``."""
+    if source.is_dir():
+        return target.name.lower().endswith(SUFFIXES) and target.is_relative_to(source.resolve())
+    return source.exists() and source.samefile(target)
+
+
+def _is_about_the_file(error: OSError) -> bool:
+    """Whether an error names the temporary file, or no file at all as those of writing do."""
+    if error.filename is None:
+        return not isinstance(error, ConnectionError)
+    return Path(os.fsdecode(error.filename)).name.startswith(PART_PREFIX)
+
+
+def _sync_folder(folder: Path) -> None:
+    """Bring a folder's list of names to the disk, where the system can do that."""
+    if sys.platform != "win32":
+        with suppress(OSError):
+            handle = os.open(folder, os.O_RDONLY)
+            try:
+                os.fsync(handle)
+            finally:
+                os.close(handle)
+
+
+if sys.platform == "win32":
+
+    def _new_part(folder: Path) -> tuple[int, Path]:
+        """A new temporary file. Windows itself refuses to remove it while it is open."""
+        part = folder / f"{PART_PREFIX}{secrets.token_hex(8)}{PART_SUFFIX}"
+        return os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY | os.O_BINARY, 0o666), part
+
+    def _remove_unlocked(part: Path) -> None:
+        part.unlink()
+
+else:
+    import fcntl
+
+    def _new_part(folder: Path) -> tuple[int, Path]:
+        """A new temporary file, locked for as long as it is open; the system's mask decides on its mode."""
+        while True:
+            part = folder / f"{PART_PREFIX}{secrets.token_hex(8)}{PART_SUFFIX}"
+            handle = os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY | os.O_CLOEXEC, 0o666)
+            with suppress(OSError):
+                # Some network disks have no locks.
+                fcntl.flock(handle, fcntl.LOCK_EX)
+            if os.fstat(handle).st_nlink:
+                return handle, part
+            # Between its making and its locking another process took it for a leftover.
+            os.close(handle)
+
+    def _remove_unlocked(part: Path) -> None:
+        """Remove a temporary file unless a process still writes it. Raises OSError."""
+        handle = os.open(part, os.O_RDONLY | os.O_NONBLOCK | os.O_NOFOLLOW)
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            part.unlink()
+        finally:
+            os.close(handle)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import time
 import warnings
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
+from ninja_game.files.writing import write_atomically
 from ninja_game.play.audio.output import AudioOutput, NullAudio
 from ninja_game.play.input.controls import Controls, Keyboard
 from ninja_game.play.options import Options
@@ -194,8 +196,10 @@ class App:
             pygame.display.update(changed)
 
     def save_screenshot(self, path: Path) -> None:
-        """The picture as it is, as a PNG file."""
-        pygame.image.save(self.surface, str(path))
+        """Write the picture as it is to a PNG file. Raises OSError, NinjaGameError."""
+        picture = io.BytesIO()
+        pygame.image.save(self.surface, picture, "picture.png")
+        write_atomically(path, picture.getvalue())
 
 
 def prefer_shared_memory() -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.reading import text_files
+from ninja_game.files.reading import read_utf8, text_files
 from ninja_game.files.resources import bundled_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
@@ -88,7 +88,7 @@ class Catalogue:
             return {}
         try:
             return {episode.number: episode for episode in read_episodes(listing, self.bundled)}
-        except LevelError as error:
+        except NinjaGameError as error:
             self.problems.append(str(error))
             return {}
 
@@ -150,8 +150,8 @@ def read_episodes(listing: Path, levels: dict[str, NamedLevel]) -> list[Episode]
     Raises LevelError for a listing that is wrong: unknown file, odd number, too many levels.
     """
     try:
-        tables = tomllib.loads(listing.read_text("utf-8")).get("episode", [])
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        tables = tomllib.loads(read_utf8(listing)).get("episode", [])
+    except (tomllib.TOMLDecodeError, ValueError) as error:
         raise LevelError(f"not a list of episodes: {error}", str(listing)) from None
     episodes = []
     for table in tables:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from ninja_game.files.user_folder import set_aside
+from ninja_game.files.user_folder import quarantine
 from ninja_game.files.writing import write_atomically
 from ninja_game.player.settings import RULES, Settings
 from ninja_game.player.toml_text import Value, write_toml
@@ -52,7 +52,7 @@ def read_settings(path: Path) -> tuple[Settings, list[str]]:
 def _put_aside(path: Path, why: str) -> str:
     """What was done about an unusable file."""
     try:
-        return f"It is kept as {set_aside(path, why).name}; the defaults are used."
+        return f"It is kept as {quarantine(path, why).name}; the defaults are used."
     except OSError as error:
         return f"It stays where it is ({error.strerror}); the defaults are used."
 

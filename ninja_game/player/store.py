@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ninja_game.files.user_folder import set_aside
+from ninja_game.files.user_folder import quarantine
 
 APPLICATION_ID = 0x6E696E6A
 """Tells our files from other people's SQLite files."""
@@ -131,7 +131,7 @@ def open_store(path: Path | None) -> Store:
             messages.append(f"There is no place for records ({error.strerror}); this session's records will be lost.")
             break
         try:
-            messages.append(f"{text}. They are kept as {set_aside(path, why).name}; new ones are begun.")
+            messages.append(f"{text}. They are kept as {quarantine(path, why).name}; new ones are begun.")
         except OSError as error:
             messages.append(f"{text} and cannot be moved ({error.strerror}); this session's records will be lost.")
             break

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game.errors import DemoError, LevelError, NinjaGameError, ReplayError
+from ninja_game.errors import DemoError, FileError, LevelError, NinjaGameError, ReplayError
 from ninja_game.formats.ascii.reader import write_ascii_level
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.level_file import LevelRecord, write_level_file
@@ -113,7 +113,7 @@ def test_a_file_that_is_far_too_large_is_not_read(tmp_path: Path) -> None:
     path = tmp_path / "big"
     with path.open("wb") as file:
         os.truncate(file.fileno(), 70 * 2**20)
-    with pytest.raises(LevelError, match="too large"):
+    with pytest.raises(FileError, match="too large"):
         load_levels(path)
 
 

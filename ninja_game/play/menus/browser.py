@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.files.reading import read_bytes
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.load import load_levels
 from ninja_game.play.level.screen import LevelScreen
@@ -93,7 +94,7 @@ class Browser(MenuScreen):
             if folder is None or (folder / file.name).exists():
                 self.message = f"There is a {file.name} already"
             else:
-                write_atomically(folder / file.name, file.read_bytes())
+                write_atomically(folder / file.name, read_bytes(file))
                 self.enter()
                 self.message = ""
         except (NinjaGameError, OSError) as error:
