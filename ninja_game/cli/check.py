@@ -92,17 +92,20 @@ def _row(level: NamedLevel, run: VerifiedRun | None) -> str:
     else:
         mark = click.style("solvable", fg="green")
         par = f"par {run.end_tick / TICKS_PER_SECOND:7.3f} s  {run.end_tick:>5} ticks  {run.gold:>3} gold"
+    from ninja_game.levels.warnings import level_warnings
+
     row = f"{mark} {par}  {level.name}  {level.file}:{level.record}"
-    return "\n         ".join([row, *(f"warning: {warning}" for warning in level.warnings)])
+    return "\n         ".join([row, *(f"warning: {warning}" for warning in level_warnings(level.level))])
 
 
 def _facts(level: NamedLevel, run: VerifiedRun | None, where: Path | None) -> dict[str, Any]:
     """A level's certificate for programs."""
     from ninja_game.formats.n14.level_string import level_digest
+    from ninja_game.levels.warnings import level_warnings
 
     facts: dict[str, Any] = {
         "file": level.file, "record": level.record, "name": level.name, "level_digest": level_digest(level.level),
-        "solvable": True if run else None, "warnings": level.warnings,
+        "solvable": True if run else None, "warnings": level_warnings(level.level),
     }  # fmt: skip
     if run:
         facts |= {"par_ticks": run.end_tick, "par_seconds": run.end_tick / TICKS_PER_SECOND, "gold": run.gold}

@@ -85,11 +85,12 @@ def _counts(level: NamedLevel) -> Counter[str]:
 def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
     """Everything about a level, for programs."""
     from ninja_game.formats.n14.level_string import level_digest
+    from ninja_game.levels.warnings import level_warnings
 
     facts: dict[str, Any] = {
         "file": level.file, "record": level.record, "line": level.line, "form": level.form, "name": level.name,
         "author": level.author, "comment": level.comment, "objects": dict(_counts(level)),
-        "level_digest": level_digest(level.level), "warnings": level.warnings,
+        "level_digest": level_digest(level.level), "warnings": level_warnings(level.level),
     }  # fmt: skip
     return facts | ({"recording_ticks": run.ticks} if run else {})
 
@@ -99,6 +100,7 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
     from rich.text import Text
 
     from ninja_game.cli.picture import level_picture
+    from ninja_game.levels.warnings import level_warnings
 
     by = f" by {level.author}" if level.author else ""
     console.print(Text.assemble((level.name or "(no name)", "bold"), by, f"  {level.comment}" * bool(level.comment)))
@@ -112,7 +114,7 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
     if run and run.replay:
         replay = run.replay
         console.print(Text(f"claims: {replay.outcome}, gold {replay.gold}, body {replay.body}, rules {replay.rules}"))
-    for warning in level.warnings:
+    for warning in level_warnings(level.level):
         console.print(Text.assemble(("warning: ", "yellow"), warning))
 
 
@@ -120,6 +122,8 @@ def _show_table(console: Console, levels: Sequence[NamedLevel], recordings: dict
     """A row a level."""
     from rich.markup import escape
     from rich.table import Table
+
+    from ninja_game.levels.warnings import level_warnings
 
     table = Table(box=None, pad_edge=False, header_style="bold")
     sizes = Counter(level.file for level in levels)
@@ -131,7 +135,7 @@ def _show_table(console: Console, levels: Sequence[NamedLevel], recordings: dict
     for level in levels:
         counts = _counts(level)
         run = recordings.get((level.file, level.record))
-        warnings = len(level.warnings)
+        warnings = len(level_warnings(level.level))
         place = f":{level.record}" if sizes[level.file] > 1 else ""
         table.add_row(
             escape(Path(level.file).name) + place if len(sizes) > 1 else str(level.record),

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 
 from ninja_game.errors import LevelError, ReplayError
@@ -41,13 +40,6 @@ class NamedLevel:
     def ascii(self) -> bool:
         """Whether the file is one of our readable ones."""
         return self.form == "ascii"
-
-    @cached_property
-    def warnings(self) -> list[str]:
-        """What is legal but odd in the level."""
-        from ninja_game.levels.warnings import level_warnings
-
-        return level_warnings(self.level)
 
 
 def parse_levels(text: str, *, file: str = "") -> list[NamedLevel]:

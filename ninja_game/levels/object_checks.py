@@ -6,11 +6,13 @@ from collections.abc import Callable, Iterator
 from math import isnan, sqrt
 
 from ninja_game.formats.ascii.places import place_text
-from ninja_game.levels.reach import Ground, door_of, is_flag, well_formed
+from ninja_game.levels.reach import Ground, edges_of, well_formed
+from ninja_game.sim.arithmetic import is_set
 from ninja_game.sim.collision.rays import solid_at
-from ninja_game.sim.collision.tiles import COLUMN, FULL, SHAPE
+from ninja_game.sim.collision.tiles import COLUMN, FULL, ROW, SHAPE
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.level import (
+    COLUMNS,
     DOOR,
     DRONE,
     EXIT,
@@ -18,8 +20,10 @@ from ninja_game.sim.level import (
     GOLD,
     LAUNCH_PAD,
     LAUNCHER,
+    MINE,
     NINJA,
     ONE_WAY,
+    ROWS,
     THWUMP,
     TURRET,
     VALUE_COUNTS,
@@ -56,7 +60,8 @@ def _place_oddities(record: ObjectSpec, ground: Ground) -> Iterator[str]:
     if not cell:
         yield "it is outside the grid"
     elif record.kind in _IN_TILE and _deep(ground, x, y):
-        yield _IN_TILE[record.kind]
+        border = COLUMN[cell] in (0, COLUMNS + 1) or ROW[cell] in (0, ROWS + 1)
+        yield "it is in the border of the level, inside the rock" if border else _IN_TILE[record.kind]
     elif record.kind in (DRONE, THWUMP) and SHAPE[ground.level.tiles[cell]] == FULL:
         yield "it is inside a full tile"
 
@@ -64,6 +69,8 @@ def _place_oddities(record: ObjectSpec, ground: Ground) -> Iterator[str]:
 _IN_TILE = {
     NINJA: "it starts inside a tile",
     TURRET: "it is inside a tile: what it sees and hits is odd",
+    MINE: "it is inside a tile",
+    LAUNCH_PAD: "it is inside a tile",
     LAUNCHER: "it is inside a tile: its rockets explode at once",
 }
 
@@ -134,18 +141,18 @@ def _drone(record: ObjectSpec, ground: Ground) -> Iterator[str]:
 
 def _door(record: ObjectSpec, ground: Ground) -> Iterator[str]:
     x, y, vertical, trap, _, _, locked, _, _ = record.values
-    door = door_of(record)
+    edges = edges_of(ground.doors[record])
     if vertical not in (0, 1):
         yield "its vertical flag is not 0 or 1: it closes another side than it is drawn on"
     if trap not in (0, 1) or locked not in (0, 1):
         yield "its trap or locked flag is not 0 or 1"
     elif trap and locked:
         yield "it is flagged as locked and as trap: it is a locked door"
-    if 0 in door.edges:
+    if 0 in edges:
         yield "it is not between two cells of the grid"
-    elif ground.doors_on_side[frozenset(door.edges)] > 1:
+    elif ground.doors_on_side[edges] > 1:
         yield "another door is on the same side: the later one may never open"
-    if (is_flag(trap) or is_flag(locked)) and not ground.touchable(x, y, DOOR_SWITCH_RADIUS):
+    if (is_set(trap) or is_set(locked)) and not ground.touchable(x, y, DOOR_SWITCH_RADIUS):
         yield f"the ninja cannot reach its switch at {place_text(x, y)}"
 
 

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
+from math import dist
 
 from ninja_game.formats.ascii.object_writer import best_form
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.levels.object_checks import oddities
 from ninja_game.levels.reach import Ground, well_formed
-from ninja_game.sim.level import DOOR, EXIT, KIND_NAMES, NINJA, ROWS, Level, ObjectSpec
+from ninja_game.sim.level import DOOR, EXIT, KIND_NAMES, MINE, NINJA, ROWS, Level, ObjectSpec
+from ninja_game.sim.rules import MINE_RADIUS, RADIUS
 
 MANY_OBJECTS = 2000
 _NAMES_SHOWN = 3
+_AGAIN = "the same object is in this place already"
 
 
 def level_warnings(level: Level) -> list[str]:
@@ -21,12 +24,15 @@ def level_warnings(level: Level) -> list[str]:
     """
     objects = [record for record in level.objects if record.kind >= 0]  # what gets an id (objects.md §2.1)
     ground = Ground(level)
-    named = (
-        (text, object_name(record, number))
-        for number, record in enumerate(objects)
-        for text in oddities(record, ground)
-    )
-    return [*_level_oddities(level, objects), *_shared(_odd_tiles(level)), *_shared(named)]
+    odd: dict[str, list[tuple[ObjectSpec, int]]] = {}
+    first: dict[ObjectSpec, int] = {}
+    for number, record in enumerate(objects):
+        again = [_AGAIN] if first.setdefault(record, number) != number else []
+        for text in (*oddities(record, ground), *again):
+            odd.setdefault(text, []).append((record, number))
+    named = (_some([object_name(*one) for one in some[:_NAMES_SHOWN]], len(some)) + f": {text}"
+             for text, some in odd.items())  # fmt: skip
+    return [*_level_oddities(level, objects), *_odd_tiles(level), *named]
 
 
 def object_name(record: ObjectSpec, number: int) -> str:
@@ -39,24 +45,20 @@ def object_name(record: ObjectSpec, number: int) -> str:
     return f"{name} at {place} (object {number})" if place else f"{name} (object {number})"
 
 
-def _shared(named: Iterable[tuple[str, str]]) -> list[str]:
-    """One line for each oddity, with the names of all that share it."""
-    names: dict[str, list[str]] = {}
-    for text, name in named:
-        names.setdefault(text, []).append(name)
-    return [f"{_some(group)}: {text}" for text, group in names.items()]
-
-
-def _some(names: Sequence[str]) -> str:
-    more = len(names) - _NAMES_SHOWN
+def _some(names: Sequence[str], count: int) -> str:
+    """The first names of a list of ``count``."""
+    more = count - _NAMES_SHOWN
     return ", ".join(names[:_NAMES_SHOWN]) + (f" and {more} more" if more > 0 else "")
 
 
-def _odd_tiles(level: Level) -> Iterator[tuple[str, str]]:
+def _odd_tiles(level: Level) -> Iterator[str]:
+    """A warning for each sort of odd tile, with its first places."""
+    names: dict[str, list[str]] = {}
     for cell, tile in enumerate(level.tiles):
         if not 0 <= tile <= 33:
             what = "above 33 is a half tile without direction" if tile > 33 else "below 0 is never solid, yet not empty"
-            yield f"a tile id {what}", f"tile {tile} at {cell // ROWS + 1},{cell % ROWS + 1}"
+            names.setdefault(what, []).append(f"tile {tile} at {cell // ROWS + 1},{cell % ROWS + 1}")
+    return (f"{_some(places, len(places))}: a tile id {what}" for what, places in names.items())
 
 
 def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[str]:
@@ -67,6 +69,7 @@ def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[str
     elif len(ninjas) > 1:
         last = object_name(objects[ninjas[-1]], ninjas[-1])
         yield f"there are {len(ninjas)} ninjas: the last one plays, {last}; the others only stand there"
+    yield from _deadly_start(objects)
     if not any(record.kind == EXIT and well_formed(record) for record in objects):
         yield "there is no exit: the level cannot be passed"
     if len(objects) > MANY_OBJECTS:
@@ -74,3 +77,13 @@ def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[str
     ignored = [record.text for record in level.objects if record.kind < 0]
     if ignored:
         yield f"{len(ignored)} records create nothing (unknown type), the first is {ignored[0][:40]!r}"
+
+
+def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[str]:
+    """The mine that the ninja touches where it starts."""
+    starts = [record.values for record in objects if record.kind == NINJA and well_formed(record)]
+    for number, record in enumerate(objects):
+        mine = record.kind == MINE and well_formed(record)
+        if mine and starts and dist(record.values, starts[-1]) < MINE_RADIUS + RADIUS:
+            yield f"{object_name(record, number)}: the ninja touches it where it starts and dies at once"
+            return

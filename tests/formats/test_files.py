@@ -60,11 +60,6 @@ def test_a_single_in_game_string_is_read_as_the_game_reads_it(tmp_path: Path) ->
     assert level.level == parse_level_string(text)
 
 
-def test_levels_come_with_their_warnings(tmp_path: Path) -> None:
-    (level,) = load_levels(saved(tmp_path, OTHER))
-    assert any("exit" in warning for warning in level.warnings)
-
-
 def test_folders_are_searched_in_order_hidden_and_foreign_files_left_out(tmp_path: Path) -> None:
     for name in ("b.txt", "a.txt", "sub/c.level", ".hidden.txt", ".git/d.txt", "notes.md"):
         path = tmp_path / name

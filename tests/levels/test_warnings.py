@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+import time
 
 import pytest
 
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.levels.reach import Ground
 from ninja_game.levels.warnings import level_warnings, object_name
-from ninja_game.sim.level import EXIT, GOLD, MINE, NINJA, TILES, Level, ObjectSpec
+from ninja_game.sim.level import DOOR, EXIT, GOLD, MINE, NINJA, TILES, Level, ObjectSpec
 from tests.support.reference import levels
 
 PROPER = (ObjectSpec(NINJA, (36.0, 564.0)), ObjectSpec(EXIT, (700.0, 564.0, 300.0, 564.0)))
@@ -62,6 +64,31 @@ CASES: dict[str, tuple[list[str], dict[int, str], str]] = {
         "zap drone at 1,1 (object 2): it is inside a full tile",
     ),
     "thwump in a tile": (["thwump 1,1 down"], {1: "#"}, "thwump at 1,1 (object 2): it is inside a full tile"),
+    "mine in a tile": (["mine 1,1"], {1: "#"}, "mine at 1,1 (object 2): it is inside a tile"),
+    "pad in a tile": (["launch pad 1.5,1 up-right"], {1: "##"}, "launch pad at 1.5,1 (object 2): it is inside a tile"),
+    "mine in the border": (
+        ["mine 32,5"],
+        {},
+        "mine at 32,5 (object 2): it is in the border of the level, inside the rock",
+    ),
+    "mine on the ninja": (
+        ["mine 1.5,23"],
+        {},
+        "mine at 1.5,23 (object 2): the ninja touches it where it starts and dies at once",
+    ),
+    "two pieces of gold in one place": (
+        ["gold 5,5 6,5 5,5"],
+        {5: "....oo"},
+        "gold at 5,5 (object 4): the same object is in this place already",
+    ),
+    "a line twice": (
+        ["launch pad 5,5.25 up"] * 4,
+        {},
+        (
+            "launch pad at 5,5.25 (object 3), launch pad at 5,5.25 (object 4), launch pad at 5,5.25 (object 5): "
+            "the same object is in this place already"
+        ),
+    ),
     "gold behind walls": ([], {1: "o#", 2: "##"}, "gold at 1,1 (object 1): the ninja cannot reach it"),
     "pad with a long normal": (
         ["launch pad 5.5,5 normal 0,-2"],
@@ -208,7 +235,7 @@ def test_odd_tiles() -> None:
 
 
 def test_many_objects() -> None:
-    level = Level(objects=PROPER + (ObjectSpec(MINE, (300.0, 300.0)),) * 2000)
+    level = Level(objects=(*PROPER, *(ObjectSpec(MINE, (300.0, 300.0 + number / 100)) for number in range(2000))))
     assert level_warnings(level) == ["there are 2002 objects, more than 2000: the game may be slow"]
 
 
@@ -254,6 +281,21 @@ def test_nothing_is_certain_for_a_ninja_that_starts_in_a_tile() -> None:
     assert warnings_of("ninja 1,23", rows=rows) == ["ninja at 1,23 (object 1): it starts inside a tile"]
 
 
+def test_a_pad_on_the_floor_of_the_last_row_is_not_in_the_border() -> None:
+    assert warnings_of(rows={23: "@.8.x...X"}) == []
+
+
+def test_many_locked_doors_behind_each_other_take_no_time() -> None:
+    # Each of the doors opens the next one: the fill looks at none of them again for each one that opens.
+    doors = tuple(
+        ObjectSpec(DOOR, (36.0 + number % 24, 564.0 - number / 1e6, 0, 0, 2.0 + number % 28, 23, 1, 0, 0))
+        for number in range(20_000)
+    )
+    started = time.process_time()
+    Ground(Level(objects=PROPER + doors))
+    assert time.process_time() - started < 2
+
+
 def test_names_say_where_an_object_is_in_its_file() -> None:
     assert object_name(ObjectSpec(GOLD, (36.0, 42.0)), 3) == "gold at 1,1.25 (object 3)"
     assert object_name(ObjectSpec(GOLD, (math.nan, 42.0)), 3) == "gold at nan,42px (object 3)"
@@ -266,5 +308,5 @@ def test_ids_skip_records_that_create_nothing() -> None:
 
 def test_published_levels_are_mostly_proper() -> None:
     found = [warning for row in levels() for warning in level_warnings(parse_level_string(row.data))]
-    assert len(found) <= 8
+    assert len(found) <= 32
     assert not [warning for warning in found if "exit" in warning or "ninja at" in warning]
