@@ -1,13 +1,10 @@
-"""Lifetime and score (game.md §1.1-§1.4). All times are ticks of 25 ms."""
+"""Lifetime and score (game.md §1.1-§1.4). All times are ticks of 25 ms, whatever the speed of play."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
-from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
-
-TICK_MS = 25
-"""A tick in scores is 25 ms, whatever the speed of play (overclock)."""
+from ninja_game.sim.rules import GOLD_BONUS, LIFETIME, TICK_MS
 
 
 def level_score(gold: int, exit_tick: int) -> int:

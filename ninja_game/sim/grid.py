@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import Header, World
-from ninja_game.sim.rules import CELL, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.rules import CELL, GRID_COLUMNS, GRID_ROWS, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
 
 
 @fast
@@ -18,7 +18,7 @@ def cell_at(x: float, y: float) -> int:
 @fast
 def cell_index(column: float, row: float) -> int:
     """Grid index of cell (column, row) of the full grid; 0 if there is none, e.g. for fractions."""
-    if 0.0 <= column <= 32.0 and 0.0 <= row <= 24.0:
+    if 0.0 <= column < GRID_COLUMNS and 0.0 <= row < GRID_ROWS:
         i = int(column)
         j = int(row)
         if i == column and j == row:

@@ -12,12 +12,12 @@ from ninja_game.sim.level import COLUMNS, EXIT, NINJA, ROWS, VALUE_COUNTS, Level
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import CAPACITY, INERT, Ninja, TileMap, World
 from ninja_game.sim.objects.creation import create
-from ninja_game.sim.rules import DRAG, GRAVITY, STRIDE
+from ninja_game.sim.rules import DEFAULT_SPAWN_X, DEFAULT_SPAWN_Y, DRAG, GRAVITY, GRID_COLUMNS, GRID_ROWS, STRIDE
 
 
 def grid_tiles(data: Level) -> list[int]:
     """The tile of every grid index: the level's 31 x 23 within a border of full tiles within a ring of nothing."""
-    tiles = [0] * STRIDE + ([0] + [1] * 33 + [0]) * 25 + [0] * STRIDE
+    tiles = [0] * STRIDE + ([0] + [1] * GRID_COLUMNS + [0]) * GRID_ROWS + [0] * STRIDE
     ids = data.tiles
     if min(ids) < 0 or max(ids) >= ODD_HALF_ID:
         ids = tuple(UNDEFINED_ID if tile < 0 else min(tile, ODD_HALF_ID) for tile in ids)
@@ -74,8 +74,8 @@ def populate(
         p = values[index]
         if kind == NINJA:
             o.kind = NINJA
-            o.x = 45.0
-            o.y = 70.0
+            o.x = DEFAULT_SPAWN_X
+            o.y = DEFAULT_SPAWN_Y
             if counts[index] == 2:
                 o.x = p[0]
                 o.y = p[1]

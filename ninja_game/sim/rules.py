@@ -1,18 +1,27 @@
 """Every constant of the game, with its unit and where it comes from - and nothing else.
 
-Lengths in px, speeds in px/tick, 40 ticks a second, y downwards. "W", "O", "N", "G" name the pages world, objects,
-ninja, game of the specification. A product such as 12 * 0.35714285714285715 is written as the double it gives:
-positions are compared to the last bit, so a "nicer" literal would be another game.
+Lengths in px, speeds in px/tick, y downwards. "W", "O", "N", "G" name the pages world, objects, ninja, game of the
+specification. A product such as 12 * 0.35714285714285715 is written as the double it gives: positions are compared to
+the last bit, so a "nicer" literal would be another game.
+
+The rules copy these names when they are imported: assigning ``rules.GRAVITY`` afterwards changes nothing. To try
+another number, edit it here.
 """
 
 TICKS_PER_SECOND = 40
+TICK_MS = 25  # real milliseconds a tick at normal speed: 1000 / TICKS_PER_SECOND, without a remainder
 LIFETIME = 3600  # ticks at the start of a level, G 1.1
 GOLD_BONUS = 80  # ticks, G 1.1
+
+# The ninja of a record without a usable place starts here, px, O 2.1.
+DEFAULT_SPAWN_X, DEFAULT_SPAWN_Y = 45.0, 70.0
 
 # The grid, W 1. A ring of "missing" cells surrounds the 33 x 25 cells of the world, so that the neighbour of any cell
 # of the world is one addition away; index 0 lies in that ring and means "no cell".
 CELL = 24.0
 HALF = 12.0
+QUARTER = 6.0  # a half of HALF: how far the ends of a shallow slope lie from its middle, W 2.2
+GRID_COLUMNS, GRID_ROWS = 33, 25
 STRIDE = 35
 GRID_CELLS = 35 * 27
 RIGHT, DOWN, LEFT, UP = 0, 1, 2, 3  # direction numbers, O 1
@@ -23,7 +32,7 @@ WORLD_HEIGHT = 600.0
 OFF, INTERESTING, SOLID = 0, 1, 2
 
 # The ninja, N 1.
-RADIUS = 10.0
+RADIUS = 10.0  # also half the width and height of the box
 GROUND_ACCELERATION = 0.15
 AIR_ACCELERATION = 0.1
 TOP_SPEED = 5.0
@@ -35,11 +44,27 @@ WALL_FRICTION = 0.13
 SKID_FRICTION = 0.92
 STAND_FRICTION = 0.8
 STAND_SPEED = 0.1
-JUMP_VERTICAL = 3.0
+JUMP_VERTICAL = 3.0  # a jump's vertical factor; the horizontal one is 1, N 7.4
+UPHILL_JUMP_Y = -0.7  # direction of a jump off a slope with the key against its normal, N 7.2
+UPHILL_HELP = 0.5
+WALL_HOP_Y = -0.5  # direction of a hop up the wall that is held on to; its x is the wall's normal, N 7.1
+WALL_JUMP_X, WALL_JUMP_Y = 1.5, -0.7  # direction of a jump off a wall; x times the wall's normal, N 7.1
 LONGEST_JUMP = 30  # ticks
-FATAL_IMPACT = 9.0
+FATAL_IMPACT = 9.0  # px/tick against the floor's normal, N 6
+FLOOR_ALLOWANCE = 2.0  # px/tick that a level floor takes from an impact; a slope less, by its normal, N 6
+PARALLEL_FLOORS = 0.9  # two floor normals whose product is greater count as one, N 6.1
 CRUSH = 80.0  # px², squared push
 WALL_PROBE = 10.1
+
+# Kill impulses: what a death gives the corpse, px/tick, O 8.8 to 8.19.
+ZAP_IMPULSE = 10.0
+TURRET_IMPULSE = 8.0
+LASER_IMPULSE = 6.0
+BULLET_IMPULSE = 5.0
+THWUMP_UP_IMPULSE, THWUMP_DOWN_IMPULSE = -8.0, 6.0
+THWUMP_SIDE_IMPULSE, THWUMP_SIDE_LIFT = 8.0, -4.0
+
+THINK_PAUSE = 3  # ticks without a think between two; so one object thinks every fourth tick, O 2.4
 
 # Contact radii, O 8: the sum with the ninja's radius is what counts.
 EXIT_RADIUS = 12.0
@@ -49,14 +74,15 @@ PAD_RADIUS = 6.0
 MINE_RADIUS = 4.0
 GUARD_RADIUS = 6.0
 DRONE_RADIUS = 9.0
-AUTOMATIC_DOOR_RADIUS = 10.0
+AUTOMATIC_DOOR_RADIUS = 10.0  # also half the width and height of the box
 DOOR_SWITCH_RADIUS = 5.0
 
 # Bounce block, O 8.3.
 BLOCK_HALF = 9.600000000000001  # 12 * 0.8
 BLOCK_SPRING = 0.05
 BLOCK_DRAG = 0.99
-BLOCK_SHARE = 0.8
+BLOCK_SHARE = 0.8  # of the overlap, what moves the block
+NINJA_SHARE = 0.2  # of the overlap, what moves the ninja
 BLOCK_SLEEP = 40  # ticks without contact
 
 PAD_STRENGTH = 5.142857142857142  # 12 * 0.42857142857142855, O 8.4
@@ -72,6 +98,7 @@ THWUMP_SIGHT = 38.0
 GUARD_SPEED = 5.142857142857142  # O 8.10
 
 # Homing launcher, O 8.11.
+ROCKET_HEADING_X, ROCKET_HEADING_Y = 7.0, 6.0  # before the first shot, not normalised
 ROCKET_PREPARE = 10  # ticks
 ROCKET_SPEED = 3.4285714285714284  # 12 * 0.2857142857142857
 ROCKET_ACCELERATION = 0.1
@@ -80,15 +107,24 @@ ROCKET_TURN = 0.1
 
 # Gauss turret, O 8.12.
 TURRET_DELAY = 10  # ticks
-TURRET_SHOT = 60.0
+TURRET_SHOT = 60.0  # counted down to the shot, by the crosshair's distance:
+NEAR_STEP, NEAR_CYCLE = 2.0, 4  # near: 2 + tick mod 4
+MID_STEP, MID_CYCLE = 1.0, 2  # middle: 1 + tick mod 2
+FAR_STEP = 0.5  # farther, up to AIM_FAR_SQUARED; beyond it the count stands
 AIM_FAR, AIM_MID, AIM_NEAR = 0.03, 0.035, 0.05
 AIM_FAR_SQUARED, AIM_MID_SQUARED, AIM_NEAR_SQUARED = 9216.0, 1764.0, 576.0  # px²
 
 # Drones, O 8.13, 8.18, 8.19.
-DRONE_SPEED = 0.8571428571428571  # 12 * 0.07142857142857142
+DRONE_SPEED = 0.8571428571428571  # 12 * 0.07142857142857142; times one of the four below
+ZAP_PACE, LASER_PACE, CHAINGUN_PACE, CHASE_PACE = 2.0, 0.5, 0.75, 2.0
+DRONE_END_X, DRONE_END_Y = 4.0, 5.0  # where a beam that meets nothing ends until one has met something, px
 LASER_PREPARE, LASER_BEAM, LASER_COOL = 30, 80, 40  # ticks
 CHAINGUN_PREPARE, CHAINGUN_PAUSE, CHAINGUN_COOL = 35, 6, 60  # ticks
+BURST_SHOTS, BURST_SHOTS_CYCLE = 4, 5  # number of a burst's last shot: 4 + tick mod 5
+BURST_SPREAD, BURST_SPREAD_CYCLE = 0.1, 3  # width of its sweep: 0.1 + 0.1 * (1 + tick mod 3)
 
+NEVER = 100_000_000.0  # when a ray that is parallel to a grid line crosses it, px along the ray, W 7.1
 ROOT2 = 1.4142135623730951
+ROOT5 = 2.23606797749979
 INF = float("inf")
 NAN = float("nan")

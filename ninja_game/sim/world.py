@@ -14,6 +14,7 @@ from ninja_game.sim.objects.floor_guard import update_guard
 from ninja_game.sim.objects.launcher import think_launcher, update_launcher
 from ninja_game.sim.objects.thwump import update_thwump
 from ninja_game.sim.objects.turret import think_turret, update_turret
+from ninja_game.sim.rules import THINK_PAUSE
 from ninja_game.sim.states import DEAD, DRONE_MOVE
 
 
@@ -26,7 +27,7 @@ def step(level: TileMap, w: World, frame: int) -> None:
         update_objects(level, w)
     # 2. At most one of those that think: one every fourth tick.
     if w.think_cursor:
-        if w.think_counter > 2:
+        if w.think_counter >= THINK_PAUSE:
             w.think_counter = 0
             think(level, w, w.think_cursor)
             if w.think_cursor:

@@ -7,7 +7,7 @@ import pytest
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle
-from ninja_game.sim.collision.rays import ray_box, ray_tiles, sees
+from ninja_game.sim.collision.rays import ray_tiles, sees
 from ninja_game.sim.inputs import HELD, LEFT, RIGHT, TRIGGERED
 from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.memory.schema import TileMap, World
@@ -99,22 +99,6 @@ def test_sight_is_blocked_by_what_is_nearer(ninja: tuple[float, float], answer: 
 def test_a_ray_without_length_sees_nothing() -> None:
     level, w = world_with(0, 50, 50)
     assert not ray_tiles(level, w, 50, 50, 50, 50)[0]
-
-
-@pytest.mark.parametrize(
-    "start, direction, answer",
-    [
-        ((0.0, 50.0), (1.0, 0.0), (True, 40.0, 50.0)),
-        ((0.0, 50.0), (-1.0, 0.0), (False, 0.0, 0.0)),
-        ((50.0, 0.0), (0.0, 1.0), (True, 50.0, 40.0)),
-        ((0.0, 70.0), (1.0, 0.0), (False, 0.0, 0.0)),
-        ((50.0, 50.0), (0.0, 0.0), (False, 0.0, 0.0)),
-    ],
-)
-def test_ray_against_box_hits_the_near_side(
-    start: tuple[float, float], direction: tuple[float, float], answer: tuple[bool, float, float]
-) -> None:
-    assert ray_box(*start, *direction, 50.0, 50.0, 10.0, 10.0) == answer
 
 
 def keys(*spans: tuple[int, int]) -> list[int]:

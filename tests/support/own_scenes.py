@@ -109,6 +109,12 @@ SCENES = (
     Scene("off-a-slope-nobody-falls-to-death", room(
         SLOPE, ninja(60.0, 130.0), ObjectSpec(LAUNCH_PAD, (96.0, 176.0, 1.8, 1.8))
     ), STILL * 60),
+    Scene("a-fall-just-too-hard", room(
+        {}, ninja(60.0, 95.0), ObjectSpec(LAUNCH_PAD, (60.0, 87.0, 0.0, 1.0))
+    ), STILL * 40),
+    Scene("two-slopes-that-count-as-one-floor", room(
+        {(5, 8): 3, (6, 7): 27} | dict.fromkeys(((6, 8), (7, 8), (8, 8), (9, 8), (5, 9), (4, 9)), 1), ninja(60.0, 150.0)
+    ), RIGHT * 120),
     Scene("a-win-in-mid-launch", room(
         {}, ninja(), ObjectSpec(EXIT, (95.0, 214.8, 60.0, 230.0)), ObjectSpec(LAUNCH_PAD, (97.0, 234.0, 0.0, -1.0))
     ), RIGHT * 90),

@@ -16,6 +16,7 @@ from ninja_game.formats.numbers import NAN
 from ninja_game.formats.replay.headers import COUNT_LIMIT, Headers, Line
 from ninja_game.formats.replay.input_runs import MAX_TICKS, read_inputs, write_inputs
 from ninja_game.sim.level import Level
+from ninja_game.sim.rules import TICKS_PER_SECOND
 
 MAGIC = "ninja-game replay"
 VERSION = 2
@@ -36,7 +37,7 @@ class Waypoint(NamedTuple):
     state: str
 
 
-WAYPOINT_TICKS = 40
+WAYPOINT_TICKS = TICKS_PER_SECOND
 """How far apart a recorder sets waypoints: a second."""
 
 

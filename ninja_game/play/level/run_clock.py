@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.sim.rules import TICK_MS
 
-TICK_MS = 1000 // TICKS_PER_SECOND
 LONGEST_MS = 2000
 """More than this in one picture is a stall: it counts as one tick and is not caught up."""
 

@@ -13,7 +13,8 @@ from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.theme import Theme
 from ninja_game.play.ui.widgets import Area, Widget
 from ninja_game.play.ui.wording import fit
-from ninja_game.player.scoring import TICK_MS, seconds_text
+from ninja_game.player.scoring import seconds_text
+from ninja_game.sim.rules import TICK_MS
 
 if TYPE_CHECKING:
     from ninja_game.play.screen import Host

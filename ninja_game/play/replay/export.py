@@ -21,15 +21,15 @@ from ninja_game.play.replay.playback import Playback, Take
 from ninja_game.play.ui.palette import PALETTES, ROLES, Palette, mixed
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.render_context import OffscreenContext
+from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
     from ninja_game.player.player_data import PlayerData
 
 GIF_SIZE = (528, 400)
 VIDEO_SIZE = (1584, 1200)
-_TAIL = 40
+_TAIL = TICKS_PER_SECOND
 """Ticks after the end that a film shows."""
-_RATE = 40
 _LONG_FILM = 600
 """Pictures beyond which a GIF leaves every second one out."""
 
@@ -133,7 +133,7 @@ def _write_video(take: Take, path: Path, options: Options | None, report: Report
         raise NinjaGameError("videos need imageio: pip install 'imageio[ffmpeg]'") from None
     # Its stubs know only the readers.
     open_writer: Any = imageio.get_writer
-    with open_writer(path, fps=_RATE, macro_block_size=1) as writer:
+    with open_writer(path, fps=TICKS_PER_SECOND, macro_block_size=1) as writer:
         for number, picture in enumerate(film_pictures(take, VIDEO_SIZE, options)):
             writer.append_data(pygame.surfarray.array3d(picture).swapaxes(0, 1))
             if not report(number):

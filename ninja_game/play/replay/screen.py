@@ -19,13 +19,13 @@ from ninja_game.play.replay.seek_bar import ReplayBar
 from ninja_game.play.screen import Screen
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays
+from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
     from ninja_game.play.screen import Host
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 _NORMAL = SPEEDS.index(1.0)
-_SECOND = 40
 _WARM = 12
 """Ticks that are run with their animations before the moment sought, so that it looks as if played."""
 _STILL_MS = 500
@@ -134,7 +134,8 @@ class ReplayScreen(Screen):
     def _act(self, action: str) -> bool:
         deed = {
             "confirm": self.toggle_pause, "pause": self.toggle_pause,
-            "left": lambda: self.seek(self.tick - _SECOND), "right": lambda: self.seek(self.tick + _SECOND),
+            "left": lambda: self.seek(self.tick - TICKS_PER_SECOND),
+            "right": lambda: self.seek(self.tick + TICKS_PER_SECOND),
             "frame_back": lambda: self.step(-1), "frame_forward": lambda: self.step(1),
             "faster": lambda: self._change_speed(1), "slower": lambda: self._change_speed(-1),
             "retry": lambda: self.show(self.index), "jump": lambda: self.show(self.index + 1),

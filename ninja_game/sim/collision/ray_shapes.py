@@ -23,7 +23,7 @@ from ninja_game.sim.collision.tiles import (
     UNDEFINED,
 )
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.rules import CELL, HALF
+from ninja_game.sim.rules import CELL, HALF, QUARTER
 
 
 @fast
@@ -76,21 +76,21 @@ def ray_tile(tile: int, cx: float, cy: float, x: float, y: float, dx: float, dy:
             return False, 0.0, 0.0
         if shape == THIN_22:
             ex = ex + sx * HALF
-            ey = ey - sy * 6.0
-            my = cy - sy * 6.0
+            ey = ey - sy * QUARTER
+            my = cy - sy * QUARTER
             uy = sx * HALF / 2.0
         elif shape == THICK_22:
-            ey = ey + sy * 6.0
-            my = cy + sy * 6.0
+            ey = ey + sy * QUARTER
+            my = cy + sy * QUARTER
             uy = sx * HALF / 2.0
         elif shape == THIN_67:
             ey = ey + sy * HALF
-            ex = ex - sx * 6.0
-            mx = cx - sx * 6.0
+            ex = ex - sx * QUARTER
+            mx = cx - sx * QUARTER
             ux = -sy * HALF / 2.0
         else:
-            ex = ex + sx * 6.0
-            mx = cx + sx * 6.0
+            ex = ex + sx * QUARTER
+            mx = cx + sx * QUARTER
             ux = -sy * HALF / 2.0
     kappa = div(dy * ex - dx * ey, dx * uy - dy * ux)
     if 1.0 < abs(kappa):

@@ -25,10 +25,7 @@ from ninja_game.sim.collision.tiles import (
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import TileMap, World
-from ninja_game.sim.rules import CELL, DOWN, HALF, LEFT, OFF, RADIUS, RIGHT, SOLID, STRIDE, UP
-
-NEVER = 100_000_000.0
-"""When a ray that is parallel to a grid line crosses it."""
+from ninja_game.sim.rules import CELL, DOWN, HALF, LEFT, NEVER, OFF, RADIUS, RIGHT, SOLID, STRIDE, UP
 
 
 @fast
@@ -144,33 +141,6 @@ def sees(level: TileMap, w: World, x: float, y: float, to_x: float, to_y: float)
         if alpha < beta:
             return False, stop_x, stop_y
     return True, hit_x, hit_y
-
-
-@fast
-def ray_box(
-    x: float, y: float, dx: float, dy: float, cx: float, cy: float, half_width: float, half_height: float
-) -> tuple[bool, float, float]:
-    """Ray against an AABB: (hit, point px). A start inside the box sees only the side on its own half (W 7.6)."""
-    if dx == 0.0 and dy == 0.0:
-        return False, 0.0, 0.0
-    near_x = cx - half_width if x < cx else cx + half_width
-    near_y = cy - half_height if y < cy else cy + half_height
-    use_y = dx == 0.0
-    if dx != 0.0 and dy != 0.0:
-        use_y = (near_x - x) / dx < (near_y - y) / dy
-    far_x = x + 100.0 * dx
-    far_y = y + 100.0 * dy
-    if use_y:
-        t = (near_y - y) / dy
-        z1 = (far_x - x) * (near_y - y) - ((cx - half_width) - x) * (far_y - y)
-        z2 = (far_x - x) * (near_y - y) - ((cx + half_width) - x) * (far_y - y)
-    else:
-        t = (near_x - x) / dx
-        z1 = (far_x - x) * ((cy - half_height) - y) - (near_x - x) * (far_y - y)
-        z2 = (far_x - x) * ((cy + half_height) - y) - (near_x - x) * (far_y - y)
-    if t > 0.0 and z1 * z2 < 0.0:
-        return True, x + t * dx, y + t * dy
-    return False, 0.0, 0.0
 
 
 @fast

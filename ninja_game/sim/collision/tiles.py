@@ -4,7 +4,19 @@ from __future__ import annotations
 
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import TileMap, World
-from ninja_game.sim.rules import CELL, INTERESTING, OFF, ROOT2, SOLID, STRIDE
+from ninja_game.sim.rules import (
+    CELL,
+    GRID_CELLS,
+    GRID_COLUMNS,
+    GRID_ROWS,
+    HALF,
+    INTERESTING,
+    OFF,
+    ROOT2,
+    ROOT5,
+    SOLID,
+    STRIDE,
+)
 
 EMPTY, FULL, HALF_TILE, SLOPE_45, CONCAVE, CONVEX, THIN_22, THICK_22, THIN_67, THICK_67, UNDEFINED = range(11)
 """Tile classes. UNDEFINED is a malformed tile: never solid, but not empty for edges (world.md §2.3)."""
@@ -14,7 +26,6 @@ ODD_HALF_ID = 34
 UNDEFINED_ID = 35
 """What a tile id below 0 becomes."""
 
-ROOT5 = 2.23606797749979
 _SIGNS = ((1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0))
 _HALF_SIGNS = ((0.0, -1.0), (-1.0, 0.0), (0.0, 1.0), (1.0, 0.0))
 _FAMILIES = (SLOPE_45, CONCAVE, CONVEX, THIN_22, THICK_22, THIN_67, THICK_67)
@@ -45,7 +56,7 @@ _ANCHOR = {SLOPE_45: (0, 0), THIN_22: _S[THIN_22], THICK_22: _T[THICK_22], THIN_
 def _offsets(points: dict[int, tuple[int, int]], axis: int) -> list[float]:
     """Offset in px from the cell's centre, per tile id, of one reference point of each class (0 where it has none)."""
     signs = (SIGN_X, SIGN_Y)[axis]
-    return [12.0 * points.get(shape, (0, 0))[axis] * sign for shape, sign in zip(SHAPE, signs, strict=True)]
+    return [HALF * points.get(shape, (0, 0))[axis] * sign for shape, sign in zip(SHAPE, signs, strict=True)]
 
 
 T_X, T_Y = _offsets(_T, 0), _offsets(_T, 1)
@@ -86,17 +97,17 @@ UNIT_X = [1.0, 0.0, -1.0, 0.0]
 UNIT_Y = [0.0, 1.0, 0.0, -1.0]
 """The unit vector of each direction number."""
 
-CENTRE_X = [0.0] * (STRIDE * 27)
-CENTRE_Y = [0.0] * (STRIDE * 27)
-COLUMN = [0] * (STRIDE * 27)
-ROW = [0] * (STRIDE * 27)
-EXISTS = [0] * (STRIDE * 27)
+CENTRE_X = [0.0] * (GRID_CELLS)
+CENTRE_Y = [0.0] * (GRID_CELLS)
+COLUMN = [0] * (GRID_CELLS)
+ROW = [0] * (GRID_CELLS)
+EXISTS = [0] * (GRID_CELLS)
 """Per grid index: centre in px, column, row, and whether it is a cell of the world. "No cell" has zeros (O 1)."""
-for _row in range(25):
-    for _column in range(33):
+for _row in range(GRID_ROWS):
+    for _column in range(GRID_COLUMNS):
         _cell = (_row + 1) * STRIDE + _column + 1
-        CENTRE_X[_cell] = CELL * _column + 12.0
-        CENTRE_Y[_cell] = CELL * _row + 12.0
+        CENTRE_X[_cell] = CELL * _column + HALF
+        CENTRE_Y[_cell] = CELL * _row + HALF
         COLUMN[_cell] = _column
         ROW[_cell] = _row
         EXISTS[_cell] = 1
@@ -107,9 +118,9 @@ def set_edges(level: TileMap, w: World) -> None:
     """Derive all edge states from the tiles, as after loading a map."""
     tiles = level.tiles
     edges = w.edges
-    for row in range(1, 26):
+    for row in range(1, GRID_ROWS + 1):
         start = row * STRIDE + 1
-        for cell in range(start, start + 33):
+        for cell in range(start, start + GRID_COLUMNS):
             tile = tiles[cell]
             for side in range(4):
                 neighbour = cell + STEP[side]

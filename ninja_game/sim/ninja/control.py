@@ -20,7 +20,12 @@ from ninja_game.sim.rules import (
     STAND_FRICTION,
     STAND_SPEED,
     TOP_SPEED,
+    UPHILL_HELP,
+    UPHILL_JUMP_Y,
     WALL_FRICTION,
+    WALL_HOP_Y,
+    WALL_JUMP_X,
+    WALL_JUMP_Y,
 )
 from ninja_game.sim.states import FALLING, JUMPING, RUNNING, SKIDDING, SLIDING, STANDING, enter_state
 
@@ -74,9 +79,9 @@ def think_in_air(w: World, n: Ninja) -> None:
         towards = n.direction * n.wall_x
         if n.jump_pressed:
             if state == SLIDING and towards < 0.0:
-                jump_off_wall(w, n, n.wall_x, n.wall_y - 0.5)
+                jump_off_wall(w, n, n.wall_x, n.wall_y + WALL_HOP_Y)
             else:
-                jump_off_wall(w, n, n.wall_x * 1.5, n.wall_y - 0.7)
+                jump_off_wall(w, n, n.wall_x * WALL_JUMP_X, n.wall_y + WALL_JUMP_Y)
         elif state == SLIDING:
             if towards > 0.0:
                 enter_state(w, FALLING)
@@ -108,7 +113,7 @@ def think_on_ground(w: World, n: Ninja) -> None:
     floor_x = n.floor_x
     if n.jump_pressed:
         if direction * floor_x < 0.0:
-            jump_off_floor(w, n, 0.0, -0.7)
+            jump_off_floor(w, n, 0.0, UPHILL_JUMP_Y)
         else:
             jump_off_floor(w, n, floor_x, n.floor_y)
         return
@@ -137,7 +142,7 @@ def think_on_ground(w: World, n: Ninja) -> None:
 @fast
 def run_uphill(n: Ninja, vx: float, vy: float, a: float) -> None:
     """Help against gravity on a slope (§7.2.1). ``a`` is this tick's speed before the help."""
-    steepness = 0.5 * abs(n.floor_y)
+    steepness = UPHILL_HELP * abs(n.floor_y)
     tx = n.direction * abs(n.floor_y) * steepness
     ty = -abs(n.floor_x) * steepness
     if abs(a) < TOP_SPEED:

@@ -13,7 +13,7 @@ from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import Ninja, TileMap, World
 from ninja_game.sim.ninja.control import celebrate, think_in_air, think_on_ground
 from ninja_game.sim.objects.object_query import touch_objects
-from ninja_game.sim.rules import FATAL_IMPACT, WALL_PROBE
+from ninja_game.sim.rules import FATAL_IMPACT, FLOOR_ALLOWANCE, PARALLEL_FLOORS, WALL_PROBE
 from ninja_game.sim.states import CELEBRATING, DEAD, FALL
 
 
@@ -70,7 +70,7 @@ def evaluate_floor(w: World, n: Ninja) -> None:
     if n.floor_contacts == 1:
         n.floor_x = n.first_floor_x
         n.floor_y = n.first_floor_y
-    elif n.first_floor_x * n.last_floor_x + n.first_floor_y * n.last_floor_y > 0.9:
+    elif n.first_floor_x * n.last_floor_x + n.first_floor_y * n.last_floor_y > PARALLEL_FLOORS:
         # Nearly parallel: keep the normal if it is the first contact's, else take the last one's.
         if not (n.first_floor_x == n.floor_x and n.first_floor_y == n.floor_y):
             n.floor_x = n.last_floor_x
@@ -87,7 +87,7 @@ def evaluate_floor(w: World, n: Ninja) -> None:
             n.floor_y = ay / length
     if n.was_in_air:
         impact = n.impact_x * n.floor_x + n.impact_y * n.floor_y
-        if n.impact_y > 0.0 and impact - 2.0 * abs(n.floor_y) < -FATAL_IMPACT:
+        if n.impact_y > 0.0 and impact - FLOOR_ALLOWANCE * abs(n.floor_y) < -FATAL_IMPACT:
             kill(w, FALL, 0.0, 0.0, n.x, n.y)
 
 

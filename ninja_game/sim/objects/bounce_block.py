@@ -6,7 +6,7 @@ from ninja_game.sim.events import BLOCK_WOKEN, emit
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import BounceBlock, World
 from ninja_game.sim.ninja.contact_response import push
-from ninja_game.sim.rules import BLOCK_DRAG, BLOCK_HALF, BLOCK_SHARE, BLOCK_SLEEP, BLOCK_SPRING, RADIUS
+from ninja_game.sim.rules import BLOCK_DRAG, BLOCK_HALF, BLOCK_SHARE, BLOCK_SLEEP, BLOCK_SPRING, NINJA_SHARE, RADIUS
 from ninja_game.sim.schedule import end_think, end_update, start_think, start_update
 
 
@@ -29,12 +29,12 @@ def touch_block(w: World, o: BounceBlock, slot: int) -> None:
         sign = -1.0 if dy < 0.0 else 1.0
         depth = sign * overlap_y
         o.y = o.y - BLOCK_SHARE * depth
-        push(n, 0.0, 0.2 * depth, 0.0, sign)
+        push(n, 0.0, NINJA_SHARE * depth, 0.0, sign)
     else:
         sign = -1.0 if dx < 0.0 else 1.0
         depth = sign * overlap_x
         o.x = o.x - BLOCK_SHARE * depth
-        push(n, 0.2 * depth, 0.0, sign, 0.0)
+        push(n, NINJA_SHARE * depth, 0.0, sign, 0.0)
     o.counter = 0
     if not o.updating:
         start_update(w, o, slot)

@@ -27,6 +27,7 @@ from ninja_game.sim.objects.drone import create_drone
 from ninja_game.sim.objects.exit import create_switch
 from ninja_game.sim.objects.floor_guard import create_guard
 from ninja_game.sim.objects.thwump import create_thwump
+from ninja_game.sim.rules import ROCKET_HEADING_X, ROCKET_HEADING_Y
 from ninja_game.sim.schedule import start_think
 
 
@@ -61,8 +62,8 @@ def create(level: TileMap, w: World, o: Object, slot: int, p: Sequence[float]) -
     elif kind == LAUNCHER:
         o.base_x = o.x
         o.base_y = o.y
-        o.heading_x = 7.0
-        o.heading_y = 6.0
+        o.heading_x = ROCKET_HEADING_X
+        o.heading_y = ROCKET_HEADING_Y
         start_think(w, o, slot)
     elif kind == DOOR:
         create_door(w, o, slot, p)

@@ -10,7 +10,17 @@ from ninja_game.sim.events import CHASE_STARTED, emit
 from ninja_game.sim.grid import cell_at, grid_move, link
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import Drone, World
-from ninja_game.sim.rules import CELL, DRONE_SPEED, OFF
+from ninja_game.sim.rules import (
+    CELL,
+    CHAINGUN_PACE,
+    CHASE_PACE,
+    DRONE_END_X,
+    DRONE_END_Y,
+    DRONE_SPEED,
+    LASER_PACE,
+    OFF,
+    ZAP_PACE,
+)
 from ninja_game.sim.schedule import start_think, start_update
 from ninja_game.sim.states import (
     ALTERNATING,
@@ -43,8 +53,8 @@ def create_drone(w: World, o: Drone, slot: int, p: Sequence[float]) -> None:
     start_update(w, o, slot)
     o.x = o.goal_x = CENTRE_X[cell]
     o.y = o.goal_y = CENTRE_Y[cell]
-    o.end_x = 4.0
-    o.end_y = 5.0
+    o.end_x = DRONE_END_X
+    o.end_y = DRONE_END_Y
     o.direction = direction_code(p[5])
     o.movement = MOVEMENT_BELOW if p[2] < 2.0 else MOVEMENT_BEYOND
     for movement in range(6):
@@ -54,16 +64,16 @@ def create_drone(w: World, o: Drone, slot: int, p: Sequence[float]) -> None:
     o.speed = DRONE_SPEED
     if p[4] == WEAPON_ZAP:
         o.weapon = WEAPON_ZAP
-        o.speed = DRONE_SPEED * 2.0
+        o.speed = DRONE_SPEED * ZAP_PACE
         if is_set(p[3]):
             o.seeker = 1
     elif p[4] == WEAPON_LASER:
         o.weapon = WEAPON_LASER
-        o.speed = DRONE_SPEED * 0.5
+        o.speed = DRONE_SPEED * LASER_PACE
         start_think(w, o, slot)
     elif p[4] == WEAPON_CHAINGUN:
         o.weapon = WEAPON_CHAINGUN
-        o.speed = DRONE_SPEED * 0.75
+        o.speed = DRONE_SPEED * CHAINGUN_PACE
         start_think(w, o, slot)
 
 
@@ -100,7 +110,7 @@ def move_drone(w: World, o: Drone, slot: int) -> None:
             turn(w, o)
             o.chasing = 0
     elif 0 <= o.direction <= 3:
-        step = o.speed * 2.0 if o.chasing else o.speed
+        step = o.speed * CHASE_PACE if o.chasing else o.speed
         o.x = o.x + UNIT_X[o.direction] * step
         o.y = o.y + UNIT_Y[o.direction] * step
     grid_move(w, o, slot)

@@ -12,12 +12,18 @@ from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import Drone, TileMap, World
 from ninja_game.sim.objects.floor_guard import zap
 from ninja_game.sim.rules import (
+    BULLET_IMPULSE,
+    BURST_SHOTS,
+    BURST_SHOTS_CYCLE,
+    BURST_SPREAD,
+    BURST_SPREAD_CYCLE,
     CHAINGUN_COOL,
     CHAINGUN_PAUSE,
     CHAINGUN_PREPARE,
     DRONE_RADIUS,
     LASER_BEAM,
     LASER_COOL,
+    LASER_IMPULSE,
     LASER_PREPARE,
     RADIUS,
 )
@@ -126,7 +132,9 @@ def burn(w: World, o: Drone, slot: int) -> None:
     dy = zy - n.y
     if sqrt(dx * dx + dy * dy) < RADIUS:
         stop_firing(w, o, slot)
-        kill(w, LASER, 6.0 * (o.beam_x / o.beam_length), 6.0 * (o.beam_y / o.beam_length), zx, zy)
+        a = o.beam_x / o.beam_length
+        b = o.beam_y / o.beam_length
+        kill(w, LASER, LASER_IMPULSE * a, LASER_IMPULSE * b, zx, zy)
         return
     o.timer += 1
     if o.timer >= LASER_BEAM:
@@ -138,8 +146,8 @@ def open_fire(w: World, o: Drone, slot: int) -> None:
     """Fix direction, sweep and length of the burst; it sweeps towards the side to which the ninja was moving."""
     n = w.ninja
     o.timer = 0
-    o.last_shot = 4 + w.tick % 5
-    o.spread = 0.1 + 0.1 * (1 + w.tick % 3)
+    o.last_shot = BURST_SHOTS + w.tick % BURST_SHOTS_CYCLE
+    o.spread = BURST_SPREAD + BURST_SPREAD * (1 + w.tick % BURST_SPREAD_CYCLE)
     o.shot = 0
     o.routine = DRONE_FIRING
     dx = n.x - o.x
@@ -176,5 +184,5 @@ def shoot(level: TileMap, w: World, o: Drone, slot: int) -> None:
     emit(w, CHAINGUN_SHOT, slot, o.x, o.y, gx, gy)
     if hit:
         stop_firing(w, o, slot)
-        kill(w, BULLET, gx * 5.0, gy * 5.0, hit_x, hit_y)
+        kill(w, BULLET, gx * BULLET_IMPULSE, gy * BULLET_IMPULSE, hit_x, hit_y)
     o.shot += 1

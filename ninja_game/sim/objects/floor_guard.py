@@ -10,7 +10,7 @@ from ninja_game.sim.events import GUARD_STARTED, emit
 from ninja_game.sim.grid import cell_at, grid_insert, grid_move
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import INERT, FloorGuard, TileMap, World
-from ninja_game.sim.rules import DOWN, GUARD_RADIUS, GUARD_SPEED, HALF, RADIUS, SOLID
+from ninja_game.sim.rules import DOWN, GUARD_RADIUS, GUARD_SPEED, HALF, RADIUS, SOLID, ZAP_IMPULSE
 from ninja_game.sim.schedule import start_update
 from ninja_game.sim.states import ELECTRIC, GUARD_CHASE, GUARD_IDLE
 
@@ -34,15 +34,15 @@ def create_guard(level: TileMap, w: World, o: FloorGuard, slot: int) -> None:
     grid_insert(w, o, slot)
     start_update(w, o, slot)
     o.facing = 1.0
-    o.y = CENTRE_Y[cell] + HALF - 6.0
+    o.y = CENTRE_Y[cell] + HALF - GUARD_RADIUS
     k = cell + 1
     while empty_for_guard(level, k) and w.edges[4 * k + DOWN] == SOLID:
         k += 1
-    o.high_x = CENTRE_X[k] - HALF - 6.0
+    o.high_x = CENTRE_X[k] - HALF - GUARD_RADIUS
     k = cell
     while empty_for_guard(level, k) and w.edges[4 * k + DOWN] == SOLID:
         k -= 1
-    o.low_x = CENTRE_X[k] + HALF + 6.0
+    o.low_x = CENTRE_X[k] + HALF + GUARD_RADIUS
     k = cell + 1
     while empty_for_guard(level, k):
         k += 1
@@ -98,4 +98,4 @@ def zap(w: World, dx: float, dy: float, radius: float) -> None:
         if length > 0.0:
             a = dx / length
             b = dy / length
-        kill(w, ELECTRIC, (-a) * 10.0, (-b) * 10.0, n.x + RADIUS * a, n.y + RADIUS * b)
+        kill(w, ELECTRIC, (-a) * ZAP_IMPULSE, (-b) * ZAP_IMPULSE, n.x + RADIUS * a, n.y + RADIUS * b)

@@ -9,7 +9,18 @@ from ninja_game.sim.grid import cell_at, grid_insert, grid_move
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import Thwump, TileMap, World
 from ninja_game.sim.ninja.contact_response import push
-from ninja_game.sim.rules import CELL, RADIUS, THWUMP_FALL, THWUMP_HALF, THWUMP_RISE, THWUMP_SIGHT
+from ninja_game.sim.rules import (
+    CELL,
+    RADIUS,
+    THWUMP_DOWN_IMPULSE,
+    THWUMP_FALL,
+    THWUMP_HALF,
+    THWUMP_RISE,
+    THWUMP_SIDE_IMPULSE,
+    THWUMP_SIDE_LIFT,
+    THWUMP_SIGHT,
+    THWUMP_UP_IMPULSE,
+)
 from ninja_game.sim.schedule import start_update
 from ninja_game.sim.states import ELECTRIC, THWUMP_MOVE, THWUMP_REST
 
@@ -111,19 +122,19 @@ def touch_thwump(w: World, o: Thwump) -> None:
     if overlap_y < overlap_x:
         if dy < 0.0:
             if o.face_y < 0.0:
-                kill(w, ELECTRIC, 0.0, -8.0, n.x, n.y - 0.5 * RADIUS)
+                kill(w, ELECTRIC, 0.0, THWUMP_UP_IMPULSE, n.x, n.y - 0.5 * RADIUS)
             else:
                 push(n, 0.0, -overlap_y, 0.0, -1.0)
         elif o.face_y > 0.0:
-            kill(w, ELECTRIC, 0.0, 6.0, n.x, n.y + 0.5 * RADIUS)
+            kill(w, ELECTRIC, 0.0, THWUMP_DOWN_IMPULSE, n.x, n.y + 0.5 * RADIUS)
         else:
             push(n, 0.0, overlap_y, 0.0, 1.0)
     elif dx < 0.0:
         if o.face_x < 0.0:
-            kill(w, ELECTRIC, -8.0, -4.0, n.x - 0.5 * RADIUS, n.y)
+            kill(w, ELECTRIC, -THWUMP_SIDE_IMPULSE, THWUMP_SIDE_LIFT, n.x - 0.5 * RADIUS, n.y)
         else:
             push(n, -overlap_x, 0.0, -1.0, 0.0)
     elif o.face_x > 0.0:
-        kill(w, ELECTRIC, 8.0, -4.0, n.x + 0.5 * RADIUS, n.y)
+        kill(w, ELECTRIC, THWUMP_SIDE_IMPULSE, THWUMP_SIDE_LIFT, n.x + 0.5 * RADIUS, n.y)
     else:
         push(n, overlap_x, 0.0, 1.0, 0.0)

@@ -16,7 +16,13 @@ from ninja_game.sim.rules import (
     AIM_MID_SQUARED,
     AIM_NEAR,
     AIM_NEAR_SQUARED,
+    FAR_STEP,
+    MID_CYCLE,
+    MID_STEP,
+    NEAR_CYCLE,
+    NEAR_STEP,
     TURRET_DELAY,
+    TURRET_IMPULSE,
     TURRET_SHOT,
 )
 from ninja_game.sim.schedule import end_think, end_update, start_think, start_update
@@ -99,13 +105,13 @@ def target(w: World, o: Turret, slot: int) -> None:
         o.aim_factor = AIM_FAR
         return
     if distance < AIM_NEAR_SQUARED:
-        o.shot_counter -= 2.0 + w.tick % 4
+        o.shot_counter -= NEAR_STEP + w.tick % NEAR_CYCLE
     elif distance < AIM_MID_SQUARED:
         o.aim_factor = AIM_NEAR
-        o.shot_counter -= 1.0 + w.tick % 2
+        o.shot_counter -= MID_STEP + w.tick % MID_CYCLE
     else:
         o.aim_factor = AIM_MID
-        o.shot_counter -= 0.5
+        o.shot_counter -= FAR_STEP
     if o.shot_counter < 0.0:
         end_think(w, o, slot)
         o.counter = 0
@@ -127,7 +133,7 @@ def fire(level: TileMap, w: World, o: Turret, slot: int) -> None:
         if length != 0.0:
             a = dx / length
             b = dy / length
-        kill(w, HARD_BULLET, a * 8.0, b * 8.0, hit_x, hit_y)
+        kill(w, HARD_BULLET, a * TURRET_IMPULSE, b * TURRET_IMPULSE, hit_x, hit_y)
 
 
 @fast
