@@ -10,6 +10,7 @@ that no test notices are listed at the end; docs/testing.md says which are left 
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -17,9 +18,7 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
-
+from tools import ROOT
 from tools.rule_changes import CHANGES, Change
 
 ALLOWED = 5
@@ -63,7 +62,8 @@ def unnoticed(change: Change | None) -> bool:
         if change:
             apply(change, folder)
         command = [sys.executable, "-m", "pytest", *TESTS]
-        return subprocess.run(command, cwd=folder, capture_output=True, check=False).returncode == 0
+        environment = os.environ | {"PYTHONPATH": str(folder)}
+        return subprocess.run(command, cwd=folder, env=environment, capture_output=True, check=False).returncode == 0
 
 
 def main(names: list[str]) -> int:

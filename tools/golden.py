@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-
 from tests.support.golden_runs import GOLDEN, write_golden_files
 
 if __name__ == "__main__":

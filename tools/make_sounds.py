@@ -1,6 +1,6 @@
 """Make every sound of the game, assets/sounds/*.wav, from the recipes below. Nothing is recorded.
 
-    python3 tools/make_sounds.py
+    python3 tools/dev.py tool make_sounds
 
 A recipe is a few tones and noises with envelopes; the same script always makes the same files. Loops (LOOPS) end as
 they begin. Lengths follow the events (presentation.md §6), the sounds are our own.
@@ -8,16 +8,13 @@ they begin. Lengths follow the events (presentation.md §6), the sounds are our 
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from wave import open as wave_file
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
-
+from tools import ROOT
 from tools.synthesis import (
     RATE,
     Wave,

@@ -11,7 +11,7 @@ from benchmarks.charts import Chart
 from ninja_game.formats.load import load_replays
 from ninja_game.runs.benchmark import corpus_digest, signature
 from tests.support.samples import WALK, running, write_records
-from tools.record_benchmark import COLUMNS, append, machine_kind
+from tools.measure.record_benchmark import COLUMNS, append, machine_kind
 
 
 def row(**changes: Any) -> dict[str, Any]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import runpy
 from pathlib import Path
 
 import pytest
@@ -14,6 +13,7 @@ from ninja_game.formats.ascii.object_forms import DOORS, FORMS, MOVEMENTS, SIDES
 from ninja_game.formats.ascii.object_lines import read_object_line
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.levels.warnings import level_warnings
+from tools.draw import legend
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 DOC = (ROOT / "docs" / "level-format.md").read_text(encoding="utf-8")
@@ -68,5 +68,4 @@ def test_every_character_and_every_word_is_explained() -> None:
 
 
 def test_the_picture_of_the_tiles_is_up_to_date() -> None:
-    script = runpy.run_path(str(ROOT / "tools" / "draw_legend.py"))
-    assert script["PICTURE"].read_text(encoding="utf-8") == script["picture"](), "run tools/draw_legend.py"
+    assert legend.PICTURE.read_text("utf-8") == legend.picture().svg(), "run `python3 tools/dev.py docs`"

@@ -32,7 +32,7 @@ def test_every_sound_of_the_tables_has_a_recipe_and_a_file(folder: Path) -> None
 
 @pytest.mark.parametrize("name", RECIPES)
 def test_file_is_what_the_script_makes(folder: Path, name: str) -> None:
-    """Regenerate with `python3 tools/make_sounds.py`."""
+    """Regenerate with `python3 tools/dev.py tool make_sounds`."""
     with wave.open(str(folder / f"{name}.wav"), "rb") as file:
         found = np.frombuffer(file.readframes(file.getnframes()), "<i2").astype(int)
     made = np.frombuffer(samples(name), "<i2").astype(int)

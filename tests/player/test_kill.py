@@ -1,10 +1,10 @@
-"""A process killed at any moment loses nothing that it has called saved (`tools/kill_test.py` does more of this)."""
+"""A process killed at any moment loses nothing that it has called saved (`tools/soak/kills.py` does more of this)."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from tools.kill_test import kill_test
+from tools.soak.kills import kill_test
 
 
 def test_killed_processes_lose_nothing(tmp_path: Path) -> None:

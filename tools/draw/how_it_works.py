@@ -2,12 +2,6 @@
 
 from __future__ import annotations
 
-import sys
-from pathlib import Path
-
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
-
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.play.view.sprites.tile_shapes import outline
 from ninja_game.sim.collision.rays import ray_tiles
@@ -17,7 +11,8 @@ from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.objects.object_query import NINE_CELLS
 from ninja_game.sim.rules import OFF, RADIUS, STRIDE
-from tools.svg import BLUE, FAINT, GOLD, GREEN, INK, PAPER, RED, SOLID, Picture, Point
+from tools import ROOT
+from tools.draw.svg import BLUE, FAINT, GOLD, GREEN, INK, PAPER, RED, SOLID, Picture, Point
 
 PICTURES = ROOT / "docs" / "pictures"
 ZOOM = 2.5
@@ -176,13 +171,14 @@ def draw_ray() -> Picture:
 TICK = (
     ("world.py", "step: the whole tick", ""),
     ("world.py", "1. update_objects: newest first", "objects/*.py"),
-    ("world.py", "2. think: one every fourth tick", "objects/*.py, rays.py"),
-    ("ninja.py", "3. integrate, look up the cell", "grid.py"),
-    ("objects/object_query.py", "4. touch_objects: nine cells", "objects/*.py → contact_response.py, death.py"),
-    ("circle.py / box.py", "5. collide: four touched cells", "edges, circle_sides.py → contacts.py"),
-    ("ninja.py", "6. evaluate_floor, probe_walls", "rays.py (solid_at)"),
-    ("control.py", "7. think: keys, states, jumps", "states.py"),
+    ("world.py", "2. think: one object every fourth tick", "objects/*.py → collision/rays.py"),
+    ("ninja/tick.py", "3. integrate, look up the cell", "grid.py"),
+    ("objects/object_query.py", "4. touch_objects: nine cells", "objects/*.py → ninja/contact_response.py, death.py"),
+    ("collision/circle.py", "5. collide_circle: at most four cells", "circle_own_tile.py, circle_neighbours.py"),
+    ("ninja/tick.py", "6. evaluate_floor, probe_walls", "collision/rays.py (solid_at)"),
+    ("ninja/control.py", "7. think_in_air, think_on_ground", "keys, states, jumps"),
 )
+"""File, what it does there, and the files that it calls; under ninja_game/sim."""
 
 
 def draw_tick() -> Picture:

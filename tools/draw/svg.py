@@ -8,6 +8,7 @@ from xml.sax.saxutils import escape
 Point = tuple[float, float]
 
 INK, PAPER, SOLID, FAINT = "#333333", "#f4f4f6", "#797988", "#c4c4ce"
+SANS = "Verdana, DejaVu Sans, sans-serif"
 RED, BLUE, GREEN, GOLD = "#aa2222", "#2266aa", "#2f7d3a", "#b98a00"
 
 
@@ -45,11 +46,13 @@ class Picture:
             f'fill="{fill}" stroke="{stroke}" stroke-width="{width:g}"/>'
         )
 
-    def text(self, words: str, at: Point, size: float = 12, colour: str = INK, anchor: str = "middle") -> None:
+    def text(
+        self, words: str, at: Point, size: float = 12, colour: str = INK, anchor: str = "middle", font: str = SANS
+    ) -> None:
         """A line of text, ``at`` its baseline."""
         self.parts.append(
             f'<text x="{at[0]:.2f}" y="{at[1]:.2f}" font-size="{size:g}" fill="{colour}" text-anchor="{anchor}" '
-            f'font-family="Verdana, DejaVu Sans, sans-serif">{escape(words)}</text>'
+            f'font-family="{font}">{escape(words)}</text>'
         )
 
     def arrow(self, start: Point, end: Point, colour: str = INK, width: float = 1.5) -> None:
@@ -62,9 +65,13 @@ class Picture:
         right = (end[0] - ux + uy * 0.5, end[1] - uy - ux * 0.5)
         self.polygon([end, left, right], colour)
 
-    def save(self, path: Path) -> None:
-        """Write the picture."""
+    def svg(self) -> str:
+        """The picture as a text."""
         width, height = self.size
         box = f'viewBox="0 0 {width:g} {height:g}" width="{width:g}" height="{height:g}"'
         head = f'<svg xmlns="http://www.w3.org/2000/svg" {box}>'
-        path.write_text("\n".join([head, *self.parts, "</svg>"]) + "\n", encoding="utf-8")
+        return "\n".join([head, *self.parts, "</svg>"]) + "\n"
+
+    def save(self, path: Path) -> None:
+        """Write the picture."""
+        path.write_text(self.svg(), encoding="utf-8")

@@ -1,4 +1,6 @@
-"""Measure this machine and append a row to the benchmark history of its kind: `python tools/record_benchmark.py`.
+"""Measure this machine and append a row to the benchmark history of its kind.
+
+    python3 tools/dev.py tool measure.record_benchmark
 
 A row also has a signature of everything that the measured runs showed. Where the row before was of the same runs and
 had another signature, a result has changed: this is said, and the exit code is 1.
@@ -18,8 +20,8 @@ from statistics import median
 from time import perf_counter
 from typing import Any
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
+from tools import ROOT
+
 HISTORY = ROOT / "benchmarks" / "history"
 
 COLUMNS = (

@@ -1,6 +1,6 @@
 """Kill the game at random moments of playing and saving, and look whether anything that was called saved is lost.
 
-    python3 tools/kill_test.py --kills 200
+    python3 tools/dev.py tool soak.kills --kills 200
 
 A child process opens the player's folder and plays: passes levels, keeps replays, changes settings, and says after
 each save what it has saved. It is killed (SIGKILL) after a random time, also while the files are being made. Then
@@ -18,9 +18,6 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from random import Random
 from typing import Any
-
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
 
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.named_level import NamedLevel

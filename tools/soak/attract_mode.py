@@ -1,8 +1,8 @@
 """Let attract mode run and watch the memory: 30 minutes must not make the program grow.
 
-    python3 tools/soak.py                  30 minutes of game time, as fast as the machine can
-    python3 tools/soak.py --minutes 1      a short one
-    python3 tools/soak.py --real-time      at the pace of a player's screen
+    python3 tools/dev.py tool soak.attract_mode                30 minutes of game time, as fast as the machine can
+    python3 tools/dev.py tool soak.attract_mode --minutes 1    a short one
+    python3 tools/dev.py tool soak.attract_mode --real-time    at the pace of a player's screen
 
 Runs without a window. Every minute of game time a line: memory, pictures drawn, replays begun. The first tenth is for
 warming up (caches fill); after it the memory may grow by --allowed MiB.
@@ -18,8 +18,6 @@ import tempfile
 import time
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")

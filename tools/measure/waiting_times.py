@@ -1,6 +1,6 @@
 """How long a player waits: for the main menu, for a level to be there, for a retry, for a screen to open.
 
-    python3 tools/waiting_times.py [--rounds 9]
+    python3 tools/dev.py tool measure.waiting_times [--rounds 9]
 
 Without a window (dummy driver) at 1584 x 1200; medians and worst of some rounds. The menu counts from the start of the
 process to its first picture; the others from the key press to the picture that answers it.
@@ -18,8 +18,6 @@ from collections.abc import Callable
 from pathlib import Path
 from statistics import median
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
@@ -31,6 +29,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.level_contexts import LevelCourse
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.start import prepare
+from tools import ROOT
 
 SIZE = (1584, 1200)
 LIMITS = {"main menu": 1.5, "level to play": 0.15, "retry": 0.1}

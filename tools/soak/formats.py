@@ -1,6 +1,6 @@
 """Feed mutated levels, demos and replays to all readers: only errors of ours may come out, none after over a second.
 
-    python tools/fuzz_formats.py [--count 100000] [--seed 1] [--reference]
+    python3 tools/dev.py tool soak.formats [--count 100000] [--seed 1] [--reference]
 
 Exit code 0: nothing found; 1: something was, printed with the text that made it.
 """
@@ -14,10 +14,6 @@ import time
 import traceback
 from collections import Counter
 from collections.abc import Callable, Iterator
-from pathlib import Path
-
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
@@ -30,6 +26,7 @@ from ninja_game.formats.numbers import format_exact, parse_number
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
 from ninja_game.levels.warnings import level_warnings
+from tools import ROOT
 
 SLOW_S = 1.0
 

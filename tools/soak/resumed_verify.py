@@ -1,4 +1,6 @@
-"""Verify a folder of many replays, killed on the way and taken up again: `python tools/soak_verify.py --count 100000`.
+"""Verify a folder of many replays; `verify` is killed on the way and resumes.
+
+    python3 tools/dev.py tool soak.resumed_verify --count 100000
 
 Makes the folder from the recordings of a file (by default the bundled replays) again and again, starts `ninja-game
 verify` on it, kills that after some seconds, lets another one resume, and reports time, peak memory and whether every
@@ -18,8 +20,8 @@ import tempfile
 import time
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
+from tools import ROOT
+
 FOLDER_SIZE = 1000
 
 

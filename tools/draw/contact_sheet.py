@@ -1,4 +1,4 @@
-"""All drawings and all screens on one picture: `python tools/contact_sheet.py [--out docs/contact-sheet.png]`.
+"""All drawings and all screens on one picture: `python3 tools/dev.py tool draw.contact_sheet [--out FILE]`.
 
 Look at it critically after a change of any drawing: would a player buy this?
 """
@@ -14,8 +14,6 @@ from pathlib import Path
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
 
 import pygame
 
@@ -30,6 +28,7 @@ from ninja_game.play.view.sprites import moving_sprites as moving
 from ninja_game.play.view.sprites import static_sprites as static
 from ninja_game.play.view.sprites.drawing import SpriteKey
 from ninja_game.play.view.sprites.sprite_book import SpriteBook
+from tools import ROOT
 
 SCALE = 3.0
 CELL = 150, 138
@@ -193,7 +192,7 @@ def main() -> int:
 
 def screen_pictures() -> list[tuple[str, pygame.Surface]]:
     """Every screen of the game."""
-    from tools.contact_screens import pictures
+    from tools.draw.contact_screens import pictures
 
     return pictures()
 

@@ -1,4 +1,4 @@
-"""What a picture costs: `python tools/frame_cost.py`, a busy level at 1584 x 1200 px on SDL's software renderer.
+"""What a picture costs: `tool measure.frame_cost`, a busy level at 1584 x 1200 px on SDL's software renderer.
 
 Drawing alone (median, 99th percentile, worst), then the share of a core that playing at 60 pictures a second takes. The
 targets are 4 ms, 8 ms and 25 %. `--display` uses the real display instead of the dummy driver; `--level` another level.
@@ -15,8 +15,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from random import Random
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 if "--display" not in sys.argv:
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")

@@ -1,6 +1,6 @@
 """How long from a key press to the picture that shows it, measured through a real X server.
 
-    python3 tools/input_latency.py --presses 200 --rate 60
+    python3 tools/dev.py tool measure.input_latency --presses 200 --rate 60
 
 Starts Xvfb, plays a level, and presses the jump key at random moments through the server
 (XTEST), as a keyboard driver would. Three moments are noted for each press: the press itself, the tick that samples it,
@@ -14,15 +14,12 @@ import ctypes
 import ctypes.util
 import os
 import subprocess
-import sys
 import tempfile
 import threading
 import time
 from pathlib import Path
 from random import Random
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 

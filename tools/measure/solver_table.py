@@ -9,7 +9,6 @@ from __future__ import annotations
 import argparse
 import json
 import statistics
-import sys
 import time
 from collections.abc import Iterator
 from dataclasses import replace
@@ -17,14 +16,12 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
-
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.solver.certificate import VerifiedRun
 from ninja_game.solver.solve import Task, compiled_kernels, solve
+from tools import ROOT
 
 EPISODES = ("00", "10", "20", "30", "40", "50", "60", "70", "80", "90")
 

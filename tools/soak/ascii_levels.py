@@ -1,6 +1,6 @@
 """Soak of the ASCII level format: all reference levels there and back, then mutated texts; prints counts.
 
-Run it from the project's root: python tools/soak_ascii.py [mutations]
+python3 tools/dev.py tool soak.ascii_levels [NUMBER OF MUTATIONS]
 """
 
 from __future__ import annotations
@@ -9,10 +9,6 @@ import random
 import sys
 import time
 from collections import Counter
-from pathlib import Path
-
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT))
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.ascii.legend import SYMBOLS, TILE_CHARS
@@ -21,6 +17,7 @@ from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
 from ninja_game.levels.warnings import level_warnings
 from tests.support.reference import fuzz, levels, random_runs, reference_folder, scenes
+from tools import ROOT
 
 ALPHABET = TILE_CHARS + "".join(symbol.char for symbol in SYMBOLS) + '0123456789.,;:|"\\\n -px?'
 

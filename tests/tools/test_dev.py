@@ -1,0 +1,125 @@
+"""The door for a bare Python, and the other doors: what a command installs, and that no folder is imported from."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+
+import pytest
+
+from tools import ROOT, dev
+
+MODULES = ("click", "json", "numba", "numpy", "pathlib", "rich", "socket", "tomllib")
+LEVEL = str(ROOT / "levels" / "01-first-steps.txt")
+
+
+@pytest.fixture
+def poisoned(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The current folder, in which files have the names of modules; each leaves a trace when it is run."""
+    for name in MODULES:
+        (tmp_path / f"{name}.py").write_text(f"open({str(tmp_path / 'ran')!r}, 'a').write({name!r})\n", "utf-8")
+    monkeypatch.delenv("PYTHONSAFEPATH", raising=False)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def installed(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, ...]]:
+    """What `dev.install` was asked for; nothing is installed, and this very Python is the environment's."""
+    asked: list[tuple[str, ...]] = []
+    monkeypatch.setattr(dev, "install", asked.append)
+    monkeypatch.setattr(dev, "program", lambda name: sys.executable if name == "python" else name)
+    return asked
+
+
+def test_dev_runs_nothing_from_the_current_folder(
+    poisoned: Path, installed: list[tuple[str, ...]], capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert dev.main(["run", "info", LEVEL]) == 0
+    assert dev.main(["tool", "solver_table", "--help"]) != 0  # tools are found, in their folders
+    assert dev.main(["tool", "measure.solver_table", "--help"]) == 0
+    assert "usage: solver_table.py" in capfd.readouterr().out
+    assert not (poisoned / "ran").exists()
+
+
+def test_dev_itself_imports_nothing_from_the_current_folder(poisoned: Path) -> None:
+    subprocess.run([sys.executable, ROOT / "tools" / "dev.py", "--help"], check=True, capture_output=True)
+    assert not (poisoned / "ran").exists()
+
+
+@pytest.mark.parametrize("door", ["module", "script"])
+def test_the_command_runs_nothing_from_the_current_folder(poisoned: Path, door: str) -> None:
+    script = Path(sysconfig.get_path("scripts")) / "ninja-game"
+    if door == "script" and not script.exists():
+        pytest.skip("the script ninja-game is not installed beside this Python")
+    words = [sys.executable, "-m", "ninja_game"] if door == "module" else [str(script)]
+    subprocess.run([*words, "info", LEVEL], check=True, capture_output=True)
+    assert not (poisoned / "ran").exists()
+
+
+@pytest.mark.parametrize("command", ["check", "solve", "improve", "verify", "bench", "info"])
+def test_run_installs_numba_for_whatever_may_need_it(installed: list[tuple[str, ...]], command: str) -> None:
+    dev.main(["run", command, "--help"])
+    assert all("fast" in names for names in installed)
+    assert installed
+
+
+def test_play_installs_no_tools_of_development(installed: list[tuple[str, ...]]) -> None:
+    dev.main(["play", "--help"])
+    assert installed == [("film",)]
+
+
+def test_what_is_installed_is_installed_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[list[str]] = []
+
+    def sync(names: list[str]) -> bool:
+        calls.append(names)
+        return True
+
+    monkeypatch.setattr(dev, "STAMP", tmp_path / "stamp")
+    monkeypatch.setattr(dev, "make_environment", lambda: None)
+    monkeypatch.setattr(dev, "uv_sync", sync)
+    dev.install(["film"])
+    dev.install(["film"])
+    dev.install(["fast", "film"])
+    dev.install(["film"])
+    assert calls == [["film"], ["fast", "film"]]
+
+
+def test_pip_installs_the_locked_versions_where_uv_cannot_be_had(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[str] = []
+
+    def python(*words: str) -> int:
+        path = Path(words[words.index("--constraint") + 1])
+        asked.extend([*words[words.index("--editable") + 1 :], *path.read_text("utf-8").split()])
+        return 0
+
+    monkeypatch.setattr(dev, "STAMP", tmp_path / "stamp")
+    monkeypatch.setattr(dev, "make_environment", lambda: None)
+    monkeypatch.setattr(dev, "uv_sync", lambda _names: False)
+    monkeypatch.setattr(dev, "python", python)
+    dev.install(dev.DEVELOPMENT)
+    assert asked[0] == f"{dev.ROOT}[cluster,fast,film,plots]"
+    lock = (ROOT / "uv.lock").read_text("utf-8")
+    for name in ("ruff", "pillow", "pygame-ce"):
+        version = lock.partition(f'name = "{name}"\nversion = "')[2].partition('"')[0]
+        assert f"{name}=={version}" in asked
+
+
+def test_an_unknown_command_is_refused_with_the_list(capsys: pytest.CaptureFixture[str]) -> None:
+    assert dev.main(["chekc"]) == 2
+    told = capsys.readouterr()
+    assert "no command 'chekc'" in told.err
+    assert "change-rules" in told.err
+    assert dev.main(["--help"]) == 0
+    assert "change-rules" in capsys.readouterr().out
+
+
+def test_old_pythons_are_told_what_is_needed() -> None:
+    source = (ROOT / "tools" / "dev.py").read_text("utf-8")
+    # The check stands before anything that a Python of those days could trip over when it runs.
+    assert source.index("sys.version_info < (3, 11)") < source.index("\nimport hashlib")
