@@ -37,23 +37,23 @@ def crowd(recordings: Sequence[Recording], count: int, threads: int) -> tuple[Ba
     """Worlds that play the recordings, and the inputs of their first ticks."""
     chosen = [recordings[number % len(recordings)] for number in range(count)]
     batch = Batch([recording.level for recording in recordings], count, memory="compiled", threads=threads)
-    frames = np.frombuffer(b"".join(recording.inputs(TICKS) for recording in chosen), np.uint8)
-    return batch, np.ascontiguousarray(frames.reshape(count, TICKS).T)
+    inputs = np.frombuffer(b"".join(recording.playback(TICKS) for recording in chosen), np.uint8)
+    return batch, np.ascontiguousarray(inputs.reshape(count, TICKS).T)
 
 
 def batch_speed(recordings: Sequence[Recording], count: int, threads: int, *, alone: bool = False) -> float:
     """Ticks a second of a batch, ``run`` for many ticks a call or (``alone``) ``step`` by step; best of several."""
-    batch, frames = crowd(recordings, count, threads)
+    batch, inputs = crowd(recordings, count, threads)
     start = batch.save()
     best = float("inf")
     for _ in range(15 if count <= WORLDS else 5):
         batch.restore(start)
         begin = perf_counter()
         if alone:
-            for row in frames:
+            for row in inputs:
                 batch.step(row)
         else:
-            batch.run(frames)
+            batch.run(inputs)
         best = min(best, perf_counter() - begin)
     return count * TICKS / best
 

@@ -24,7 +24,7 @@ from typing import Any, Literal
 from ninja_game.compile_cache import choose_memory, kernels
 from ninja_game.sim.digest import differences, replay_digest, world_digest
 from ninja_game.sim.events import EVENT_NAMES
-from ninja_game.sim.inputs import HELD, LEFT, RIGHT, TRIGGERED
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, pressed
 from ninja_game.sim.level import KIND_NAMES, Level
 from ninja_game.sim.memory.plain import load_plain, restore_plain, save_plain
 from ninja_game.sim.memory.schema import TileMap, World
@@ -143,15 +143,15 @@ class Simulation:
     def step(self, *, left: bool = False, right: bool = False, jump: bool = False) -> None:
         """Advance one tick with these keys down. The jump triggers in the first sampled tick in which it is down."""
         held = self._world.ninja.jump_held if self.memory == "plain" else self._worlds["ninja"]["jump_held"][0]
-        self.step_frame(left * LEFT + right * RIGHT + jump * (HELD if held else HELD + TRIGGERED))
+        self.step_keys(pressed(left * KEY_LEFT + right * KEY_RIGHT + jump * JUMP_HELD, held))
 
-    def step_frame(self, frame: int) -> None:
-        """Advance one tick with the input of a demo's frame: 1 left + 2 right + 4 jump held + 8 jump triggered."""
-        self._inputs.append(frame)
+    def step_keys(self, keys: int) -> None:
+        """Advance one tick with these keys, a sum of ``Input`` flags."""
+        self._inputs.append(keys)
         if self.memory == "plain":
-            step(self._level, self._world, frame)
+            step(self._level, self._world, keys)
         else:
-            self._kernels["step_world"](self._levels, self._worlds, 0, frame)
+            self._kernels["step_world"](self._levels, self._worlds, 0, keys)
 
     # --- looking ---
 
@@ -227,7 +227,7 @@ class Simulation:
 
     @property
     def inputs(self) -> bytes:
-        """The frames that led here, one byte a tick."""
+        """The inputs that led here, one byte a tick."""
         return bytes(self._inputs)
 
     def first_difference(self, other: Simulation) -> tuple[str, Any, Any] | None:

@@ -121,7 +121,7 @@ class Batch:
     # --- time ---
 
     def step(self, inputs: ArrayLike) -> None:
-        """One tick of every world; ``inputs`` (count,): 1 left + 2 right + 4 jump held + 8 jump triggered, of each."""
+        """One tick of every world; ``inputs`` (count,): the keys of each, a sum of ``Input`` flags."""
         self.run(np.asarray(inputs)[np.newaxis])
 
     def run(self, inputs: ArrayLike, *, stop: bool = False) -> int:
@@ -129,12 +129,10 @@ class Batch:
 
         ``stop``: worlds whose exit contact or death has been stand still; else they go on, as single worlds do.
         """
-        frames = np.asarray(inputs)
-        if frames.ndim != 2 or frames.shape[1] != self.count or not np.issubdtype(frames.dtype, np.integer):
-            raise ValueError(
-                f"inputs are {frames.dtype} of shape {frames.shape}; expected integers, {self.count} a tick"
-            )
-        return self._worlds.run(np.ascontiguousarray(frames, np.uint8), self.levels_now, stop, self.threads)
+        rows = np.asarray(inputs)
+        if rows.ndim != 2 or rows.shape[1] != self.count or not np.issubdtype(rows.dtype, np.integer):
+            raise ValueError(f"inputs are {rows.dtype} of shape {rows.shape}; expected integers, {self.count} a tick")
+        return self._worlds.run(np.ascontiguousarray(rows, np.uint8), self.levels_now, stop, self.threads)
 
     # --- single worlds ---
 

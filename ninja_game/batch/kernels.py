@@ -15,12 +15,12 @@ def run_worlds(
     levels: Sequence[TileMap],
     level_of: Sequence[int],
     worlds: Sequence[World],
-    frames: Any,
+    inputs: Any,
     first: int,
     last: int,
     stop: int,
 ) -> int:
-    """Run worlds ``first`` … ``last`` - 1, each for all rows of ``frames`` (ticks x worlds); the number of ticks run.
+    """Run worlds ``first`` … ``last`` - 1, each for all rows of ``inputs`` (ticks x worlds); the number of ticks run.
 
     ``level_of``: which level each world plays. ``stop``: leave worlds alone whose exit contact or death has been. World
     after world, not tick after tick: so a world stays in the processor's cache while its ticks run.
@@ -29,9 +29,9 @@ def run_worlds(
     for index in range(first, last):
         level = levels[level_of[index]]
         w = worlds[index]
-        for tick in range(len(frames)):
+        for tick in range(len(inputs)):
             if stop and w.outcome:
                 break
-            step(level, w, int(frames[tick, index]))
+            step(level, w, int(inputs[tick, index]))
             ticks += 1
     return ticks

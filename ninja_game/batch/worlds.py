@@ -37,8 +37,8 @@ class Worlds(Protocol):
     def load(self, worlds: Numbers, levels: Numbers) -> None:
         """Start worlds afresh, each in the level of that number."""
 
-    def run(self, frames: NDArray[np.uint8], level_of: Numbers, stop: bool, threads: int) -> int:
-        """Run all worlds for all rows of ``frames``; the number of ticks run, over all worlds."""
+    def run(self, inputs: NDArray[np.uint8], level_of: Numbers, stop: bool, threads: int) -> int:
+        """Run all worlds for all rows of ``inputs``; the number of ticks run, over all worlds."""
 
     def save(self, worlds: Numbers) -> Any:
         """The states of worlds, unchanged by what happens later."""
@@ -92,14 +92,14 @@ class CompiledWorlds:
         """Start worlds afresh, each in the level of that number."""
         self._put(worlds, self._fresh_bytes[levels])
 
-    def run(self, frames: NDArray[np.uint8], level_of: Numbers, stop: bool, threads: int) -> int:
-        """Run all worlds for all rows of ``frames``, on all threads."""
+    def run(self, inputs: NDArray[np.uint8], level_of: Numbers, stop: bool, threads: int) -> int:
+        """Run all worlds for all rows of ``inputs``, on all threads."""
         entry = self._kernels["run_worlds"]
 
         def work(first: int, last: int) -> int:
-            return int(entry(self._levels, level_of, self._block, frames, first, last, int(stop)))
+            return int(entry(self._levels, level_of, self._block, inputs, first, last, int(stop)))
 
-        return thread_pool(threads).share(work, len(self.records), len(frames))
+        return thread_pool(threads).share(work, len(self.records), len(inputs))
 
     def save(self, worlds: Numbers) -> NDArray[np.uint8]:
         """The states of worlds as a matrix of bytes."""
@@ -145,14 +145,14 @@ class PlainWorlds:
             self._shown[index] = 0
             self._show(index)
 
-    def run(self, frames: NDArray[np.uint8], level_of: Numbers, stop: bool, threads: int) -> int:  # noqa: ARG002
-        """Run all worlds for all rows of ``frames``, one after the other: the interpreter has one lock."""
+    def run(self, inputs: NDArray[np.uint8], level_of: Numbers, stop: bool, threads: int) -> int:  # noqa: ARG002
+        """Run all worlds for all rows of ``inputs``, one after the other: the interpreter has one lock."""
         ticks = 0
         for index, (level, w) in enumerate(self._states):
-            for frame in frames[:, index].tolist():
+            for keys in inputs[:, index].tolist():
                 if stop and w.outcome:
                     break
-                step(level, w, frame)
+                step(level, w, keys)
                 ticks += 1
             self._show(index)
         return ticks

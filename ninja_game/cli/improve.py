@@ -77,7 +77,7 @@ def command(
         raise click.UsageError(f"{replay} holds {len(recordings)} recordings; choose one with --record")
     recording = recordings[0]
     body = recording.replay.body if recording.replay else "circle"
-    first = recording.inputs(recording.ticks)
+    first = recording.playback(recording.ticks)
     task = Task(recording.level, body=body, first=first, jobs=default_threads(jobs), **wish)  # type: ignore[arg-type]
     check_gold(task)
     before: list[int] = []

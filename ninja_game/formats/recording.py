@@ -40,9 +40,9 @@ class Recording:
         """How many ticks to run it at most: those of our replay; N + 1 for a demo of length N."""
         return self.replay.ticks if self.replay else self.demo.end + 1
 
-    def inputs(self, ticks: int) -> bytes:
+    def playback(self, ticks: int) -> bytes:
         """The input of each of the first ``ticks`` ticks."""
-        return self.replay.inputs_of(ticks) if self.replay else self.demo.inputs(ticks)
+        return self.replay.playback(ticks) if self.replay else self.demo.playback(ticks)
 
 
 def parse_replays(text: str, *, file: str = "", level: Level | None = None) -> list[Recording]:

@@ -7,7 +7,7 @@ from typing import Any
 from ninja_game.formats.replay.text import Replay
 from ninja_game.player.scoring import level_score
 from ninja_game.sim.death import kill
-from ninja_game.sim.inputs import HELD, MAX_FRAMES, TRIGGERED, Demo
+from ninja_game.sim.inputs import MAX_DEMO_TICKS, Demo, pressed
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import CELEBRATING, DEAD, EXPLOSIVE, FALL, HARD_BULLET
@@ -20,7 +20,7 @@ Moment = tuple[SaveState, bytes, int, int]
 class Attempt:
     """One try at a level, from its start to the exit, to death, or to giving up.
 
-    ``lifetime``: ticks left, which gold adds to. ``frames``: the recording, one byte a tick. ``score``: ticks, taken at
+    ``lifetime``: ticks left, which gold adds to. ``inputs``: the recording, one byte a tick. ``score``: ticks, taken at
     the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``assisted``: tools
     were used (or it is practice), so it is no record.
     """
@@ -37,7 +37,7 @@ class Attempt:
         """Back to the level's start."""
         self.simulation.reset()
         self.lifetime = self.start_lifetime
-        self.frames = bytearray()
+        self.inputs = bytearray()
         self.score = 0
         self.ended_tick = -1
         self.own_hand = False
@@ -59,13 +59,11 @@ class Attempt:
         was_held = world.ninja.jump_held
         gold = world.gold
         running = world.outcome == 0
-        frame = held & 7
-        if frame & HELD and not was_held:
-            frame |= TRIGGERED
-        self.simulation.step_frame(frame)
+        keys = pressed(held, was_held)
+        self.simulation.step_keys(keys)
         # The input is sampled after all physics of the tick, and only by a ninja that lives and is not celebrating.
         if world.ninja.state not in {DEAD, CELEBRATING} and running:
-            self.frames.append(frame)
+            self.inputs.append(keys)
         if running:
             self._count(world, gold)
 
@@ -99,13 +97,13 @@ class Attempt:
 
     def save(self) -> Moment:
         """This moment, to come back to."""
-        return self.simulation.save(), bytes(self.frames), self.lifetime, self.ended_tick
+        return self.simulation.save(), bytes(self.inputs), self.lifetime, self.ended_tick
 
     def restore(self, moment: Moment) -> None:
         """Go back to a saved moment."""
-        state, frames, self.lifetime, self.ended_tick = moment
+        state, inputs, self.lifetime, self.ended_tick = moment
         self.simulation.restore(state)
-        self.frames[:] = frames
+        self.inputs[:] = inputs
         self.score = level_score(self.gold, self.ended_tick) if self.outcome == "exit" else 0
         self.assisted = True
 
@@ -113,29 +111,29 @@ class Attempt:
         """Take note that the simulation was put back to an earlier tick of this recording."""
         tick = self.simulation.tick
         ended = self.outcome != "running"
-        del self.frames[tick:]
+        del self.inputs[tick:]
         self.lifetime = self.start_lifetime + GOLD_BONUS * self.gold
         if not self.practice:
             self.lifetime -= self.ended_tick if ended else tick
         if not ended:
             # After a death by the player's own hand ticks went on without input.
-            self.frames.extend(bytes(tick - len(self.frames)))
+            self.inputs.extend(bytes(tick - len(self.inputs)))
             self.ended_tick, self.score, self.own_hand = -1, 0, False
         self.assisted = True
 
     # --- recordings ---
 
     def demo(self) -> Demo:
-        """The recording in N's form: of a death, or of more than N records, it claims one frame less (game.md §4)."""
-        frames = bytes(self.frames[:MAX_FRAMES])
-        closed = self.outcome == "dead" or len(self.frames) > MAX_FRAMES
-        return Demo(frames, max(0, len(frames) - closed))
+        """The recording in N's form: of a death, or of more than N records, it claims one tick less (game.md §4)."""
+        inputs = bytes(self.inputs[:MAX_DEMO_TICKS])
+        closed = self.outcome == "dead" or len(self.inputs) > MAX_DEMO_TICKS
+        return Demo(inputs, max(0, len(inputs) - closed))
 
     def replay(self, name: str = "", author: str = "") -> Replay:
         """The recording in our form: run again from its inputs, so that it holds what really comes of them."""
         # It imports NumPy, which playing does without.
         from ninja_game.runs.run import record_replay
 
-        ticks = max(1, len(self.frames) + (self.outcome != "running"))
+        ticks = max(1, len(self.inputs) + (self.outcome != "running"))
         level, body = self.simulation.level, self.simulation.body
-        return record_replay(level, bytes(self.frames), ticks=ticks, body=body, name=name, author=author)
+        return record_replay(level, bytes(self.inputs), ticks=ticks, body=body, name=name, author=author)

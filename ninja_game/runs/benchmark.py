@@ -73,7 +73,7 @@ def _objects(level: Level) -> int:
 def corpus_digest(recordings: Sequence[Recording]) -> str:
     """Sha256 (hex) of all levels, bodies and inputs."""
     parts = (
-        f"{level_digest(recording.level)} {body_of(recording)} {recording.inputs(recording.ticks).hex()}\n"
+        f"{level_digest(recording.level)} {body_of(recording)} {recording.playback(recording.ticks).hex()}\n"
         for recording in recordings
     )
     return sha256("".join(parts).encode()).hexdigest()
@@ -89,10 +89,10 @@ def plain_speed(recordings: Sequence[Recording]) -> float:
 
     def race(recording: Recording) -> tuple[int, float]:
         level, world = load_plain(recording.level, body_of(recording) == "box")
-        frames = recording.inputs(recording.ticks)
+        inputs = recording.playback(recording.ticks)
         start = time.perf_counter()
-        for frame in frames:
-            step(level, world, frame)
+        for keys in inputs:
+            step(level, world, keys)
             if world.outcome:
                 break
         return world.tick, time.perf_counter() - start
@@ -106,9 +106,9 @@ def compiled_speed(recordings: Sequence[Recording]) -> float:
 
     def race(recording: Recording) -> tuple[int, float]:
         levels, worlds = load_compiled(kernels(), recording.level, body_of(recording) == "box")
-        frames = np.frombuffer(recording.inputs(recording.ticks), np.uint8)
+        inputs = np.frombuffer(recording.playback(recording.ticks), np.uint8)
         start = time.perf_counter()
-        ticks = kernel(levels, worlds, 0, frames)
+        ticks = kernel(levels, worlds, 0, inputs)
         return ticks, time.perf_counter() - start
 
     kernel = kernels()["race_world"]

@@ -79,21 +79,21 @@ class RunResult:
 
 
 def run_level(
-    level: Level, frames: bytes, *, body: Body = "circle", memory: str = "auto", digest: bool = False
+    level: Level, inputs: bytes, *, body: Body = "circle", memory: str = "auto", digest: bool = False
 ) -> RunResult:
-    """Run a level with one input a tick until the first exit contact or death, or to the end of ``frames``.
+    """Run a level with one input a tick until the first exit contact or death, or to the end of ``inputs``.
 
-    ``frames``: one byte a tick, 1 left + 2 right + 4 jump held + 8 jump triggered (``Demo.inputs`` gives them).
+    ``inputs``: one byte a tick, the sum of its ``Input`` flags (``Recording.playback`` gives them).
     ``digest``: tell the digest at the end too, as replays have it. Raises LevelError for a level that cannot be played.
     """
     if choose_memory(memory) == "compiled":
-        return _run_compiled(level, frames, body, digest=digest)
+        return _run_compiled(level, inputs, body, digest=digest)
     static, w = load_plain(level, body == "box")
     n = w.ninja
     places: list[float] = []
     states = bytearray()
-    for frame in frames:
-        step(static, w, frame)
+    for keys in inputs:
+        step(static, w, keys)
         places += (clean(n.x), clean(n.y))
         states.append(n.state)
         if w.outcome:
@@ -103,14 +103,14 @@ def run_level(
     return RunResult(OUTCOME_NAMES[w.outcome], w.gold, positions, np.frombuffer(bytes(states), np.uint8), end)
 
 
-def _run_compiled(level: Level, frames: bytes, body: Body, *, digest: bool) -> RunResult:
+def _run_compiled(level: Level, inputs: bytes, body: Body, *, digest: bool) -> RunResult:
     from ninja_game.sim.memory.compiled import load_compiled
     from ninja_game.sim.memory.layout import plain_copy
 
     levels, worlds = load_compiled(kernels(), level, body == "box")
-    positions = np.empty((len(frames), 2))
-    states = np.empty(len(frames), np.uint8)
-    ticks = kernels()["run_world"](levels, worlds, 0, np.frombuffer(frames, np.uint8), positions, states)
+    positions = np.empty((len(inputs), 2))
+    states = np.empty(len(inputs), np.uint8)
+    ticks = kernels()["run_world"](levels, worlds, 0, np.frombuffer(inputs, np.uint8), positions, states)
     outcome, gold = OUTCOME_NAMES[int(worlds["outcome"][0])], int(worlds["gold"][0])
     end = replay_digest(plain_copy(worlds, 0)) if digest else ""
     return RunResult(outcome, gold, positions[:ticks], states[:ticks], end)
@@ -130,13 +130,13 @@ def record_replay(
     Ends with the first exit contact or death. Always runs on the plain memory, so that what it claims is what anybody
     can check. Raises LevelError for a level that cannot be played, ValueError for a run without ticks.
     """
-    frames = inputs.ljust(ticks, b"\0")[:ticks] if ticks is not None else inputs
-    if not frames:
+    played = inputs.ljust(ticks, b"\0")[:ticks] if ticks is not None else inputs
+    if not played:
         raise ValueError("a replay has at least one tick")
     static, w = load_plain(level, body == "box")
     waypoints = []
-    for tick, frame in enumerate(frames):
-        step(static, w, frame)
+    for tick, keys in enumerate(played):
+        step(static, w, keys)
         if tick % WAYPOINT_TICKS == WAYPOINT_TICKS - 1:
             waypoints.append(Waypoint(tick, clean(w.ninja.x), clean(w.ninja.y), STATE_NAMES[w.ninja.state]))
         if w.outcome:
@@ -173,19 +173,19 @@ class RunTrace:
 
 def trace_level(
     level: Level,
-    frames: bytes,
+    inputs: bytes,
     *,
     body: Body = "circle",
     memory: str = "auto",
     with_objects: bool = True,
     events: bool = False,
 ) -> RunTrace:
-    """Run all of ``frames``, whatever happens, and record ninja and objects after each tick (canonical numbers).
+    """Run all of ``inputs``, whatever happens, and record ninja and objects after each tick (canonical numbers).
 
     ``with_objects``: record objects too. ``events``: record their names too; this runs on the plain memory.
     """
     if not events and choose_memory(memory) == "compiled":
-        return _trace_compiled(level, frames, body, with_objects)
+        return _trace_compiled(level, inputs, body, with_objects)
     static, w = load_plain(level, body == "box")
     slots = traced_slots(w) if with_objects else []
     n = w.ninja
@@ -193,28 +193,28 @@ def trace_level(
     objects = bytearray()
     names: list[str] = []
     pack_ninja, pack_thing = struct.Struct("<4d2i").pack, struct.Struct("<2di").pack
-    for frame in frames:
-        step(static, w, frame)
+    for keys in inputs:
+        step(static, w, keys)
         ninja += pack_ninja(clean(n.x), clean(n.y), clean(n.prev_x), clean(n.prev_y), n.state, w.gold)
         for slot in slots:
             x, y = place_of(w, slot)
             objects += pack_thing(clean(x), clean(y), status_of(w, slot))
         if events:
             names.append(" ".join(EVENT_NAMES[event.kind] for event in w.events[: w.event_count]))
-    rows = np.frombuffer(bytes(objects), OBJECT_RECORD).reshape(len(frames), len(slots))
+    rows = np.frombuffer(bytes(objects), OBJECT_RECORD).reshape(len(inputs), len(slots))
     return RunTrace(np.frombuffer(bytes(ninja), NINJA_RECORD), rows, *_columns(w, slots), tuple(names))
 
 
-def _trace_compiled(level: Level, frames: bytes, body: Body, with_objects: bool) -> RunTrace:
+def _trace_compiled(level: Level, inputs: bytes, body: Body, with_objects: bool) -> RunTrace:
     from ninja_game.sim.memory.compiled import load_compiled
 
     trace: Callable[..., Any] = kernels()["trace_world"]
     levels, worlds = load_compiled(kernels(), level, body == "box")
     kinds = worlds[0]["objects"]["kind"][: worlds[0]["id_count"] + 1].tolist()
     slots = [slot for slot, kind in enumerate(kinds) if slot and kind not in (NINJA, INERT)] if with_objects else []
-    ninja = np.empty(len(frames), NINJA_RECORD)
-    objects = np.empty((len(frames), len(slots)), OBJECT_RECORD)
-    trace(levels, worlds, 0, np.frombuffer(frames, np.uint8), np.array(slots, np.int64), ninja, objects)
+    ninja = np.empty(len(inputs), NINJA_RECORD)
+    objects = np.empty((len(inputs), len(slots)), OBJECT_RECORD)
+    trace(levels, worlds, 0, np.frombuffer(inputs, np.uint8), np.array(slots, np.int64), ninja, objects)
     names = tuple(KIND_NAMES[kinds[slot]] for slot in slots)
     return RunTrace(ninja, objects, tuple(slot - 1 for slot in slots), names)
 

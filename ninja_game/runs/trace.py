@@ -41,10 +41,10 @@ def trace_recording(
     body = body_of(recording)
     with named_errors(recording):
         if ticks is None:
-            frames = recording.inputs(recording.ticks)
-            ticks = run_level(recording.level, frames, body=body, memory=memory).ticks + after
-        frames = recording.inputs(ticks)
-        return trace_level(recording.level, frames, body=body, memory=memory, with_objects=objects, events=events)
+            inputs = recording.playback(recording.ticks)
+            ticks = run_level(recording.level, inputs, body=body, memory=memory).ticks + after
+        inputs = recording.playback(ticks)
+        return trace_level(recording.level, inputs, body=body, memory=memory, with_objects=objects, events=events)
 
 
 @dataclass(frozen=True)

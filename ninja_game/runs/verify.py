@@ -58,8 +58,8 @@ def verify_recording(recording: Recording, memory: str = "auto") -> Verdict:
     one_memory = "plain" if memory == "both" else memory
     with named_errors(recording):
         claims_digest = bool(replay and replay.digest)
-        frames = recording.inputs(recording.ticks)
-        run = run_level(recording.level, frames, body=body, memory=one_memory, digest=claims_digest)
+        inputs = recording.playback(recording.ticks)
+        run = run_level(recording.level, inputs, body=body, memory=one_memory, digest=claims_digest)
         problems = list(_broken_claims(replay, run)) if replay else []
         if memory == "both":
             problems += filter(None, [memory_difference(recording)])
@@ -126,9 +126,9 @@ def memory_difference(recording: Recording) -> str:
     plain, compiled = (
         Simulation(recording.level, body=body_of(recording), memory=memory) for memory in ("plain", "compiled")
     )
-    for frame in recording.inputs(recording.ticks):
-        plain.step_frame(frame)
-        compiled.step_frame(frame)
+    for keys in recording.playback(recording.ticks):
+        plain.step_keys(keys)
+        compiled.step_keys(keys)
         difference = plain.first_difference(compiled)
         if difference:
             field, here, there = difference

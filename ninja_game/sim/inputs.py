@@ -1,16 +1,50 @@
-"""The inputs of a recording, one frame a tick, apart from the text they are written in (game.md §4)."""
+"""Inputs: the keys of every tick, apart from the text they are written in (game.md §4)."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
+from enum import IntFlag
 
 from ninja_game.errors import DemoError
+from ninja_game.sim.memory.declare import fast
 
-LEFT, RIGHT, HELD, TRIGGERED = 1, 2, 4, 8
-"""Bits of a frame: the keys that are down, and whether the jump key was pressed just now."""
 
-MAX_FRAMES = 25_193
+class Input(IntFlag):
+    """The keys of one tick, as one number from 0 to 15: which are down, and whether jump was pressed just now."""
+
+    LEFT = 1
+    RIGHT = 2
+    JUMP_HELD = 4
+    JUMP_PRESSED = 8
+
+
+KEY_LEFT, KEY_RIGHT, JUMP_HELD, JUMP_PRESSED = (int(key) for key in Input)
+"""The same as plain numbers, which rules compile."""
+
+ALL_KEYS = KEY_LEFT + KEY_RIGHT + JUMP_HELD + JUMP_PRESSED
+KEYS_DOWN = KEY_LEFT + KEY_RIGHT + JUMP_HELD
+
+
+@fast
+def pressed(keys: int, held: int) -> int:
+    """The keys of a tick with JUMP_PRESSED where the jump key goes down: it is down and was not (``held``) before."""
+    down = keys & KEYS_DOWN
+    return down + JUMP_PRESSED if down & JUMP_HELD and not held else down
+
+
+def press_jumps(inputs: Iterable[int]) -> bytes:
+    """Inputs with JUMP_PRESSED in every tick in which the jump key goes down, and in no other."""
+    fixed = bytearray()
+    held = 0
+    for keys in inputs:
+        fixed.append(pressed(keys, held))
+        held = keys & JUMP_HELD
+    return bytes(fixed)
+
+
+MAX_DEMO_TICKS = 25_193
 """The game closes a recording at this length."""
 
 
@@ -18,42 +52,42 @@ MAX_FRAMES = 25_193
 class Demo:
     """A recording's inputs.
 
-    ``frames``: one byte a tick from tick 0, 1 left + 2 right + 4 jump held + 8 jump triggered; in ticks beyond them no
-    key is down. ``length``: how many ticks the recording claims; texts may claim a fraction, NaN or the absurd.
+    ``inputs``: one byte a tick from tick 0, the sum of its ``Input`` flags; in ticks beyond them no key is down.
+    ``length``: how many ticks the recording claims; texts may claim a fraction, NaN or the absurd.
     """
 
-    frames: bytes
+    inputs: bytes
     length: float
 
     @property
     def end(self) -> int:
         """The first tick that is not the recording's: N for a passed level, 0 if the length is no number.
 
-        Never beyond both the frames and the longest recording that the game makes: an absurd length costs nothing.
+        Never beyond both the inputs and the longest recording that the game makes: an absurd length costs nothing.
         """
         if not self.length > 0:
             return 0
-        limit = max(len(self.frames), MAX_FRAMES)
+        limit = max(len(self.inputs), MAX_DEMO_TICKS)
         return limit if self.length >= limit else math.ceil(self.length)
 
-    def inputs(self, ticks: int) -> bytes:
+    def playback(self, ticks: int) -> bytes:
         """The input of each of the first ``ticks`` ticks in playback (game.md §4.4).
 
-        Frame k while k < length; then the last frame once more, trigger and all; then no key.
+        Input k while k < length; then the last one once more, its press of jump too; then no key.
         """
         end = self.end
-        played = self.frames[:end].ljust(end, b"\0")
+        played = self.inputs[:end].ljust(end, b"\0")
         return (played + played[-1:])[:ticks].ljust(ticks, b"\0")
 
 
-def fitted_demo(frames: bytes, length: float) -> Demo:
-    """The demo with as many frames as it plays: superfluous ones dropped, missing ones added (no key)."""
-    demo = Demo(frames, length)
-    return Demo(frames[: demo.end].ljust(demo.end, b"\0"), length)
+def fitted_demo(inputs: bytes, length: float) -> Demo:
+    """The demo with as many inputs as it plays: superfluous ones dropped, missing ones added (no key)."""
+    demo = Demo(inputs, length)
+    return Demo(inputs[: demo.end].ljust(demo.end, b"\0"), length)
 
 
-def check_frames(frames: bytes) -> None:
-    """Raise DemoError for a frame with other bits than the four keys'."""
-    for tick, frame in enumerate(frames):
-        if frame > 15:
-            raise DemoError(f"the input of tick {tick} is none", found=str(frame), expected="0 to 15")
+def check_inputs(inputs: bytes) -> None:
+    """Raise DemoError for a tick with other bits than those of ``Input``."""
+    for tick, keys in enumerate(inputs):
+        if keys > ALL_KEYS:
+            raise DemoError(f"tick {tick} has keys that there are not", found=str(keys), expected="0 to 15")

@@ -19,8 +19,8 @@ from ninja_game.sim.states import DEAD, DRONE_MOVE
 
 
 @fast
-def step(level: TileMap, w: World, frame: int) -> None:
-    """Advance the world by one tick. ``frame``: 1 left + 2 right + 4 jump held + 8 jump triggered in this tick."""
+def step(level: TileMap, w: World, keys: int) -> None:
+    """Advance the world by one tick. ``keys``: those of this tick, a sum of ``Input`` flags."""
     w.event_count = 0
     # 1. All objects in the update set, the most recently started first.
     if w.update_head:
@@ -36,7 +36,7 @@ def step(level: TileMap, w: World, frame: int) -> None:
             w.think_counter += 1
     # 3. The ninja, which asks the nine cells for objects and the touched cells for tiles.
     if w.ninja.state != DEAD:
-        tick_ninja(level, w, frame)
+        tick_ninja(level, w, keys)
     w.tick += 1
 
 

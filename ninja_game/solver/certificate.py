@@ -43,8 +43,8 @@ def verified_run(level: Level, inputs: bytes, *, body: Body = "circle", gold: in
     Raises UnverifiedRunError if they do not reach the exit, or with less gold than asked for.
     """
     run = Simulation(level, body=body, memory="plain")
-    for frame in inputs:
-        run.step_frame(frame)
+    for keys in inputs:
+        run.step_keys(keys)
         if run.outcome != "running":
             break
     if run.outcome != "exit":

@@ -9,11 +9,11 @@ from __future__ import annotations
 from math import sqrt
 from typing import Any
 
+from ninja_game.sim.inputs import pressed
 from ninja_game.sim.level import EXIT
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
 from ninja_game.sim.world import step
-from ninja_game.solver.macro_actions import HELD_BIT, TRIGGERED_BIT
 from ninja_game.solver.mutations import edit, random_below
 
 CHECKPOINT = 8
@@ -25,12 +25,6 @@ CURRENT_TICKS, SHORTEST, TRIALS, PLAYED, KEPT, SHORTENED, GOLD_WANTED, SINCE_BES
 CURRENT_SCORE, BEST_SCORE, TEMPERATURE, LEASH = range(4)
 
 BEST_ROW, CURRENT_ROW, TRIAL_ROW = 0, 1, 2
-
-
-@fast
-def trigger(keys: int, held: int) -> int:
-    """The frame for some keys: the jump triggers where it was not held."""
-    return keys + TRIGGERED_BIT if keys & HELD_BIT and not held else keys
 
 
 @fast
@@ -66,7 +60,7 @@ def retrace(levels: Any, worlds: Any, words: Any, keys: Any, path: Any, checkpoi
     for k in range(first * CHECKPOINT, limit):
         if k % CHECKPOINT == 0:
             copy_words(checkpoints[k // CHECKPOINT], work_words)
-        step(levels[0], w, trigger(current[k], w.ninja.jump_held))
+        step(levels[0], w, pressed(current[k], w.ninja.jump_held))
         path[k, 0] = w.ninja.x
         path[k, 1] = w.ninja.y
         if w.outcome != OUTCOME_RUNNING:
@@ -81,7 +75,7 @@ def try_run(
     """Play the trial run from tick ``start`` on; the ticks played. It is given up far from the current run's path."""
     trial = keys[TRIAL_ROW]
     for k in range(start, limit):
-        step(level, w, trigger(trial[k], w.ninja.jump_held))
+        step(level, w, pressed(trial[k], w.ninja.jump_held))
         if w.outcome != OUTCOME_RUNNING:
             return k + 1 - start
         if k % 8 == 7:

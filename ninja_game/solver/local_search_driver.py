@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from ninja_game.sim.inputs import press_jumps
 from ninja_game.sim.memory.compiled import Kernels
 from ninja_game.solver.local_search import (
     BEST_ROW,
@@ -22,7 +23,6 @@ from ninja_game.solver.local_search import (
     TEMPERATURE,
     TRIALS,
 )
-from ninja_game.solver.macro_actions import held_frames
 from ninja_game.solver.search_memory import Start
 
 ROOM = 64
@@ -73,7 +73,7 @@ class Climb:
 
     def best(self) -> bytes:
         """The inputs of the best run, up to the tick of the exit contact."""
-        return held_frames(self.keys[BEST_ROW, : self.ticks].tolist())
+        return press_jumps(self.keys[BEST_ROW, : self.ticks].tolist())
 
     @property
     def ticks(self) -> int:

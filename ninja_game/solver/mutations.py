@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN
 from ninja_game.sim.memory.declare import fast
-from ninja_game.solver.macro_actions import HELD_BIT
 
 ALL_KEYS = 7
 RANDOM_STATE = 0
@@ -77,14 +77,14 @@ def shift_boundary(keys: Any, length: int, tick: int, mask: int, by: int) -> int
 @fast
 def shift_pulse(keys: Any, length: int, tick: int, by: int) -> int:
     """Move the next jump as a whole; the first changed tick."""
-    start = next_change(keys, length, tick, HELD_BIT)
-    if start < length and not keys[start] & HELD_BIT:
-        start = next_change(keys, length, start, HELD_BIT)
+    start = next_change(keys, length, tick, JUMP_HELD)
+    if start < length and not keys[start] & JUMP_HELD:
+        start = next_change(keys, length, start, JUMP_HELD)
     if start >= length:
         return length
-    end = next_change(keys, length, start, HELD_BIT)
-    overwrite(keys, length, start, end, HELD_BIT, 0)
-    overwrite(keys, length, start + by, end + by, HELD_BIT, HELD_BIT)
+    end = next_change(keys, length, start, JUMP_HELD)
+    overwrite(keys, length, start, end, JUMP_HELD, 0)
+    overwrite(keys, length, start + by, end + by, JUMP_HELD, JUMP_HELD)
     return max(min(start, start + by), 0)
 
 
@@ -113,14 +113,21 @@ def edit(keys: Any, length: int, tick: int, counters: Any) -> tuple[int, int]:
     if kind <= 4:
         return shift_boundary(keys, length, tick, 3, sign * by), 0
     if kind <= 6:
-        return shift_boundary(keys, length, tick, HELD_BIT, sign * by), 0
+        return shift_boundary(keys, length, tick, JUMP_HELD, sign * by), 0
     if kind <= 8:
         return shift_pulse(keys, length, tick, sign * by), 0
     span = 1 + random_below(counters, 4 if random_below(counters, 2) else 24)
     if kind == 9:
         overwrite(keys, length, tick, tick + span, 3, random_below(counters, 3))
     elif kind == 10:
-        overwrite(keys, length, tick, tick + span, HELD_BIT, HELD_BIT * random_below(counters, 2))
+        overwrite(keys, length, tick, tick + span, JUMP_HELD, JUMP_HELD * random_below(counters, 2))
     else:
-        overwrite(keys, length, tick, tick + span, 7, random_below(counters, 3) + HELD_BIT * random_below(counters, 2))
+        overwrite(
+            keys,
+            length,
+            tick,
+            tick + span,
+            KEYS_DOWN,
+            random_below(counters, 3) + JUMP_HELD * random_below(counters, 2),
+        )
     return tick, 0

@@ -9,7 +9,7 @@ import numpy as np
 
 from ninja_game.sim.memory.compiled import Kernels
 from ninja_game.solver.heuristics import Goals
-from ninja_game.solver.macro_actions import action_frames
+from ninja_game.solver.macro_actions import action_inputs
 from ninja_game.solver.search_memory import (
     BEST_NODE,
     BEST_TICKS,
@@ -166,6 +166,6 @@ class Search:
         nodes = self.memory.nodes
         while index >= 0:
             node = nodes[index]
-            parts.append(action_frames(int(node["action"])))
+            parts.append(action_inputs(int(node["action"])))
             index = int(node["parent"])
         return b"".join(reversed(parts))

@@ -5,9 +5,9 @@ from __future__ import annotations
 from itertools import groupby
 
 from ninja_game.runs.run import run_level
+from ninja_game.sim.inputs import KEYS_DOWN, press_jumps
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Body
-from ninja_game.solver.macro_actions import held_frames
 
 Row = tuple[int, int]
 """Keys that are down, and for how many ticks."""
@@ -15,12 +15,12 @@ Row = tuple[int, int]
 
 def rows_of(inputs: bytes) -> list[Row]:
     """Inputs as rows of equal keys; triggers follow from them."""
-    return [(keys, len(list(ticks))) for keys, ticks in groupby(frame & 7 for frame in inputs)]
+    return [(keys, len(list(ticks))) for keys, ticks in groupby(keys & KEYS_DOWN for keys in inputs)]
 
 
-def inputs_of(rows: list[Row]) -> bytes:
+def playback(rows: list[Row]) -> bytes:
     """Rows of keys as inputs, with triggers where the jump key goes down."""
-    return held_frames([keys for keys, ticks in rows for _ in range(ticks)])
+    return press_jumps([keys for keys, ticks in rows for _ in range(ticks)])
 
 
 def smoothed(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 0, price: int = 0) -> bytes:
@@ -37,8 +37,8 @@ def smoothed(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 
             longest += 1
         else:
             rows = merged
-    run = run_level(level, inputs_of(rows).ljust(limit, b"\0"), body=body)
-    return inputs_of(rows).ljust(limit, b"\0")[: run.ticks]
+    run = run_level(level, playback(rows).ljust(limit, b"\0"), body=body)
+    return playback(rows).ljust(limit, b"\0")[: run.ticks]
 
 
 def _without_one(rows: list[Row], longest: int, level: Level, body: Body, gold: int, limit: int) -> list[Row] | None:
@@ -50,8 +50,8 @@ def _without_one(rows: list[Row], longest: int, level: Level, body: Body, gold: 
             if not 0 <= neighbour < len(rows):
                 continue
             keys = rows[neighbour][0]
-            changed = rows_of(inputs_of([*rows[:index], (keys, ticks), *rows[index + 1 :]]))
-            run = run_level(level, inputs_of(changed).ljust(limit, b"\0")[:limit], body=body)
+            changed = rows_of(playback([*rows[:index], (keys, ticks), *rows[index + 1 :]]))
+            run = run_level(level, playback(changed).ljust(limit, b"\0")[:limit], body=body)
             if run.outcome == "exit" and run.gold >= gold:
-                return rows_of(inputs_of(changed)[: run.ticks])
+                return rows_of(playback(changed)[: run.ticks])
     return None

@@ -12,6 +12,7 @@ from functools import cache
 
 from ninja_game.compile_cache import kernels
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.sim.inputs import press_jumps
 from ninja_game.sim.memory.compiled import Kernels
 from ninja_game.solver import local_search as _climb  # noqa: F401 - registers its entry points
 from ninja_game.solver import search as _search  # noqa: F401
@@ -19,7 +20,6 @@ from ninja_game.solver import value_backup as _cost_to_go  # noqa: F401
 from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, verified_run
 from ninja_game.solver.heuristics import Goals
 from ninja_game.solver.local_search_driver import Climb
-from ninja_game.solver.macro_actions import held_frames
 from ninja_game.solver.plan import COOLING, SEARCH_COST, VARY, VARY_TICKS, Shares, find_order
 from ninja_game.solver.search_memory import SearchMemory, Start
 from ninja_game.solver.search_run import MORE, Resolution, Search
@@ -182,7 +182,7 @@ def _with_plain_triggers(task: Task) -> bytes:
 
     Raises UnverifiedRunError where the run does not reach the exit, or only by triggers that no keyboard makes.
     """
-    plain = held_frames(task.first)
+    plain = press_jumps(task.first)
     try:
         return verified_run(task.level, plain, body=task.body, gold=task.gold_wanted).inputs
     except UnverifiedRunError:

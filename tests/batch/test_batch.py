@@ -32,34 +32,34 @@ def keys(ticks: int, count: int, seed: int = 6) -> np.ndarray[tuple[int, int], n
     return np.repeat(random.integers(0, 16, (ticks // 8 + 1, count), np.uint8), 8, axis=0)[:ticks]
 
 
-def single_digests(frames: np.ndarray[tuple[int, int], np.dtype[np.uint8]]) -> list[str]:
+def single_digests(inputs: np.ndarray[tuple[int, int], np.dtype[np.uint8]]) -> list[str]:
     """Digests of the same worlds stepped one by one by the plain memory."""
     digests = []
-    for index in range(frames.shape[1]):
+    for index in range(inputs.shape[1]):
         run = Simulation(LEVELS[index % len(LEVELS)])
-        for frame in frames[:, index].tolist():
-            run.step_frame(frame)
+        for down in inputs[:, index].tolist():
+            run.step_keys(down)
         digests.append(run.digest())
     return digests
 
 
 @pytest.mark.parametrize("memory", MEMORIES)
 def test_a_batch_is_single_stepping_to_the_last_bit(memory: str) -> None:
-    frames = keys(120, 7)
+    inputs = keys(120, 7)
     batch = Batch(LEVELS, 7, memory=memory)
-    for row in frames[:40]:
+    for row in inputs[:40]:
         batch.step(row)
-    batch.run(frames[40:])
-    assert [batch.digest(index) for index in range(7)] == single_digests(frames)
+    batch.run(inputs[40:])
+    assert [batch.digest(index) for index in range(7)] == single_digests(inputs)
 
 
 @needs_numba
 def test_the_number_of_threads_changes_nothing() -> None:
-    frames = keys(60, 900)
+    inputs = keys(60, 900)
     batches = [Batch(LEVELS, 900, memory="compiled", threads=threads) for threads in (1, 2, 4)]
     for batch in batches:
-        batch.run(frames[:30])
-        for row in frames[30:]:
+        batch.run(inputs[:30])
+        for row in inputs[30:]:
             batch.step(row)
     digests = [[batch.digest(index) for index in range(0, 900, 7)] for batch in batches]
     assert digests[0] == digests[1] == digests[2]
@@ -97,7 +97,7 @@ def test_observations_are_views_that_stay_current(memory: str) -> None:
     batch.run(np.full((40, 5), 2))
     run = Simulation(LEVELS[1])
     for _ in range(40):
-        run.step_frame(2)
+        run.step_keys(2)
     assert positions[1].tolist() == [run.ninja.x, run.ninja.y]
     assert batch.velocities()[1].tolist() == [run.ninja.vx, run.ninja.vy]
     assert states.dtype == np.int32
@@ -112,13 +112,13 @@ def test_observations_are_views_that_stay_current(memory: str) -> None:
 @pytest.mark.parametrize("memory", MEMORIES)
 def test_stop_leaves_ended_worlds_alone(memory: str) -> None:
     batch = Batch(parse_level(FLOOR + "|5^100,566!11^160,564,130,564"), 3, memory=memory)
-    frames = np.zeros((60, 3), np.uint8)
-    frames[:, 1] = 2
-    ticks = batch.run(frames, stop=True)
+    inputs = np.zeros((60, 3), np.uint8)
+    inputs[:, 1] = 2
+    ticks = batch.run(inputs, stop=True)
     assert [OUTCOME_NAMES[number] for number in batch.outcomes] == ["running", "exit", "running"]
     assert batch.ticks.tolist() == [60, 24, 60]
     assert ticks == 144
-    batch.run(frames[:5])
+    batch.run(inputs[:5])
     assert batch.ticks.tolist() == [65, 29, 65]
 
 
@@ -141,11 +141,11 @@ def test_single_worlds_are_reset_saved_copied_and_restored(memory: str) -> None:
     batch.reset(1, levels=2)
     assert batch.digest(1) == fresh[2]
     batch.restore(late)
-    frames = keys(30, 6, seed=8)
-    batch.run(frames)
+    inputs = keys(30, 6, seed=8)
+    batch.run(inputs)
     again = [batch.digest(index) for index in range(6)]
     batch.restore(late)
-    batch.run(frames)
+    batch.run(inputs)
     assert [batch.digest(index) for index in range(6)] == again
 
 
@@ -187,7 +187,7 @@ def test_a_box_is_a_box() -> None:
     batch.run([[2]] * 20)
     run = Simulation(LEVELS[0], body="box")
     for _ in range(20):
-        run.step_frame(2)
+        run.step_keys(2)
     assert batch.digest(0) == run.digest()
 
 

@@ -101,8 +101,8 @@ def test_replay_of_ours_that_lies_fails(claim: dict[str, object], message: str, 
 def test_replay_that_says_it_dies_is_good_when_it_does(tmp_path: Path) -> None:
     level = parse_level(SPIKED)
     end = run_level(level, bytes([2] * 60), memory="plain").end_tick
-    frames = bytes([2] * end)
-    text = replay_of_walk(level=level, inputs=frames, final_tick=end, outcome="dead", gold=0, digest="")
+    inputs = bytes([2] * end)
+    text = replay_of_walk(level=level, inputs=inputs, final_tick=end, outcome="dead", gold=0, digest="")
     (tmp_path / "mine.replay.txt").write_text(text)
     result = verify(tmp_path, "--json")
     assert result.exit_code == 0

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from ninja_game.errors import DemoError
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.n14.legacy_demo import parse_legacy_demo, write_legacy_demo
-from ninja_game.sim.inputs import HELD, TRIGGERED, Demo
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, Demo
 
 
 def demo_of(keys: str) -> Demo:
@@ -20,7 +20,7 @@ def demo_of(keys: str) -> Demo:
 
 
 def keys_of(demo: Demo) -> str:
-    return "".join(str(frame & 7) for frame in demo.frames)
+    return "".join(str(keys & 7) for keys in demo.inputs)
 
 
 def char(pair: str) -> str:
@@ -60,7 +60,7 @@ def test_left_and_right_together_are_written_as_neither() -> None:
 
 def test_triggers_are_recomputed() -> None:
     demo = parse_legacy_demo("A" + char("46") + char("04"))
-    assert demo.frames == bytes([4 | 8, 6, 0, 4 | 8])
+    assert demo.inputs == bytes([4 | 8, 6, 0, 4 | 8])
 
 
 def test_defect_a_the_character_behind_a_run_is_lost() -> None:
@@ -107,7 +107,7 @@ def test_a_text_that_would_fill_the_memory_is_refused() -> None:
         parse_demo("A" + (char("71") + char("77")) * 1000)
     with pytest.raises(DemoError, match="too long"):
         write_legacy_demo(Demo(bytes(50_000), 50_000))
-    assert len(parse_demo(write_legacy_demo(Demo(bytes(49_999), 49_999))).frames) == 50_000
+    assert len(parse_demo(write_legacy_demo(Demo(bytes(49_999), 49_999))).inputs) == 50_000
 
 
 @given(st.text("0124560000", max_size=200))
@@ -119,6 +119,6 @@ def test_what_the_defects_do_not_touch_reads_back(keys: str) -> None:
     demo = parse_legacy_demo(text)
     assert (keys_of(demo) == padded) or touched
     held_before = False
-    for frame in demo.frames:
-        assert bool(frame & TRIGGERED) == (bool(frame & HELD) and not held_before)
-        held_before = bool(frame & HELD)
+    for tick_keys in demo.inputs:
+        assert bool(tick_keys & JUMP_PRESSED) == (bool(tick_keys & JUMP_HELD) and not held_before)
+        held_before = bool(tick_keys & JUMP_HELD)

@@ -206,7 +206,7 @@ records = st.builds(
     words,
     words,
     proper_levels.map(write_level_string),
-    st.one_of(st.just(""), demos.map(lambda demo: f"{len(demo.frames)}:{len(demo.frames)}|0")),
+    st.one_of(st.just(""), demos.map(lambda demo: f"{len(demo.inputs)}:{len(demo.inputs)}|0")),
     st.just(0),
     st.just(0),
     st.just(""),

@@ -55,9 +55,9 @@ def test_files(text: str) -> None:
 def test_demos(text: str) -> None:
     with contextlib.suppress(FormatError):
         demo = parse_demo(text)
-        assert len(demo.inputs(1000)) == 1000
-        assert len(demo.frames) == demo.end
-        assert parse_demo(write_demo(demo)).inputs(1000) == demo.inputs(1000)
+        assert len(demo.playback(1000)) == 1000
+        assert len(demo.inputs) == demo.end
+        assert parse_demo(write_demo(demo)).playback(1000) == demo.playback(1000)
 
 
 @given(mutations_of((REPLAY,)))

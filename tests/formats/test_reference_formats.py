@@ -97,7 +97,7 @@ def test_published_levels_as_the_families_of_files_have_them() -> None:
 def test_replays_of_ours_hold_any_level_and_any_demo(table: Callable[[], Iterator[Named]]) -> None:
     for name, text, demo_text in list(table())[::15]:
         level, demo = parse_level_string(text), parse_demo(demo_text)
-        replay = Replay(demo.frames, demo.end, "running", name=name, level=level, level_digest=level_digest(level))
+        replay = Replay(demo.inputs, demo.end, "running", name=name, level=level, level_digest=level_digest(level))
         assert parse_replay(write_replay(replay)) == replay
 
 
@@ -105,9 +105,9 @@ def test_legacy_demos_survive_but_for_the_readers_defects() -> None:
     damaged = 0
     for run in reference.recordings():
         demo = parse_demo(run.demo)
-        keys = bytes(frame & 4 if frame & 3 == 3 else frame & 7 for frame in demo.frames)
+        keys = bytes(keys & 4 if keys & 3 == 3 else keys & 7 for keys in demo.inputs)
         expected = keys.ljust(len(keys) // 10 * 10 + 10, b"\0")
-        read = parse_legacy_demo(write_legacy_demo(Demo(demo.frames, demo.length)))
-        damaged += bytes(frame & 7 for frame in read.frames) != expected
+        read = parse_legacy_demo(write_legacy_demo(Demo(demo.inputs, demo.length)))
+        damaged += bytes(keys & 7 for keys in read.inputs) != expected
     # Of the 1,491 sequences that the game itself was given, 141 came back damaged (game.md §4.2).
     assert 0 < damaged < 0.12 * len(reference.recordings())

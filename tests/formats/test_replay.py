@@ -46,8 +46,8 @@ def test_headers_may_come_in_any_order_with_comments_and_blank_lines() -> None:
 
 
 def test_ticks_beyond_the_inputs_have_no_key() -> None:
-    assert REPLAY.inputs_of(7) == bytes([2, 2, 14, 6, 0, 0, 0])
-    assert REPLAY.inputs_of(1) == b"\2"
+    assert REPLAY.playback(7) == bytes([2, 2, 14, 6, 0, 0, 0])
+    assert REPLAY.playback(1) == b"\2"
     assert REPLAY.ticks == 10
 
 
@@ -102,7 +102,7 @@ def test_inputs_read_back_equal(ticks: bytes) -> None:
 
 
 def test_a_byte_that_is_no_input_is_refused() -> None:
-    with pytest.raises(DemoError, match="tick 1 is none; found 16"):
+    with pytest.raises(DemoError, match="tick 1 has keys that there are not; found 16"):
         write_inputs(b"\x00\x10")
 
 

@@ -45,7 +45,7 @@ def phase_of(screen: LevelScreen) -> Phase:
 
 
 def play_to_the_end(app: App, controls: ScriptedControls, screen: LevelScreen, recording: Recording) -> None:
-    controls.script = iter(recording.inputs(recording.ticks))
+    controls.script = iter(recording.playback(recording.ticks))
     press("confirm")
     while screen.phase in {Phase.READY, Phase.PLAY}:
         frames(app)
@@ -62,7 +62,7 @@ def test_a_script_of_the_recording_passes_the_level(stage: tuple[App, ScriptedCo
     assert screen.attempt.ended_tick == recording.replay.final_tick
     assert screen.attempt.gold == recording.replay.gold
     assert screen.attempt.score == LIFETIME + 80 * screen.attempt.gold - screen.attempt.ended_tick
-    assert bytes(screen.attempt.frames) == recording.inputs(len(screen.attempt.frames))
+    assert bytes(screen.attempt.inputs) == recording.playback(len(screen.attempt.inputs))
     assert screen.attempt.replay().digest == recording.replay.digest
 
 
@@ -94,7 +94,7 @@ def test_nothing_ticks_before_a_move_and_any_move_begins(
     controls.held_bits = 2
     frames(app, 2)
     assert phase_of(screen) is Phase.PLAY
-    assert screen.attempt.frames[0] == 2
+    assert screen.attempt.inputs[0] == 2
 
 
 def test_pause_stops_time_and_the_clock_starts_afresh(
@@ -139,7 +139,7 @@ def test_retry_in_play_is_at_once_and_the_world_is_new(
     frames(app)
     assert screen.phase is Phase.READY
     assert screen.attempt.simulation.digest() == start
-    assert not screen.attempt.frames
+    assert not screen.attempt.inputs
 
 
 def test_death_goes_on_as_a_corpse_then_offers_retry_and_replay(
@@ -186,24 +186,24 @@ def test_practice_goes_back_to_a_saved_moment_exactly(
 ) -> None:
     app, controls = stage
     screen = open_level(app, recording, practice=True)
-    controls.script = iter(recording.inputs(recording.ticks))
+    controls.script = iter(recording.playback(recording.ticks))
     press("confirm")
     frames(app, 60)
     press("quick_save")
     frames(app, 1, 0)
-    saved, played = screen.attempt.simulation.digest(), bytes(screen.attempt.frames)
+    saved, played = screen.attempt.simulation.digest(), bytes(screen.attempt.inputs)
     frames(app, 50)
     press("quick_load")
     frames(app, 1, 0)
     assert screen.attempt.simulation.digest() == saved
-    assert bytes(screen.attempt.frames) == played
+    assert bytes(screen.attempt.inputs) == played
     assert screen.attempt.assisted
 
 
 def test_rewind_runs_the_recording_backwards(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
     app, controls = stage
     screen = open_level(app, recording, practice=True)
-    controls.script = iter(recording.inputs(recording.ticks))
+    controls.script = iter(recording.playback(recording.ticks))
     digests = {}
     press("confirm")
     for _ in range(80):
@@ -216,7 +216,7 @@ def test_rewind_runs_the_recording_backwards(stage: tuple[App, ScriptedControls]
     tick = screen.attempt.simulation.tick
     assert tick < 60
     assert screen.attempt.simulation.digest() == digests[tick]
-    assert len(screen.attempt.frames) == tick
+    assert len(screen.attempt.inputs) == tick
 
 
 def test_slow_motion_and_single_steps(stage: tuple[App, ScriptedControls], recording: Recording) -> None:

@@ -39,14 +39,14 @@ def test_it_is_drawn(name: str) -> None:
     view.overlays.on = set(OVERLAY_ACTIONS)
     surface = pygame.Surface((264, 200))
     for tick in range(200):
-        run.step_frame((1, 2, 12, 6)[tick // 9 % 4])
+        run.step_keys((1, 2, 12, 6)[tick // 9 % 4])
         view.on_tick()
         if tick % 4 == 0:
             view.draw(surface, 0.5)
     kill(run.world, EXPLOSIVE, 3.0, -2.0, 100.0, 100.0)
     view.on_death()
     for _ in range(30):
-        run.step_frame(0)
+        run.step_keys(0)
         view.on_tick()
         view.draw(surface, 0.5)
     thumbnail(level, PALETTES["safe"], 100)

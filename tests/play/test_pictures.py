@@ -44,16 +44,16 @@ def scene(
     if overlays:
         view.overlays = Overlays()
         view.overlays.on = set(OVERLAY_ACTIONS)
-    inputs = recording.inputs(ticks)
+    inputs = recording.playback(ticks)
     for frame in inputs:
-        run.step_frame(frame)
+        run.step_keys(frame)
         view.on_tick()
     if fatal >= 0:
         n = run.world.ninja
         kill(run.world, fatal, 4.0, -3.0, n.x, n.y - 4)
         view.on_death()
         for _ in range(5):
-            run.step_frame(0)
+            run.step_keys(0)
             view.on_tick()
     surface = pygame.Surface(SIZE)
     view.draw(surface, 0.5, whole=True)

@@ -24,7 +24,7 @@ def straight_digests(take: Take, ticks: int) -> list[str]:
     run = Simulation(take.level, body=take.body)
     digests = [run.digest()]
     for tick in range(ticks):
-        run.step_frame(take.frames[tick] if tick < len(take.frames) else 0)
+        run.step_keys(take.inputs[tick] if tick < len(take.inputs) else 0)
         digests.append(run.digest())
     return digests
 
@@ -81,7 +81,7 @@ def test_it_starts_again_after_the_end() -> None:
 
 
 def test_others_on_the_same_level_run_along() -> None:
-    other = Take("other", TAKE.level, TAKE.frames[:50])
+    other = Take("other", TAKE.level, TAKE.inputs[:50])
     with scripted_app((396, 300)) as (app, _):
         screen = ReplayScreen(app, [TAKE, other, other])
         app.push(screen)
@@ -102,7 +102,7 @@ def test_the_mouse_drags_the_bar() -> None:
 
 
 def test_a_folder_of_pictures_has_one_a_tick(tmp_path: Path) -> None:
-    short = Take("short", TAKE.level, TAKE.frames[:5])
+    short = Take("short", TAKE.level, TAKE.inputs[:5])
     export_film(short, tmp_path / "film")
     names = sorted(path.name for path in (tmp_path / "film").iterdir())
     assert len(names) == film_length(Playback(short))
@@ -111,7 +111,7 @@ def test_a_folder_of_pictures_has_one_a_tick(tmp_path: Path) -> None:
 
 def test_a_gif_has_as_many_pictures(tmp_path: Path) -> None:
     image = pytest.importorskip("PIL.Image")
-    short = Take("short", TAKE.level, TAKE.frames[:5])
+    short = Take("short", TAKE.level, TAKE.inputs[:5])
     export_film(short, tmp_path / "film.gif")
     with image.open(tmp_path / "film.gif") as film:
         ms = 0

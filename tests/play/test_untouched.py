@@ -26,9 +26,9 @@ def bare_digests(path: Path) -> list[str]:
     recording = load_replays(path)[0]
     run = Simulation(recording.level)
     digests = []
-    inputs = recording.inputs(recording.ticks) + bytes(AFTER)
-    for frame in inputs:
-        run.step_frame(frame)
+    inputs = recording.playback(recording.ticks) + bytes(AFTER)
+    for keys in inputs:
+        run.step_keys(keys)
         if run.tick % 10 == 0:
             digests.append(run.digest())
     return digests
@@ -38,7 +38,7 @@ def bare_digests(path: Path) -> list[str]:
 def test_a_run_with_everything_on_is_the_bare_run(path: Path) -> None:
     recording = load_replays(path)[0]
     digests = []
-    inputs = recording.inputs(recording.ticks)
+    inputs = recording.playback(recording.ticks)
     with scripted_app((396, 300), Options(palette="safe-dark", show_keys=True)) as (app, controls):
         course = SingleLevel("level", recording.level)
         course.best = 1, inputs[: len(inputs) // 2]
@@ -60,7 +60,7 @@ def test_a_run_with_everything_on_is_the_bare_run(path: Path) -> None:
 
 def test_rewinding_again_and_again_changes_nothing() -> None:
     recording = load_replays(REPLAYS[-1])[0]
-    inputs = recording.inputs(recording.ticks)
+    inputs = recording.playback(recording.ticks)
     with scripted_app((396, 300)) as (app, controls):
         screen = LevelScreen(app, SingleLevel("level", recording.level, practice=True))
         app.push(screen)
@@ -93,9 +93,9 @@ def test_looking_only_reads() -> None:
 
     surface = pygame.Surface((396, 300))
     view.ghosts = [Ghost(GhostRun("ghost", b""), recording.level, "circle")]
-    for frame in recording.inputs(recording.ticks):
-        bare.step_frame(frame)
-        seen.step_frame(frame)
+    for keys in recording.playback(recording.ticks):
+        bare.step_keys(keys)
+        seen.step_keys(keys)
         view.on_tick()
         view.draw(surface, 0.3)
         view.draw(surface, 0.8)

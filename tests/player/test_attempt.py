@@ -41,15 +41,15 @@ def test_recording_of_a_passed_level_has_as_many_frames_as_its_exit_tick() -> No
     attempt = played(short_level())
     for _ in range(30):
         attempt.tick(RIGHT)
-    assert len(attempt.frames) == EXIT_TICK
-    again = run_level(short_level(), attempt.replay().inputs_of(EXIT_TICK + 1), memory="plain")
+    assert len(attempt.inputs) == EXIT_TICK
+    again = run_level(short_level(), attempt.replay().playback(EXIT_TICK + 1), memory="plain")
     assert (again.outcome, again.end_tick) == ("exit", EXIT_TICK)
 
 
 def test_recording_of_a_death_claims_one_frame_less() -> None:
     attempt = played(deadly_level())
     assert attempt.outcome == "dead"
-    assert len(attempt.frames) == attempt.ended_tick
+    assert len(attempt.inputs) == attempt.ended_tick
     assert parse_demo(write_demo(attempt.demo())).length == attempt.ended_tick - 1
 
 
@@ -71,7 +71,7 @@ def test_practice_has_no_countdown_but_gold_adds() -> None:
 def test_retry_gives_lifetime_gold_and_recording_back() -> None:
     attempt = played(deadly_level(), lifetime=500)
     attempt.restart()
-    assert (attempt.lifetime, attempt.gold, bytes(attempt.frames), attempt.outcome) == (500, 0, b"", "running")
+    assert (attempt.lifetime, attempt.gold, bytes(attempt.inputs), attempt.outcome) == (500, 0, b"", "running")
 
 
 def test_giving_up_is_a_death_by_own_hand() -> None:

@@ -8,7 +8,7 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle
 from ninja_game.sim.collision.rays import ray_tiles, sees
-from ninja_game.sim.inputs import HELD, LEFT, RIGHT, TRIGGERED
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, press_jumps
 from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.simulation import Simulation
@@ -102,23 +102,16 @@ def test_a_ray_without_length_sees_nothing() -> None:
 
 
 def keys(*spans: tuple[int, int]) -> list[int]:
-    """Frames from (number of ticks, keys) spans; the jump triggers when it goes down."""
-    frames: list[int] = []
-    held = False
-    for ticks, down in spans:
-        for _ in range(ticks):
-            jump = bool(down & HELD)
-            frames.append(down | (TRIGGERED if jump and not held else 0))
-            held = jump
-    return frames
+    """Inputs from (number of ticks, keys) spans; jump is pressed in the tick in which it goes down."""
+    return list(press_jumps(down for ticks, down in spans for _ in range(ticks)))
 
 
-def places(level: str, frames: list[int], x_y_state_of: list[int]) -> dict[int, tuple[float, float, str]]:
+def places(level: str, inputs: list[int], x_y_state_of: list[int]) -> dict[int, tuple[float, float, str]]:
     """Where the ninja is after some ticks of a run."""
     run = Simulation(parse_level_string(level))
     found = {}
-    for tick, frame in enumerate(frames):
-        run.step_frame(frame)
+    for tick, down in enumerate(inputs):
+        run.step_keys(down)
         if tick in x_y_state_of:
             found[tick] = (run.ninja.x, run.ninja.y, run.ninja.state)
     return found
@@ -140,8 +133,8 @@ def test_running_and_jumping_table() -> None:
         81: (404.36993882136585, 566.0, "skidding"),
         88: (430.34648716713286, 566.0, "skidding"),
     }
-    frames = keys((30, RIGHT), (10, RIGHT + HELD), (40, RIGHT), (10, 0))
-    assert places(f"{EMPTY}|5^100,566", frames, list(expected)) == expected
+    inputs = keys((30, KEY_RIGHT), (10, KEY_RIGHT + JUMP_HELD), (40, KEY_RIGHT), (10, 0))
+    assert places(f"{EMPTY}|5^100,566", inputs, list(expected)) == expected
 
 
 def test_wall_slide_and_hop_table() -> None:
@@ -157,6 +150,8 @@ def test_wall_slide_and_hop_table() -> None:
         50: (489.80538641914865, 339.2052335846571, "falling"),
         57: (488.5677668534171, 347.982611687835, "falling"),
     }
-    frames = keys((32, RIGHT), (5, RIGHT + HELD), (10, RIGHT), (3, LEFT), (4, LEFT + HELD), (10, 0))
+    inputs = keys(
+        (32, KEY_RIGHT), (5, KEY_RIGHT + JUMP_HELD), (10, KEY_RIGHT), (3, KEY_LEFT), (4, KEY_LEFT + JUMP_HELD), (10, 0)
+    )
     level = "0" * 460 + "1" * 23 + "0" * 230
-    assert places(f"{level}|5^480,300", frames, list(expected)) == expected
+    assert places(f"{level}|5^480,300", inputs, list(expected)) == expected

@@ -21,7 +21,7 @@ from ninja_game.sim.memory.layout import (
     used_bytes,
 )
 from ninja_game.sim.memory.schema import CAPACITY, Header, Object
-from tests.support.crowded import crowded_frames, crowded_level
+from tests.support.crowded import crowded_inputs, crowded_level
 
 needs_numba = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 
@@ -84,12 +84,12 @@ def test_no_index_is_ever_out_of_range() -> None:
     for seed in range(60):
         levels, worlds = load_compiled(kernels, crowded_level(seed), seed % 2 == 1)
         slots = np.arange(1, int(worlds["id_count"][0]) + 1)
-        frames = np.frombuffer(crowded_frames(seed, 150), np.uint8)
+        inputs = np.frombuffer(crowded_inputs(seed, 150), np.uint8)
         objects = np.empty((150, len(slots)), [("x", "<f8"), ("y", "<f8"), ("s", "<i4")])
         ninja = np.empty(
             150, [(name, "<f8") for name in ("x", "y", "prev_x", "prev_y")] + [("s", "<i4"), ("gold", "<i4")]
         )
-        kernels["trace_world"](levels, worlds, 0, frames, slots, ninja, objects)
+        kernels["trace_world"](levels, worlds, 0, inputs, slots, ninja, objects)
 
 
 def test_entry_points_are_registered_rules() -> None:

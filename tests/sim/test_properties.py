@@ -12,7 +12,7 @@ from ninja_game.compile_cache import compiled_available
 from ninja_game.errors import LevelError
 from ninja_game.sim.level import GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS, Level, ObjectSpec
 from ninja_game.simulation import BODIES, Body, Simulation
-from tests.support.crowded import crowded_frames, crowded_level
+from tests.support.crowded import crowded_inputs, crowded_level
 from tests.support.memories import BOTH
 
 seeds = st.integers(0, 2**32)
@@ -25,19 +25,19 @@ bodies = st.sampled_from(BODIES)
 def test_a_restored_run_goes_on_as_if_nothing_had_been(
     memory: str, seed: int, body: Body, start: int, span: int
 ) -> None:
-    frames = crowded_frames(seed, start + span)
+    inputs = crowded_inputs(seed, start + span)
     run = Simulation(crowded_level(seed), body=body, memory=memory)
-    for frame in frames[:start]:
-        run.step_frame(frame)
+    for keys in inputs[:start]:
+        run.step_keys(keys)
     state = run.save()
     before = run.digest()
-    for frame in frames[start:]:
-        run.step_frame(frame)
+    for keys in inputs[start:]:
+        run.step_keys(keys)
     straight = run.digest()
     run.restore(state)
     assert run.digest() == before
-    for frame in frames[start:]:
-        run.step_frame(frame)
+    for keys in inputs[start:]:
+        run.step_keys(keys)
     assert run.digest() == straight
 
 
@@ -46,9 +46,9 @@ def test_a_restored_run_goes_on_as_if_nothing_had_been(
 @given(seed=seeds, body=bodies)
 def test_plain_and_compiled_worlds_are_equal_in_every_field_and_event(seed: int, body: Body) -> None:
     plain, compiled = (Simulation(crowded_level(seed), body=body, memory=memory) for memory in ("plain", "compiled"))
-    for tick, frame in enumerate(crowded_frames(seed, 150)):
-        plain.step_frame(frame)
-        compiled.step_frame(frame)
+    for tick, keys in enumerate(crowded_inputs(seed, 150)):
+        plain.step_keys(keys)
+        compiled.step_keys(keys)
         if tick % 10 == 0:
             assert plain.digest() == compiled.digest(), plain.first_difference(compiled)
             # repr, so that NaN equals NaN
@@ -82,9 +82,9 @@ odd_levels = st.builds(
 @given(level=odd_levels, seed=seeds)
 def test_odd_numbers_neither_stop_the_world_nor_part_the_memories(level: Level, seed: int) -> None:
     plain, compiled = (Simulation(level, memory=memory) for memory in ("plain", "compiled"))
-    for frame in crowded_frames(seed, 60):
-        plain.step_frame(frame)
-        compiled.step_frame(frame)
+    for keys in crowded_inputs(seed, 60):
+        plain.step_keys(keys)
+        compiled.step_keys(keys)
     assert plain.digest() == compiled.digest(), plain.first_difference(compiled)
 
 
@@ -94,8 +94,8 @@ def test_the_ninja_never_leaves_the_interior(seed: int, body: Body) -> None:
     level = crowded_level(seed)
     records = tuple(record for record in level.objects if record.kind != LAUNCH_PAD)
     run = Simulation(Level(level.tiles, records), body=body)
-    for frame in crowded_frames(seed):
-        run.step_frame(frame)
+    for keys in crowded_inputs(seed):
+        run.step_keys(keys)
         assert 24.0 <= run.ninja.x <= 768.0
         assert 24.0 <= run.ninja.y <= 576.0
 
@@ -104,8 +104,8 @@ def test_the_ninja_never_leaves_the_interior(seed: int, body: Body) -> None:
 def test_reset_starts_afresh(memory: str) -> None:
     run = Simulation(crowded_level(5), memory=memory)
     fresh = run.digest()
-    for frame in crowded_frames(5):
-        run.step_frame(frame)
+    for keys in crowded_inputs(5):
+        run.step_keys(keys)
     assert run.digest() != fresh
     run.reset()
     assert (run.tick, run.digest()) == (0, fresh)

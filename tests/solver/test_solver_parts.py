@@ -12,10 +12,11 @@ from ninja_game.sim.level import Level
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
+from ninja_game.sim.inputs import press_jumps
 from ninja_game.solver import search as _search  # noqa: F401 - registers the kernels
 from ninja_game.solver.distance_field import UNREACHED, point_at
 from ninja_game.solver.heuristics import Goals
-from ninja_game.solver.macro_actions import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_frames, held_frames
+from ninja_game.solver.macro_actions import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_inputs
 from ninja_game.solver.mutations import cut, edit, overwrite, shift_boundary, shift_pulse, stretch
 from ninja_game.solver.search_memory import Start
 
@@ -31,7 +32,7 @@ def goals_of(text: str) -> Goals:
 
 
 @pytest.mark.parametrize(
-    "direction, mode, held, frames",
+    "direction, mode, held, inputs",
     [
         (1, RELEASED, 1, [2, 2, 2]),
         (-1, PRESSED, 0, [13, 5, 5]),
@@ -39,12 +40,12 @@ def goals_of(text: str) -> Goals:
         (1, PRESSED_AGAIN, 1, [2, 14, 6]),
     ],
 )
-def test_an_action_says_its_inputs(direction: int, mode: int, held: int, frames: list[int]) -> None:
-    assert action_frames(action_code(direction, mode, held, 3)) == bytes(frames)
+def test_an_action_says_its_inputs(direction: int, mode: int, held: int, inputs: list[int]) -> None:
+    assert action_inputs(action_code(direction, mode, held, 3)) == bytes(inputs)
 
 
 def test_triggers_are_put_where_the_key_goes_down() -> None:
-    assert held_frames(b"\x04\x0c\x00\x06\x06") == b"\x0c\x04\x00\x0e\x06"
+    assert press_jumps(b"\x04\x0c\x00\x06\x06") == b"\x0c\x04\x00\x0e\x06"
 
 
 def test_the_field_leads_to_the_switch_and_then_to_the_exit() -> None:

@@ -14,7 +14,7 @@ from tests.support import reference
 
 def trace_of(data: str, demo: str, ticks: int, memory: str) -> RunTrace:
     """The whole trace of a reference run: exactly ``ticks`` ticks, whatever happens."""
-    return trace_level(parse_level_string(data), parse_demo(demo).inputs(ticks), memory=memory)
+    return trace_level(parse_level_string(data), parse_demo(demo).playback(ticks), memory=memory)
 
 
 def scene_difference(scene: reference.SceneRow, memory: str) -> str:
@@ -32,8 +32,8 @@ def scene_difference(scene: reference.SceneRow, memory: str) -> str:
 
 def run_difference(row: reference.RunRow, memory: str) -> str:
     """What differs between a recording's run and the table: positions and states first; empty if nothing does."""
-    frames = parse_demo(row.demo).inputs(int(row.demo.partition(":")[0]) + 1)
-    ours = run_level(parse_level_string(row.data), frames, memory=memory)
+    inputs = parse_demo(row.demo).playback(int(row.demo.partition(":")[0]) + 1)
+    ours = run_level(parse_level_string(row.data), inputs, memory=memory)
     summary = (ours.outcome, ours.end_tick, ours.gold, ours.ticks)
     states = reference.positions()[row.offset + 16 * row.ticks : row.offset + 17 * row.ticks]
     if ours.xy_sha256 == row.sha256_xy and ours.states.tobytes() == states:

@@ -119,15 +119,15 @@ def _object(dice: Dice, room: Room, kind: int) -> ObjectSpec:
     return ObjectSpec(kind, (x, y))
 
 
-def crowded_frames(seed: int, ticks: int = TICKS) -> bytes:
+def crowded_inputs(seed: int, ticks: int = TICKS) -> bytes:
     """Random keys: spans of 1 to 24 ticks; the jump triggers when it goes down."""
     dice = Dice(seed * 104729 + 3)
-    frames = bytearray()
+    inputs = bytearray()
     held = 0
-    while len(frames) < ticks:
+    while len(inputs) < ticks:
         down = (0, 1, 2, 1, 2, 3)[dice.roll(6)]
         jump = dice.roll(2)
         for _ in range(1 + dice.roll(24)):
-            frames.append(down | 4 * jump | 8 * (jump & ~held))
+            inputs.append(down | 4 * jump | 8 * (jump & ~held))
             held = jump
-    return bytes(frames[:ticks])
+    return bytes(inputs[:ticks])

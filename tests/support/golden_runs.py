@@ -14,7 +14,7 @@ from ninja_game.runs.run import record_replay, trace_level
 from ninja_game.runs.trace import trace_digests
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Body
-from tests.support.crowded import TICKS, crowded_frames, crowded_level
+from tests.support.crowded import TICKS, crowded_inputs, crowded_level
 from tests.support.own_scenes import SCENES
 
 ROOT = Path(__file__).resolve().parent.parent.parent
@@ -35,37 +35,37 @@ class GoldenRun:
 
     name: str
     level: Level
-    frames: bytes
+    inputs: bytes
     body: Body
 
     def row(self, memory: str) -> dict[str, str]:
         """What the run shows, as a row of the golden file."""
-        trace = trace_level(self.level, self.frames, body=self.body, memory=memory)
+        trace = trace_level(self.level, self.inputs, body=self.body, memory=memory)
         digests = trace_digests(trace)
         objects = " ".join(f"{id_}:{digest}" for id_, digest in digests.objects.items())
-        return {"name": self.name, "ticks": str(len(self.frames)), "run": digests.run_sha256, "objects": objects}
+        return {"name": self.name, "ticks": str(len(self.inputs)), "run": digests.run_sha256, "objects": objects}
 
 
 def crowded_runs() -> Iterator[GoldenRun]:
     """The crowded levels, by seed."""
     for seed in (*range(CROWDED), *REVEALING):
         body: Body = "box" if seed % 8 == 7 else "circle"
-        yield GoldenRun(f"crowded-{seed:03}", crowded_level(seed), crowded_frames(seed, TICKS), body)
+        yield GoldenRun(f"crowded-{seed:03}", crowded_level(seed), crowded_inputs(seed, TICKS), body)
 
 
 def scene_runs() -> Iterator[GoldenRun]:
     """The scenes of our own."""
     for scene in SCENES:
-        yield GoldenRun(scene.name, scene.level, scene.frames, "circle")
+        yield GoldenRun(scene.name, scene.level, scene.inputs, "circle")
 
 
 def replay_runs() -> Iterator[GoldenRun]:
     """Our own replays, each carried on for a while after its end."""
     for path in sorted(REPLAYS.glob("*.replay.txt")):
         for recording in load_replays(path):
-            frames = recording.inputs(recording.ticks + AFTERMATH)
+            inputs = recording.playback(recording.ticks + AFTERMATH)
             body: Body = "box" if recording.replay and recording.replay.body == "box" else "circle"
-            yield GoldenRun(path.name, recording.level, frames, body)
+            yield GoldenRun(path.name, recording.level, inputs, body)
 
 
 FILES = {"crowded": crowded_runs, "replays": replay_runs, "scenes": scene_runs}

@@ -34,7 +34,7 @@ class Scene(NamedTuple):
 
     name: str
     level: Level
-    frames: bytes
+    inputs: bytes
 
 
 def room(tiles: dict[tuple[int, int], int], *records: ObjectSpec) -> Level:

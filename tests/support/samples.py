@@ -40,7 +40,7 @@ def replay_of_walk(**changes: object) -> str:
     level = parse_level_string(WALK)
     world = Simulation(level)
     inputs = bytes([2] * (WALK_END + 1))
-    for frame in inputs:
-        world.step_frame(frame)
+    for keys in inputs:
+        world.step_keys(keys)
     replay = Replay(inputs, WALK_END, world.outcome, world.gold, world.replay_digest(), name="walk", level=level)
     return write_replay(replace(replay, **changes))  # type: ignore[arg-type]

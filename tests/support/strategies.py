@@ -64,7 +64,7 @@ odd_levels = st.builds(
 words = st.text(st.characters(codec="utf-8", exclude_categories=["C", "Z"], exclude_characters="#$&"), max_size=12)
 
 inputs = st.lists(st.integers(0, 15), max_size=120).map(bytes)
-demos = inputs.map(lambda frames: Demo(frames, float(len(frames))))
+demos = inputs.map(lambda inputs: Demo(inputs, float(len(inputs))))
 
 
 @st.composite

@@ -28,10 +28,10 @@ import pygame
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.play.app import App
 from ninja_game.play.input.bindings import Bindings
-from ninja_game.play.input.controls import JUMP
 from ninja_game.play.level.context import SingleLevel
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.start import prepare
+from ninja_game.sim.inputs import JUMP_HELD
 
 LEVEL = parse_level_string("0" * 713 + "|5^300,566!11^500,564,600,564")
 KEYSYM_Z = 0x7A
@@ -64,7 +64,7 @@ class NotingBindings(Bindings):
     def held(self) -> int:
         """What is held, with the moment of the first jump after ``waiting`` was set."""
         bits = super().held()
-        if bits & JUMP and self.waiting:
+        if bits & JUMP_HELD and self.waiting:
             self.waiting = False
             self.sampled = time.perf_counter()
         return bits

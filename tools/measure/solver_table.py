@@ -36,7 +36,7 @@ def tasks(arguments: argparse.Namespace) -> Iterator[tuple[str, Task]]:
         chosen = runs[:: max(1, len(runs) // arguments.improve)][: arguments.improve]
         for run in chosen:
             demo = parse_demo(run.demo)
-            first = demo.inputs(run.ticks)
+            first = demo.playback(run.ticks)
             yield run.label, Task(parse_level_string(run.data), first=first, **base)
         return
     for path in sorted((ROOT / "levels").glob("*.txt")):

@@ -66,7 +66,7 @@ def read_level(text: str) -> None:
 def read_demo(text: str) -> None:
     """A demo, 4-bit or legacy: read, played back, written."""
     demo = parse_demo(text)
-    demo.inputs(1000)
+    demo.playback(1000)
     write_demo(demo)
 
 
@@ -86,7 +86,7 @@ def seeds(*, reference: bool) -> list[str]:
     """Texts of all formats; with ``reference`` also those of ``../shared/n14``."""
     level = parse_level_string(LEVEL)
     demo = parse_demo(DEMO)
-    replay = Replay(demo.frames[:60], 99, "dead", 3, "0f" * 32, level=level, name="walk")
+    replay = Replay(demo.inputs[:60], 99, "dead", 3, "0f" * 32, level=level, name="walk")
     texts = [
         LEVEL,
         DEMO,

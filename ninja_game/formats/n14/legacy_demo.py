@@ -1,4 +1,4 @@
-"""Demos of older versions, first character ``A``: 3 bits a frame, no trigger, no length (game.md §4.2).
+"""Demos of older versions, first character ``A``: 3 bits a tick, no trigger, no length (game.md §4.2).
 
 The reader's two defects are kept, so that such texts play here as they play there.
 """
@@ -8,10 +8,10 @@ from __future__ import annotations
 import re
 
 from ninja_game.errors import DemoError
-from ninja_game.sim.inputs import HELD, TRIGGERED, Demo, check_frames, fitted_demo
+from ninja_game.sim.inputs import Demo, check_inputs, fitted_demo, press_jumps
 
 MAX_DIGITS = 50_000
-"""The game stops recording at 5000 words of ten frames."""
+"""The game stops recording at 5000 words of ten ticks."""
 
 _RUN_DIGIT = "7"
 _SAME_DIGITS = re.compile(r"([0-7])\1{4,66}")
@@ -28,11 +28,11 @@ _CHAR_OF_PAIR = {
     f"{value:02o}": chr(_FIRST_PAIR + value + (_FIRST_PAIR + value >= _BACKSLASH)) for value in range(64)
 }  # fmt: skip
 
-_DIGIT_OF_FRAME = bytes.maketrans(bytes(range(16)), b"0120456401204564")
+_DIGIT_OF_KEYS = bytes.maketrans(bytes(range(16)), b"0120456401204564")
 
 
 def parse_legacy_demo(text: str, *, length: float | None = None) -> Demo:
-    """The inputs in a legacy demo text; all frames are played if ``length`` is not given.
+    """The inputs in a legacy demo text; all of it is played if ``length`` is not given.
 
     Raises DemoError, with the column, for what the game cannot have written.
     """
@@ -41,14 +41,7 @@ def parse_legacy_demo(text: str, *, length: float | None = None) -> Demo:
     # Defect (b): a last 3 is dropped also when it was no padding, and what it leaves of a run with it.
     digits = _DIGIT_RUN.sub(_expanded, _digits_of_chars(text).removesuffix(_PADDING))
     _check_length(len(digits))
-    frames = bytearray()
-    held_before = 0
-    for digit in digits:
-        frame = int(digit)
-        held = frame & HELD
-        frames.append(frame | TRIGGERED if held and not held_before else frame)
-        held_before = held
-    return fitted_demo(bytes(frames), float(len(frames)) if length is None else length)
+    return fitted_demo(press_jumps(map(int, digits)), float(len(digits)) if length is None else length)
 
 
 def _digits_of_chars(text: str) -> str:
@@ -92,18 +85,18 @@ def _expanded(run: re.Match[str]) -> str:
 def _check_length(digits: int) -> None:
     """Raise DemoError for more than the game records (one digit may be padding)."""
     if digits > MAX_DIGITS + 1:
-        raise DemoError("a legacy demo that is too long", found=f"{digits} frames", expected=f"at most {MAX_DIGITS}")
+        raise DemoError("a legacy demo that is too long", found=f"{digits} ticks", expected=f"at most {MAX_DIGITS}")
 
 
 def write_legacy_demo(demo: Demo) -> str:
-    """The legacy text of a demo's frames, padded to whole words; triggers and length are lost.
+    """The legacy text of a demo's inputs, padded to whole words; triggers and length are lost.
 
-    Left and right together are written as neither. Raises DemoError for more frames than the game records.
+    Left and right together are written as neither. Raises DemoError for more ticks than the game records.
     """
-    check_frames(demo.frames)
-    padded = len(demo.frames) // 10 * 10 + 10
+    check_inputs(demo.inputs)
+    padded = len(demo.inputs) // 10 * 10 + 10
     _check_length(padded - 1)
-    digits = demo.frames.translate(_DIGIT_OF_FRAME).decode("ascii").ljust(padded, "0")
+    digits = demo.inputs.translate(_DIGIT_OF_KEYS).decode("ascii").ljust(padded, "0")
     digits = _SAME_DIGITS.sub(lambda run: f"{_RUN_DIGIT}{run[1]}{len(run[0]) - _RUN_OFFSET:02o}", digits)
     if len(digits) % 2:
         digits += _PADDING

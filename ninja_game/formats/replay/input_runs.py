@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from itertools import groupby
 
 from ninja_game.errors import ReplayError
-from ninja_game.sim.inputs import HELD, TRIGGERED, check_frames
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, check_inputs, pressed
 
 MAX_TICKS = 1_000_000
 """Longest replay, almost seven hours: a slip in a count must not fill the memory."""
@@ -26,7 +26,7 @@ def write_inputs(inputs: bytes) -> list[str]:
     >>> write_inputs(bytes([2, 2, 2, 14, 6, 6, 0]))
     ['R*3 RJ*3 .']
     """
-    check_frames(inputs)
+    check_inputs(inputs)
     runs = []
     for text, group in groupby(_ticks_as_text(inputs)):
         count = sum(1 for _ in group)
@@ -43,11 +43,10 @@ def write_inputs(inputs: bytes) -> list[str]:
 def _ticks_as_text(inputs: bytes) -> Iterable[str]:
     """Keys of every tick, marked where the trigger is not what the keys say."""
     held_before = 0
-    for tick in inputs:
-        held, triggered = tick & HELD, bool(tick & TRIGGERED)
-        mark = "" if triggered == bool(held and not held_before) else "!" if triggered else "-"
-        yield _KEYS[tick & 7] + mark
-        held_before = held
+    for keys in inputs:
+        mark = "" if keys == pressed(keys, held_before) else "!" if keys & JUMP_PRESSED else "-"
+        yield _KEYS[keys & KEYS_DOWN] + mark
+        held_before = keys & JUMP_HELD
 
 
 def read_inputs(lines: Iterable[tuple[int, str]], *, file: str = "") -> bytes:
@@ -77,10 +76,11 @@ def read_inputs(lines: Iterable[tuple[int, str]], *, file: str = "") -> bytes:
 
 def _append(inputs: bytearray, keys: int, mark: str, count: int) -> None:
     """Add a run; unmarked, the jump triggers where it is held and was not before."""
-    held_before = bool(inputs) and inputs[-1] & HELD
-    triggers = mark == "!" or (not mark and bool(keys & HELD) and not held_before)
-    inputs.append(keys | TRIGGERED if triggers else keys)
-    inputs.extend(bytes([keys | TRIGGERED if mark == "!" else keys]) * (count - 1))
+    if mark == "!":
+        keys |= JUMP_PRESSED
+    held_before = inputs[-1] & JUMP_HELD if inputs else 0
+    inputs.append(keys if mark else pressed(keys, held_before))
+    inputs.extend(bytes([keys]) * (count - 1))
 
 
 def _bad_run(text: str, file: str, line: int, column: int) -> ReplayError:

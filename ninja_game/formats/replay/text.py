@@ -45,11 +45,11 @@ WAYPOINT_TICKS = TICKS_PER_SECOND
 class Replay:
     """A run of one level: inputs, and what they lead to.
 
-    ``inputs``: one byte a tick as in demos (1 left, 2 right, 4 jump held, 8 triggered); in ticks beyond them no key is
-    down. ``final_tick``: the last tick that is run, counted from 0; ``outcome``, ``gold`` and ``digest`` (64 hex
-    digits of what the world shows, or '') are as after it. The level is given by one or more of: its digest, a path
-    from the replay's folder with the number of the record in that file, the level itself. ``waypoints``: where the
-    ninja passes, by tick, so that a run that goes another way is noticed where it does.
+    ``inputs``: one byte a tick, the sum of its ``Input`` flags; in ticks beyond them no key is down. ``final_tick``:
+    the last tick that is run, counted from 0; ``outcome``, ``gold`` and ``digest`` (64 hex digits of what the world
+    shows, or '') are as after it. The level is given by one or more of: its digest, a path from the replay's folder
+    with the number of the record in that file, the level itself. ``waypoints``: where the ninja passes, by tick, so
+    that a run that goes another way is noticed where it does.
     """
 
     inputs: bytes
@@ -72,7 +72,7 @@ class Replay:
         """How many ticks are run."""
         return self.final_tick + 1
 
-    def inputs_of(self, ticks: int) -> bytes:
+    def playback(self, ticks: int) -> bytes:
         """The input of each of the first ``ticks`` ticks."""
         return self.inputs[:ticks].ljust(ticks, b"\0")
 

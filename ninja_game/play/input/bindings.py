@@ -8,15 +8,15 @@ from time import monotonic
 
 import pygame
 
-from ninja_game.play.input.controls import JUMP, LEFT, RIGHT
 from ninja_game.play.input.default_bindings import ACTIONS, MENU_KEYS, MENU_PAD
 from ninja_game.play.input.gamepad import Gamepads, pad_label
 from ninja_game.play.input.key_names import key_label, key_name, learn_label, scancode_named, scancode_of
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 
 TAP_SECONDS = 0.06
 """A jump key that went down and up between two ticks still counts in the next one, if it is not older than this."""
 
-MOVES = (("left", LEFT), ("right", RIGHT), ("jump", JUMP))
+MOVES = (("left", KEY_LEFT), ("right", KEY_RIGHT), ("jump", JUMP_HELD))
 
 Inputs = Mapping[str, tuple[str, ...]]
 """Names of inputs by action."""
@@ -69,7 +69,7 @@ class Bindings:
             if pads & names:
                 bits |= bit
         if monotonic() - self._tapped <= TAP_SECONDS:
-            bits |= JUMP
+            bits |= JUMP_HELD
         self._tapped = -inf
         return bits
 

@@ -6,8 +6,7 @@ from typing import Protocol
 
 import pygame
 
-LEFT, RIGHT, JUMP = 1, 2, 4
-"""Bits of what is held: those of a demo's frame."""
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 
 
 class Controls(Protocol):
@@ -72,7 +71,7 @@ class Keyboard:
         pygame.event.pump()
         keys = pygame.key.get_pressed()
         bits = 0
-        for bit, action in ((LEFT, "left"), (RIGHT, "right"), (JUMP, "jump")):
+        for bit, action in ((KEY_LEFT, "left"), (KEY_RIGHT, "right"), (JUMP_HELD, "jump")):
             if any(keys[key] for key in DEFAULT_KEYS[action]):
                 bits |= bit
         return bits

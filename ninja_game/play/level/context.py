@@ -16,10 +16,10 @@ from ninja_game.simulation import Body, Simulation
 
 @dataclass(frozen=True)
 class GhostRun:
-    """A recording that runs along: ``frames``, a byte a tick as in demos; ``colour`` "#rrggbb" or the palette's."""
+    """A recording that runs along: ``inputs``, a byte a tick as in demos; ``colour`` "#rrggbb" or the palette's."""
 
     label: str
-    frames: bytes
+    inputs: bytes
     colour: str = ""
 
 
@@ -72,7 +72,7 @@ class SingleLevel:
         if attempt.assisted or (self.best and self.best[0] >= attempt.score):
             return []
         first = self.best is None
-        self.best = attempt.score, bytes(attempt.frames)
+        self.best = attempt.score, bytes(attempt.inputs)
         return [] if first else ["Best run so far"]
 
     def died(self, attempt: Attempt) -> None:

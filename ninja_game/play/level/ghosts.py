@@ -20,7 +20,7 @@ class Ghost:
 
     def __init__(self, run: GhostRun, level: Level, body: Body) -> None:
         self.label = run.label
-        self.frames = run.frames
+        self.inputs = run.inputs
         self._colour = run.colour
         self.simulation = Simulation(level, body=body)
         self._start: SaveState = self.simulation.save()
@@ -38,7 +38,7 @@ class Ghost:
 
     def _step(self) -> None:
         tick = self.simulation.tick
-        self.simulation.step_frame(self.frames[tick] if tick < len(self.frames) else 0)
+        self.simulation.step_keys(self.inputs[tick] if tick < len(self.inputs) else 0)
 
     def on_tick(self) -> None:
         """One more tick."""

@@ -9,6 +9,7 @@ import pygame
 from ninja_game.play.ui.palette import mixed
 from ninja_game.play.ui.theme import Theme
 from ninja_game.player.scoring import seconds_text
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.rules import LIFETIME
 
 _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0
@@ -28,9 +29,9 @@ def followed(shown: float, true: float, *, filling: bool) -> float:
 
 
 _KEYS = (
-    (0, 1, ((-3, 0), (2, -4), (2, 4))),
-    (20, 4, ((0, -4), (4, 2), (-4, 2))),
-    (40, 2, ((3, 0), (-2, -4), (-2, 4))),
+    (0, KEY_LEFT, ((-3, 0), (2, -4), (2, 4))),
+    (20, JUMP_HELD, ((0, -4), (4, 2), (-4, 2))),
+    (40, KEY_RIGHT, ((3, 0), (-2, -4), (-2, 4))),
 )
 """Where the keys of left, jump and right are drawn, their bits and their arrows."""
 
@@ -107,12 +108,12 @@ class Hud:
             rect = box if not rect.width else rect.union(box)
         return rect
 
-    def keys(self, surface: pygame.Surface, frame: int, x: float = 366) -> pygame.Rect:
+    def keys(self, surface: pygame.Surface, held: int, x: float = 366) -> pygame.Rect:
         """The three keys of the present input below the level, from ``x`` on: left, jump, right."""
         palette, canvas = self.theme.palette, self.theme.canvas
         rect = pygame.Rect(0, 0, 0, 0)
         for dx, bit, arrow in _KEYS:
-            down = bool(frame & bit)
+            down = bool(held & bit)
             box = canvas.fill_rect(surface, palette.accent if down else palette.panel, x + dx, 580, 18, 16, 3)
             canvas.frame_rect(surface, palette.panel_edge, x + dx, 580, 18, 16, 1, 3)
             ink = palette.panel if down else palette.faint

@@ -21,7 +21,7 @@ def write_over(screen: LevelPlay, surface: pygame.Surface) -> list[pygame.Rect]:
     if screen.app.options.show_frame_time:
         written.append(hud.frame_time(surface, screen.app.frame_ms))
     if screen.app.options.show_keys:
-        written.append(hud.keys(surface, screen.last_frame))
+        written.append(hud.keys(surface, screen.last_keys))
     if screen.notices:
         written.append(hud.notices(surface, screen.notices))
     message = _message(screen)

@@ -54,7 +54,7 @@ class LevelPlay(Screen):
         self.notices: list[str] = []
         self._notice_ms = 0
         self._held_before = self.app.controls.held()
-        self.last_frame = 0
+        self.last_keys = 0
         self.after_end = 0
         self.killer = ""
         self._ghosts()
@@ -63,7 +63,7 @@ class LevelPlay(Screen):
 
     def _ghosts(self) -> None:
         runs = self.course.ghosts()
-        if [run.frames for run in runs] != [ghost.frames for ghost in self.view.ghosts]:
+        if [run.inputs for run in runs] != [ghost.inputs for ghost in self.view.ghosts]:
             self.view.ghosts = [Ghost(run, self.course.level, self.course.body) for run in runs]
 
     # --- what menus and keys do ---
@@ -139,7 +139,7 @@ class LevelPlay(Screen):
         from ninja_game.play.replay.playback import Take
         from ninja_game.play.replay.screen import ReplayScreen
 
-        take = Take(self.course.title, self.course.level, bytes(self.attempt.frames), self.course.body)
+        take = Take(self.course.title, self.course.level, bytes(self.attempt.inputs), self.course.body)
         self.app.push(ReplayScreen(self.app, [take]))
 
     def keep_replay(self) -> None:
@@ -211,8 +211,8 @@ class LevelPlay(Screen):
         """So many ticks, each with the input of its moment."""
         for _ in range(due):
             # Sampled right before the tick: as late as can be.
-            self.last_frame = self.app.controls.held() if self.phase is Phase.PLAY else 0
-            self.attempt.tick(self.last_frame)
+            self.last_keys = self.app.controls.held() if self.phase is Phase.PLAY else 0
+            self.attempt.tick(self.last_keys)
             self.view.on_tick()
             self.practice.on_tick()
             self._note_end()

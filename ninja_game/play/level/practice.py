@@ -49,6 +49,6 @@ class Practice:
         """Go back in time."""
         attempt = self.attempt
         target = max(0, attempt.simulation.tick - ticks)
-        self.timeline.seek(target, attempt.frames)
+        self.timeline.seek(target, attempt.inputs)
         self.timeline.forget_after(target)
         attempt.rewound()

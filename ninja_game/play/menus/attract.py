@@ -55,7 +55,7 @@ class Attract:
                 simulation = Simulation(recording.level)
             except (NinjaGameError, OSError):
                 continue
-            self._inputs = recording.inputs(recording.ticks)
+            self._inputs = recording.playback(recording.ticks)
             self._until = len(self._inputs) + REST_TICKS
             self.view = LevelView(self.app, simulation, chance=self.shown, audible=False)
             self.name = recording.name
@@ -76,7 +76,7 @@ class Attract:
                 self._begin_next()
                 return
             if tick < len(self._inputs) or simulation.outcome != "running":
-                simulation.step_frame(self._inputs[tick] if tick < len(self._inputs) else 0)
+                simulation.step_keys(self._inputs[tick] if tick < len(self._inputs) else 0)
                 self.view.on_tick()
             else:
                 self._until = 0

@@ -11,12 +11,12 @@ from pathlib import Path
 from ninja_game.errors import LevelError
 from ninja_game.files.resources import data_folder
 from ninja_game.formats.ascii.reader import parse_ascii_level
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, press_jumps
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 
 PAGES_FILE = "help/pages.toml"
 
-KEY_BITS = {"l": 1, "r": 2, "j": 4}
-HELD, TRIGGERED = 4, 8
+KEY_BITS = {"l": KEY_LEFT, "r": KEY_RIGHT, "j": JUMP_HELD}
 
 _STROKE = re.compile(r"([lrj]*)([0-9]+)")
 
@@ -68,14 +68,10 @@ def strokes(text: str) -> bytes:
     >>> strokes("r2 rj2 1")
     b'\x02\x02\x0e\x06\x00'
     """
-    frames = bytearray()
-    held = 0
+    inputs = bytearray()
     for stroke in text.split():
         match = _STROKE.fullmatch(stroke)
         if match is None:
             raise LevelError("not a key stroke", found=repr(stroke), expected="letters of lrj and a number of ticks")
-        bits = sum(KEY_BITS[letter] for letter in match[1])
-        for _ in range(int(match[2])):
-            frames.append(bits | (TRIGGERED if bits & HELD and not held else 0))
-            held = bits & HELD
-    return bytes(frames)
+        inputs += bytes([sum(KEY_BITS[letter] for letter in match[1])]) * int(match[2])
+    return press_jumps(inputs)

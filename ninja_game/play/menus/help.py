@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.input.bindings import Bindings
+from ninja_game.play.input.bindings import MOVES, Bindings
 from ninja_game.play.input.default_bindings import ACTIONS
 from ninja_game.play.level.run_clock import RunClock
 from ninja_game.play.menus.demonstrations import Page, read_pages
@@ -79,7 +79,7 @@ class HelpScreen(MenuScreen):
         super().draw(surface)
         if self.demonstration is None:
             return None if whole else []
-        rects = [self.demonstration.draw(surface), self._draw_keys_pressed(surface, self.demonstration.frame)]
+        rects = [self.demonstration.draw(surface), self._draw_keys_pressed(surface, self.demonstration.keys)]
         return None if whole else rects
 
     def draw_frame(self, surface: pygame.Surface) -> None:
@@ -104,15 +104,15 @@ class HelpScreen(MenuScreen):
             theme.canvas.frame_rect(surface, edge, x, y + 1, w, h - 2, 2.5 if focused else 1, 3)
         theme.text(surface, self.topics[index], x + 10, y + 7, size=11.5, bold=chosen)
 
-    def _draw_keys_pressed(self, surface: pygame.Surface, frame: int) -> pygame.Rect:
+    def _draw_keys_pressed(self, surface: pygame.Surface, keys: int) -> pygame.Rect:
         """The three keys of a demonstration, lit while they are down."""
         canvas, theme, palette = self.app.canvas, self.app.theme, self.app.theme.palette
         x, y, w, h = WINDOW
         row = canvas.rect(x, y + h + 10, w, 32)
         pygame.draw.rect(surface, palette.background, row)
-        for place, (action, bit) in enumerate((("left", 1), ("right", 2), ("jump", 4))):
+        for place, (action, bit) in enumerate(MOVES):
             left = x + place * 92
-            lit = bool(frame & bit)
+            lit = bool(keys & bit)
             canvas.fill_rect(surface, palette.accent if lit else palette.panel, left, y + h + 12, 84, 26, 4)
             canvas.frame_rect(surface, palette.panel_edge, left, y + h + 12, 84, 26, 1, 4)
             colour = palette.background if lit else palette.text
@@ -142,7 +142,7 @@ class Demonstration:
         self.app = app
         self.page = page
         self.clock = RunClock()
-        self.frame = 0
+        self.keys = 0
         self._sheet: pygame.Surface | None = None
         self._canvas: Canvas | None = None
         self._begin()
@@ -159,8 +159,8 @@ class Demonstration:
             if tick >= len(self.page.inputs) + REST_TICKS:
                 self._begin()
                 return
-            self.frame = self.page.inputs[tick] if tick < len(self.page.inputs) else 0
-            self.simulation.step_frame(self.frame)
+            self.keys = self.page.inputs[tick] if tick < len(self.page.inputs) else 0
+            self.simulation.step_keys(self.keys)
             self.view.on_tick()
 
     def draw(self, surface: pygame.Surface) -> pygame.Rect:

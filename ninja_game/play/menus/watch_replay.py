@@ -19,7 +19,7 @@ def watch(app: Host, replays: Iterable[Replay | None], title: str = "") -> bool:
     from ninja_game.play.replay.screen import ReplayScreen
 
     takes = [
-        Take(title or replay.name or "Replay", replay.level, replay.inputs_of(replay.ticks), _body(replay))
+        Take(title or replay.name or "Replay", replay.level, replay.playback(replay.ticks), _body(replay))
         for replay in replays
         if replay is not None and replay.level is not None
     ]

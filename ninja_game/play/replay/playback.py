@@ -22,7 +22,7 @@ class Take:
 
     title: str
     level: Level
-    frames: bytes
+    inputs: bytes
     body: Body = "circle"
     lifetime: int = LIFETIME
 
@@ -33,7 +33,7 @@ def take_of(recording: Recording) -> Take:
     title = recording.name or "replay"
     if recording.author:
         title += f" - {recording.author}"
-    return Take(title, recording.level, recording.inputs(recording.ticks), body)
+    return Take(title, recording.level, recording.playback(recording.ticks), body)
 
 
 class Playback:
@@ -47,24 +47,24 @@ class Playback:
         self.simulation = Simulation(take.level, body=take.body)
         self.timeline = Timeline(self.simulation, spacing=_SPACING)
         run = self.simulation
-        while run.outcome == "running" and run.tick <= len(take.frames):
+        while run.outcome == "running" and run.tick <= len(take.inputs):
             self.step()
         self.outcome = run.outcome
-        self.end = max(0, run.tick - 1) if run.outcome != "running" else len(take.frames)
+        self.end = max(0, run.tick - 1) if run.outcome != "running" else len(take.inputs)
         self.length = self.end + AFTERMATH
-        self.timeline.seek(0, take.frames)
+        self.timeline.seek(0, take.inputs)
 
     def step(self) -> None:
         """One tick."""
         tick = self.simulation.tick
-        self.simulation.step_frame(self.input_at(tick))
+        self.simulation.step_keys(self.input_at(tick))
         self.timeline.note()
 
     def input_at(self, tick: int) -> int:
         """The input of a tick."""
-        frames = self.take.frames
-        return frames[tick] if 0 <= tick < len(frames) else 0
+        inputs = self.take.inputs
+        return inputs[tick] if 0 <= tick < len(inputs) else 0
 
     def seek(self, tick: int) -> None:
         """Go to the moment after so many ticks."""
-        self.timeline.seek(min(max(0, tick), self.length), self.take.frames)
+        self.timeline.seek(min(max(0, tick), self.length), self.take.inputs)

@@ -53,7 +53,7 @@ class ReplayScreen(Screen):
         self.view.overlays = self.overlays
         others = [other for other in self.takes if other is not take and other.level == take.level]
         self.view.ghosts = [
-            Ghost(GhostRun(other.title, other.frames), other.level, other.body) for other in others[:8]
+            Ghost(GhostRun(other.title, other.inputs), other.level, other.body) for other in others[:8]
         ]  # fmt: skip
         self.paused = False
         self.still_ms = _STILL_MS

@@ -39,12 +39,12 @@ class Timeline:
         keep = max(1, bisect_right(self._ticks, tick))
         del self._ticks[keep:], self._states[keep:]
 
-    def seek(self, tick: int, frames: bytes | bytearray) -> None:
+    def seek(self, tick: int, inputs: bytes | bytearray) -> None:
         """Bring the simulation to the moment after ``tick`` ticks of these inputs."""
         run = self.simulation
         at = max(0, bisect_right(self._ticks, tick) - 1)
         if not self._ticks[at] <= run.tick <= tick:
             run.restore(self._states[at])
         while run.tick < tick:
-            run.step_frame(frames[run.tick] if run.tick < len(frames) else 0)
+            run.step_keys(inputs[run.tick] if run.tick < len(inputs) else 0)
             self.note()

@@ -34,42 +34,42 @@ def load_world(
 
 
 @entry_point
-def step_world(levels: Sequence[TileMap], worlds: Sequence[World], index: int, frame: int) -> None:
+def step_world(levels: Sequence[TileMap], worlds: Sequence[World], index: int, keys: int) -> None:
     """One tick of one world."""
-    step(levels[index], worlds[index], frame)
+    step(levels[index], worlds[index], keys)
 
 
 @entry_point
 def run_world(
-    levels: Sequence[TileMap], worlds: Sequence[World], index: int, frames: Sequence[int], positions: Any, states: Any
+    levels: Sequence[TileMap], worlds: Sequence[World], index: int, inputs: Sequence[int], positions: Any, states: Any
 ) -> int:
-    """Run until the tick of the first exit contact or death, or to the end of ``frames``; the number of ticks run.
+    """Run until the tick of the first exit contact or death, or to the end of ``inputs``; the number of ticks run.
 
     ``positions`` (ticks x 2, px) and ``states`` (ticks) receive the ninja's place and state after each tick.
     """
     level = levels[index]
     w = worlds[index]
     n = w.ninja
-    for tick in range(len(frames)):
-        step(level, w, int(frames[tick]))
+    for tick in range(len(inputs)):
+        step(level, w, int(inputs[tick]))
         positions[tick, 0] = clean(n.x)
         positions[tick, 1] = clean(n.y)
         states[tick] = n.state
         if w.outcome:
             return tick + 1
-    return len(frames)
+    return len(inputs)
 
 
 @entry_point
-def race_world(levels: Sequence[TileMap], worlds: Sequence[World], index: int, frames: Sequence[int]) -> int:
+def race_world(levels: Sequence[TileMap], worlds: Sequence[World], index: int, inputs: Sequence[int]) -> int:
     """Run like ``run_world``, without a record: only the number of ticks run."""
     level = levels[index]
     w = worlds[index]
-    for tick in range(len(frames)):
-        step(level, w, int(frames[tick]))
+    for tick in range(len(inputs)):
+        step(level, w, int(inputs[tick]))
         if w.outcome:
             return tick + 1
-    return len(frames)
+    return len(inputs)
 
 
 @entry_point
@@ -77,20 +77,20 @@ def trace_world(
     levels: Sequence[TileMap],
     worlds: Sequence[World],
     index: int,
-    frames: Sequence[int],
+    inputs: Sequence[int],
     slots: Sequence[int],
     ninja: Any,
     objects: Any,
 ) -> None:
-    """Run all of ``frames``, whatever happens, and record everything after each tick.
+    """Run all of ``inputs``, whatever happens, and record everything after each tick.
 
     ``ninja``: NINJA_RECORD (ticks); ``objects``: OBJECT_RECORD (ticks x slots) for the objects in ``slots``.
     """
     level = levels[index]
     w = worlds[index]
     n = w.ninja
-    for tick in range(len(frames)):
-        step(level, w, int(frames[tick]))
+    for tick in range(len(inputs)):
+        step(level, w, int(inputs[tick]))
         row = ninja[tick]
         row.x = clean(n.x)
         row.y = clean(n.y)

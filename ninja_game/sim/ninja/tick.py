@@ -9,6 +9,7 @@ from ninja_game.sim.collision.circle import collide_circle
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.death import kill
 from ninja_game.sim.grid import cell_at
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import Ninja, TileMap, World
 from ninja_game.sim.ninja.control import celebrate, think_in_air, think_on_ground
@@ -18,8 +19,8 @@ from ninja_game.sim.states import CELEBRATING, DEAD, FALL
 
 
 @fast
-def tick_ninja(level: TileMap, w: World, frame: int) -> None:
-    """One tick of the living or celebrating ninja. ``frame``: 1 left + 2 right + 4 jump held + 8 jump triggered."""
+def tick_ninja(level: TileMap, w: World, keys: int) -> None:
+    """One tick of the living or celebrating ninja. ``keys``: a sum of ``Input`` flags."""
     n = w.ninja
     x = n.x
     y = n.y
@@ -54,9 +55,9 @@ def tick_ninja(level: TileMap, w: World, frame: int) -> None:
         celebrate(n)
     elif n.state != DEAD:
         # The input is sampled here and only here: after all physics, by a ninja that lives and does not celebrate.
-        n.direction = (frame >> 1 & 1) - (frame & 1)
-        n.jump_held = frame >> 2 & 1
-        n.jump_pressed = frame >> 3 & 1
+        n.direction = (1 if keys & KEY_RIGHT else 0) - (1 if keys & KEY_LEFT else 0)
+        n.jump_held = 1 if keys & JUMP_HELD else 0
+        n.jump_pressed = 1 if keys & JUMP_PRESSED else 0
         if n.in_air:
             think_in_air(w, n)
         else:

@@ -18,8 +18,8 @@ PAGES = read_pages()
 def test_demonstration_contains_what_it_should_show(page: Page) -> None:
     run = Simulation(page.level)
     happened = set()
-    for frame in page.inputs:
-        run.step_frame(frame)
+    for keys in page.inputs:
+        run.step_keys(keys)
         happened |= {event.name for event in run.events}
     assert set(page.shows) <= happened
     assert ("died" in page.shows) == (run.outcome == "dead")
