@@ -37,8 +37,8 @@ def test_mended_backdrop_is_the_backdrop_painted_anew(path: Path) -> None:
     run, book = Simulation(recording.level), SpriteBook(CANVAS.scale, CLASSIC)
     animation = ObjectAnimation(run.world)
     backdrop = painted(run, animation, book)
-    for tick, frame in enumerate(recording.inputs(recording.ticks)):
-        run.step_frame(frame)
+    for tick, frame in enumerate(recording.playback(recording.ticks)):
+        run.step_keys(keys)
         animation.on_tick(run.world)
         backdrop.update(run.world, animation, 1.0)
         if tick % 15 == 0:
@@ -53,8 +53,8 @@ def test_exit_switch_looks_pressed_from_its_tick_on() -> None:
     switch = next(o for o in run.world.objects[: run.world.slots_used] if o.kind == SWITCH)
     place = pygame.Rect(CANVAS.point(switch.x - 4, switch.y - 2), (4, 2))
     lit = pygame.transform.average_color(backdrop.picture, place)
-    for frame in recording.inputs(recording.ticks):
-        run.step_frame(frame)
+    for keys in recording.playback(recording.ticks):
+        run.step_keys(keys)
         animation.on_tick(run.world)
         backdrop.update(run.world, animation, 1.0)
         if any(event.kind == EXIT_OPENED for event in run.world.events[: run.world.event_count]):
