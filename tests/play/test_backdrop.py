@@ -37,7 +37,7 @@ def test_mended_backdrop_is_the_backdrop_painted_anew(path: Path) -> None:
     run, book = Simulation(recording.level), SpriteBook(CANVAS.scale, CLASSIC)
     animation = ObjectAnimation(run.world)
     backdrop = painted(run, animation, book)
-    for tick, frame in enumerate(recording.playback(recording.ticks)):
+    for tick, keys in enumerate(recording.playback(recording.ticks)):
         run.step_keys(keys)
         animation.on_tick(run.world)
         backdrop.update(run.world, animation, 1.0)
