@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 from ninja_game.errors import FileError
@@ -12,6 +13,9 @@ HOME_VARIABLE = "NINJA_GAME_HOME"
 
 LEVELS, REPLAYS, EXPORTS = "levels", "replays", "exports"
 """Folders in it: level files that the game offers, replays that it offers, what it writes on request."""
+
+STEM_BYTES = 120
+"""Longest name of an exported file without its number and suffix."""
 
 SETTINGS, RECORDS = "settings.toml", "records.sqlite"
 """Files in it."""
@@ -55,3 +59,19 @@ def quarantine(path: Path, why: str) -> Path:
         if beside.exists():
             beside.replace(target.with_name(target.name + tail))
     return target
+
+
+def export_path(folder: Path, title: str, suffix: str) -> Path:
+    """A free path for a picture, a film or a replay that the game writes: ``exports/title-1.gif`` and so on.
+
+    What a file name cannot hold becomes "-". Raises OSError where the folder cannot be made.
+    """
+    exports = folder / EXPORTS
+    exports.mkdir(parents=True, exist_ok=True)
+    stem = re.sub(r"[^\w-]+", "-", title).strip("-").lower()
+    # Names of files end at 255 bytes; a letter has up to four of them.
+    stem = stem.encode()[:STEM_BYTES].decode(errors="ignore") or "replay"
+    number = 1
+    while (exports / f"{stem}-{number}{suffix}").exists():
+        number += 1
+    return exports / f"{stem}-{number}{suffix}"

@@ -1,88 +1,102 @@
-"""The program with a window: its loop, its screens, its look."""
+"""The program with a window: its loop, its screens, its look, and what all screens share."""
 
 from __future__ import annotations
 
 import io
-import os
 import time
-import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pygame
 
+from ninja_game.errors import NinjaGameError
+from ninja_game.files.resources import data_folder
+from ninja_game.files.user_folder import export_path
 from ninja_game.files.writing import write_atomically
-from ninja_game.play.audio.output import AudioOutput, NullAudio
-from ninja_game.play.input.controls import Controls, Keyboard
-from ninja_game.play.options import Options
-from ninja_game.play.screen import TITLE, Panels, Screen, ScreenStack
+from ninja_game.play.audio.output import AudioOutput
+from ninja_game.play.audio.player import AudioPlayer
+from ninja_game.play.input.bindings import Bindings
+from ninja_game.play.input.events import InputEvent
+from ninja_game.play.menus.boss import BossScreen
+from ninja_game.play.screen import Screen, ScreenStack
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.play.ui.palette import PALETTES
 from ninja_game.play.ui.theme import Theme
-
-if TYPE_CHECKING:
-    from ninja_game.player.player_data import PlayerData
+from ninja_game.play.ui.wording import fit
+from ninja_game.play.window import Window
+from ninja_game.player.player_data import PlayerData
+from ninja_game.player.settings import Settings
+from ninja_game.sim.rules import TICK_MS
 
 FALLBACK_RATE = 60
 """Pictures per second where the display does not say its rate."""
 
+NOTICE_MS, WARNING_MS = 4000, 12_000
+"""How long a notice is shown, and what went wrong when the game started."""
+
 
 class App:
-    """The window with its stack of screens, and what all screens share.
+    """The window with its stack of screens.
 
-    ``controls``: keys to actions. ``audio_output``: sound. ``options``: what the player chose; after a change call
-    ``apply_options``. ``size``: px of the window; by default the stage times the largest whole number that fits.
+    ``controls``: keys to actions. ``player``: the player's data with the settings, which ``change_settings`` changes.
+    ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``size``: px of the
+    window. Raises NinjaGameError where there is no display.
     """
 
     def __init__(
-        self,
-        options: Options | None = None,
-        controls: Controls | None = None,
-        audio_output: AudioOutput | None = None,
-        *,
-        size: tuple[int, int] | None = None,
+        self, player: PlayerData, controls: Bindings, audio_output: AudioOutput, *, size: tuple[int, int] | None = None
     ) -> None:
-        pygame.display.init()
-        pygame.font.init()
-        prefer_shared_memory()
-        self.options = options or Options()
-        self.controls: Controls = controls or Keyboard()
-        self.audio_output: AudioOutput = audio_output or NullAudio()
+        self.player = player
+        self.controls = controls
+        self.audio_output = audio_output
+        self.overclock = 0
         self.stack = ScreenStack()
-        self.player: PlayerData | None = None
-        self.panels: Panels | None = None
-        self.hiding: type[Screen] | None = None
         self.running = True
         self.frame_ms = 0.0
-        self._size = size or fitting_size()
-        self._fullscreen = self.options.fullscreen
-        self.surface = self._open_window()
-        self.canvas = Canvas(self.surface.get_size())
-        self.theme = Theme(PALETTES[self.options.palette], self.canvas)
+        self.notice = ""
+        self._notice_ms = 0
+        self.window = Window(size, fullscreen=self.settings.fullscreen)
+        pygame.font.init()
+        self._lay_out()
 
-    # --- the window ---
+    @property
+    def settings(self) -> Settings:
+        """What the player has chosen."""
+        return self.player.settings
 
-    def _open_window(self) -> pygame.Surface:
-        flags = pygame.FULLSCREEN if self._fullscreen else pygame.RESIZABLE
-        with warnings.catch_warnings():
-            # Where no window manager runs, leaving full screen keeps the size: any size will do.
-            warnings.simplefilter("ignore", RuntimeWarning)
-            surface = pygame.display.set_mode((0, 0) if self._fullscreen else self._size, flags)
-        pygame.display.set_caption(TITLE)
-        return surface
+    @property
+    def surface(self) -> pygame.Surface:
+        """The window's picture."""
+        return self.window.surface
 
-    def apply_options(self) -> None:
-        """Show what changed in the options: palette, full screen."""
-        if self.options.fullscreen != self._fullscreen:
-            self._fullscreen = self.options.fullscreen
-            self.surface = self._open_window()
-        self._relayout()
+    @property
+    def tick_ms(self) -> int:
+        """Length of a tick in real ms."""
+        return TICK_MS - min(10, max(0, self.overclock))
 
-    def _relayout(self) -> None:
+    def change_settings(self, **values: object) -> None:
+        """Take, save and show other settings; a notice says where they could not be saved."""
+        before = self.settings
+        message = self.player.change_settings(before.changed(**values))
+        after = self.settings
+        self.controls.bind(after.keys, after.pad)
+        self.controls.pads.dead_zone = after.dead_zone
+        self.audio_output.set_volumes(after.volume, after.loop_volume)
+        self.window.set_fullscreen(wanted=after.fullscreen)
+        if (after.palette, after.fullscreen) != (before.palette, before.fullscreen):
+            self._lay_out()
+        self.stack.redraw_all()
+        if message:
+            self.notify(message)
+
+    def notify(self, text: str, *, ms: int = NOTICE_MS) -> None:
+        """Show a line below the stage for a while, whatever screen is on top."""
+        self.notice, self._notice_ms = text, ms
+        self.stack.redraw_all()
+
+    def _lay_out(self) -> None:
         """Draw everything again, at the window's present size and in the present palette."""
-        self.surface = pygame.display.get_surface() or self.surface
         self.canvas = Canvas(self.surface.get_size())
-        self.theme = Theme(PALETTES[self.options.palette], self.canvas)
+        self.theme = Theme(PALETTES[self.settings.palette], self.canvas)
         self.stack.redraw_all()
 
     # --- the screens ---
@@ -132,11 +146,8 @@ class App:
             self.frame(now - last)
             last = now
             if not simulated:
-                clock.tick(self._rate())
+                clock.tick(self.settings.frame_limit or pygame.display.get_current_refresh_rate() or FALLBACK_RATE)
         self.stack.clear()
-
-    def _rate(self) -> int:
-        return self.options.frame_limit or pygame.display.get_current_refresh_rate() or FALLBACK_RATE
 
     def frame(self, real_ms: int) -> None:
         """One turn of the loop: events, time, picture."""
@@ -147,34 +158,41 @@ class App:
                 return
         for screen in self.stack.running():
             screen.update(real_ms)
+        if self.notice:
+            self._notice_ms -= real_ms
+            if self._notice_ms <= 0:
+                self.notify("")
         if self.stack:
             self.draw()
         self.frame_ms = 1000 * (time.perf_counter() - started)
 
-    def _handle(self, event: pygame.Event) -> None:
-        """Deal with what concerns the window; everything goes to the top screen."""
-        if event.type == pygame.QUIT:
+    def _handle(self, raw: pygame.Event) -> None:
+        """Deal with what concerns the window; a screen that waits for a press takes it before the keys of the app."""
+        if raw.type == pygame.QUIT:
             self.quit()
-        elif event.type in {pygame.VIDEORESIZE, pygame.WINDOWSIZECHANGED}:
-            if not self._fullscreen:
-                self._size = pygame.display.get_window_size()
-            self._relayout()
-        elif event.type in {pygame.WINDOWEXPOSED, pygame.WINDOWRESTORED}:
+        elif raw.type in {pygame.VIDEORESIZE, pygame.WINDOWSIZECHANGED}:
+            self._lay_out()
+        elif raw.type in {pygame.WINDOWEXPOSED, pygame.WINDOWRESTORED}:
             self.stack.redraw_all()
-        actions = self.controls.actions(event)
-        if "fullscreen" in actions:
-            self.options.fullscreen = not self.options.fullscreen
-            self.apply_options()
-        elif "boss" in actions:
-            self._hide_the_game()
-        elif "screenshot" in actions:
-            self.save_screenshot(free_name(Path.cwd(), "ninja-game", ".png"))
-        self.top.handle(event)
+        event = self.controls.decode(raw)
+        if not self.top.capture(event) and not self._dispatch(event):
+            self.top.handle(event)
 
-    def _hide_the_game(self) -> None:
-        """Show something dull; the same key comes back."""
-        if self.hiding and not isinstance(self.top, self.hiding):
-            self.push(self.hiding(self))
+    def _dispatch(self, event: InputEvent) -> bool:
+        """Do what a key means on every screen; whether it means anything."""
+        if "fullscreen" in event.pressed:
+            self.change_settings(fullscreen=not self.settings.fullscreen)
+        elif "screenshot" in event.pressed:
+            self.keep_screenshot()
+        elif "boss" in event.pressed and isinstance(self.top, BossScreen):
+            self.pop()
+        elif "boss" in event.pressed:
+            self.push(BossScreen(self))
+        else:
+            return False
+        return True
+
+    # --- the picture ---
 
     def draw(self) -> None:
         """Draw the screens that are seen and show what changed."""
@@ -190,10 +208,34 @@ class App:
             rects = screen.draw(self.surface)
             screen.redraw = False
             changed = None if whole or rects is None or changed is None else changed + rects
+        if self.notice and not isinstance(self.top, BossScreen):
+            rect = self._draw_notice()
+            changed = None if changed is None else [*changed, rect]
         if changed is None:
             pygame.display.flip()
         elif changed:
             pygame.display.update(changed)
+
+    def _draw_notice(self) -> pygame.Rect:
+        """The notice, in the border below the stage."""
+        theme = self.theme
+        rect = self.canvas.fill_rect(self.surface, theme.palette.panel, 0, HEIGHT - 24, WIDTH, 24)
+        text = fit(theme, self.notice, WIDTH - 40, 9.5)
+        theme.text(self.surface, text, WIDTH / 2, HEIGHT - 17, size=9.5, align="centre")
+        return rect
+
+    def keep_screenshot(self) -> None:
+        """Put the picture, without a notice in it, among the player's exports, and say where."""
+        if self.notice:
+            self.notify("")
+            self.draw()
+        try:
+            path = export_path(self.player.folder, "screenshot", ".png")
+            self.save_screenshot(path)
+        except (OSError, NinjaGameError) as error:
+            self.notify(f"The picture could not be saved: {error}")
+        else:
+            self.notify(f"Saved: {path}")
 
     def save_screenshot(self, path: Path) -> None:
         """Write the picture as it is to a PNG file. Raises OSError, NinjaGameError."""
@@ -202,27 +244,26 @@ class App:
         write_atomically(path, picture.getvalue())
 
 
-def prefer_shared_memory() -> None:
-    """Under X11 show pictures through shared memory instead of OpenGL, unless the environment says otherwise.
+def build_app(
+    folder: Path | None = None,
+    *,
+    size: tuple[int, int] | None = None,
+    controls: Bindings | None = None,
+    audio_output: AudioOutput | None = None,
+) -> App:
+    """The app as the player's settings have it; a notice tells what is wrong with the player's files.
 
-    Only the px that changed are sent then; through OpenGL the whole window goes to the card in every picture, and
-    without a card that costs 20 ms (measured with tools/measure/frame_cost.py --display).
+    ``folder``: the player's, instead of the usual one. ``controls``: instead of the player's bindings.
+    ``audio_output``: instead of the sound device. Raises NinjaGameError where there is no display.
     """
-    if pygame.display.get_driver() == "x11":
-        os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
-
-
-def fitting_size() -> tuple[int, int]:
-    """The stage times the largest whole number that leaves the desktop some room."""
-    sizes = pygame.display.get_desktop_sizes() or [(WIDTH, HEIGHT)]
-    width, height = sizes[0]
-    factor = max(1, min((width - 20) // WIDTH, (height - 80) // HEIGHT))
-    return WIDTH * factor, HEIGHT * factor
-
-
-def free_name(folder: Path, stem: str, suffix: str) -> Path:
-    """A file name in a folder that is not taken: the stem with the next number."""
-    number = 1
-    while (folder / f"{stem}-{number}{suffix}").exists():
-        number += 1
-    return folder / f"{stem}-{number}{suffix}"
+    player = PlayerData(folder)
+    settings = player.settings
+    bindings = controls or Bindings(settings.keys, settings.pad, dead_zone=settings.dead_zone)
+    sound = audio_output or AudioPlayer(
+        data_folder("assets") / "sounds", volume=settings.volume, loop_volume=settings.loop_volume
+    )
+    app = App(player, bindings, sound, size=size)
+    player.open_records()
+    if player.messages:
+        app.notify(" ".join(player.messages), ms=WARNING_MS)
+    return app

@@ -1,21 +1,19 @@
-"""What the program begins with: its first screen, and the app as the player's settings have it."""
+"""The program `ninja-game play`: its first screen, and the loop until it ends."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
 import pygame
 
-from ninja_game.errors import LevelError
+from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.play.app import App
+from ninja_game.play.app import App, build_app
 from ninja_game.play.level.context import Course, InOrder, SingleLevel
-from ninja_game.play.menus.boss import BossScreen
 from ninja_game.play.screen import Screen
-from ninja_game.play.start import prepare
 from ninja_game.simulation import Body, Simulation
 
 
@@ -34,29 +32,27 @@ def main(
     ``level_path``: a file of levels; without one the main menu. ``replay_path``: watch the recordings of a file.
     ``frames``: end after so many pictures. ``screenshot``: write the last picture to this PNG file.
 
-    Raises NinjaGameError for a file that cannot be read.
+    Raises NinjaGameError for a file that cannot be read or written, and where there is no display.
     """
-    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     # Read before a window opens: what is wrong with a file is said in the terminal.
     first = first_screen(level_path, replay_path, body=body, practice=practice)
-    app = prepared_app(size)
+    app = build_app(size=size)
     try:
         app.push(first(app))
         app.run(frames)
         if screenshot:
-            app.save_screenshot(Path(screenshot))
+            _save(app, Path(screenshot))
     finally:
+        app.player.close()
         pygame.quit()
     return 0
 
 
-def prepared_app(size: tuple[int, int] | None = None) -> App:
-    """The app with options, controls, sound and records as the player's settings have them."""
-    ready = prepare()
-    app = App(ready.options, ready.controls, ready.audio_output, size=size)
-    app.player = ready.player
-    app.hiding = BossScreen
-    return app
+def _save(app: App, path: Path) -> None:
+    try:
+        app.save_screenshot(path)
+    except OSError as error:
+        raise NinjaGameError(f"{path}: the picture cannot be written: {error.strerror}") from None
 
 
 def first_screen(
@@ -70,8 +66,6 @@ def first_screen(
         return _replays(replay_path)
     if level_path is None:
         return _main_menu
-    from ninja_game.formats.load import load_levels
-
     levels = load_levels(level_path)
     _check(levels[0], body)
 
@@ -94,8 +88,6 @@ def _check(named: NamedLevel, body: Body) -> None:
 
 
 def _replays(path: str) -> Callable[[App], Screen]:
-    from ninja_game.formats.load import load_replays
-
     recordings = load_replays(Path(path))
 
     def watch(app: App) -> Screen:
@@ -114,7 +106,7 @@ def _main_menu(app: App) -> Screen:
 
 def _course(app: App, named: NamedLevel, body: Body, *, practice: bool) -> Course:
     """A level with the player's records; with another body, or in practice, by itself."""
-    if app.player is None or body != "circle" or practice:
+    if body != "circle" or practice:
         return SingleLevel(named.name, named.level, body=body, practice=practice)
     from ninja_game.play.menus.level_contexts import course_for
 

@@ -2,64 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.audio.output import AudioOutput
-from ninja_game.play.input.controls import Controls
-from ninja_game.play.options import Options
-from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.theme import Theme
+from ninja_game.play.input.events import InputEvent
 
 if TYPE_CHECKING:
-    from ninja_game.player.player_data import PlayerData
-
-TITLE = "ninja-game"
-"""What the window is called."""
-
-
-class Panels(Protocol):
-    """Screens that menus lay over a level; without them a level shows plain messages."""
-
-    def pause(self, level: Any) -> Screen | None:
-        """A panel to choose from while the level (a LevelScreen) is paused."""
-
-
-class Host(Protocol):
-    """What a screen may ask of the app that shows it; ``App`` is the one there is."""
-
-    options: Options
-    controls: Controls
-    audio_output: AudioOutput
-    canvas: Canvas
-    theme: Theme
-    stack: ScreenStack
-    player: PlayerData | None
-    panels: Panels | None
-    frame_ms: float
-
-    @property
-    def top(self) -> Screen:
-        """The screen that gets the events."""
-
-    def push(self, screen: Screen) -> None:
-        """Cover the top screen by another."""
-
-    def replace(self, screen: Screen) -> None:
-        """Put another screen in the top one's place."""
-
-    def pop(self) -> None:
-        """Go back to the screen below; from the lowest one, end."""
-
-    def pop_to(self, kind: type[Screen]) -> None:
-        """Go back to the topmost screen of a kind, or to the lowest one."""
-
-    def quit(self) -> None:
-        """End the program after this picture."""
-
-    def apply_options(self) -> None:
-        """Show what changed in the options: palette, full screen."""
+    from ninja_game.play.app import App
 
 
 class Screen:
@@ -72,7 +22,7 @@ class Screen:
     see_through = False
     below_runs = False
 
-    def __init__(self, app: Host) -> None:
+    def __init__(self, app: App) -> None:
         self.app = app
         self.redraw = True
 
@@ -82,7 +32,11 @@ class Screen:
     def leave(self) -> None:
         """Called when this is no longer the top screen: covered or popped. Loops of sound end here."""
 
-    def handle(self, event: pygame.Event) -> None:
+    def capture(self, event: InputEvent) -> bool:
+        """Take an event before the keys that the app has on every screen; whether it was taken."""
+        return False
+
+    def handle(self, event: InputEvent) -> None:
         """React to an event of the window."""
 
     def update(self, real_ms: int) -> None:

@@ -86,7 +86,7 @@ class Player:
     def answers(self) -> bool:
         """Whether the game does what a key says: here, save a picture."""
         self.press("F12")
-        return any(self.home.glob("*.png"))
+        return any((self.home / "exports").glob("*.png"))
 
     def count(self, table: str) -> int:
         """Rows of a table of the records, read as another program would."""
@@ -100,11 +100,13 @@ class Player:
 
     def picture(self) -> pygame.Surface:
         """The stage without what is written over it, as the game saves it on request."""
-        before = set(self.home.glob("*.png"))
+        before = set((self.home / "exports").glob("*.png"))
         self.press("F12")
-        self.wait_for(lambda: bool(set(self.home.glob("*.png")) - before), "picture")
+        self.wait_for(lambda: bool(set((self.home / "exports").glob("*.png")) - before), "picture")
         time.sleep(0.3)
-        return pygame.image.load((set(self.home.glob("*.png")) - before).pop()).subsurface(24, 60, 744, 516)
+        return pygame.image.load((set((self.home / "exports").glob("*.png")) - before).pop()).subsurface(
+            24, 60, 744, 516
+        )
 
     def differs_from(self, other: pygame.Surface) -> int:
         """How many px of a picture taken now are not those of another."""

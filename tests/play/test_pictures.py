@@ -13,12 +13,12 @@ import pygame
 import pytest
 
 from ninja_game.formats.load import load_levels, load_replays
-from ninja_game.play.options import Options
 from ninja_game.play.ui.palette import PALETTES
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import OVERLAY_ACTIONS, Overlays
 from ninja_game.play.view.render_context import OffscreenContext
 from ninja_game.play.view.sprites.thumbnail import thumbnail
+from ninja_game.player.settings import Settings
 from ninja_game.sim.death import kill
 from ninja_game.sim.states import ELECTRIC, EXPLOSIVE
 from ninja_game.simulation import Simulation
@@ -34,13 +34,13 @@ BLOCK_TOLERANCE = 30
 
 
 def scene(
-    number: int, ticks: int, options: Options | None = None, *, overlays: bool = False, fatal: int = -1
+    number: int, ticks: int, settings: Settings | None = None, *, overlays: bool = False, fatal: int = -1
 ) -> pygame.Surface:
     """A bundled replay after some ticks; with ``fatal`` the ninja is killed and seen 5 ticks later."""
     path = sorted((ROOT / "tests" / "replays").glob("*.replay.txt"))[number]
     recording = load_replays(path)[0]
     run = Simulation(recording.level)
-    view = LevelView(OffscreenContext(SIZE, options), run, chance=7)
+    view = LevelView(OffscreenContext(SIZE, settings), run, chance=7)
     if overlays:
         view.overlays = Overlays()
         view.overlays.on = set(OVERLAY_ACTIONS)
@@ -62,15 +62,15 @@ def scene(
 
 SCENES = {
     "first-steps": lambda: scene(0, 120),
-    "chimney-dark": lambda: scene(2, 150, Options(palette="dark")),
-    "locksmith-safe": lambda: scene(4, 200, Options(palette="safe")),
-    "night-shift-contrast": lambda: scene(6, 160, Options(palette="contrast")),
-    "works-safe-dark": lambda: scene(7, 200, Options(palette="safe-dark")),
+    "chimney-dark": lambda: scene(2, 150, Settings(palette="dark")),
+    "locksmith-safe": lambda: scene(4, 200, Settings(palette="safe")),
+    "night-shift-contrast": lambda: scene(6, 160, Settings(palette="contrast")),
+    "works-safe-dark": lambda: scene(7, 200, Settings(palette="safe-dark")),
     "works-overlays": lambda: scene(7, 140, overlays=True),
     "works-passed": lambda: scene(7, 560),
     "death-explosive": lambda: scene(0, 60, fatal=EXPLOSIVE),
     "death-electric": lambda: scene(0, 60, fatal=ELECTRIC),
-    "death-without-gore": lambda: scene(0, 60, Options(reduced_gore=True, reduced_motion=True), fatal=EXPLOSIVE),
+    "death-without-gore": lambda: scene(0, 60, Settings(reduced_gore=True, reduced_motion=True), fatal=EXPLOSIVE),
     "thumbnail": lambda: thumbnail(
         load_levels(ROOT / "levels" / "08-the-works.txt")[0].level, PALETTES["classic"], 264
     ),

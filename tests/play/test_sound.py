@@ -10,7 +10,7 @@ import pygame
 import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.play.audio.player import Sound
+from ninja_game.play.audio.player import AudioPlayer
 from ninja_game.play.audio.table import BY_DEATH, BY_EVENT, CORPSE, LOOPS, OTHER_DEATH, loop_levels
 from ninja_game.simulation import Simulation
 from tools.make_sounds import RECIPES, samples
@@ -65,7 +65,7 @@ def test_skid_and_slide_follow_the_speed() -> None:
 
 
 def test_hearing_plays_the_tick_and_leaves_the_world_alone(folder: Path) -> None:
-    sound = Sound(folder)
+    sound = AudioPlayer(folder)
     heard, silent = Simulation(FLAT), Simulation(FLAT)
     for tick in range(60):
         for run in (heard, silent):
@@ -82,7 +82,7 @@ def test_no_sound_device_is_no_error(folder: Path, monkeypatch: pytest.MonkeyPat
 
     pygame.mixer.quit()
     monkeypatch.setattr(pygame.mixer, "init", no_device)
-    sound = Sound(folder)
+    sound = AudioPlayer(folder)
     assert not sound.works
     run = Simulation(FLAT)
     run.step(jump=True)
@@ -94,6 +94,6 @@ def test_no_sound_device_is_no_error(folder: Path, monkeypatch: pytest.MonkeyPat
 
 
 def test_missing_files_are_silent(tmp_path: Path) -> None:
-    sound = Sound(tmp_path)
+    sound = AudioPlayer(tmp_path)
     sound.play("gold")
     sound.corpse(5.0)

@@ -10,7 +10,6 @@ from ninja_game.formats.load import load_replays
 from ninja_game.play.level.context import GhostRun, SingleLevel
 from ninja_game.play.level.phase import Phase
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.options import Options
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import OVERLAY_ACTIONS
 from ninja_game.play.view.render_context import OffscreenContext
@@ -39,7 +38,7 @@ def test_a_run_with_everything_on_is_the_bare_run(path: Path) -> None:
     recording = load_replays(path)[0]
     digests = []
     inputs = recording.playback(recording.ticks)
-    with scripted_app((396, 300), Options(palette="safe-dark", show_keys=True)) as (app, controls):
+    with scripted_app((396, 300), palette="safe-dark", show_keys=True) as (app, controls):
         course = SingleLevel("level", recording.level)
         course.best = 1, inputs[: len(inputs) // 2]
         screen = LevelScreen(app, course)

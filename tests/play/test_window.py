@@ -10,11 +10,12 @@ import pygame
 import pytest
 
 from ninja_game.errors import LevelError
-from ninja_game.play.app import App, fitting_size, free_name
+from ninja_game.play.app import App
 from ninja_game.play.level.run_clock import RunClock
 from ninja_game.play.main import main
 from ninja_game.play.screen import Screen
 from ninja_game.play.ui.canvas import Canvas
+from ninja_game.play.window import fitting_size
 from tests.support.scripted import frames, scripted_app
 
 ROOT = Path(__file__).parent.parent.parent
@@ -111,8 +112,7 @@ def test_a_new_palette_or_size_draws_everything_again() -> None:
         probe = Probe(app)
         app.push(probe)
         frames(app, 2)
-        app.options.palette = "dark"
-        app.apply_options()
+        app.change_settings(palette="dark")
         frames(app)
         assert probe.log[-1] == "draw whole"
         assert app.theme.palette.name == "dark"
@@ -136,11 +136,9 @@ def test_the_canvas_letterboxes_and_neighbours_share_edges() -> None:
         assert canvas.rect(24 * column, 0, 24, 24).right == canvas.rect(24 * column + 24, 0, 24, 24).left
 
 
-def test_the_first_size_is_a_whole_multiple(tmp_path: Path) -> None:
+def test_the_first_size_is_a_whole_multiple() -> None:
     pygame.display.init()
     width, height = fitting_size()
     assert width % 792 == 0
     assert height % 600 == 0
     pygame.display.quit()
-    (tmp_path / "a-1.png").touch()
-    assert free_name(tmp_path, "a", ".png").name == "a-2.png"

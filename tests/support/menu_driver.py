@@ -8,12 +8,11 @@ import pygame
 
 from ninja_game.files.resources import bundled_replays
 from ninja_game.formats.load import load_replays
-from ninja_game.play.app import App
+from ninja_game.play.app import build_app
 from ninja_game.play.input.bindings import Bindings
-from ninja_game.play.input.key_names import SCANCODES
+from ninja_game.play.input.scancodes import SCANCODES
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.screen import Screen
-from ninja_game.play.start import prepare
 from ninja_game.player.player_data import PlayerData
 
 FRAME_MS = 25
@@ -33,19 +32,15 @@ class MenuDriver:
     """The program with its main menu. ``keys``: what plays."""
 
     def __init__(self, folder: Path, size: tuple[int, int] = (792, 600)) -> None:
-        ready = prepare(folder)
-        settings = ready.player.settings
-        self.keys = ScriptedKeys(settings.keys, settings.pad)
+        self.keys = ScriptedKeys()
         self.keys.script = []
-        self.app = App(ready.options, self.keys, ready.audio_output, size=size)
-        self.app.player = ready.player
+        self.app = build_app(folder, size=size, controls=self.keys)
         self.app.push(MainMenu(self.app))
         self.frames(2)
 
     @property
     def player(self) -> PlayerData:
         """The player's data."""
-        assert self.app.player is not None
         return self.app.player
 
     def top(self) -> Screen:

@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import pygame
 
-from ninja_game.play.app import App
-from ninja_game.play.menus.boss import BossScreen
-from ninja_game.play.options import Options
+from ninja_game.play.app import App, build_app
+from ninja_game.play.audio.output import NullAudio
+from ninja_game.play.input.actions import MENU_KEYS
+from ninja_game.play.input.bindings import Bindings
+from ninja_game.play.input.events import InputEvent
 
 PRESS = pygame.USEREVENT + 1
 RELEASE = pygame.USEREVENT + 2
 
 
-class ScriptedControls:
+class ScriptedControls(Bindings):
     """``held_bits`` is what is down; actions come as events posted by ``press`` and ``release``."""
 
     def __init__(self) -> None:
+        super().__init__()
         self.held_bits = 0
         self.script: Iterator[int] | None = None
 
@@ -27,11 +32,13 @@ class ScriptedControls:
             return next(self.script, 0)
         return self.held_bits
 
-    def actions(self, event: pygame.Event) -> tuple[str, ...]:
-        return event.actions if event.type == PRESS else ()
-
-    def releases(self, event: pygame.Event) -> tuple[str, ...]:
-        return event.actions if event.type == RELEASE else ()
+    def decode(self, event: pygame.Event) -> InputEvent:
+        if event.type == PRESS:
+            menu = next((action for action in event.actions if action in MENU_KEYS.values()), "")
+            return InputEvent(event, pressed=event.actions, menu=menu)
+        if event.type == RELEASE:
+            return InputEvent(event, released=event.actions)
+        return super().decode(event)
 
     def name(self, action: str) -> str:
         return action.capitalize()
@@ -52,16 +59,17 @@ def frames(app: App, count: int = 1, ms: int = 25) -> None:
 
 
 @contextmanager
-def scripted_app(
-    size: tuple[int, int] = (792, 600), options: Options | None = None
-) -> Iterator[tuple[App, ScriptedControls]]:
-    """An app without a display, sound or player."""
-    controls = ScriptedControls()
-    app = App(options or Options(), controls, size=size)
-    app.hiding = BossScreen
-    pygame.event.clear()
-    try:
-        yield app, controls
-    finally:
-        app.stack.clear()
-        pygame.display.quit()
+def scripted_app(size: tuple[int, int] = (792, 600), **settings: object) -> Iterator[tuple[App, ScriptedControls]]:
+    """An app without a display or sound, with a player who has chosen these settings and has played nothing."""
+    with tempfile.TemporaryDirectory() as folder:
+        controls = ScriptedControls()
+        app = build_app(Path(folder), size=size, controls=controls, audio_output=NullAudio())
+        if settings:
+            app.change_settings(**settings)
+        pygame.event.clear()
+        try:
+            yield app, controls
+        finally:
+            app.stack.clear()
+            app.player.close()
+            pygame.display.quit()

@@ -10,6 +10,7 @@ import argparse
 import json
 import os
 import sys
+import tempfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -23,12 +24,12 @@ os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 import pygame
 
 from ninja_game.formats.load import load_levels
-from ninja_game.play.app import App
-from ninja_game.play.input.controls import Keyboard
+from ninja_game.play.app import App, build_app
+from ninja_game.play.audio.output import NullAudio
+from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.level.context import SingleLevel
 from ninja_game.play.level.phase import Phase
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.options import Options
 from ninja_game.play.replay.playback import Take
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.sim.level import (
@@ -77,7 +78,7 @@ def busy_level() -> Level:
     return Level(tuple(tiles), tuple(records))
 
 
-class Restless(Keyboard):
+class Restless(Bindings):
     """Keys at random, held for some ticks."""
 
     def __init__(self) -> None:
@@ -105,7 +106,7 @@ def measure_drawing(app: App, screen: LevelScreen, pictures: int) -> dict[str, f
     times, work = [], []
     for number in range(pictures):
         for event in pygame.event.get():
-            screen.handle(event)
+            screen.handle(app.controls.decode(event))
         screen.update(16 + number % 3 // 2)
         if screen.phase is not Phase.PLAY and screen.after_end > 60:
             screen.retry()
@@ -175,7 +176,9 @@ def main() -> int:
     parser.add_argument("--json", action="store_true")
     arguments = parser.parse_args()
     level = load_levels(arguments.level)[0].level if arguments.level else busy_level()
-    app = App(Options(show_keys=True), Restless(), size=SIZE)
+    home = tempfile.TemporaryDirectory()
+    app = build_app(Path(home.name), size=SIZE, controls=Restless(), audio_output=NullAudio())
+    app.change_settings(show_keys=True)
     course = SingleLevel("busy", level)
     course.best = 1, bytes(2 if k % 90 < 60 else 1 for k in range(600))
     started = time.perf_counter()
@@ -192,6 +195,8 @@ def main() -> int:
     screen.begin()
     result |= measure_seek(app, level)
     result["core_percent"] = round(measure_load(app, arguments.seconds), 1)
+    app.player.close()
+    home.cleanup()
     print(json.dumps(result) if arguments.json else "\n".join(f"{key:18} {value}" for key, value in result.items()))
     return 0
 

@@ -26,11 +26,10 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 import pygame
 
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.play.app import App
+from ninja_game.play.app import build_app
 from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.level.context import SingleLevel
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.start import prepare
 from ninja_game.sim.inputs import JUMP_HELD
 
 LEVEL = parse_level_string("0" * 713 + "|5^300,566!11^500,564,600,564")
@@ -100,9 +99,8 @@ def press_at_random(
 def measure(presses: int, rate: int) -> list[tuple[float, float]]:
     """Of each press: ms until it was sampled, ms until the picture after that."""
     with tempfile.TemporaryDirectory() as home:
-        ready = prepare(Path(home))
         controls = NotingBindings()
-        app = App(ready.options, controls, ready.audio_output, size=(792, 600))
+        app = build_app(Path(home), size=(792, 600), controls=controls)
         screen = LevelScreen(app, SingleLevel("latency", LEVEL))
         app.push(screen)
         screen.begin()

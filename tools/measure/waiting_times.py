@@ -24,11 +24,10 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 import pygame
 
-from ninja_game.play.app import App
+from ninja_game.play.app import App, build_app
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.level_contexts import LevelCourse
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.start import prepare
 from tools import ROOT
 
 SIZE = (1584, 1200)
@@ -57,17 +56,15 @@ def measure(rounds: int) -> dict[str, list[float]]:
     found: dict[str, list[float]] = {}
     with tempfile.TemporaryDirectory() as home:
         found["main menu"] = [timed(lambda: start_of_program(home)) for _ in range(rounds)]
-        ready = prepare(Path(home))
-        app = App(ready.options, ready.controls, ready.audio_output, size=SIZE)
-        app.player = ready.player
+        app = build_app(Path(home), size=SIZE)
         app.push(MainMenu(app))
         app.frame(16)
         for _ in range(rounds):
             for entry in ENTRIES:
                 found.setdefault(f"screen: {entry}", []).append(timed(lambda name=entry: open_entry(app, name)))  # type: ignore[misc]
                 app.pop()
-            for level in ready.player.catalogue.singles():
-                course = LevelCourse(ready.player, level)
+            for level in app.player.catalogue.singles():
+                course = LevelCourse(app.player, level)
 
                 def open_level(course: LevelCourse = course) -> None:
                     app.push(LevelScreen(app, course))
@@ -81,7 +78,7 @@ def measure(rounds: int) -> dict[str, list[float]]:
                     app.frame(25)
                 found.setdefault("retry", []).append(timed(lambda: press(app, pygame.K_r)))
                 app.pop()
-        ready.player.close()
+        app.player.close()
     return found
 
 

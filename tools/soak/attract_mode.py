@@ -22,9 +22,8 @@ os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
-from ninja_game.play.app import App
+from ninja_game.play.app import build_app
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.start import prepare
 
 RATE = 60
 """Pictures a second of game time."""
@@ -44,9 +43,7 @@ def memory() -> float:
 def soak(minutes: float, *, real_time: bool = False, report: bool = False) -> tuple[float, int, int]:
     """Run attract mode for so long; growth of memory after warming up (MiB), pictures drawn, replays begun."""
     with tempfile.TemporaryDirectory() as home:
-        ready = prepare(Path(home))
-        app = App(ready.options, ready.controls, ready.audio_output, size=(792, 600))
-        app.player = ready.player
+        app = build_app(Path(home), size=(792, 600))
         menu = MainMenu(app)
         app.push(menu)
         frames = round(minutes * 60 * RATE)
@@ -66,7 +63,7 @@ def soak(minutes: float, *, real_time: bool = False, report: bool = False) -> tu
         growth = memory() - warm
         shown = menu.attract.shown
         app.stack.clear()
-        ready.player.close()
+        app.player.close()
     return growth, frames, shown
 
 

@@ -1,4 +1,4 @@
-"""Who listens to the world: sound, or silence."""
+"""What screens ask of sound, and its form without any."""
 
 from __future__ import annotations
 
@@ -8,13 +8,19 @@ from ninja_game.sim.memory.schema import World
 
 
 class AudioOutput(Protocol):
-    """Hears what happens. Presentation only: it reads the world."""
+    """Plays what happens. Presentation only: it reads the world."""
 
     def play_events(self, world: World) -> None:
         """Called after every tick that is seen: its events, and loops by state and speed."""
 
     def corpse(self, speed: float) -> None:
         """A part of the corpse hit something at this speed, px/tick."""
+
+    def play(self, name: str) -> None:
+        """Play a sound of the menus once."""
+
+    def set_volumes(self, volume: int, loop_volume: int) -> None:
+        """Take other volumes, 0 to 99."""
 
     def quiet(self) -> None:
         """End all sounds."""
@@ -27,6 +33,12 @@ class NullAudio:
         """Nothing."""
 
     def corpse(self, speed: float) -> None:
+        """Nothing."""
+
+    def play(self, name: str) -> None:
+        """Nothing."""
+
+    def set_volumes(self, volume: int, loop_volume: int) -> None:
         """Nothing."""
 
     def quiet(self) -> None:

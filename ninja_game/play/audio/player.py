@@ -29,7 +29,7 @@ CORPSE_PAUSE = 0.06
 """Seconds between two thuds of a corpse."""
 
 
-class Sound:
+class AudioPlayer:
     """Plays what happens. ``volume`` and ``loop_volume``: 0 to 99. Without a sound device it is silent.
 
     ``folder``: where the WAV files are; missing ones are silent.

@@ -1,4 +1,4 @@
-"""Keys and pads to actions, as the player has bound them: the ``Controls`` of the game."""
+"""Keys and pads to actions, as the player has bound them."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from time import monotonic
 
 import pygame
 
-from ninja_game.play.input.default_bindings import ACTIONS, MENU_KEYS, MENU_PAD
+from ninja_game.play.input.actions import ACTIONS, MENU_KEYS, MENU_PAD
+from ninja_game.play.input.events import InputEvent
 from ninja_game.play.input.gamepad import Gamepads, pad_label
-from ninja_game.play.input.key_names import key_label, key_name, learn_label, scancode_named, scancode_of
+from ninja_game.play.input.scancodes import key_label, key_name, learn_label, scancode_named, scancode_of
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 
 TAP_SECONDS = 0.06
@@ -32,7 +33,6 @@ class Bindings:
     def __init__(self, keys: Inputs | None = None, pad: Inputs | None = None, *, dead_zone: float = 0.35) -> None:
         self.pads = Gamepads(dead_zone)
         self.pad_used = False
-        self._keys_down: set[int] = set()
         self._tapped = -inf
         self.bind(keys or {}, pad or {})
 
@@ -53,8 +53,6 @@ class Bindings:
         ]
         self._move_pad = [(bit, set(self.pad[action])) for action, bit in MOVES]
 
-    # --- Controls ---
-
     def held(self) -> int:
         """What is held right now: 1 left + 2 right + 4 jump, read from the devices at this moment."""
         pygame.event.pump()
@@ -73,16 +71,42 @@ class Bindings:
         self._tapped = -inf
         return bits
 
-    def actions(self, event: pygame.Event) -> tuple[str, ...]:
-        """All the actions that an event presses; repetitions by the keyboard do not count."""
-        found = self._pressed(event, down=True)
-        if "jump" in found:
-            self._tapped = monotonic()
-        return found
+    def decode(self, event: pygame.Event) -> InputEvent:
+        """What an event means. Called once for each: pads, layout and taps of the jump key are followed."""
+        if event.type in (pygame.KEYDOWN, pygame.KEYUP):
+            return self._decode_key(event)
+        changes = self.pads.changes(event)
+        if not changes:
+            return InputEvent(event)
+        pressed = [name for name, down in changes if down]
+        released = [name for name, down in changes if not down]
+        self.pad_used = self.pad_used or bool(pressed)
+        return self._noted(
+            InputEvent(
+                event,
+                tuple(action for name in pressed for action in self._by_pad.get(name, ())),
+                tuple(action for name in released for action in self._by_pad.get(name, ())),
+                next((MENU_PAD[name] for name in pressed if name in MENU_PAD), ""),
+                next((MENU_PAD[name] for name in released if name in MENU_PAD), ""),
+                ("pad", pressed[0]) if pressed else None,
+            )
+        )
 
-    def releases(self, event: pygame.Event) -> tuple[str, ...]:
-        """All the actions that an event releases."""
-        return self._pressed(event, down=False)
+    def _decode_key(self, event: pygame.Event) -> InputEvent:
+        self.pad_used = False
+        learn_label(event)
+        code = scancode_of(event)
+        name, actions = key_name(code), tuple(self._by_key.get(code, ()))
+        menu = MENU_KEYS.get(name, "")
+        if event.type == pygame.KEYUP:
+            return InputEvent(event, released=actions, menu_released=menu)
+        return self._noted(InputEvent(event, pressed=actions, menu=menu, source=("keys", name)))
+
+    def _noted(self, event: InputEvent) -> InputEvent:
+        """The event; the time of a press of the jump key is kept for the next tick."""
+        if "jump" in event.pressed:
+            self._tapped = monotonic()
+        return event
 
     def name(self, action: str) -> str:
         """What to press for an action: on the pad if that was used last, else on the keyboard."""
@@ -90,58 +114,3 @@ class Bindings:
         if self.pad_used and pad:
             return pad_label(pad[0])
         return key_label(keys[0]) if keys else pad_label(pad[0]) if pad else "(no key)"
-
-    def _pressed(self, event: pygame.Event, *, down: bool) -> tuple[str, ...]:
-        if event.type == (pygame.KEYDOWN if down else pygame.KEYUP):
-            self.pad_used = False
-            learn_label(event)
-            return tuple(self._by_key.get(scancode_of(event), ()))
-        found: list[str] = []
-        for name, is_down in self._pad_changes(event):
-            if is_down == down:
-                found += self._by_pad.get(name, ())
-        return tuple(found)
-
-    def _pad_changes(self, event: pygame.Event) -> list[tuple[str, bool]]:
-        """What a pad's event changes; the same event may be asked about several times."""
-        if getattr(event, "changes", None) is None:
-            if event.type < pygame.JOYAXISMOTION and event.type not in PAD_EVENTS:
-                return []
-            event.changes = self.pads.changes(event)
-            self.pad_used = self.pad_used or any(down for _, down in event.changes)
-        changes: list[tuple[str, bool]] = event.changes
-        return changes
-
-    # --- menus and rebinding ---
-
-    def menu(self, event: pygame.Event) -> str | None:
-        """What an event means in menus: up, down, left, right, confirm, back, page_up and so on; None if nothing."""
-        if event.type == pygame.KEYDOWN:
-            self.pad_used = False
-            learn_label(event)
-            return MENU_KEYS.get(key_name(scancode_of(event)))
-        pressed = [name for name, down in self._pad_changes(event) if down]
-        return next((MENU_PAD[name] for name in pressed if name in MENU_PAD), None)
-
-    def menu_release(self, event: pygame.Event) -> str | None:
-        """What in menus an event releases."""
-        if event.type == pygame.KEYUP:
-            return MENU_KEYS.get(key_name(scancode_of(event)))
-        released = [name for name, down in self._pad_changes(event) if not down]
-        return next((MENU_PAD[name] for name in released if name in MENU_PAD), None)
-
-    def pressed_input(self, event: pygame.Event) -> tuple[str, str] | None:
-        """The input that an event presses, to be bound: ("keys" or "pad", its name)."""
-        if event.type == pygame.KEYDOWN:
-            learn_label(event)
-            return "keys", key_name(scancode_of(event))
-        pressed = [name for name, down in self._pad_changes(event) if down]
-        return ("pad", pressed[0]) if pressed else None
-
-
-PAD_EVENTS = frozenset(
-    {
-        pygame.JOYAXISMOTION, pygame.JOYHATMOTION, pygame.JOYBUTTONDOWN, pygame.JOYBUTTONUP, pygame.JOYDEVICEADDED,
-        pygame.JOYDEVICEREMOVED, pygame.CONTROLLERAXISMOTION, pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP,
-    }
-)  # fmt: skip

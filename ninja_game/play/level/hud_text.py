@@ -18,9 +18,9 @@ def write_over(screen: LevelPlay, surface: pygame.Surface) -> list[pygame.Rect]:
     practice = "Practice" + (", slow motion" if screen.practice.slow else "")
     bar = hud.label(surface, practice) if attempt.practice else hud.time_bar(surface, screen.shown_lifetime)
     written = [bar, hud.level_name(surface, screen.course.title, f"gold {attempt.gold} / {screen.all_gold}")]
-    if screen.app.options.show_frame_time:
+    if screen.app.settings.show_frame_time:
         written.append(hud.frame_time(surface, screen.app.frame_ms))
-    if screen.app.options.show_keys:
+    if screen.app.settings.show_keys:
         written.append(hud.keys(surface, screen.last_keys))
     if screen.notices:
         written.append(hud.notices(surface, screen.notices))

@@ -25,7 +25,7 @@ def act(screen: LevelPlay, actions: tuple[str, ...]) -> None:
         return
     for action in actions:
         if action == "ghost":
-            screen.app.options.show_ghost = not screen.app.options.show_ghost
+            screen.app.change_settings(show_ghost=not screen.app.settings.show_ghost)
         elif screen.overlays.toggle(action):
             screen.redraw = True
         elif action in DEEDS[screen.phase]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from random import Random
+from typing import TYPE_CHECKING
 
 import pygame
 
@@ -12,12 +13,16 @@ from ninja_game.play.level.hud import followed
 from ninja_game.play.level.phase import DEATH_PAUSE, PHASE_OF_OUTCOME, Phase
 from ninja_game.play.level.practice import REWIND_TICKS, SLOW_TICK_MS, Practice
 from ninja_game.play.level.run_clock import RunClock
-from ninja_game.play.screen import Host, Screen
+from ninja_game.play.menus.panels import PausePanel
+from ninja_game.play.screen import Screen
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.statistics import SELF, killer_of
 from ninja_game.sim.level import GOLD
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
 
 _NOTICE_MS = 4000
 
@@ -28,7 +33,7 @@ class LevelPlay(Screen):
     Menus may call ``resume``, ``retry``, ``onward`` and ``quit``.
     """
 
-    def __init__(self, app: Host, course: Course) -> None:
+    def __init__(self, app: App, course: Course) -> None:
         super().__init__(app)
         self.chance = Random()  # noqa: S311 - presentation and the suicide key
         self.clock = RunClock()
@@ -90,9 +95,7 @@ class LevelPlay(Screen):
         self.phase = Phase.PAUSED
         self.app.audio_output.quiet()
         self.redraw = True
-        panel = self.app.panels.pause(self) if self.app.panels else None
-        if panel is not None:
-            self.app.push(panel)
+        self.app.push(PausePanel(self.app, self))
 
     def resume(self) -> None:
         """Go on after a pause."""
@@ -145,9 +148,8 @@ class LevelPlay(Screen):
     def keep_replay(self) -> None:
         """Put this run among the player's replays, whatever it is worth."""
         player = self.app.player
-        if player is not None:
-            player.records.keep_replay(self.attempt.replay(self.course.title, player.settings.name))
-            self.tell("Replay kept")
+        player.records.keep_replay(self.attempt.replay(self.course.title, player.settings.name))
+        self.tell("Replay kept")
 
     # --- what comes of it ---
 
@@ -193,7 +195,7 @@ class LevelPlay(Screen):
             if self.practice.rewinding:
                 self._rewind(real_ms)
             elif not self.practice.stepping:
-                tick_ms = SLOW_TICK_MS if self.practice.slow else self.app.options.tick_ms
+                tick_ms = SLOW_TICK_MS if self.practice.slow else self.app.tick_ms
                 self.run_ticks(self.clock.ticks_due(real_ms, tick_ms))
         if self.attempt.outcome != "exit":
             self.shown_lifetime = followed(

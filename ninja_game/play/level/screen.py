@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pygame
 
+from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.hud_text import write_over
 from ninja_game.play.level.keys import act, use_tools
 from ninja_game.play.level.phase import Phase
@@ -13,13 +14,13 @@ from ninja_game.play.level.play import LevelPlay
 class LevelScreen(LevelPlay):
     """Plays the level of a course."""
 
-    def handle(self, event: pygame.Event) -> None:
+    def handle(self, event: InputEvent) -> None:
         """Keys and clicks, by phase."""
-        if event.type == pygame.WINDOWFOCUSLOST:
+        if event.raw.type == pygame.WINDOWFOCUSLOST:
             self.pause()
-        actions = self.app.controls.actions(event)
-        use_tools(self, actions, self.app.controls.releases(event))
-        if event.type == pygame.MOUSEBUTTONDOWN and event.button == 1 and self.phase is not Phase.PLAY:
+        actions = event.pressed
+        use_tools(self, actions, event.released)
+        if event.raw.type == pygame.MOUSEBUTTONDOWN and event.raw.button == 1 and self.phase is not Phase.PLAY:
             actions = (*actions, "confirm")
         act(self, actions)
 

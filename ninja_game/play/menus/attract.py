@@ -17,7 +17,7 @@ from ninja_game.play.view.level_view import LevelView
 from ninja_game.simulation import Simulation
 
 if TYPE_CHECKING:
-    from ninja_game.play.screen import Host
+    from ninja_game.play.app import App
 
 REST_TICKS = 130
 """How long a replay goes on after its end or a death."""
@@ -26,7 +26,7 @@ REST_TICKS = 130
 class Attract:
     """Plays replays for ever in a shuffled order, silently. ``shown``: how many were begun."""
 
-    def __init__(self, app: Host, *, seed: int | None = None) -> None:
+    def __init__(self, app: App, *, seed: int | None = None) -> None:
         self.app = app
         self.shown = 0
         self._clock = RunClock()
@@ -67,7 +67,7 @@ class Attract:
         if self.view is None:
             self._begin_next()
             return
-        if self.app.options.reduced_motion:
+        if self.app.settings.reduced_motion:
             return
         simulation = self.view.simulation
         for _ in range(self._clock.ticks_due(real_ms)):

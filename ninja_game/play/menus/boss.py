@@ -6,7 +6,9 @@ from random import Random
 
 import pygame
 
-from ninja_game.play.screen import TITLE, Screen
+from ninja_game.play.input.events import InputEvent
+from ninja_game.play.screen import Screen
+from ninja_game.play.window import TITLE
 
 _PAPER, _LINE, _HEAD, _INK = "#ffffff", "#d0d4da", "#eef0f3", "#3a3f47"
 _ROWS, _ROW_HEIGHT, _TOP = 24, 22.0, 48.0
@@ -25,12 +27,9 @@ class BossScreen(Screen):
         """Call the window by its name again."""
         pygame.display.set_caption(TITLE)
 
-    def handle(self, event: pygame.Event) -> None:
-        """Come back, or end."""
-        actions = self.app.controls.actions(event)
-        if "boss" in actions and len(self.app.stack) > 1 and not self.redraw:
-            self.app.pop()
-        elif "quit" in actions:
+    def handle(self, event: InputEvent) -> None:
+        """The key for leaving ends the program."""
+        if "quit" in event.pressed:
             self.app.quit()
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:

@@ -12,6 +12,7 @@ from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.reading import read_bytes
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.load import load_levels
+from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.level_contexts import LevelCourse
 from ninja_game.play.menus.menu_screen import MenuScreen
@@ -27,7 +28,7 @@ from ninja_game.player.records import SavedReplay
 from ninja_game.player.scoring import seconds_text
 
 if TYPE_CHECKING:
-    from ninja_game.play.screen import Host
+    from ninja_game.play.app import App
 
 ROW = 54
 PICTURE = 60
@@ -40,7 +41,7 @@ class Browser(MenuScreen):
 
     title = "Levels"
 
-    def __init__(self, app: Host) -> None:
+    def __init__(self, app: App) -> None:
         super().__init__(app)
         self.thumbnails = Thumbnails(app)
         self.search = ""
@@ -76,11 +77,11 @@ class Browser(MenuScreen):
         sort = Choice((288, 66, 132, 32), "", SORTS, lambda: self.sort, self._sort, hint="How the list is sorted")
         return [self.list, self.entry_field, sort, play, practice, watch_best]
 
-    def handle(self, event: pygame.Event) -> None:
+    def handle(self, event: InputEvent) -> None:
         """A file dropped on the window is copied into the player's folder; coming back to the window looks again."""
-        if event.type == pygame.DROPFILE:
-            self._take_in(Path(event.file))
-        elif event.type == pygame.WINDOWFOCUSGAINED:
+        if event.raw.type == pygame.DROPFILE:
+            self._take_in(Path(event.raw.file))
+        elif event.raw.type == pygame.WINDOWFOCUSGAINED:
             self.enter()
             self.redraw = True
         else:

@@ -12,7 +12,6 @@ from ninja_game.play.menus.level_contexts import LevelCourse, episode_course
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.settings import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import Thumbnails
-from ninja_game.play.start import apply_settings
 from ninja_game.play.ui.list_view import BAR, ListView
 from ninja_game.play.ui.theme import Theme
 from ninja_game.play.ui.widgets import Area, Choice, Widget
@@ -22,7 +21,7 @@ from ninja_game.player.progress import CHEATED, COLUMNS, EPISODES_PER_COLUMN, LO
 from ninja_game.player.scoring import seconds_text
 
 if TYPE_CHECKING:
-    from ninja_game.play.screen import Host
+    from ninja_game.play.app import App
 
 CELL = 31
 GRID: Area = (44, 92, CELL * COLUMNS + BAR + 4, CELL * EPISODES_PER_COLUMN)
@@ -36,7 +35,7 @@ class EpisodeGrid(MenuScreen):
 
     title = "Episodes"
 
-    def __init__(self, app: Host) -> None:
+    def __init__(self, app: App) -> None:
         super().__init__(app)
         self.thumbnails = Thumbnails(app)
         self.grid = ListView(GRID, CELL, self._draw_cell, self._play, columns=COLUMNS, selected=self._selected)
@@ -85,7 +84,7 @@ class EpisodeGrid(MenuScreen):
         return [self.grid, practice, self.rows]
 
     def _set_practice(self, value: object) -> None:
-        apply_settings(self.app, self.player.settings.changed(practice=value))
+        self.app.change_settings(practice=value)
 
     # --- go ---
 

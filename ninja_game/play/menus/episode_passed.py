@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
 
 import pygame
 
 from ninja_game.play.level.context import Course
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.thumbnails import Thumbnails
-from ninja_game.play.screen import Host
 from ninja_game.play.ui.canvas import WIDTH
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Episode
@@ -17,16 +17,19 @@ from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import EpisodeRun
 from ninja_game.player.scoring import seconds_text
 
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
 PICTURE = 132
 
-CourseOf = Callable[[Host, PlayerData, Episode], Course]
+CourseOf = Callable[["App", PlayerData, Episode], Course]
 """What makes the course of an episode."""
 
 
 class EpisodePassed(MenuScreen):
     """Shown after an episode's last level. Space goes on to the next episode."""
 
-    def __init__(self, app: Host, run: EpisodeRun, notices: Sequence[str], course_of: CourseOf) -> None:
+    def __init__(self, app: App, run: EpisodeRun, notices: Sequence[str], course_of: CourseOf) -> None:
         super().__init__(app)
         self.run = run
         self.course_of = course_of

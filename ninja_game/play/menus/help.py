@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.input.bindings import MOVES, Bindings
-from ninja_game.play.input.default_bindings import ACTIONS
+from ninja_game.play.input.actions import ACTIONS
+from ninja_game.play.input.bindings import MOVES
 from ninja_game.play.level.run_clock import RunClock
 from ninja_game.play.menus.demonstrations import Page, read_pages
 from ninja_game.play.menus.menu_screen import MenuScreen
@@ -21,7 +21,7 @@ from ninja_game.play.view.level_view import LevelView
 from ninja_game.simulation import Simulation
 
 if TYPE_CHECKING:
-    from ninja_game.play.screen import Host
+    from ninja_game.play.app import App
 
 WINDOW: Area = (240, 66, 504, 288)
 """Where the demonstration is seen: that much of the stage, at its own scale."""
@@ -42,7 +42,7 @@ class HelpScreen(MenuScreen):
 
     title = "Help"
 
-    def __init__(self, app: Host) -> None:
+    def __init__(self, app: App) -> None:
         super().__init__(app)
         self.pages = read_pages()
         self.topics = [page.title for page in self.pages] + [KEYS_TITLE]
@@ -131,14 +131,14 @@ class HelpScreen(MenuScreen):
         x, y, _, h = WINDOW
         theme.text(surface, "All of them can be changed in the settings.", x, y + h + 86, size=12.5)
         theme.text(surface, "Right column: in practice mode only.", x, y + h + 106, size=12.5)
-        if isinstance(self.app.controls, Bindings) and self.app.controls.pads.count:
+        if self.app.controls.pads.count:
             theme.text(surface, "A gamepad works everywhere too.", x, y + h + 126, size=12.5)
 
 
 class Demonstration:
     """A page's room with its inputs, again and again, drawn on a sheet of its own of which a part is shown."""
 
-    def __init__(self, app: Host, page: Page) -> None:
+    def __init__(self, app: App, page: Page) -> None:
         self.app = app
         self.page = page
         self.clock = RunClock()

@@ -14,7 +14,7 @@ from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.simulation import Body
 
 if TYPE_CHECKING:
-    from ninja_game.play.screen import Host
+    from ninja_game.play.app import App
 
 YOUR_BEST = "your best"
 
@@ -85,7 +85,7 @@ class EpisodeCourse:
 
     body: Body = "circle"
 
-    def __init__(self, app: Host, run: EpisodeRun) -> None:
+    def __init__(self, app: App, run: EpisodeRun) -> None:
         self.app = app
         self.run = run
         self.entry = run.entry
@@ -129,13 +129,12 @@ class EpisodeCourse:
         return EpisodePassed(self.app, self.run, self._notices, episode_course)
 
 
-def episode_course(app: Host, player: PlayerData, episode: Episode) -> EpisodeCourse:
+def episode_course(app: App, player: PlayerData, episode: Episode) -> EpisodeCourse:
     """An episode from its first level on, in practice mode if that is set."""
     return EpisodeCourse(app, EpisodeRun(player, episode, practice=player.settings.practice))
 
 
-def course_for(app: Host, named: NamedLevel, *, practice: bool = False) -> Course:
+def course_for(app: App, named: NamedLevel, *, practice: bool = False) -> Course:
     """A level of any file as a course with records."""
     player = app.player
-    assert player is not None  # noqa: S101 - called with records at hand
     return LevelCourse(player, Entry(named, "yours"), practice=practice or player.settings.practice)

@@ -10,29 +10,25 @@ import pygame
 from ninja_game import __version__
 from ninja_game.play.menus.attract import Attract
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import Panels, Question
+from ninja_game.play.menus.panels import Question
 from ninja_game.play.screen import Screen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.widgets import Area, Button, Widget
 from ninja_game.play.ui.wording import fit
 
 if TYPE_CHECKING:
-    from ninja_game.play.screen import Host
+    from ninja_game.play.app import App
 
 PANEL: Area = (44, 96, 232, 420)
 TITLE = "NINJA"
-MESSAGE_MS = 12_000
 
 
 class MainMenu(MenuScreen):
     """Where the game begins and where every way back ends."""
 
-    def __init__(self, app: Host) -> None:
+    def __init__(self, app: App) -> None:
         super().__init__(app)
         self.attract = Attract(app)
-        self._message_ms = MESSAGE_MS
-        app.panels = Panels(app)
-        self.player.open_records()
 
     def build(self) -> Sequence[Widget]:
         """One button for each screen."""
@@ -72,7 +68,6 @@ class MainMenu(MenuScreen):
         """The replay behind goes on."""
         super().update(real_ms)
         self.attract.update(real_ms)
-        self._message_ms = max(0, self._message_ms - real_ms)
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
         """The replay, and the menu over it."""
@@ -95,12 +90,9 @@ class MainMenu(MenuScreen):
         return None if changed is None else changed + written
 
     def _draw_foot(self, surface: pygame.Surface) -> None:
-        """The hint, or what went wrong when the game started."""
+        """The hint."""
         canvas, theme, palette = self.app.canvas, self.app.theme, self.app.theme.palette
-        messages = self.player.messages
-        warn = bool(messages) and self._message_ms > 0
-        text = " ".join(messages) if warn else (self.focus.hint if self.focus else "")
-        canvas.fill_rect(surface, palette.panel if warn else palette.tile, 0, HEIGHT - 24, WIDTH, 24)
-        colour = palette.bad if warn else palette.on_tile
-        theme.text(surface, fit(theme, text, WIDTH - 40, 10.5), WIDTH / 2, HEIGHT - 18, size=10.5, colour=colour,
-                   align="centre")  # fmt: skip
+        text = self.focus.hint if self.focus else ""
+        canvas.fill_rect(surface, palette.tile, 0, HEIGHT - 24, WIDTH, 24)
+        theme.text(surface, fit(theme, text, WIDTH - 40, 10.5), WIDTH / 2, HEIGHT - 18, size=10.5,
+                   colour=palette.on_tile, align="centre")  # fmt: skip

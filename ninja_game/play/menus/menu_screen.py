@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.audio.player import Sound
-from ninja_game.play.input.bindings import Bindings
+from ninja_game.play.input.events import InputEvent
 from ninja_game.play.screen import Screen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.list_view import ListView
@@ -16,7 +15,7 @@ from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.ui.widgets import Widget
 
 if TYPE_CHECKING:
-    from ninja_game.play.screen import Host
+    from ninja_game.play.app import App
     from ninja_game.player.player_data import PlayerData
 
 FIRST_REPEAT_MS, REPEAT_MS = 350, 70
@@ -40,7 +39,7 @@ class MenuScreen(Screen):
     title = ""
     foot = "Arrows move, Enter chooses, Esc goes back"
 
-    def __init__(self, app: Host) -> None:
+    def __init__(self, app: App) -> None:
         super().__init__(app)
         self.widgets: list[Widget] = []
         self.focus: Widget | None = None
@@ -51,9 +50,7 @@ class MenuScreen(Screen):
     @property
     def player(self) -> PlayerData:
         """The player's data."""
-        player = self.app.player
-        assert player is not None  # noqa: S101 - menus are only opened with it
-        return player
+        return self.app.player
 
     def build(self) -> Sequence[Widget]:
         """The widgets; the first that can have it gets the focus."""
@@ -74,25 +71,23 @@ class MenuScreen(Screen):
 
     # --- input ---
 
-    def handle(self, event: pygame.Event) -> None:
+    def capture(self, event: InputEvent) -> bool:
+        """While a text is typed, a key is a letter before it is anything else."""
+        taken = self.focus is not None and self.focus.text_event(event.raw)
+        self.redraw = self.redraw or taken
+        return taken
+
+    def handle(self, event: InputEvent) -> None:
         """Give an event to the widget that it concerns."""
-        if self.focus is not None and self.focus.text_event(event):
-            self.redraw = True
+        if event.raw.type in (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL):
+            self._handle_mouse(event.raw)
             return
-        if event.type in (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL):
-            self._handle_mouse(event)
-            return
-        controls = self.app.controls
-        if not isinstance(controls, Bindings):
-            return
-        released = controls.menu_release(event)
-        if released is not None and released == self._repeat:
+        if event.menu_released and event.menu_released == self._repeat:
             self._repeat = ""
-        action = controls.menu(event)
-        if action is not None:
-            if action in REPEATING:
-                self._repeat, self._repeat_in = action, FIRST_REPEAT_MS
-            self.act(action)
+        if event.menu:
+            if event.menu in REPEATING:
+                self._repeat, self._repeat_in = event.menu, FIRST_REPEAT_MS
+            self.act(event.menu)
 
     def act(self, action: str) -> None:
         """Do what a menu action says: the focused widget first, then the screen."""
@@ -117,8 +112,7 @@ class MenuScreen(Screen):
 
     def chime(self, name: str) -> None:
         """A sound of the menus."""
-        if isinstance(self.app.audio_output, Sound):
-            self.app.audio_output.play(name)
+        self.app.audio_output.play(name)
 
     def focus_on(self, widget: Widget | None) -> None:
         """Give a widget the focus."""

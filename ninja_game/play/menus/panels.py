@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import pygame
 
+from ninja_game.play.input.events import InputEvent
+from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.widgets import Button, Widget
 
 if TYPE_CHECKING:
-    from ninja_game.play.screen import Host
+    from ninja_game.play.app import App
+    from ninja_game.play.level.play import LevelPlay
 
 PANEL_WIDTH = 300
 ROW = 40
@@ -23,7 +27,7 @@ class Panel(MenuScreen):
 
     see_through = True
 
-    def __init__(self, app: Host, title: str) -> None:
+    def __init__(self, app: App, title: str) -> None:
         super().__init__(app)
         self.title = title
 
@@ -63,7 +67,7 @@ class Panel(MenuScreen):
 class Question(Panel):
     """Asks before something is done that cannot be undone."""
 
-    def __init__(self, app: Host, title: str, yes: str, action: Callable[[], object]) -> None:
+    def __init__(self, app: App, title: str, yes: str, action: Callable[[], object]) -> None:
         super().__init__(app, title)
         self._yes = yes
         self._action = action
@@ -77,31 +81,15 @@ class Question(Panel):
         self._action()
 
 
-class Playing(Protocol):
-    """What the pause needs of the screen that plays a level."""
-
-    def resume(self) -> None:
-        """Go on; the panel has gone."""
-
-    def retry(self) -> None:
-        """The level from its start."""
-
-    def quit(self) -> None:
-        """Leave the level."""
-
-
 class PausePanel(Panel):
     """The game waits. Space, the pause key or Esc go on."""
 
-    def __init__(self, app: Host, playing: Playing) -> None:
+    def __init__(self, app: App, playing: LevelPlay) -> None:
         super().__init__(app, "Paused")
         self.playing = playing
 
     def rows(self) -> list[tuple[str, Callable[[], object], str]]:
         """What can be done."""
-        from ninja_game.play.menus.help import HelpScreen
-        from ninja_game.play.menus.settings import SettingsScreen
-
         return [
             ("Go on", self.back, ""),
             ("Retry", lambda: self._leave(self.playing.retry), ""),
@@ -110,12 +98,11 @@ class PausePanel(Panel):
             ("Leave the level", lambda: self._leave(self.playing.quit), ""),
         ]
 
-    def handle(self, event: pygame.Event) -> None:
+    def handle(self, event: InputEvent) -> None:
         """The pause key ends the pause too, the quit key leaves."""
-        actions = self.app.controls.actions(event)
-        if "pause" in actions:
+        if "pause" in event.pressed:
             self.back()
-        elif "quit" in actions:
+        elif "quit" in event.pressed:
             self._leave(self.playing.quit)
         else:
             super().handle(event)
@@ -127,14 +114,3 @@ class PausePanel(Panel):
     def _leave(self, then: Callable[[], object]) -> None:
         self.app.pop()
         then()
-
-
-class Panels:
-    """The panels that the screen of a level asks for."""
-
-    def __init__(self, app: Host) -> None:
-        self.app = app
-
-    def pause(self, playing: Playing) -> PausePanel:
-        """The pause."""
-        return PausePanel(self.app, playing)

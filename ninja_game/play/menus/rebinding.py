@@ -2,34 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.input.bindings import Bindings
-from ninja_game.play.input.default_bindings import ACTIONS
+from ninja_game.play.input.actions import ACTIONS
+from ninja_game.play.input.events import InputEvent
 from ninja_game.play.input.gamepad import pad_label
-from ninja_game.play.input.key_names import key_label
-from ninja_game.play.screen import Host, Screen
+from ninja_game.play.input.scancodes import key_label
+from ninja_game.play.screen import Screen
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.theme import Theme
 from ninja_game.play.ui.widgets import TEXT, Area, Button, Slider, Widget
 from ninja_game.play.ui.wording import fit
-from ninja_game.player.player_data import PlayerData
 
-
-class Rebinder(Protocol):
-    """The screen on which inputs are changed; it keeps a table for each device."""
-
-    app: Host
-    tables: dict[str, BindingTable]
-
-    @property
-    def player(self) -> PlayerData:
-        """The player whose settings they are."""
-
-    def change(self, **values: Any) -> None:
-        """Save other settings and show them."""
+if TYPE_CHECKING:
+    from ninja_game.play.menus.settings import SettingsScreen
 
 
 SLOTS = 4
@@ -38,7 +26,7 @@ LIST: Area = (216, 72, 540, 13 * ROW)
 LABEL_SHARE = 0.4
 
 
-def binding_widgets(screen: Rebinder, device: str) -> list[Widget]:
+def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
     """The widgets of a page. ``device``: "keys" or "pad"."""
     actions = [name for name in ACTIONS if device == "keys" or ACTIONS[name].pad or name in ("quit", "skip", "boss")]
     # The same one again after a press was taken, so that the selection stays.
@@ -52,8 +40,8 @@ def binding_widgets(screen: Rebinder, device: str) -> list[Widget]:
     return widgets
 
 
-def _dead_zone(screen: Rebinder) -> Slider:
-    pads = screen.app.controls.pads.count if isinstance(screen.app.controls, Bindings) else 0
+def _dead_zone(screen: SettingsScreen) -> Slider:
+    pads = screen.app.controls.pads.count
     return Slider(
         (216, 514, 540, 30), "Dead zone of sticks", (0.05, 0.95, 0.05), lambda: screen.player.settings.dead_zone,
         lambda value: screen.change(dead_zone=round(value, 2)), show=lambda value: f"{100 * value:.0f} %",
@@ -64,7 +52,7 @@ def _dead_zone(screen: Rebinder) -> Slider:
 class BindingTable(ListView):
     """One row an action, one cell an input. Left and right choose the cell, Enter waits for a press, Delete clears."""
 
-    def __init__(self, screen: Rebinder, device: str, actions: list[str]) -> None:
+    def __init__(self, screen: SettingsScreen, device: str, actions: list[str]) -> None:
         super().__init__(LIST, ROW, self._draw_action, self._capture)
         self.screen = screen
         self.device = device
@@ -155,23 +143,20 @@ class Capture(Screen):
         self.action = action
         self.slot = slot
 
-    def handle(self, event: pygame.Event) -> None:
-        """Take the press."""
-        controls = self.app.controls
-        if event.type == pygame.MOUSEBUTTONDOWN:
+    def capture(self, event: InputEvent) -> bool:
+        """Take the press, whatever it means elsewhere."""
+        if event.raw.type == pygame.MOUSEBUTTONDOWN:
             self.app.pop()
-            return
-        if not isinstance(controls, Bindings):
-            return
-        pressed = controls.pressed_input(event)
-        if pressed is None:
-            return
-        device, name = pressed
+            return True
+        if event.source is None:
+            return False
+        device, name = event.source
         if device == "keys" and name == "escape":
             self.app.pop()
         elif device == self.table.device:
             self.app.pop()
             self.table.taken(self.action, self.slot, name)
+        return True
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
         """What to do."""

@@ -17,7 +17,7 @@ from ninja_game.player.scoring import seconds_text
 from ninja_game.sim.rules import TICK_MS
 
 if TYPE_CHECKING:
-    from ninja_game.play.screen import Host
+    from ninja_game.play.app import App
 
 ROW = 30
 SIDE, SIDE_WIDTH = 528, 228
@@ -38,7 +38,7 @@ class RecordsScreen(MenuScreen):
 
     title = "Records"
 
-    def __init__(self, app: Host) -> None:
+    def __init__(self, app: App) -> None:
         super().__init__(app)
         self.rows: list[Row] = []
         self.list = ListView((44, 92, 468, 15 * ROW), ROW, self._draw_row, self._watch, hint="Enter: watch it")

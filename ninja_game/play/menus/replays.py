@@ -10,12 +10,12 @@ import pygame
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.reading import text_files
 from ninja_game.files.resources import bundled_replays
-from ninja_game.files.user_folder import EXPORTS
+from ninja_game.files.user_folder import export_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
-from ninja_game.play.app import free_name
+from ninja_game.play.input.events import InputEvent
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question
 from ninja_game.play.menus.watch_replay import watch, watch_recording
@@ -27,7 +27,7 @@ from ninja_game.player.records import SavedReplay
 from ninja_game.player.scoring import seconds_text
 
 if TYPE_CHECKING:
-    from ninja_game.play.screen import Host
+    from ninja_game.play.app import App
 
 ROW = 34
 FILES_SHOWN = 300
@@ -54,7 +54,7 @@ class ReplaysScreen(MenuScreen):
 
     title = "Replays"
 
-    def __init__(self, app: Host) -> None:
+    def __init__(self, app: App) -> None:
         super().__init__(app)
         self.rows: list[Row] = []
         self.problems = 0
@@ -95,9 +95,9 @@ class ReplaysScreen(MenuScreen):
         else:
             watch(self.app, [self.player.records.replay(source.id)])
 
-    def handle(self, event: pygame.Event) -> None:
+    def handle(self, event: InputEvent) -> None:
         """The export key writes a text file."""
-        if "export" in self.app.controls.actions(event) and self.rows:
+        if "export" in event.pressed and self.rows:
             self._export(self.rows[self.list.index])
         else:
             super().handle(event)
@@ -109,9 +109,8 @@ class ReplaysScreen(MenuScreen):
         if replay is None:
             self.message = "Only replays of this game can be written"
         else:
-            stem = "".join(char if char.isalnum() else "-" for char in row.text.lower()).strip("-") or "replay"
-            file = free_name(self.player.folder / EXPORTS, stem, ".replay.txt")
             try:
+                file = export_path(self.player.folder, row.text, ".replay.txt")
                 write_atomically(file, write_replay(replay))
                 self.message = f"Written: {file}"
             except (OSError, NinjaGameError) as error:

@@ -9,7 +9,6 @@ import pygame
 
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.rebinding import BindingTable, binding_widgets
-from ninja_game.play.start import apply_settings
 from ninja_game.play.ui.canvas import WIDTH
 from ninja_game.play.ui.palette import NINJA_COLOURS, PALETTES
 from ninja_game.play.ui.text_entry import TextEntry
@@ -17,7 +16,7 @@ from ninja_game.play.ui.widgets import Button, Choice, Label, Slider, Widget
 from ninja_game.player.unlocks import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 
 if TYPE_CHECKING:
-    from ninja_game.play.screen import Host
+    from ninja_game.play.app import App
 
 PAGES = ("Picture", "Sound", "Play", "Keyboard", "Gamepad")
 SWITCH = [("off", False), ("on", True)]
@@ -33,10 +32,9 @@ class SettingsScreen(MenuScreen):
 
     title = "Settings"
 
-    def __init__(self, app: Host) -> None:
+    def __init__(self, app: App) -> None:
         super().__init__(app)
         self.page = PAGES[0]
-        self.message = ""
         self.tables: dict[str, BindingTable] = {}
 
     def build(self) -> Sequence[Widget]:
@@ -66,8 +64,7 @@ class SettingsScreen(MenuScreen):
 
     def change(self, **values: object) -> None:
         """Take, save and show other values."""
-        self.message = apply_settings(self.app, self.player.settings.changed(**values))
-        self.redraw = True
+        self.app.change_settings(**values)
 
     def _area(self, place: int) -> tuple[float, float, float, float]:
         return LEFT, TOP + STEP * place, WIDTH_OF_ROW, HEIGHT_OF_ROW
@@ -123,10 +120,9 @@ class SettingsScreen(MenuScreen):
                       self.player.settings.name, lambda text: self.change(name=text)),
         ]  # fmt: skip
         if overclock_unlocked(self.player.columns_complete, self.player.columns_present):
-            options = self.app.options
             widgets.append(
-                Slider(self._area(2), "Overclock, ms", (0, FASTEST_TICK_GAIN, 1), lambda: options.overclock,
-                       lambda value: setattr(options, "overclock", round(value)),
+                Slider(self._area(2), "Overclock, ms", (0, FASTEST_TICK_GAIN, 1), lambda: self.app.overclock,
+                       lambda value: setattr(self.app, "overclock", round(value)),
                        hint="Shorter ticks, until the game ends; scores count as ever")
             )  # fmt: skip
         text = f"Your levels: {self.player.folder / 'levels'}"
@@ -135,11 +131,9 @@ class SettingsScreen(MenuScreen):
     # --- picture ---
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """The frame, a line between pages and widgets, what went wrong."""
+        """The frame, a line between pages and widgets."""
         super().draw_frame(surface)
-        canvas, palette, theme = self.app.canvas, self.app.theme.palette, self.app.theme
+        canvas, palette = self.app.canvas, self.app.theme.palette
         canvas.fill_rect(surface, palette.panel_edge, 204, 64, 1, 490)
         y = TOP + 40 * PAGES.index(self.page)
         canvas.fill_rect(surface, palette.accent, 198, y + 2, 4, 28, 2)
-        if self.message:
-            theme.text(surface, self.message, 216, 546, size=10, colour=palette.bad)

@@ -11,7 +11,7 @@ from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.player.catalogue import Entry
 
 if TYPE_CHECKING:
-    from ninja_game.play.screen import Host
+    from ninja_game.play.app import App
 
 BUDGET = 0.006
 """Seconds a picture may cost beyond its first thumbnail."""
@@ -24,7 +24,7 @@ Key = tuple[int, int, str]
 class Thumbnails:
     """Pictures of levels by level, width and palette. Ask ``get`` while drawing, call ``work`` once a picture."""
 
-    def __init__(self, app: Host) -> None:
+    def __init__(self, app: App) -> None:
         self.app = app
         self._made: dict[Key, tuple[Entry, pygame.Surface]] = {}
         self._wanted: dict[Key, Entry] = {}

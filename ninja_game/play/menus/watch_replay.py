@@ -10,10 +10,10 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.simulation import Body
 
 if TYPE_CHECKING:
-    from ninja_game.play.screen import Host
+    from ninja_game.play.app import App
 
 
-def watch(app: Host, replays: Iterable[Replay | None], title: str = "") -> bool:
+def watch(app: App, replays: Iterable[Replay | None], title: str = "") -> bool:
     """Watch replays one after another; whether there were any. Those that have gone are left out."""
     from ninja_game.play.replay.playback import Take
     from ninja_game.play.replay.screen import ReplayScreen
@@ -32,7 +32,7 @@ def _body(replay: Replay) -> Body:
     return "box" if replay.body == "box" else "circle"
 
 
-def watch_recording(app: Host, recording: Recording) -> None:
+def watch_recording(app: App, recording: Recording) -> None:
     """Watch a recording from a file."""
     from ninja_game.play.replay.screen import ReplayScreen
 

@@ -16,11 +16,11 @@ import pygame
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.level.hud import Hud
-from ninja_game.play.options import Options
 from ninja_game.play.replay.playback import Playback, Take
 from ninja_game.play.ui.palette import PALETTES, ROLES, Palette, mixed
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.render_context import OffscreenContext
+from ninja_game.player.settings import Settings
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
@@ -34,9 +34,9 @@ _LONG_FILM = 600
 """Pictures beyond which a GIF leaves every second one out."""
 
 
-def film_pictures(take: Take, size: tuple[int, int], options: Options | None = None) -> Iterator[pygame.Surface]:
+def film_pictures(take: Take, size: tuple[int, int], settings: Settings | None = None) -> Iterator[pygame.Surface]:
     """One picture a tick, always the same surface; the first shows the start."""
-    sheet = OffscreenContext(size, options)
+    sheet = OffscreenContext(size, settings)
     playback = Playback(take)
     view = LevelView(sheet, playback.simulation)
     surface = pygame.Surface(size)
@@ -66,37 +66,37 @@ Report = Callable[[int], bool]
 """Told how many pictures are done; False stops the film."""
 
 
-def export_film(take: Take, path: Path, *, options: Options | None = None, report: Report = lambda _: True) -> Path:
+def export_film(take: Take, path: Path, *, settings: Settings | None = None, report: Report = lambda _: True) -> Path:
     """Write a film to ``path``: .gif, .mp4 (and other videos), or a folder of PNG pictures for a path without suffix.
 
     Raises NinjaGameError if the library for that form is not installed.
     """
     if path.suffix == ".gif":
-        _write_gif(take, path, options, report)
+        _write_gif(take, path, settings, report)
     elif path.suffix:
-        _write_video(take, path, options, report)
+        _write_video(take, path, settings, report)
     else:
         path.mkdir(parents=True, exist_ok=True)
-        for number, picture in enumerate(film_pictures(take, GIF_SIZE, options)):
+        for number, picture in enumerate(film_pictures(take, GIF_SIZE, settings)):
             pygame.image.save(picture, str(path / f"{number:05d}.png"))
             if not report(number):
                 break
     return path
 
 
-def _write_gif(take: Take, path: Path, options: Options | None, report: Report) -> None:
+def _write_gif(take: Take, path: Path, settings: Settings | None, report: Report) -> None:
     try:
         from PIL import Image
     except ImportError:
         raise NinjaGameError("GIFs need Pillow: pip install 'ninja-game[film]'") from None
 
     colours = Image.new("P", (1, 1))
-    colours.putpalette(film_colours(PALETTES[(options or Options()).palette]))
+    colours.putpalette(film_colours(PALETTES[(settings or Settings()).palette]))
     # Pillow holds a whole film in memory: a long one has a picture every second tick.
     every = 2 if film_length(Playback(take)) > _LONG_FILM else 1
 
     def images() -> Iterator[Any]:
-        for number, picture in enumerate(film_pictures(take, GIF_SIZE, options)):
+        for number, picture in enumerate(film_pictures(take, GIF_SIZE, settings)):
             if not report(number):
                 return
             if number % every == 0:
@@ -126,7 +126,7 @@ def film_colours(palette: Palette) -> list[int]:
     return [channel for colour in found[:256] for channel in colour[:3]]
 
 
-def _write_video(take: Take, path: Path, options: Options | None, report: Report) -> None:
+def _write_video(take: Take, path: Path, settings: Settings | None, report: Report) -> None:
     try:
         import imageio.v2 as imageio
     except ImportError:
@@ -134,7 +134,7 @@ def _write_video(take: Take, path: Path, options: Options | None, report: Report
     # Its stubs know only the readers.
     open_writer: Any = imageio.get_writer
     with open_writer(path, fps=TICKS_PER_SECOND, macro_block_size=1) as writer:
-        for number, picture in enumerate(film_pictures(take, VIDEO_SIZE, options)):
+        for number, picture in enumerate(film_pictures(take, VIDEO_SIZE, settings)):
             writer.append_data(pygame.surfarray.array3d(picture).swapaxes(0, 1))
             if not report(number):
                 break
@@ -143,9 +143,9 @@ def _write_video(take: Take, path: Path, options: Options | None, report: Report
 class ExportJob:
     """A film made in the background. ``done`` and then ``result``, a sentence for the player."""
 
-    def __init__(self, take: Take, options: Options, player: PlayerData | None) -> None:
+    def __init__(self, take: Take, settings: Settings, player: PlayerData | None) -> None:
         self._take = take
-        self._options = options
+        self._settings = settings
         folder = player.replay_folder if player else Path.cwd()
         self.path = _free_path(folder, take.title)
         self._count = 1
@@ -177,7 +177,7 @@ class ExportJob:
         try:
             self._count = film_length(Playback(self._take))
             self.path.parent.mkdir(parents=True, exist_ok=True)
-            export_film(self._take, self.path, options=self._options, report=self._report)
+            export_film(self._take, self.path, settings=self._settings, report=self._report)
             self.result = f"Saved as {self.path}"
         except (NinjaGameError, OSError) as error:
             self.result = f"No film: {error}"

@@ -9,6 +9,7 @@ import pygame
 
 from ninja_game.formats.recording import Recording
 from ninja_game.play.audio.output import AudioOutput, NullAudio
+from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.context import GhostRun
 from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
@@ -22,7 +23,7 @@ from ninja_game.play.view.overlays import Overlays
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
-    from ninja_game.play.screen import Host
+    from ninja_game.play.app import App
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 _NORMAL = SPEEDS.index(1.0)
@@ -35,7 +36,7 @@ _STILL_MS = 500
 class ReplayScreen(Screen):
     """Shows a recording. Others on the same level run along as ghosts."""
 
-    def __init__(self, app: Host, takes: Sequence[Take | Recording]) -> None:
+    def __init__(self, app: App, takes: Sequence[Take | Recording]) -> None:
         super().__init__(app)
         self.takes = [take if isinstance(take, Take) else take_of(take) for take in takes]
         self.clock = RunClock()
@@ -122,12 +123,12 @@ class ReplayScreen(Screen):
 
     # --- keys and mouse ---
 
-    def handle(self, event: pygame.Event) -> None:
+    def handle(self, event: InputEvent) -> None:
         """Keys, and the mouse on the bar."""
-        target = self.bar.handle(event, self.app.canvas, self.playback.length)
+        target = self.bar.handle(event.raw, self.app.canvas, self.playback.length)
         if target is not None:
             self.seek(target)
-        for action in self.app.controls.actions(event):
+        for action in event.pressed:
             if self._act(action):
                 break
 
@@ -168,13 +169,12 @@ class ReplayScreen(Screen):
         self.redraw = True
 
     def _toggle_ghosts(self) -> None:
-        self.app.options.show_ghost = not self.app.options.show_ghost
-        self.redraw = True
+        self.app.change_settings(show_ghost=not self.app.settings.show_ghost)
 
     def start_export(self) -> None:
         """Make a film of this take beside the player's replays."""
         if self.export is None:
-            self.export = ExportJob(self.playback.take, self.app.options, self.app.player)
+            self.export = ExportJob(self.playback.take, self.app.settings, self.app.player)
             self.export.start()
             self.notice = ""
 

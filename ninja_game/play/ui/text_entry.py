@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pygame
 
-from ninja_game.play.input.key_names import key_name, scancode_of
+from ninja_game.play.input.scancodes import key_name, scancode_of
 from ninja_game.play.ui.theme import Theme
 from ninja_game.play.ui.widgets import PAD, TEXT, Area, Widget
 

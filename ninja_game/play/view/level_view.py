@@ -103,7 +103,7 @@ class LevelView:
             self._fall_down(world)
 
     def _follow_options(self) -> None:
-        options = self.app.options
+        options = self.app.settings
         self.effects.gore = not options.reduced_gore
         self.particles.thin = 0.35 if options.reduced_motion else 1.0
 
@@ -124,7 +124,7 @@ class LevelView:
         self.doll = Ragdoll(now, before, velocity, self.ninja_animation.facing, self._chance, self._corpse_hit)
         for event in world.events[: world.event_count]:
             if event.kind == DIED:
-                gory = not self.app.options.reduced_gore
+                gory = not self.app.settings.reduced_gore
                 self.doll.shove(event.slot, (event.dx, event.dy), event.y, n.y, whole=not gory)
                 if self.doll.dismembered:
                     self.effects.blood(n.x, n.y, 0.0, -2.0, 12)
@@ -157,7 +157,7 @@ class LevelView:
     @property
     def colour(self) -> pygame.Color:
         """The ninja's colour."""
-        return pygame.Color(self.app.options.flavour) if self.app.options.flavour else self.target.palette.ninja
+        return pygame.Color(self.app.settings.flavour) if self.app.settings.flavour else self.target.palette.ninja
 
     def draw(self, surface: pygame.Surface, fraction: float = 1.0, *, whole: bool = False) -> list[pygame.Rect] | None:
         """Draw the world ``fraction`` of a tick after the last but one; the px that changed, None for all.
@@ -166,7 +166,7 @@ class LevelView:
         """
         if self._look != self._wanted_look():
             self._layout()
-        if not self.app.options.smooth:
+        if not self.app.settings.smooth:
             fraction = 1.0
         whole = whole or self._whole
         self._whole = False
@@ -200,7 +200,7 @@ class LevelView:
         target.begin(surface)
         Particles.draw(self.particles.rear, target, now)
         draw_moving(target, self.simulation.world, self.object_animation, fraction)
-        if self.app.options.show_ghost:
+        if self.app.settings.show_ghost:
             for ghost in self.ghosts:
                 draw_ghost(target, ghost.ninja_animation, ghost.place(fraction), fraction, ghost.colour(target.palette))
         if self.doll is not None:

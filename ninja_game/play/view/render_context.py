@@ -1,30 +1,33 @@
-"""What a picture of a world needs: options, palette, canvas, audio output. `App` is one, `OffscreenContext` another."""
+"""What a picture of a world needs: settings, palette, canvas, audio output. `App`, `OffscreenContext`."""
 
 from __future__ import annotations
 
 from typing import Protocol
 
 from ninja_game.play.audio.output import AudioOutput, NullAudio
-from ninja_game.play.options import Options
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.palette import PALETTES
 from ninja_game.play.ui.theme import Theme
+from ninja_game.player.settings import Settings
 
 
 class RenderContext(Protocol):
     """Where a level is shown."""
 
-    options: Options
     theme: Theme
     canvas: Canvas
     audio_output: AudioOutput
+
+    @property
+    def settings(self) -> Settings:
+        """What the player has chosen."""
 
 
 class OffscreenContext:
     """A silent scene without a window, for pictures and films. ``size``: px."""
 
-    def __init__(self, size: tuple[int, int], options: Options | None = None) -> None:
-        self.options = options or Options()
+    def __init__(self, size: tuple[int, int], settings: Settings | None = None) -> None:
+        self.settings = settings or Settings()
         self.canvas = Canvas(size)
-        self.theme = Theme(PALETTES[self.options.palette], self.canvas)
+        self.theme = Theme(PALETTES[self.settings.palette], self.canvas)
         self.audio_output: AudioOutput = NullAudio()

@@ -23,7 +23,7 @@ def test_one_replay_follows_another(driver: MenuDriver) -> None:
 def test_reduced_motion_shows_a_still_picture(driver: MenuDriver) -> None:
     menu = driver.top()
     assert isinstance(menu, MainMenu)
-    driver.app.options.reduced_motion = True
+    driver.app.change_settings(reduced_motion=True)
     assert menu.attract.view is not None
     tick = menu.attract.view.simulation.tick
     driver.frames(20)

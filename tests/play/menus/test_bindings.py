@@ -5,10 +5,10 @@ from __future__ import annotations
 import pygame
 import pytest
 
+from ninja_game.play.input.actions import ACTIONS, MENU_KEYS
 from ninja_game.play.input.bindings import Bindings
-from ninja_game.play.input.default_bindings import ACTIONS, MENU_KEYS
 from ninja_game.play.input.gamepad import FULL_AXIS, Gamepads
-from ninja_game.play.input.key_names import SCANCODES, key_label, key_name, learn_label, scancode_named
+from ninja_game.play.input.scancodes import SCANCODES, key_label, key_name, learn_label, scancode_named
 
 
 @pytest.fixture
@@ -40,7 +40,7 @@ def test_every_default_and_menu_key_exists() -> None:
 def test_binding_is_a_place_whatever_the_layout_prints_there(bindings: Bindings) -> None:
     # On a French keyboard the place of A types Q.
     press = key("a", layout=pygame.K_q)
-    assert "left" in bindings.actions(press)
+    assert "left" in bindings.decode(press).pressed
     learn_label(press)
     assert key_label("a") == "Q"
     learn_label(key("a", layout=pygame.K_a))
@@ -48,32 +48,32 @@ def test_binding_is_a_place_whatever_the_layout_prints_there(bindings: Bindings)
 
 
 def test_one_key_may_mean_several_actions(bindings: Bindings) -> None:
-    assert set(bindings.actions(key("r"))) == {"retry", "replay"}
-    assert set(bindings.releases(key("period", pygame.KEYUP))) == {"step", "frame_forward"}
+    assert set(bindings.decode(key("period")).pressed) == {"step", "frame_forward"}
+    assert set(bindings.decode(key("period", pygame.KEYUP)).released) == {"step", "frame_forward"}
 
 
 def test_changed_action_loses_its_defaults_and_others_stay(bindings: Bindings) -> None:
     bindings.bind({"jump": ("x", "kp_plus", "unknown")}, {})
-    assert "jump" in bindings.actions(key("x"))
-    assert "jump" in bindings.actions(key("kp_plus"))
-    assert "jump" not in bindings.actions(key("z"))
-    assert "left" in bindings.actions(key("left"))
+    assert "jump" in bindings.decode(key("x")).pressed
+    assert "jump" in bindings.decode(key("kp_plus")).pressed
+    assert "jump" not in bindings.decode(key("z")).pressed
+    assert "left" in bindings.decode(key("left")).pressed
     assert bindings.name("jump") == "X"
 
 
 def test_menu_keys_cannot_be_taken_away(bindings: Bindings) -> None:
     bindings.bind(dict.fromkeys(ACTIONS, ()), dict.fromkeys(ACTIONS, ()))
-    assert bindings.menu(key("return")) == "confirm"
-    assert bindings.menu(key("up")) == "up"
+    assert bindings.decode(key("return")).menu == "confirm"
+    assert bindings.decode(key("up")).menu == "up"
     assert bindings.name("jump") == "(no key)"
 
 
 def test_stick_presses_beyond_the_dead_zone_and_does_not_flutter(bindings: Bindings) -> None:
-    assert bindings.actions(axis(-0.3)) == ()
-    assert "left" in bindings.actions(axis(-0.4))
+    assert bindings.decode(axis(-0.3)).pressed == ()
+    assert "left" in bindings.decode(axis(-0.4)).pressed
     assert bindings.held() == 1
-    assert bindings.releases(axis(-0.32)) == ()
-    assert "left" in bindings.releases(axis(-0.2))
+    assert bindings.decode(axis(-0.32)).released == ()
+    assert "left" in bindings.decode(axis(-0.2)).released
     assert bindings.held() == 0
 
 
@@ -83,35 +83,36 @@ def test_stick_thrown_across_releases_one_side_and_presses_the_other() -> None:
     assert sorted(pads.changes(axis(1.0))) == [("leftx+", True), ("leftx-", False)]
 
 
-def test_same_event_asked_twice_counts_once(bindings: Bindings) -> None:
-    event = pygame.Event(pygame.CONTROLLERBUTTONDOWN, instance_id=5, button=pygame.CONTROLLER_BUTTON_A)
-    assert bindings.actions(event) == bindings.actions(event)
-    assert "jump" in bindings.actions(event)
-    assert bindings.menu(event) == "confirm"
+def test_event_is_decoded_into_all_its_meanings(bindings: Bindings) -> None:
+    event = bindings.decode(pygame.Event(pygame.CONTROLLERBUTTONDOWN, instance_id=5, button=pygame.CONTROLLER_BUTTON_A))
+    assert set(event.pressed) == {"jump", "confirm"}
+    assert event.menu == "confirm"
+    assert event.source == ("pad", "a")
+    assert not event.released
 
 
 def test_pad_that_is_pulled_out_lets_go_of_everything(bindings: Bindings) -> None:
-    bindings.actions(axis(1.0))
+    bindings.decode(axis(1.0))
     assert bindings.held() == 2
-    assert "right" in bindings.releases(pygame.Event(pygame.JOYDEVICEREMOVED, instance_id=5))
+    assert "right" in bindings.decode(pygame.Event(pygame.JOYDEVICEREMOVED, instance_id=5)).released
     assert bindings.held() == 0
 
 
 def test_hats_and_axes_of_unknown_pads_work_too(bindings: Bindings) -> None:
     hat = pygame.Event(pygame.JOYHATMOTION, instance_id=9, hat=0, value=(-1, 0))
-    assert "left" in bindings.actions(hat)
-    assert "right" in bindings.actions(pygame.Event(pygame.JOYAXISMOTION, instance_id=9, axis=0, value=0.9))
-    assert "jump" in bindings.actions(pygame.Event(pygame.JOYBUTTONDOWN, instance_id=9, button=0))
+    assert "left" in bindings.decode(hat).pressed
+    assert "right" in bindings.decode(pygame.Event(pygame.JOYAXISMOTION, instance_id=9, axis=0, value=0.9)).pressed
+    assert "jump" in bindings.decode(pygame.Event(pygame.JOYBUTTONDOWN, instance_id=9, button=0)).pressed
 
 
 def test_tap_between_two_ticks_still_jumps_once(bindings: Bindings) -> None:
-    bindings.actions(key("z"))
+    bindings.decode(key("z"))
     assert bindings.held() == 4
     assert bindings.held() == 0
 
 
 def test_labels_follow_the_device_used_last(bindings: Bindings) -> None:
-    bindings.actions(axis(1.0))
+    bindings.decode(axis(1.0))
     assert bindings.name("jump") == "A"
-    bindings.actions(key("z"))
+    bindings.decode(key("z"))
     assert bindings.name("jump") == "Shift"

@@ -22,7 +22,7 @@ ACTIONS: dict[str, Action] = {
     "pause": Action("Pause", ("p",), ("start", "button-7")),
     "retry": Action("Retry", ("r",), ("x", "button-2")),
     "suicide": Action("Give up", ("k",), ("back", "button-6")),
-    "replay": Action("Watch the replay", ("r", "v"), ("y", "button-3")),
+    "replay": Action("Watch the replay", ("v",), ("y", "button-3")),
     "quit": Action("Leave to the menu", ("q",)),
     "skip": Action("Skip the level (practice)", ("n",)),
     "boss": Action("Hide the game", ("tab",)),

@@ -1,0 +1,107 @@
+"""The window: opened, full screen and back, with the game's icon and name."""
+
+from __future__ import annotations
+
+import os
+import warnings
+
+import pygame
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.play.ui.canvas import HEIGHT, WIDTH
+from ninja_game.play.ui.palette import PALETTES
+
+TITLE = "ninja-game"
+"""What the window is called."""
+
+_INVISIBLE = {"dummy", "offscreen", "evdev"}
+_ICON = 64
+
+
+class Window:
+    """The one window. ``size``: px; by default the stage times the largest whole number that fits the display.
+
+    Raises NinjaGameError where there is no display, unless SDL_VIDEODRIVER asks for a driver without one.
+    """
+
+    def __init__(self, size: tuple[int, int] | None, *, fullscreen: bool) -> None:
+        prepare_sdl()
+        pygame.display.init()
+        if pygame.display.get_driver() in _INVISIBLE and not os.environ.get("SDL_VIDEODRIVER"):
+            pygame.display.quit()
+            raise NinjaGameError("there is no display; SDL_VIDEODRIVER=dummy plays without one")
+        _prefer_shared_memory()
+        pygame.display.set_icon(_icon())
+        pygame.display.set_mode(size or fitting_size(), pygame.RESIZABLE)
+        pygame.display.set_caption(TITLE)
+        self.fullscreen = False
+        self._place: tuple[int, int] | None = None
+        self._size = pygame.display.get_window_size()
+        if fullscreen:
+            self.set_fullscreen(wanted=True)
+
+    @property
+    def surface(self) -> pygame.Surface:
+        """What is drawn on."""
+        surface = pygame.display.get_surface()
+        assert surface is not None  # noqa: S101 - the window is open
+        return surface
+
+    def set_fullscreen(self, *, wanted: bool) -> None:
+        """Fill the display, or go back to the size and place from before."""
+        if wanted == self.fullscreen:
+            return
+        with warnings.catch_warnings():
+            # The display module's own toggle does not find its way back to the size.
+            warnings.simplefilter("ignore", DeprecationWarning)
+            window = pygame.Window.from_display_module()
+        self.fullscreen = wanted
+        if wanted:
+            self._size, self._place = window.size, window.position
+            window.set_fullscreen(desktop=True)
+        else:
+            window.set_windowed()
+            window.size = self._size
+            if self._place is not None:
+                window.position = self._place
+
+
+def prepare_sdl() -> None:
+    """What SDL reads from the environment when it starts."""
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    # The kind of window, by which desktops find its icon and group it.
+    os.environ.setdefault("SDL_VIDEO_X11_WMCLASS", TITLE)
+    os.environ.setdefault("SDL_VIDEO_WAYLAND_WMCLASS", TITLE)
+    # SDL would turn SIGTERM and Ctrl-C into an event that nobody reads while a long recording is run.
+    os.environ.setdefault("SDL_NO_SIGNAL_HANDLERS", "1")
+
+
+def _prefer_shared_memory() -> None:
+    """Under X11 show pictures through shared memory instead of OpenGL, unless the environment says otherwise.
+
+    Only the px that changed are sent then; through OpenGL the whole window goes to the card in every picture, and
+    without a card that costs 20 ms (measured with tools/measure/frame_cost.py --display).
+    """
+    if pygame.display.get_driver() == "x11":
+        os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
+
+
+def fitting_size() -> tuple[int, int]:
+    """The stage times the largest whole number that leaves the desktop some room."""
+    sizes = pygame.display.get_desktop_sizes() or [(WIDTH, HEIGHT)]
+    width, height = sizes[0]
+    factor = max(1, min((width - 20) // WIDTH, (height - 80) // HEIGHT))
+    return WIDTH * factor, HEIGHT * factor
+
+
+def _icon() -> pygame.Surface:
+    """The running ninja, as the game draws it."""
+    from ninja_game.play.view.ninja.figure import ninja_sprite
+    from ninja_game.play.view.ninja.pose import run_pose
+
+    palette = PALETTES["classic"]
+    icon = pygame.Surface((_ICON, _ICON), pygame.SRCALPHA)
+    pygame.draw.rect(icon, palette.background, icon.get_rect(), border_radius=_ICON // 6)
+    sprite = ninja_sprite(_ICON / 28, palette, run_pose(0.1, 5.0), 1, (5, 0), colour=palette.ninja)
+    sprite.blit(icon, (_ICON // 2, _ICON // 2))
+    return icon

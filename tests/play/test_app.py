@@ -1,0 +1,149 @@
+"""What all screens share: settings, notices, keys that mean the same everywhere, the window."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pygame
+import pytest
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.files.user_folder import export_path
+from ninja_game.play.app import App
+from ninja_game.play.main import first_screen, main
+from ninja_game.play.menus.boss import BossScreen
+from ninja_game.play.menus.panels import PausePanel
+from ninja_game.play.menus.settings import SettingsScreen
+from ninja_game.play.window import Window
+from tests.support.menu_driver import MenuDriver
+from tests.support.scripted import frames, press, scripted_app
+
+LEVEL = Path(__file__).parent.parent.parent / "levels" / "01-first-steps.txt"
+
+
+def start_level(app: App) -> None:
+    app.push(first_screen(str(LEVEL), None, body="circle", practice=False)(app))
+
+
+def test_full_screen_and_ghost_keys_outlast_a_change_of_settings() -> None:
+    with scripted_app() as (app, _):
+        start_level(app)
+        press("ghost")
+        frames(app)
+        press("fullscreen")
+        frames(app)
+        app.change_settings(smooth=False)
+        assert app.settings.fullscreen
+        assert app.window.fullscreen
+        assert not app.settings.show_ghost
+        assert "fullscreen = true" in (app.player.folder / "settings.toml").read_text()
+
+
+def test_level_started_from_the_command_line_has_the_pause_panel() -> None:
+    with scripted_app() as (app, _):
+        start_level(app)
+        press("confirm")
+        frames(app)
+        pygame.event.post(pygame.Event(pygame.WINDOWFOCUSLOST))
+        frames(app)
+        assert isinstance(app.top, PausePanel)
+
+
+def test_damaged_records_are_told_whatever_the_first_screen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path))
+    (tmp_path / "records.sqlite").write_bytes(b"rubbish" * 500)
+    seen = []
+    monkeypatch.setattr(App, "run", lambda app, _: seen.append(app.notice))
+    main(str(LEVEL))
+    assert "damaged" in seen[0]
+
+
+@pytest.mark.parametrize("name", ["tab", "f12", "f11"])
+def test_key_of_the_app_can_be_bound(tmp_path: Path, name: str) -> None:
+    driver = MenuDriver(tmp_path)
+    screen = driver.open("Settings")
+    assert isinstance(screen, SettingsScreen)
+    driver.mouse(*screen.widgets[3].centre)
+    screen.focus = screen.widgets[5]
+    driver.press("return")
+    driver.press(name)
+    assert driver.player.settings.keys["left"][0] == name
+    assert driver.top() is screen
+    assert not list((tmp_path / "exports").iterdir())
+    assert not driver.app.window.fullscreen
+    driver.close()
+
+
+def test_letter_typed_into_a_search_is_no_command(tmp_path: Path) -> None:
+    driver = MenuDriver(tmp_path)
+    driver.app.change_settings(keys={"boss": ("b",)})
+    browser = driver.open("Levels")
+    browser.focus = browser.entry_field  # type: ignore[attr-defined]
+    driver.type("b")
+    assert driver.top() is browser
+    driver.close()
+
+
+def test_picture_goes_into_the_exports_with_a_notice() -> None:
+    with scripted_app() as (app, _):
+        start_level(app)
+        press("screenshot")
+        frames(app)
+        picture = app.player.folder / "exports" / "screenshot-1.png"
+        assert pygame.image.load(picture).get_size() == (792, 600)
+        assert str(picture) in app.notice
+        frames(app, 2, 3000)
+        assert not app.notice
+
+
+def test_picture_that_cannot_be_saved_is_a_notice() -> None:
+    with scripted_app() as (app, _):
+        start_level(app)
+        (app.player.folder / "exports").rmdir()
+        (app.player.folder / "exports").write_text("in the way")
+        press("screenshot")
+        frames(app)
+        assert "could not be saved" in app.notice
+
+
+def test_notice_is_drawn_below_the_stage_and_never_for_the_boss() -> None:
+    with scripted_app() as (app, _):
+        start_level(app)
+        frames(app, 300)  # the time bar has filled
+        before = app.surface.copy()
+        app.notify("A notice")
+        frames(app)
+        changed = pygame.mask.from_threshold(app.surface, (0, 0, 0), (8, 8, 8, 255), before)
+        changed.invert()
+        assert changed.count()
+        assert all(rect.top >= 576 for rect in changed.get_bounding_rects())
+        press("boss")
+        frames(app)
+        assert isinstance(app.top, BossScreen)
+        hidden = app.surface.copy()
+        app.notify("")
+        frames(app)
+        assert pygame.image.tobytes(app.surface, "RGB") == pygame.image.tobytes(hidden, "RGB")
+
+
+def test_screenshot_to_a_place_that_is_not_there_names_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path / "home"))
+    with pytest.raises(NinjaGameError, match=r"nowhere/a\.png: the picture cannot be written"):
+        main(str(LEVEL), frames=1, screenshot=str(tmp_path / "nowhere" / "a.png"))
+
+
+def test_no_display_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    pygame.display.quit()
+    monkeypatch.delenv("SDL_VIDEODRIVER")
+    monkeypatch.setattr(pygame.display, "get_driver", lambda: "offscreen")
+    monkeypatch.setattr(pygame.display, "init", lambda: None)
+    with pytest.raises(NinjaGameError, match="no display"):
+        Window((792, 600), fullscreen=False)
+
+
+def test_names_of_exports_are_free_short_and_plain(tmp_path: Path) -> None:
+    assert export_path(tmp_path, "A / b", ".gif").name == "a-b-1.gif"
+    export_path(tmp_path, "A / b", ".gif").touch()
+    assert export_path(tmp_path, "A / b", ".gif").name == "a-b-2.gif"
+    export_path(tmp_path, "é" * 300, ".replay.txt").touch()
+    assert export_path(tmp_path, "../..", ".gif").parent == tmp_path / "exports"
