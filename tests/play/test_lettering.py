@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import time
+
 import pygame
 import pytest
 
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.glyphs import GLYPHS
 from ninja_game.play.ui.lettering import Lettering
-from ninja_game.play.ui.stroke_font import StrokeFont, strokes
+from ninja_game.play.ui.palette import CLASSIC
+from ninja_game.play.ui.stroke_font import StrokeFont, glyph
+from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.wording import fit, wrapped
 
 
 @pytest.fixture(autouse=True)
@@ -32,9 +37,11 @@ def test_a_letter_leaves_ink_inside_its_sheet(character: str, *, bold: bool) -> 
 
 
 def test_strokes_stay_near_their_width() -> None:
-    for character, (width, _) in GLYPHS.items():
-        for line in strokes(character):
-            assert all(-1 <= x <= width + 1 and -1 <= y <= 9.3 for x, y in line), character
+    for character in [*GLYPHS, *"áèîõüçŠůŘÿĄłÅØßìĐħ"]:
+        letter = glyph(character)
+        if letter is not None:
+            points = [point for line in letter.lines for point in line]
+            assert all(-1.4 <= x <= letter.width + 1.4 and -1 <= y <= 9.3 for x, y in points), character
 
 
 def test_width_grows_with_the_text_and_digits_are_alike() -> None:
@@ -44,8 +51,61 @@ def test_width_grows_with_the_text_and_digits_are_alike() -> None:
     assert len({font.width(f"1{digit}.000") for digit in "012356789"}) == 1
 
 
-def test_characters_without_a_glyph_fall_back() -> None:
-    assert StrokeFont(20, bold=False).render("Žluťoučký", "black").get_bounding_rect().width > 60
+def test_letters_with_accents_are_composed_of_strokes() -> None:
+    font = StrokeFont(40, bold=False)
+    for accented, plain in zip("Žluťoučký", "Zlutoucky", strict=True):
+        assert glyph(accented) is not None
+        assert font.width(accented) == font.width(plain)
+        differs = pygame.image.tobytes(font.render(accented, "black"), "RGBA") != pygame.image.tobytes(
+            font.render(plain, "black"), "RGBA"
+        )
+        assert differs == (accented != plain)
+
+
+def test_text_with_an_unknown_character_is_all_in_one_lettering() -> None:
+    font = StrokeFont(20, bold=False)
+    assert glyph("日") is None
+    whole = font.render("Level 日", "black")
+    assert whole.get_width() == font.width("Level 日")
+    start = pygame.Rect(0, 0, font.width("Level"), whole.get_height())
+    own = font.render("Level", "black")
+    assert pygame.image.tobytes(whole.subsurface(start.clip(whole.get_rect())), "RGBA") != pygame.image.tobytes(
+        own, "RGBA"
+    )
+
+
+def test_space_between_small_letters_is_even() -> None:
+    """Letters are placed on quarters of a px: the same pair is never a whole px closer than elsewhere."""
+    font = StrokeFont(8.3, bold=False)
+    step = sum(font._advance(letter) for letter in map(glyph, "l ") if letter)
+    row = font.render("l " * 20, "black")
+    ink = [sum(row.get_at((x, y)).a for y in range(row.get_height())) for x in range(row.get_width())]
+    offsets = []
+    for k in range(20):
+        columns = range(max(0, round((k - 0.4) * step) + 1), round((k + 0.6) * step) + 1)
+        offsets.append(sum(x * ink[x] for x in columns) / sum(ink[x] for x in columns) - k * step)
+    assert max(offsets) - min(offsets) < 0.5
+
+
+def test_long_text_is_fitted_in_no_time() -> None:
+    theme = Theme(CLASSIC, Canvas((792, 600)))
+    start = time.perf_counter()
+    for _ in range(20):
+        shown = fit(theme, "m" * 100_000, 200, 12)
+    assert time.perf_counter() - start < 1
+    assert shown.endswith("...")
+    assert theme.width(shown, 12) <= 200 < theme.width("m" + shown, 12)
+    assert fit(theme, "short", 200, 12) == "short"
+
+
+def test_no_word_is_left_alone_on_a_line() -> None:
+    theme = Theme(CLASSIC, Canvas((792, 600)))
+    text = "A laser drone that sees you stops and charges, then burns along that line for two seconds."
+    lines = wrapped(theme, text, 504, 12.5)
+    widths = [theme.width(line, 12.5) for line in lines]
+    assert " ".join(lines) == text
+    assert len(lines) == 2
+    assert min(widths) > 0.6 * max(widths)
 
 
 def test_text_is_aligned_and_kept() -> None:

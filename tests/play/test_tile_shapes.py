@@ -65,3 +65,22 @@ def test_slopes_meet_their_neighbours_without_seams() -> None:
         for x in range(left, right):
             assert backdrop.tiles.get_at((x, border)).a == 255
             assert backdrop.tiles.get_at((x, border + 1)).a == 255
+
+
+@pytest.mark.parametrize("size", [(653, 481), (1000, 760)])
+def test_slope_over_many_cells_is_one_straight_line(size: tuple[int, int]) -> None:
+    """However the cells' px are rounded: no step of a 45 degree slope is off its line by a px."""
+    canvas = Canvas(size)
+    columns = [[0] * 23 for _ in range(31)]
+    for k in range(20):
+        columns[k][k + 1] = 2
+        columns[k][k + 2 :] = [1] * (21 - k)
+    tiles = tuple(tile for column in columns for tile in column)
+    run = Simulation(Level(tiles, (ObjectSpec(5, (700.0, 100.0)),)))
+    backdrop = Backdrop(canvas, CLASSIC, SpriteBook(canvas.scale, CLASSIC), run.static)
+    off = []
+    for x in range(round(25 * canvas.scale), round(500 * canvas.scale)):
+        column = [backdrop.tiles.get_at((x, y)).a / 255 for y in range(round(26 * canvas.scale), canvas.size[1])]
+        top = next(y for y, alpha in enumerate(column) if alpha > 0.5) + round(26 * canvas.scale)
+        off.append(top - (x + 24 * canvas.scale))
+    assert max(off) - min(off) < 1.3

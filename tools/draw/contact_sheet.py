@@ -23,7 +23,7 @@ from ninja_game.play.ui.theme import Theme
 from ninja_game.play.view.effects import particle_shapes
 from ninja_game.play.view.ninja.dances import DANCES
 from ninja_game.play.view.ninja.figure import ninja_sprite
-from ninja_game.play.view.ninja.pose import FALL, FLOAT, RISE, SKID, SLIDE, STAND, Pose, run_pose
+from ninja_game.play.view.ninja.pose import FALL, FLOAT, LEAP, RISE, SKID, SLIDE, STAND, Pose, run_pose
 from ninja_game.play.view.sprites import moving_sprites as moving
 from ninja_game.play.view.sprites import static_sprites as static
 from ninja_game.play.view.sprites.drawing import SpriteKey
@@ -90,7 +90,7 @@ THINGS: list[Shown] = [
 """Every thing in every state that looks different."""
 
 POSES: list[tuple[str, Pose, float]] = [
-    ("stand", STAND, 0), ("skid", SKID, 3), ("slide", SLIDE, 0), ("rise", RISE, 1),
+    ("stand", STAND, 0), ("skid", SKID, 3), ("slide", SLIDE, 0), ("leap", LEAP, 3), ("rise", RISE, 1),
     ("float", FLOAT, 2), ("fall", FALL, 2),
     *((f"run {k}/6", run_pose(k / 6, 5.0), 5) for k in range(6)),
     *((f"dance {k + 1}", dance.at(9)[0].placed(1, dance.at(9)[1]), 0) for k, dance in enumerate(DANCES)),

@@ -6,11 +6,20 @@ ellipse, ``A x y rx ry from to`` arc in degrees (0 right, 90 down; a line leads 
 
 from __future__ import annotations
 
-CAP, DESCENDER = 7.0, 9.2
-"""Height of capitals, depth of the lowest strokes, from the top of the capitals."""
+CAP = 7.0
+"""Height of capitals."""
 
 GLYPHS: dict[str, tuple[float, str]] = {
     " ": (0.9, ""),
+    "\u0131": (0.0, "M0 2.4 L0 7"),
+    "\u0237": (0.9, "M0.9 2.4 L0.9 7.6 Q0.9 9.2 -0.6 9"),
+    "\u00df": (3.4, "M0 7 L0 1.8 A1.5 1.7 1.5 1.8 180 390 Q2.8 3.2 1.7 3.5 A1.7 5.2 1.8 1.75 -90 130"),
+    "\u00e6": (6.0, "O1.6 4.7 1.6 2.3 M3.2 2.4 L3.2 7 M3.2 4.7 L6 4.7 A4.6 4.7 1.4 2.3 0 -312"),
+    "\u00c6": (6.4, "M0 7 L2.9 0 L6.4 0 M3.4 0 L3.4 7 L6.4 7 M3.4 3.4 L5.9 3.4 M1.2 4.7 L3.4 4.7"),
+    "\u00f8": (3.9, "O1.95 4.7 1.95 2.3 M0.3 7.3 L3.6 2.1"),
+    "\u00d8": (5.5, "O2.75 3.5 2.75 3.5 M0.6 7.3 L4.9 -0.3"),
+    "\u0142": (1.6, "M0.8 -0.2 L0.8 7 M0 4.4 L1.6 2.6"),
+    "\u0141": (3.9, "M0.3 0 L0.3 7 L3.9 7 M-0.6 4.4 L1.6 2.6"),
     "A": (4.6, "M0 7 L2.3 0 L4.6 7 M0.8 4.7 L3.8 4.7"),
     "B": (4.3, "M0 7 L0 0 L2.2 0 A2.2 1.65 1.65 1.65 -90 90 L0 3.3 M2.2 3.3 A2.4 5.15 1.85 1.85 -90 90 L0 7"),
     "C": (4.6, "A2.6 3.5 2.6 3.5 -48 -312"),
@@ -113,4 +122,21 @@ GLYPHS: dict[str, tuple[float, str]] = {
     "\u2191": (3.6, "M1.8 7 L1.8 0.6 M0 2.4 L1.8 0.6 L3.6 2.4"),
     "\u2193": (3.6, "M1.8 0.4 L1.8 6.8 M0 5 L1.8 6.8 L3.6 5"),
 }  # fmt: skip
-"""By character; what is missing is drawn in the bundled font."""
+"""By character."""
+
+MARKS: dict[str, str] = {
+    "\u0300": "M-0.8 -1.4 L0.5 0", "\u0301": "M0.8 -1.4 L-0.5 0", "\u0302": "M-1.1 0 L0 -1.3 L1.1 0",
+    "\u0303": "M-1.3 -0.2 Q-0.7 -1.5 0 -0.7 Q0.7 0.1 1.3 -1.1", "\u0304": "M-1.2 -0.7 L1.2 -0.7",
+    "\u0306": "A0 -1.2 1.2 1 180 0", "\u0307": "D0 -0.7", "\u0308": "D-1 -0.7 D1 -0.7",
+    "\u030a": "O0 -0.7 0.8 0.8", "\u030b": "M-0.1 -1.4 L-1 0 M1.4 -1.4 L0.5 0", "\u030c": "M-1.1 -1.3 L0 0 L1.1 -1.3",
+}  # fmt: skip
+"""Accents by their combining character, about the point above the middle of a letter on which they stand."""
+
+LOW_MARKS: dict[str, str] = {
+    "\u0323": "D0 8.6", "\u0326": "M0.2 7.9 L-0.4 9.1",
+    "\u0327": "M0 7 Q1.1 8.3 -0.6 8.8", "\u0328": "M0.6 7 Q-0.6 8.4 0.9 8.8",
+}  # fmt: skip
+"""Marks below a letter, about the middle of it."""
+
+ASCENDERS = frozenset("bdfhklt")
+"""Small letters as tall as capitals: with an accent they are drawn lower."""

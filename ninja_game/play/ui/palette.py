@@ -128,6 +128,12 @@ SAFE_DARK = _palette(
 
 PALETTES: dict[str, Palette] = {palette.name: palette for palette in (CLASSIC, DARK, CONTRAST, SAFE, SAFE_DARK)}
 
+
+def palette_named(name: str) -> Palette:
+    """The palette of a name; the classic one for an unknown name, which a settings file may hold."""
+    return PALETTES.get(name, CLASSIC)
+
+
 ROLES = tuple(entry.name for entry in fields(Palette) if entry.name not in {"name", "danger_by_shape"})
 """All colour roles."""
 

@@ -1,16 +1,21 @@
-"""Draws the game's own letters: round strokes at any size, smooth, two weights."""
+"""Draws the game's own letters: round strokes at any size, smooth, two weights.
+
+Letters with accents are composed of their parts. A text with any other character is drawn as a whole in pygame's font.
+"""
 
 from __future__ import annotations
 
 import re
+import unicodedata
 from functools import lru_cache
 from itertools import pairwise
-from math import ceil, cos, radians, sin
+from math import ceil, cos, floor, radians, sin
+from typing import NamedTuple
 
 import pygame
 
 from ninja_game.play.ui.canvas import Colour, Point
-from ninja_game.play.ui.glyphs import CAP, GLYPHS
+from ninja_game.play.ui.glyphs import ASCENDERS, CAP, GLYPHS, LOW_MARKS, MARKS
 
 HEIGHT = 1.08
 """Height of a line of text for letters of size 1; capitals are 0.675 of the size."""
@@ -21,14 +26,46 @@ _WEIGHTS = (0.95, 1.42)
 _SPACING = 1.18
 """Free space between two letters, on the grid, stroke ends not counted."""
 _FINE = 4
+_LOWERED = 0.8
+"""Height of a tall letter under an accent, as a share of its own."""
 _COMMANDS = re.compile(r"([MLQOAD])([^MLQOAD]*)")
 
 
-@lru_cache(maxsize=256)
-def strokes(character: str) -> tuple[tuple[Point, ...], ...]:
-    """The polylines of a glyph; a dot is a line of one point."""
+class Glyph(NamedTuple):
+    """Width of a letter, and its polylines, on the glyphs' grid; a dot is a line of one point."""
+
+    width: float
+    lines: tuple[tuple[Point, ...], ...]
+
+
+@lru_cache(maxsize=1024)
+def glyph(character: str) -> Glyph | None:
+    """A letter, composed of its parts where it has accents; None for one that the game has no strokes for."""
+    if character in GLYPHS:
+        width, path = GLYPHS[character]
+        return Glyph(width, _lines(path))
+    parts = unicodedata.normalize("NFD", character)
+    base, marks = parts[0], parts[1:]
+    if base not in GLYPHS or not marks or not set(marks) <= MARKS.keys() | LOW_MARKS.keys():
+        return None
+    raised = MARKS.keys() & set(marks)
+    dotless = {"i": "\u0131", "j": "\u0237"}.get(base, base) if raised else base
+    width, path = GLYPHS[dotless]
+    lines = _lines(path)
+    tall = base.isupper() or base in ASCENDERS
+    if raised and tall:
+        lines = tuple(tuple((x, CAP - (CAP - y) * _LOWERED) for x, y in line) for line in lines)
+    for mark in marks:
+        dy = 0.0 if mark in LOW_MARKS else 0.6 if tall else 1.1
+        drawn = _lines(MARKS.get(mark) or LOW_MARKS[mark])
+        lines += tuple(tuple((x + width / 2, y + dy) for x, y in line) for line in drawn)
+    return Glyph(width, lines)
+
+
+def _lines(path: str) -> tuple[tuple[Point, ...], ...]:
+    """The polylines of a path."""
     lines: list[list[Point]] = []
-    for command, numbers in _COMMANDS.findall(GLYPHS[character][1]):
+    for command, numbers in _COMMANDS.findall(path):
         values = [float(number) for number in numbers.split()]
         if command in "MD":
             lines.append([(values[0], values[1])])
@@ -78,37 +115,38 @@ class StrokeFont:
         self._baseline_top = _TOP * size
         self._pad = self._weight / 2 * self._unit + 1
         self._fallback = pygame.font.Font(None, max(6, round(size * 1.35)))
-        self._glyphs: dict[tuple[str, tuple[int, ...]], pygame.Surface] = {}
+        self._glyphs: dict[tuple[str, tuple[int, ...], int], pygame.Surface] = {}
 
-    def _advance(self, character: str) -> float:
+    def _advance(self, letter: Glyph) -> float:
         """From one letter to the next, px."""
-        if character in GLYPHS:
-            return (GLYPHS[character][0] + _SPACING + self._weight) * self._unit
-        return float(self._fallback.size(character)[0])
+        return (letter.width + _SPACING + self._weight) * self._unit
 
     def width(self, text: str) -> int:
         """Width of a text, px."""
-        return ceil(sum(map(self._advance, text)) - _SPACING * self._unit + 2) if text else 0
+        if not text:
+            return 0
+        letters = [glyph(character) for character in text]
+        if None in letters:
+            return self._fallback.size(text)[0] + 2
+        return ceil(sum(self._advance(letter) for letter in letters if letter) - _SPACING * self._unit + 2)
 
-    def _glyph(self, character: str, colour: pygame.Color) -> pygame.Surface:
-        """A letter on a sheet of its own, its origin ``_pad`` px from the left."""
-        key = character, tuple(colour)
+    def _picture(self, character: str, letter: Glyph, colour: pygame.Color, phase: int) -> pygame.Surface:
+        """A letter on a sheet of its own, its origin ``phase`` quarters of a px beside ``_pad`` px from the left."""
+        key = character, tuple(colour), phase
         if key not in self._glyphs:
-            self._glyphs[key] = self._draw(character, colour)
+            self._glyphs[key] = self._draw(letter, colour, phase)
         return self._glyphs[key]
 
-    def _draw(self, character: str, colour: pygame.Color) -> pygame.Surface:
-        if character not in GLYPHS:
-            return self._fallback.render(character, True, colour)
+    def _draw(self, letter: Glyph, colour: pygame.Color, phase: int) -> pygame.Surface:
         # One more unit to the left and right: a few strokes reach beyond their glyph's width.
-        size = ceil((GLYPHS[character][0] + 2) * self._unit + 2 * self._pad), self.height
+        size = ceil((letter.width + 2) * self._unit + 2 * self._pad) + 1, self.height
         # The colour is everywhere, only the alpha is the letter's: averaging does not darken its edge.
         fine = pygame.Surface((size[0] * _FINE, size[1] * _FINE), pygame.SRCALPHA)
         fine.fill((colour.r, colour.g, colour.b, 0))
         zoom = self._unit * _FINE
-        left, top = (self._pad + self._unit) * _FINE, self._baseline_top * _FINE
+        left, top = (self._pad + self._unit) * _FINE + phase, self._baseline_top * _FINE
         width = max(_FINE, self._weight * zoom)
-        for line in strokes(character):
+        for line in letter.lines:
             points = [(left + x * zoom, top + y * zoom) for x, y in line]
             # Small dots would be lost.
             radius = max(width * 0.66, 0.85 * _FINE) if len(points) == 1 else width / 2
@@ -125,15 +163,18 @@ class StrokeFont:
         return pygame.transform.smoothscale(fine, size)
 
     def render(self, text: str, colour: Colour) -> pygame.Surface:
-        """The picture of a text."""
+        """The picture of a text. Letters lie on quarters of a px, so that small ones keep their distance."""
         ink = pygame.Color(colour)
         picture = pygame.Surface((max(1, self.width(text)), self.height), pygame.SRCALPHA)
         picture.fill((ink.r, ink.g, ink.b, 0))
+        letters = [(character, glyph(character)) for character in text]
+        if any(letter is None for _, letter in letters):
+            picture.blit(self._fallback.render(text, True, ink), (1, round(self._baseline_top * 0.2)))
+            return picture
         x = 1 + self._weight / 2 * self._unit
-        for character in text:
-            own = character in GLYPHS
-            glyph = self._glyph(character, ink)
-            place = (round(x - self._pad - self._unit), 0) if own else (round(x), round(self._baseline_top * 0.2))
-            picture.blit(glyph, place)
-            x += self._advance(character)
+        for character, letter in letters:
+            if letter is not None:
+                left, phase = divmod(floor((x - self._pad - self._unit) * _FINE), _FINE)
+                picture.blit(self._picture(character, letter, ink, phase), (left, 0))
+                x += self._advance(letter)
         return picture

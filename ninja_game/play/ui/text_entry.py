@@ -10,8 +10,6 @@ from ninja_game.play.input.scancodes import key_name, scancode_of
 from ninja_game.play.ui.theme import Theme
 from ninja_game.play.ui.widgets import PAD, TEXT, Area, Widget
 
-BLINK_MS = 500
-
 
 class TextEntry(Widget):
     """A text field. With the focus it takes what is typed; left, right, Home, End, Backspace and Delete edit.

@@ -58,8 +58,11 @@ SKID = pose((-4.8, -3.0), (-1.6, 2.2), (1.6, -5.8), (-10.0, -0.6), (7.4, 9.7), (
 SLIDE = pose((2.4, -4.0), (1.8, 1.7), (9.4, -8.4), (9.2, -3.0), (9.0, 5.8), (6.4, 9.6), (2.8, -7.4))
 """Hands and feet on a wall to the right."""
 
-RISE = pose((1.2, -4.4), (-0.4, 1.0), (5.6, -10.4), (-4.6, -0.4), (4.8, 5.2), (-4.6, 10.0))
-"""Rising fast: one arm up, one knee high, the other leg stretched."""
+LEAP = pose((1.6, -4.6), (-0.6, 0.8), (-5.2, -1.0), (5.4, -0.8), (2.6, 8.4), (-5.4, 10.2))
+"""Taking off: arms swung back and forth, legs stretched."""
+
+RISE = pose((1.2, -4.4), (-0.4, 1.0), (8.6, -7.0), (-5.6, -1.6), (4.8, 5.2), (-4.6, 10.0))
+"""Rising: one arm reaching ahead, one knee high, the other leg stretched."""
 
 FLOAT = pose((0.6, -4.0), (-0.4, 1.4), (7.2, -4.6), (-6.4, -3.6), (5.2, 6.4), (-4.6, 7.2))
 """At the top: knees drawn up, arms out."""
@@ -68,10 +71,16 @@ FALL = pose((-0.2, -4.0), (0.2, 1.4), (6.4, -9.4), (-6.6, -8.6), (4.6, 9.6), (-2
 """Falling fast: arms up, legs reaching down."""
 
 
+_LEAP_SPEED = 3.0
+"""Speed upwards with which a jump from the floor begins at most, px/tick."""
+
+
 def air_pose(vy: float) -> Pose:
     """The pose in the air for a vertical velocity in px/tick: 19 steps in the original, here without steps."""
-    k = max(-1.0, vy) if vy < 0 else min(1.0, (vy / 2.5) ** 0.5)
-    return FLOAT.mixed(RISE, -k) if k < 0 else FLOAT.mixed(FALL, k)
+    if vy >= 0:
+        return FLOAT.mixed(FALL, min(1.0, (vy / 2.5) ** 0.5))
+    k = min(1.0, -vy / _LEAP_SPEED) * 2
+    return FLOAT.mixed(RISE, k) if k < 1 else RISE.mixed(LEAP, k - 1)
 
 
 # --- running: one cycle is 64.8 px of travel ---

@@ -42,7 +42,8 @@ class Backdrop:
 
     def _draw_tiles(self, level: TileMap) -> None:
         """Each cell into the px between its rounded edges."""
-        pictures: dict[tuple[int, int, int], pygame.Surface] = {}
+        pictures: dict[tuple[int, int, int, float, float], pygame.Surface] = {}
+        scale = self.canvas.scale
         for row in range(_ROWS):
             for column in range(_COLUMNS):
                 tile = level.tiles[(row + 1) * STRIDE + column + 1]
@@ -50,9 +51,12 @@ class Backdrop:
                     continue
                 left, top = self._local(24 * column, 24 * row)
                 right, bottom = self._local(24 * column + 24, 24 * row + 24)
-                key = tile, right - left, bottom - top
+                # How far the cell's true corner lies beside its px: in eighths, so that few pictures are drawn.
+                shift = round(8 * (24 * column * scale - left)) / 8, round(8 * (24 * row * scale - top)) / 8
+                size = right - left, bottom - top
+                key = tile, *size, *shift
                 if key not in pictures:
-                    pictures[key] = tile_picture(tile, key[1:], self.palette.tile)
+                    pictures[key] = tile_picture(tile, size, self.palette.tile, scale=scale, shift=shift)
                 self.tiles.blit(pictures[key], (left, top))
                 self._solid[row * _COLUMNS + column] = True
 

@@ -72,9 +72,10 @@ def door(s: Sketch, p: Palette, mechanism: int, step: int) -> None:
             edge = side * (12 - half)
             s.box(p.good, -0.6, edge - (0 if side > 0 else 2.6), 1.2, 2.6)
     elif mechanism == 1 and step == 0:
-        s.framed_box(p.gold_light, p.outline, -4, -3.6, 8, 7.2)
-        s.disc(p.outline, 0, -0.8, 1.2)
-        s.polygon(p.outline, [(-0.5, -0.5), (0.5, -0.5), (0.9, 2.2), (-0.9, 2.2)])
+        s.disc(p.outline, 0, 0, 4.6)
+        s.disc(p.lock, 0, 0, 3.8)
+        s.disc(p.bright, 0, -0.9, 1.3)
+        s.polygon(p.bright, [(-0.6, -0.5), (0.6, -0.5), (1.0, 2.4), (-1.0, 2.4)])
     elif mechanism == 2:
         for y in range(-8, 9, 4):
             s.polygon(
@@ -85,12 +86,15 @@ def door(s: Sketch, p: Palette, mechanism: int, step: int) -> None:
 
 @drawing(6.5)
 def door_switch(s: Sketch, p: Palette, mechanism: int, used: int) -> None:
-    """A key plate (locked doors) or a snare (trap doors)."""
+    """A round plate with a key (locked doors: gold is square) or a snare (trap doors)."""
     if mechanism == 1:
-        s.framed_box(p.middle if used else p.gold_light, p.outline, -4, -4, 8, 8)
-        s.ring(p.dark if used else p.outline, -1, 0, 1.9, 0.9)
-        s.stroke(p.dark if used else p.outline, (0.7, 0), (3, 0), 0.9)
-        s.stroke(p.dark if used else p.outline, (2.6, 0), (2.6, 1.6), 0.9)
+        plate, sign = (p.middle, p.dark) if used else (p.lock, p.bright)
+        s.disc(p.outline, 0, 0, 5.4)
+        s.disc(plate, 0, 0, 4.6)
+        s.ring(sign, -1.6, 0, 1.7, 0.9)
+        s.stroke(sign, (-0.2, 0), (3.2, 0), 0.9)
+        for x in (1.7, 3.1):
+            s.stroke(sign, (x, 0), (x, 1.5), 0.9)
     else:
         s.framed_box(p.middle if used else p.trap, p.outline, -3, -3, 6, 6, 0.8)
         if not used:

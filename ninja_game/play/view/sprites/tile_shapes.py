@@ -63,12 +63,38 @@ def outline(tile: int) -> list[Point]:
     return points
 
 
-def tile_picture(tile: int, size: tuple[int, int], colour: pygame.Color) -> pygame.Surface:
-    """A tile in a cell of that many px, premultiplied."""
+def tile_picture(
+    tile: int, size: tuple[int, int], colour: pygame.Color, *, scale: float = 0.0, shift: Point = (0.0, 0.0)
+) -> pygame.Surface:
+    """A tile in a cell of that many px, premultiplied.
+
+    ``shift``: px by which the cell's true corner, at ``scale`` px per logical px, lies beside that of its px. Slopes
+    are drawn where they truly are, so that those of neighbouring cells form one line; other shapes fill the cell's px.
+    """
     fine = pygame.Surface((size[0] * FINE, size[1] * FINE), pygame.SRCALPHA)
     # Drawing includes the px of the last corner: half a fine px less keeps the shape inside its cell.
     wide, high = size[0] * FINE, size[1] * FINE
-    corners = [((x + H) / 24 * wide, (y + H) / 24 * high) for x, y in outline(tile)]
+    if scale and SHAPE[tile] not in _FITTED:
+        zoom = scale * FINE
+        corners = [((x + H) * zoom + shift[0] * FINE, (y + H) * zoom + shift[1] * FINE) for x, y in _overlong(tile)]
+    else:
+        exact = [((x + H) / 24 * wide, (y + H) / 24 * high) for x, y in outline(tile)]
+        corners = [(min(x, wide - 0.5), min(y, high - 0.5)) for x, y in exact]
     if len(corners) > 2:
-        pygame.draw.polygon(fine, colour, [(min(x, wide - 0.5), min(y, high - 0.5)) for x, y in corners])
+        pygame.draw.polygon(fine, colour, corners)
     return pygame.transform.smoothscale(fine, size)
+
+
+_FITTED = {EMPTY, UNDEFINED, FULL, HALF_TILE, CONCAVE, CONVEX}
+"""Shapes that are stretched to the px of their cell."""
+
+
+def _overlong(tile: int) -> list[Point]:
+    """The outline of a slope that reaches beyond its cell, so that no side of the cell has a gap."""
+    start, end = (T_X[tile], T_Y[tile]), (S_X[tile], S_Y[tile])
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    longer = {
+        start: (start[0] - dx / 12, start[1] - dy / 12),
+        end: (end[0] + dx / 12, end[1] + dy / 12),
+    }
+    return [longer.get(point, (point[0] * 1.2, point[1] * 1.2)) for point in outline(tile)]
