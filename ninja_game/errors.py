@@ -29,7 +29,8 @@ class FormatError(NinjaGameError):
     hint: str = ""
 
     def __str__(self) -> str:
-        place = ":".join(str(part) for part in (self.file, self.line, self.column) if part)
+        file = self.file if self.file.isprintable() else ascii(self.file)
+        place = ":".join(str(part) for part in (file, self.line, self.column) if part)
         text = f"{place}: {self.what}" if place else self.what
         if self.found:
             text += f"; found {self.found}"

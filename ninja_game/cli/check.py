@@ -21,6 +21,7 @@ from ninja_game.cli.solver_options import (
     seed_option,
     work_option,
 )
+from ninja_game.files.shown_text import shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
@@ -94,7 +95,7 @@ def _row(level: NamedLevel, run: VerifiedRun | None) -> str:
         par = f"par {run.end_tick / TICKS_PER_SECOND:7.3f} s  {run.end_tick:>5} ticks  {run.gold:>3} gold"
     from ninja_game.levels.warnings import level_warnings
 
-    row = f"{mark} {par}  {level.name}  {level.file}:{level.record}"
+    row = f"{mark} {par}  {shown_text(level.name)}  {shown_text(level.file)}:{level.record}"
     return "\n         ".join([row, *(f"warning: {warning}" for warning in level_warnings(level.level))])
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,7 +15,6 @@ if TYPE_CHECKING:
 
 FORMS = ("ascii", "string", "file")
 STANDARD_STREAM = "-"
-UNSAFE = re.compile(r"[^\w.-]+", re.ASCII)
 
 
 @click.command()
@@ -117,11 +115,13 @@ def _write_folder(folder: Path, levels: Sequence[NamedLevel], legend: bool, sour
 
 def _file_names(levels: Sequence[NamedLevel]) -> Iterator[str]:
     """`0007-name-of-the-level.txt`; files that came from a folder keep their names."""
+    from ninja_game.files.shown_text import file_stem
+
     digits = max(3, len(str(len(levels) - 1)))
     stems = [Path(level.file).stem for level in levels]
     for number, level in enumerate(levels):
         if len(set(stems)) == len(levels) > 1:
             yield f"{stems[number]}.txt"
         else:
-            name = UNSAFE.sub("-", level.name).strip("-.").lower()[:60]
+            name = file_stem(level.name)
             yield f"{number:0{digits}d}{'-' * bool(name)}{name}.txt"

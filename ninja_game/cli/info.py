@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.shown_text import shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
@@ -102,9 +103,10 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
     from ninja_game.cli.picture import level_picture
     from ninja_game.levels.warnings import level_warnings
 
-    by = f" by {level.author}" if level.author else ""
-    console.print(Text.assemble((level.name or "(no name)", "bold"), by, f"  {level.comment}" * bool(level.comment)))
-    console.print(Text(f"{level.file}, record {level.record}", "dim"))
+    name, author, comment, file = map(shown_text, (level.name, level.author, level.comment, level.file))
+    by = f" by {author}" if author else ""
+    console.print(Text.assemble((name or "(no name)", "bold"), by, f"  {comment}" * bool(comment)))
+    console.print(Text(f"{file}, record {level.record}", "dim"))
     if picture:
         console.print(level_picture(level.level), soft_wrap=True)
     objects = ", ".join(f"{count} {kind}" for kind, count in _counts(level).items())
@@ -138,9 +140,9 @@ def _show_table(console: Console, levels: Sequence[NamedLevel], recordings: dict
         warnings = len(level_warnings(level.level))
         place = f":{level.record}" if sizes[level.file] > 1 else ""
         table.add_row(
-            escape(Path(level.file).name) + place if len(sizes) > 1 else str(level.record),
-            escape(level.name),
-            escape(level.author),
+            escape(shown_text(Path(level.file).name)) + place if len(sizes) > 1 else str(level.record),
+            escape(shown_text(level.name)),
+            escape(shown_text(level.author)),
             str(sum(counts.values())),
             str(counts["gold"]),
             str(run.ticks) if run else "",

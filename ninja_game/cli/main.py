@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import os
 import sys
+import traceback
 from collections.abc import Sequence
+from difflib import get_close_matches
 from importlib import import_module
 from typing import Any, NoReturn
 
@@ -15,6 +17,7 @@ import click
 
 from ninja_game import __version__
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.shown_text import shown_text
 
 COMMANDS = {
     "play": "Play a level in a window.",
@@ -33,11 +36,16 @@ COMMANDS = {
 BAD_INPUT = 2
 """Exit code for input that cannot be read and for wrong usage."""
 
+INTERNAL_ERROR = 3
+"""Exit code for a fault of this program; its traceback is on stderr."""
+
 INTERRUPTED = 130
 """Exit code after Ctrl-C, as shells have it."""
 
 BROKEN_PIPE = 141
 """Exit code when whoever read our output has gone, as shells have it."""
+
+_LONGEST_MESSAGE = 2000
 
 
 class Commands(click.Group):
@@ -55,6 +63,15 @@ class Commands(click.Group):
         assert isinstance(command, click.Command)  # noqa: S101 - for the type checker
         return command
 
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """The command that is named; a usage error for an unknown one says which is nearest."""
+        near = get_close_matches(args[0], COMMANDS, 1) if args and args[0] not in COMMANDS else []
+        if near:
+            ctx.fail(f"No such command {args[0]!r}; did you mean '{near[0]}'?")
+        return super().resolve_command(ctx, args)
+
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """The table of commands, without importing them."""
         with formatter.section("Commands"):
@@ -65,7 +82,10 @@ class Commands(click.Group):
         try:
             code = super().invoke(ctx)
             sys.stdout.flush()
-        except BrokenPipeError:
+        except (BrokenPipeError, SystemExit) as error:
+            # Rich, which draws tables, makes a lost reader exit code 1.
+            if not isinstance(error, BrokenPipeError) and not isinstance(error.__context__, BrokenPipeError):
+                raise
             # What Python flushes at exit must not fail again.
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             return BROKEN_PIPE
@@ -80,8 +100,9 @@ class Commands(click.Group):
             click.echo(error.format_message(), err=True)
             code = BAD_INPUT
         except click.UsageError as error:
-            hint = f"\nTry '{error.ctx.command_path} --help'." if error.ctx else ""
-            code = complain(error.format_message() + hint)
+            code = complain(error.format_message())
+            if error.ctx:
+                click.echo(f"Try '{error.ctx.command_path} --help'.", err=True)
         except click.ClickException as error:
             code = complain(error.format_message())
         except NinjaGameError as error:
@@ -91,12 +112,17 @@ class Commands(click.Group):
         except (click.Abort, KeyboardInterrupt):
             complain("interrupted")
             code = INTERRUPTED
+        except Exception:  # noqa: BLE001 - nothing may end like a run that failed
+            traceback.print_exc()
+            complain("this is a fault of ninja-game, not of your input; please report it with the lines above")
+            code = INTERNAL_ERROR
         sys.exit(code)
 
 
 def complain(message: str) -> int:
-    """Exit code 2, after the message on stderr."""
-    click.echo(f"ninja-game: {message}", err=True)
+    """Exit code 2, after the lines of the message on stderr."""
+    for line in message.split("\n"):
+        click.echo(f"ninja-game: {shown_text(line, _LONGEST_MESSAGE)}", err=True)
     return BAD_INPUT
 
 

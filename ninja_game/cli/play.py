@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 from typing import Literal
 
@@ -14,18 +15,22 @@ from ninja_game.errors import NinjaGameError
 @click.command()
 @click.argument("level", required=False)
 @click.option(
+    "--record", type=click.IntRange(0, 10**6), default=0, help="Begin with this level of the file, counted from 0."
+)
+@click.option(
     "--body", type=click.Choice(["circle", "box"]), default="circle", show_default=True,
     help="The ninja's body: the circle of the classic rules, or a box of the same size.",
 )  # fmt: skip
 @click.option("--practice", is_flag=True, help="No time limit, nothing counts.")
 @click.option("--replay", type=click.Path(exists=True, dir_okay=False), help="Watch the recordings of this file.")
 @click.option("--size", metavar="WIDTHxHEIGHT", help="Size of the window in px, e.g. 1584x1200.")
-@click.option("--frames", type=click.IntRange(min=1), help="End after so many pictures.")
+@click.option("--frames", type=click.IntRange(1, 10**9), help="End after so many pictures.")
 @click.option("--screenshot", type=click.Path(dir_okay=False), help="Write the last picture to this PNG file.")
 @click.pass_context
 def command(
     ctx: click.Context,
     level: str | None,
+    record: int,
     body: Literal["circle", "box"],
     practice: bool,
     replay: str | None,
@@ -35,12 +40,15 @@ def command(
 ) -> None:
     """Play a level in a window.
 
-    LEVEL is a file of levels, or the name of one of the game's own; without it the game begins at its menu.
+    LEVEL is a file of levels, or the name of one of the game's own; without it the game begins at its menu. The menu
+    Levels offers your own files too: those in the folder `levels` of your folder for this game, which NINJA_GAME_HOME
+    moves; a file that is dropped on that menu is copied there.
 
     \b
     Examples:
       ninja-game play
       ninja-game play my-level.txt --practice
+      ninja-game play userlevels.txt --record 17
       ninja-game play --replay run.replay.txt
       SDL_VIDEODRIVER=dummy ninja-game play --frames 40 --screenshot picture.png
     """
@@ -56,7 +64,14 @@ def command(
 
     try:
         code = main(
-            path, body=body, size=window, replay_path=replay, practice=practice, frames=frames, screenshot=screenshot
+            path,
+            body=body,
+            size=window,
+            replay_path=replay,
+            practice=practice,
+            frames=frames,
+            screenshot=screenshot,
+            record=record,
         )
     except pygame.error as error:
         raise NinjaGameError(f"the window cannot be opened: {error}") from None
@@ -79,6 +94,7 @@ def _path_of(level: str) -> str:
 def _pixels(size: str) -> tuple[int, int]:
     """Width and height from ``WIDTHxHEIGHT``."""
     width, _, height = size.lower().partition("x")
-    if not (width.isdecimal() and height.isdecimal() and 0 < int(width) <= 16384 and 0 < int(height) <= 16384):
+    digits = re.compile("[1-9][0-9]{1,4}")
+    if not all(digits.fullmatch(part) and int(part) <= 16384 for part in (width, height)):
         raise click.UsageError(f"--size is {size!r}; expected WIDTHxHEIGHT in px, e.g. 1584x1200")
     return int(width), int(height)

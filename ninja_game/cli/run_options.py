@@ -21,7 +21,7 @@ memory_option = click.option(
 )  # fmt: skip
 
 jobs_option = click.option(
-    "--jobs", type=click.IntRange(min=1), help="How many workers run recordings. [default: one a core]"
+    "--jobs", type=click.IntRange(1, 1024), help="How many workers run recordings. [default: one a core]"
 )
 
 

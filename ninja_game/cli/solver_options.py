@@ -35,9 +35,20 @@ class GoldCount(click.ParamType):  # type: ignore[type-arg, unused-ignore]
             return value
         if value == "all":
             return -1
-        if not str(value).isdecimal():
+        if not (str(value).isdecimal() and len(str(value)) < 10):
             self.fail(f"{value!r} is neither 'all' nor a whole number", param, ctx)
         return int(value)
+
+
+class Seconds(click.FloatRange):
+    """A time in seconds, not "not a number"."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """The number; usage error for anything else."""
+        seconds: float = super().convert(value, param, ctx)
+        if seconds != seconds:  # noqa: PLR0124 - NaN
+            self.fail(f"{value!r} is no number of seconds", param, ctx)
+        return seconds
 
 
 gold_option = click.option(
@@ -48,23 +59,23 @@ gold_option = click.option(
 def seconds_option(default: float) -> Callable[[F], F]:
     """How long to search."""
     return click.option(
-        "--seconds", type=click.FloatRange(min=0.1), default=default, show_default=True, help="Stop after this time."
+        "--seconds", type=Seconds(min=0.1), default=default, show_default=True, help="Stop after this time."
     )
 
 
 work_option = click.option(
-    "--ticks", "work", type=click.IntRange(min=0), default=0, metavar="N",
+    "--ticks", "work", type=click.IntRange(0, 10**15), default=0, metavar="N",
     help="Stop after about N simulated ticks a job instead: with one job, always the same result.",
 )  # fmt: skip
 smooth_option = click.option(
-    "--smooth", type=click.IntRange(min=0), metavar="N",
+    "--smooth", type=click.IntRange(0, 10**6), metavar="N",
     help="In the end make the run look played: few key changes, at most N ticks longer.",
 )  # fmt: skip
 seed_option = click.option(
-    "--seed", type=click.IntRange(min=0), default=1, show_default=True,
+    "--seed", type=click.IntRange(0, 10**9), default=1, show_default=True,
     help="With one job, the same seed does the same work in the same order.",
 )  # fmt: skip
-search_jobs_option = click.option("--jobs", type=click.IntRange(min=1), help="Threads. [default: one a core]")
+search_jobs_option = click.option("--jobs", type=click.IntRange(1, 1024), help="Threads. [default: one a core]")
 body_option = click.option(
     "--body", type=click.Choice(["circle", "box"]), default="circle", show_default=True, help="The ninja's body."
 )

@@ -14,10 +14,14 @@ from typing import IO, TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.run_options import jobs_option, memory_option, with_progress
+from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
     from ninja_game.runs.trace_files import FiledTrace
     from ninja_game.verification.archive_tracing import Traced
+
+MOST_TICKS = 1_000_000
+"""Longest trace that can be asked for: almost seven hours."""
 
 SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 """A comment like this names the section of the specification that a recording is about."""
@@ -26,8 +30,8 @@ SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 @click.command()
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
 @click.option("--record", type=click.IntRange(min=0), help="Only this one of a file's recordings, counted from 0.")
-@click.option("--ticks", type=click.IntRange(min=1), help="Exactly so many ticks, whatever happens.")
-@click.option("--after", type=click.IntRange(min=0), help="So many ticks more than `verify` would run.")
+@click.option("--ticks", type=click.IntRange(1, MOST_TICKS), help="Exactly so many ticks, whatever happens.")
+@click.option("--after", type=click.IntRange(0, MOST_TICKS), help="So many ticks more than `verify` would run.")
 @click.option("--objects", is_flag=True, help="Rows for the objects too, not only for the ninja.")
 @click.option("--digests", is_flag=True, help="One JSON object a recording with digests of everything, instead.")
 @click.option(
@@ -137,7 +141,7 @@ def _compare(traces: Traces, against: Path) -> int:
         difference = first_difference(run, there, section) if there else f"record {record} is not in {against}"
         if difference:
             different += 1
-            click.echo(f"{file}:{record} {name}: {difference}")
+            click.echo(f"{shown_text(file)}:{record} {shown_text(name)}: {difference}")
     click.echo(f"{traces.count - different} of {traces.count} equal to {against}")
     return different
 

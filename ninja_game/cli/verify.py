@@ -11,6 +11,7 @@ from typing import IO, TYPE_CHECKING
 import click
 
 from ninja_game.cli.run_options import jobs_option, with_progress
+from ninja_game.files.shown_text import shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
@@ -129,9 +130,10 @@ def _row(verdict: Verdict) -> str:
     mark = click.style("ok  ", fg="green") if verdict.good else click.style("FAIL", fg="red")
     tick = str(verdict.end_tick) if verdict.end_tick >= 0 else ""
     score = f"{verdict.score_ticks / TICKS_PER_SECOND:.3f}" if verdict.score_ticks is not None else ""
-    where = f"{verdict.file}:{verdict.record}"
-    row = f"{mark} {verdict.outcome:<7} {tick:>6} tick  {verdict.gold:>3} gold  {score:>8}  {verdict.name}  {where}"
-    return "\n     ".join([row, *verdict.problems])
+    where = f"{shown_text(verdict.file)}:{verdict.record}"
+    name = shown_text(verdict.name)
+    row = f"{mark} {verdict.outcome:<7} {tick:>6} tick  {verdict.gold:>3} gold  {score:>8}  {name}  {where}"
+    return "\n     ".join([row, *map(shown_text, verdict.problems)])
 
 
 def _summary(tally: Tally) -> str:

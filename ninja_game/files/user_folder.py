@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import os
-import re
 from pathlib import Path
 
 from ninja_game.errors import FileError
+from ninja_game.files.shown_text import file_stem
 
 HOME_VARIABLE = "NINJA_GAME_HOME"
 """Environment variable that moves the folder."""
 
 LEVELS, REPLAYS, EXPORTS = "levels", "replays", "exports"
 """Folders in it: level files that the game offers, replays that it offers, what it writes on request."""
-
-STEM_BYTES = 120
-"""Longest name of an exported file without its number and suffix."""
 
 SETTINGS, RECORDS = "settings.toml", "records.sqlite"
 """Files in it."""
@@ -68,9 +65,7 @@ def export_path(folder: Path, title: str, suffix: str) -> Path:
     """
     exports = folder / EXPORTS
     exports.mkdir(parents=True, exist_ok=True)
-    stem = re.sub(r"[^\w-]+", "-", title).strip("-").lower()
-    # Names of files end at 255 bytes; a letter has up to four of them.
-    stem = stem.encode()[:STEM_BYTES].decode(errors="ignore") or "replay"
+    stem = file_stem(title, "replay")
     number = 1
     while (exports / f"{stem}-{number}{suffix}").exists():
         number += 1

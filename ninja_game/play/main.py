@@ -26,16 +26,18 @@ def main(
     size: tuple[int, int] | None = None,
     replay_path: str | None = None,
     practice: bool = False,
+    record: int = 0,
 ) -> int:
     """Play: the program `ninja-game play`. Gives the exit code.
 
-    ``level_path``: a file of levels; without one the main menu. ``replay_path``: watch the recordings of a file.
+    ``level_path``: a file of levels, played from number ``record`` on; without one the main menu.
+    ``replay_path``: watch the recordings of a file.
     ``frames``: end after so many pictures. ``screenshot``: write the last picture to this PNG file.
 
     Raises NinjaGameError for a file that cannot be read or written, and where there is no display.
     """
     # Read before a window opens: what is wrong with a file is said in the terminal.
-    first = first_screen(level_path, replay_path, body=body, practice=practice)
+    first = first_screen(level_path, replay_path, body=body, practice=practice, record=record)
     app = build_app(size=size)
     try:
         app.push(first(app))
@@ -56,7 +58,7 @@ def _save(app: App, path: Path) -> None:
 
 
 def first_screen(
-    level_path: str | None, replay_path: str | None, *, body: Body, practice: bool
+    level_path: str | None, replay_path: str | None, *, body: Body, practice: bool, record: int = 0
 ) -> Callable[[App], Screen]:
     """What makes the first screen. Files are read here, before a window opens; screens are imported when needed.
 
@@ -66,7 +68,9 @@ def first_screen(
         return _replays(replay_path)
     if level_path is None:
         return _main_menu
-    levels = load_levels(level_path)
+    levels = load_levels(level_path)[record:]
+    if not levels:
+        raise LevelError(f"there is no record {record}", level_path)
     _check(levels[0], body)
 
     def play(app: App) -> Screen:

@@ -153,12 +153,15 @@ def read_episodes(listing: Path, levels: dict[str, NamedLevel]) -> list[Episode]
         tables = tomllib.loads(read_utf8(listing)).get("episode", [])
     except (tomllib.TOMLDecodeError, ValueError) as error:
         raise LevelError(f"not a list of episodes: {error}", str(listing)) from None
+    if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
+        raise LevelError("not a list of episodes", str(listing), expected="a table [[episode]] for each")
     episodes = []
     for table in tables:
         number, files = table.get("number"), table.get("levels", [])
         if not isinstance(number, int) or not 0 <= number < COLUMNS * EPISODES_PER_COLUMN:
             raise LevelError("an episode's number", str(listing), found=repr(number), expected="a number from 0 to 99")
-        if not isinstance(files, list) or not 1 <= len(files) <= LEVELS_PER_EPISODE:
+        named = isinstance(files, list) and all(isinstance(file, str) for file in files)
+        if not named or not 1 <= len(files) <= LEVELS_PER_EPISODE:
             raise LevelError(f"the levels of episode {number}", str(listing), expected="one to five file names")
         missing = [file for file in files if file not in levels]
         if missing:

@@ -12,7 +12,8 @@ from click.testing import CliRunner
 
 from ninja_game.cli.completion import STARTUP_FILES
 from ninja_game.cli.main import COMMANDS, cli
-from ninja_game.errors import LevelError
+from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.files.resources import bundled_levels, data_folder
 
 
 def ninja_game(*words: str | Path) -> subprocess.CompletedProcess[str]:
@@ -59,6 +60,53 @@ def test_unknown_command_is_wrong_usage() -> None:
     assert result.stderr == "ninja-game: No such command 'fly'.\nTry 'ninja-game --help'.\n"
 
 
+def test_a_mistyped_command_is_recognised() -> None:
+    result = CliRunner().invoke(cli, ["chekc"])
+    assert result.exit_code == 2
+    assert result.stderr.startswith("ninja-game: No such command 'chekc'; did you mean 'check'?\n")
+
+
+def test_every_line_of_a_message_says_whose_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    code, text = failing(monkeypatch, NinjaGameError("first\nsecond \x1b[2J"))
+    assert (code, text) == (2, "ninja-game: first\nninja-game: second \\x1b[2J\n")
+
+
+def test_a_fault_of_ours_is_no_failed_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    code, text = failing(monkeypatch, ZeroDivisionError("oops"))
+    assert code == 3
+    assert "ZeroDivisionError: oops" in text
+    assert text.splitlines()[-1].startswith("ninja-game: this is a fault of ninja-game")
+
+
+HUGE = "9" * 5000
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("solve", "LEVEL", "--gold", HUGE, "-o", "x"),
+        ("solve", "LEVEL", "--smooth", "1" + "0" * 20, "-o", "x"),
+        ("solve", "LEVEL", "--seed", HUGE, "-o", "x"),
+        ("solve", "LEVEL", "--jobs", "1" + "0" * 9, "-o", "x"),
+        ("solve", "LEVEL", "--seconds", "nan", "-o", "x"),
+        ("check", "LEVEL", "--ticks", HUGE),
+        ("trace", "LEVEL", "--ticks", "1" + "0" * 12),
+        ("trace", "LEVEL", "--after", "1" + "0" * 12),
+        ("info", "LEVEL", "--record", HUGE),
+        ("play", "LEVEL", "--size", f"{HUGE}x{HUGE}"),
+        ("play", "LEVEL", "--frames", HUGE),
+        ("play", "LEVEL", "--record", HUGE),
+        ("verify", "LEVEL", "--jobs", HUGE),
+    ],
+    ids=lambda words: " ".join(words[::2])[:20],
+)
+def test_numbers_without_measure_are_wrong_usage(words: tuple[str, ...]) -> None:
+    level = str(bundled_levels()[0])
+    result = CliRunner().invoke(cli, [level if word == "LEVEL" else word for word in words])
+    assert result.exit_code == 2, result.output
+    assert "Traceback" not in result.stderr
+
+
 def test_bad_input_names_the_place(monkeypatch: pytest.MonkeyPatch) -> None:
     error = LevelError("unknown tile", file="a.txt", line=7, column=3, found="'?'")
     assert failing(monkeypatch, error) == (2, "ninja-game: a.txt:7:3: unknown tile; found '?'\n")
@@ -75,10 +123,11 @@ def test_interrupt_ends_quietly(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_reader_that_leaves_early_is_no_error() -> None:
-    command = f"{sys.executable} -m ninja_game completion bash | true; echo ${{PIPESTATUS[0]}}"
-    result = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
-    assert result.stderr == ""
-    assert result.stdout.strip() in ("0", "141")
+    for words, reader in (("completion bash", "true"), (f"info {data_folder('levels')}", "sleep 0")):
+        command = f"{sys.executable} -m ninja_game {words} | {reader}; echo ${{PIPESTATUS[0]}}"
+        result = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+        assert result.stderr == ""
+        assert result.stdout.strip() in ("0", "141")
 
 
 @pytest.mark.parametrize("shell", STARTUP_FILES)

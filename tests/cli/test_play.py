@@ -48,6 +48,16 @@ def test_options_reach_the_window(calls: list[dict[str, Any]], tmp_path: Path) -
     assert (call["screenshot"], call["size"]) == ("x.png", (800, 600))
 
 
+def test_a_record_is_where_play_begins(calls: list[dict[str, Any]]) -> None:
+    assert play(bundled_levels()[0], "--record", "17").exit_code == 0
+    assert calls[0]["record"] == 17
+
+
+def test_a_record_that_the_file_lacks_is_an_error() -> None:
+    result = play(bundled_levels()[0], "--record", "1")
+    assert (result.exit_code, "there is no record 1" in result.stderr) == (2, True)
+
+
 def test_own_levels_are_known_by_name(calls: list[dict[str, Any]]) -> None:
     first = bundled_levels()[0]
     assert play(first.stem).exit_code == 0

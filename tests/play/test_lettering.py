@@ -108,6 +108,21 @@ def test_no_word_is_left_alone_on_a_line() -> None:
     assert min(widths) > 0.6 * max(widths)
 
 
+@pytest.mark.parametrize("name", ["\0", "\ud800", "\U0001f98a", "\x1b[2J", "i" * 100_000])
+def test_any_name_can_be_drawn(name: str) -> None:
+    theme = Theme(CLASSIC, Canvas((792, 600)))
+    started = time.process_time()
+    shown = fit(theme, name, 200, 12)
+    assert theme.width(shown, 12) <= 200
+    assert Lettering(theme.canvas).rendered(name, 12, "black").get_width() < 5000
+    assert wrapped(theme, f"{name} " * 3, 100, 12)
+    assert time.process_time() - started < 2
+
+
+def test_characters_without_a_glyph_fall_back() -> None:
+    assert StrokeFont(20, bold=False).render("Žluťoučký", "black").get_bounding_rect().width > 60
+
+
 def test_text_is_aligned_and_kept() -> None:
     lettering = Lettering(Canvas((1584, 1200)))
     surface = pygame.Surface((1584, 1200))

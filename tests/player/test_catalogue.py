@@ -62,6 +62,9 @@ def test_unchanged_file_is_read_once_and_a_changed_one_again(tmp_path: Path) -> 
         "[[episode]]\nnumber = 0\nlevels = []",
         '[[episode]]\nnumber = 0\nlevels = ["unknown.txt"]',
         '[[episode]]\nlevels = ["a.txt"]',
+        "episode = 5",
+        "episode = [5]",
+        "[[episode]]\nnumber = 0\nlevels = [[]]",
     ],
 )
 def test_wrong_list_of_episodes_is_an_error_that_names_the_file(tmp_path: Path, text: str) -> None:

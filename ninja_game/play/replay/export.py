@@ -5,7 +5,6 @@ All of them are optional; what can be made depends on what is installed.
 
 from __future__ import annotations
 
-import re
 import threading
 from collections.abc import Callable, Iterator
 from importlib.util import find_spec
@@ -15,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import pygame
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.shown_text import file_stem
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay.playback import Playback, Take
 from ninja_game.play.ui.palette import PALETTES, ROLES, Palette, mixed
@@ -186,7 +186,7 @@ class ExportJob:
 
 def _free_path(folder: Path, title: str) -> Path:
     """A path for a film that is not taken."""
-    stem = re.sub(r"[^\w-]+", "-", title).strip("-").lower() or "replay"
+    stem = file_stem(title, "replay")
     suffix = best_form()
     number = 1
     while (folder / f"{stem}-{number}{suffix}").exists():

@@ -6,6 +6,7 @@ from collections import OrderedDict
 
 import pygame
 
+from ninja_game.files.shown_text import shown_text
 from ninja_game.play.ui.canvas import Canvas, Colour
 from ninja_game.play.ui.stroke_font import StrokeFont
 
@@ -36,7 +37,7 @@ class Lettering:
         key = text, size, tuple(pygame.Color(colour)), bold
         found = self._kept.get(key)
         if found is None:
-            found = self._font(size, bold).render(text, colour)
+            found = self._font(size, bold).render(shown_text(text), colour)
             self._kept[key] = found
             if len(self._kept) > _KEPT:
                 self._kept.popitem(last=False)
@@ -46,7 +47,7 @@ class Lettering:
 
     def width(self, text: str, size: float, *, bold: bool = False) -> float:
         """Width of a text in logical px."""
-        return self._font(size, bold).width(text) / self.canvas.scale
+        return self._font(size, bold).width(shown_text(text)) / self.canvas.scale
 
     def draw(
         self, surface: pygame.Surface | None, text: str, x: float, y: float, size: float, colour: Colour,
