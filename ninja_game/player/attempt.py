@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from ninja_game.formats.replay.text import Replay
@@ -136,4 +137,5 @@ class Attempt:
 
         ticks = max(1, len(self.inputs) + (self.outcome != "running"))
         level, body = self.simulation.level, self.simulation.body
-        return record_replay(level, bytes(self.inputs), ticks=ticks, body=body, name=name, author=author)
+        replay = record_replay(level, bytes(self.inputs), ticks=ticks, body=body, name=name, author=author)
+        return replace(replay, practice=self.assisted)

@@ -6,39 +6,41 @@ from functools import cached_property
 from pathlib import Path
 
 from ninja_game.files.user_folder import LEVELS, RECORDS, REPLAYS, SETTINGS, make_user_folder, user_folder
+from ninja_game.files.writing import remove_leftovers
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.progress import Progress
 from ninja_game.player.records import Records
 from ninja_game.player.settings import Settings
 from ninja_game.player.settings_file import read_settings, write_settings
 from ninja_game.player.statistics import Statistics
-from ninja_game.player.store import Store, open_store
+from ninja_game.player.store import Store
 from ninja_game.player.unlocks import complete_columns
 
 
 class PlayerData:
-    """The player's data in one folder. ``messages``: what the player should be told about the opening.
-
-    Nothing that is wrong with the folder or its files keeps the game from starting.
-    """
+    """The player's data in one folder. that is wrong with the folder or its files keeps the game from starting."""
 
     def __init__(self, folder: Path | None = None) -> None:
         self.folder = user_folder() if folder is None else folder
-        self.messages: list[str] = []
+        self._messages: list[str] = []
         try:
             make_user_folder(self.folder)
+            remove_leftovers(self.folder)
         except OSError as error:
-            self.messages.append(f"{self.folder} cannot be made ({error.strerror}).")
+            self._messages.append(f"{self.folder} cannot be made ({error.strerror}).")
         self.settings, messages = read_settings(self.folder / SETTINGS)
-        self.messages += messages
+        self._messages += messages
         self.catalogue = Catalogue(self.folder / LEVELS)
 
     @cached_property
     def store(self) -> Store:
         """The database, opened when it is first needed."""
-        store = open_store(self.folder / RECORDS)
-        self.messages += store.messages
-        return store
+        return Store(self.folder / RECORDS)
+
+    @property
+    def messages(self) -> list[str]:
+        """What the player should be told about settings and, once they are open, records."""
+        return self._messages + (self.store.messages if "store" in self.__dict__ else [])
 
     def open_records(self) -> None:
         """Open the database now, so that ``messages`` says what is wrong with it before anyone needs it."""

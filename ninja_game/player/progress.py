@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from ninja_game.player.store import Store
 
@@ -16,22 +16,36 @@ Place = tuple[int, int]
 """Episode number (0 to 99) and level in it (0 to 4)."""
 
 
-@dataclass(frozen=True)
-class ColumnProgress:
+class ColumnProgress(NamedTuple):
     """The farthest place of a column that was reached, and the farthest that was reached legitimately."""
 
     reached: Place
     beaten: Place
 
 
+_COLUMN_NAMES = "grid_column, reached_episode, reached_level, beaten_episode, beaten_level"
+
+
 class Progress:
-    """Progress in a store; it is read once and written whenever it grows."""
+    """Progress in a store: each passed level is merged into what is there, so that two games at once only add to it."""
 
     def __init__(self, store: Store) -> None:
         self.store = store
-        self.columns = [ColumnProgress(*[(c * EPISODES_PER_COLUMN, 0)] * 2) for c in range(COLUMNS)]
-        for column, *numbers in store.connection.execute("SELECT * FROM progress WHERE grid_column BETWEEN 0 AND 9"):
-            self.columns[column] = ColumnProgress((numbers[0], numbers[1]), (numbers[2], numbers[3]))
+        self._columns: list[ColumnProgress] = []
+        self._epoch = -1
+
+    @property
+    def columns(self) -> list[ColumnProgress]:
+        """What is in the store, read again whenever that may have changed; damaged columns begin anew."""
+        if self._epoch != self.store.epoch:
+            self._columns = [ColumnProgress(*[(c * EPISODES_PER_COLUMN, 0)] * 2) for c in range(COLUMNS)]
+            query = f"SELECT {_COLUMN_NAMES} FROM progress"
+            for number, *places in self.store.rows(query, (), [int] * 5):
+                column = ColumnProgress((places[0], places[1]), (places[2], places[3]))
+                if all(_is_place(place, number) for place in column):
+                    self._columns[number] = column
+            self._epoch = self.store.epoch
+        return self._columns
 
     def state(self, episode: int) -> str:
         """Whether an episode is unlocked, "cheated" (only reached in practice and the like), or locked."""
@@ -48,7 +62,7 @@ class Progress:
     def level_passed(self, place: Place, *, levels: int = LEVELS_PER_EPISODE, legitimate: bool) -> None:
         """A level of an episode has been passed: move "reached", and "beaten" too if it was legitimate.
 
-        ``levels``: how many the episode has. Returns when it is saved.
+        ``levels``: how many the episode has. Raises sqlite3.Error.
         """
         episode, level = place
         if level < levels - 1:
@@ -58,14 +72,20 @@ class Progress:
         else:
             goal = (episode + 1, 0)
         number = episode // EPISODES_PER_COLUMN
-        before = self.columns[number]
-        reached = _advanced(before.reached, episode, goal)
-        beaten = _advanced(before.beaten, episode, goal) if legitimate else before.beaten
-        if (after := ColumnProgress(reached, beaten)) == before:
-            return
         with self.store.change() as db:
-            db.execute("REPLACE INTO progress VALUES (?, ?, ?, ?, ?)", (number, *after.reached, *after.beaten))
-        self.columns[number] = after
+            before = self.columns[number]
+            reached = _advanced(before.reached, episode, goal)
+            beaten = _advanced(before.beaten, episode, goal) if legitimate else before.beaten
+            if (reached, beaten) != before:
+                db.execute(
+                    f"REPLACE INTO progress ({_COLUMN_NAMES}) VALUES (?, ?, ?, ?, ?)", (number, *reached, *beaten)
+                )
+                self._epoch = -1
+
+
+def _is_place(place: Place, column: int) -> bool:
+    """Whether a place is one of a column's."""
+    return place[0] // EPISODES_PER_COLUMN == column in range(COLUMNS) and place[1] in range(LEVELS_PER_EPISODE)
 
 
 def _ends_column(episode: int) -> bool:

@@ -5,11 +5,12 @@ from __future__ import annotations
 import hashlib
 import sqlite3
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from datetime import UTC, datetime
+from typing import NamedTuple
 
+from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
-from ninja_game.formats.replay.text import Replay
+from ninja_game.formats.replay.text import BODIES, OUTCOMES, Replay
 from ninja_game.player.scoring import level_score
 from ninja_game.player.store import Store
 from ninja_game.sim.level import Level
@@ -18,11 +19,10 @@ NEWEST_SHOWN = 500
 """Replays listed at most, the newest first."""
 
 
-@dataclass(frozen=True)
-class SavedReplay:
+class SavedReplay(NamedTuple):
     """A replay in the records, without its inputs: ``score`` in ticks (0 unless passed), ``made_at`` in UTC.
 
-    ``kept``: 1 if the player asked for it, else 0.
+    ``kept``: 1 if the player asked for it, else 0; ``practice``: 1 if it was made in practice or with its tools.
     """
 
     id: int
@@ -36,10 +36,19 @@ class SavedReplay:
     score: int
     made_at: str
     kept: int
+    practice: int
 
 
-@dataclass(frozen=True)
-class EpisodeBest:
+_SAVED = ", ".join(f"replay.{name}" for name in SavedReplay._fields)
+_SAVED_KINDS = (int, str, str, str, str, str, int, int, int, str, int, int)
+
+_WHOLE = (
+    "level, level_text, name, player, body, outcome, final_tick, gold, score, digest, inputs, made_at, kept, practice"
+)
+_WHOLE_KINDS = (str, str, str, str, str, str, int, int, int, str, bytes, str, int, int)
+
+
+class EpisodeBest(NamedTuple):
     """An episode's best: score in ticks, and the ids of its replays in the order of the levels."""
 
     score: int
@@ -58,7 +67,11 @@ def episode_key(levels: Iterable[Level]) -> str:
 
 
 class Records:
-    """Personal bests and replays in a store. Every method that changes something returns when it is on the disk."""
+    """Personal bests and replays in a store.
+
+    What reads leaves out what is damaged. What changes something returns when it is on the disk, or is part of the
+    transaction around it, and raises sqlite3.Error.
+    """
 
     def __init__(self, store: Store) -> None:
         self.store = store
@@ -72,91 +85,96 @@ class Records:
 
     def replays(self) -> list[SavedReplay]:
         """The replays, newest first."""
-        rows = self.store.connection.execute(
-            "SELECT * FROM saved_replay ORDER BY made_at DESC, id DESC LIMIT ?", (NEWEST_SHOWN,)
-        )
-        return [SavedReplay(*row) for row in rows]
+        return self._saved("ORDER BY made_at DESC, id DESC LIMIT ?", NEWEST_SHOWN)
 
     def replay(self, number: int) -> Replay | None:
-        """A whole replay by its id, with its level inside; None if it has gone."""
-        row = self.store.connection.execute(
-            "SELECT inputs, final_tick, outcome, gold, digest, name, player, body, level, level_text"
-            " FROM replay WHERE id = ?",
-            (number,),
-        ).fetchone()
-        if row is None:
-            return None
-        inputs, final_tick, outcome, gold, digest, name, player, body, level, text = row
-        return Replay(
-            inputs=inputs, final_tick=final_tick, outcome=outcome, gold=gold, digest=digest, name=name, author=player,
-            body=body, level_digest=level, level=parse_level_string(text),
-        )  # fmt: skip
+        """A whole replay by its id, with its level inside; None if it has gone or is damaged."""
+        for row in self.store.rows(f"SELECT {_WHOLE} FROM replay WHERE id = ?", (number,), _WHOLE_KINDS):
+            level, text, name, player, body, outcome, final_tick, gold, _, digest, inputs, *_, practice = row
+            try:
+                return Replay(
+                    inputs=inputs, final_tick=final_tick, outcome=outcome, gold=gold, digest=digest, name=name,
+                    author=player, body=body, level_digest=level, level=parse_level_string(text),
+                    practice=bool(practice),
+                )  # fmt: skip
+            except NinjaGameError as error:
+                self.store.tell(f"A replay in the records is damaged ({error}).")
+        return None
 
     def forget_replay(self, number: int) -> bool:
         """Remove a replay unless a personal best needs it; whether it has gone."""
         with self.store.change() as db:
-            if number in _needed(db):
-                db.execute("UPDATE replay SET kept = 0 WHERE id = ?", (number,))
-                return False
-            return db.execute("DELETE FROM replay WHERE id = ?", (number,)).rowcount > 0
+            db.execute("UPDATE replay SET kept = 0 WHERE id = ?", (number,))
+            return db.execute(f"DELETE FROM replay WHERE id = ? AND {_UNNEEDED}", (number,)).rowcount > 0
+
+    def _saved(self, condition: str, *values: object) -> list[SavedReplay]:
+        """Replays that meet a condition in SQL, but for those with an outcome or body that there is not."""
+        query = f"SELECT {_SAVED} FROM replay {condition}"
+        found = (SavedReplay(*row) for row in self.store.rows(query, values, _SAVED_KINDS))
+        return [saved for saved in found if saved.outcome in OUTCOMES and saved.body in BODIES]
 
     # --- levels ---
 
     def level_best(self, digest: str, body: str = "circle") -> SavedReplay | None:
         """The personal best of a level, by the level's digest."""
-        row = self.store.connection.execute(
-            "SELECT * FROM saved_replay WHERE id = (SELECT replay FROM level_best WHERE level = ? AND body = ?)",
-            (digest, body),
-        ).fetchone()
-        return SavedReplay(*row) if row else None
+        found = self._saved(f"{_BEST} AND level_best.level = ?", body, digest)
+        return found[0] if found else None
 
     def level_bests(self, body: str = "circle") -> dict[str, SavedReplay]:
         """All personal bests by level digest."""
-        rows = self.store.connection.execute(
-            "SELECT * FROM saved_replay WHERE id IN (SELECT replay FROM level_best WHERE body = ?)", (body,)
-        )
-        return {saved.level: saved for saved in (SavedReplay(*row) for row in rows)}
+        return {saved.level: saved for saved in self._saved(_BEST, body)}
 
     def level_passed(self, replay: Replay) -> bool:
         """Save a passed level's replay if it is better than the best so far; whether it is."""
+        level = _digest(replay)
         with self.store.change() as db:
-            return _save_level_best(db, replay)
+            best = self.level_best(level, replay.body)
+            if best is not None and best.score >= level_score(replay.gold, replay.final_tick):
+                return False
+            number = _insert(db, replay, kept=False)
+            db.execute("REPLACE INTO level_best (level, body, replay) VALUES (?, ?, ?)", (level, replay.body, number))
+            db.execute(_DROP_UNNEEDED)
+        return True
 
     # --- episodes ---
 
     def episode_best(self, key: str, body: str = "circle") -> EpisodeBest | None:
         """The personal best of an episode, by its key."""
-        row = self.store.connection.execute(
-            "SELECT score, replays, made_at FROM episode_best WHERE episode = ? AND body = ?", (key, body)
-        ).fetchone()
-        return EpisodeBest(row[0], tuple(map(int, row[1].split())), row[2]) if row else None
+        which = (key, body)
+        ids = self.store.rows(
+            "SELECT replay FROM episode_replay WHERE episode = ? AND body = ? ORDER BY place", which, [int]
+        )
+        rows = self.store.rows(
+            "SELECT score, made_at FROM episode_best WHERE episode = ? AND body = ?", which, [int, str]
+        )
+        return EpisodeBest(rows[0][0], tuple(number for (number,) in ids), rows[0][1]) if rows else None
 
     def episode_passed(self, key: str, score: int, replays: Sequence[Replay]) -> bool:
         """Save an episode's score (ticks) and replays if it is better than the best so far; whether it is."""
         body = replays[0].body
         with self.store.change() as db:
-            row = db.execute("SELECT score FROM episode_best WHERE episode = ? AND body = ?", (key, body)).fetchone()
-            if row and row[0] >= score:
+            best = self.episode_best(key, body)
+            if best is not None and best.score >= score:
                 return False
-            ids = " ".join(str(_insert(db, replay, kept=False)) for replay in replays)
-            db.execute("REPLACE INTO episode_best VALUES (?, ?, ?, ?, ?)", (key, body, score, ids, now_text()))
-            _drop_unneeded(db)
+            db.execute(
+                "REPLACE INTO episode_best (episode, body, score, made_at) VALUES (?, ?, ?, ?)",
+                (key, body, score, now_text()),
+            )
+            db.execute("DELETE FROM episode_replay WHERE episode = ? AND body = ?", (key, body))
+            db.executemany(
+                "INSERT INTO episode_replay (episode, body, place, replay) VALUES (?, ?, ?, ?)",
+                [(key, body, place, _insert(db, replay, kept=False)) for place, replay in enumerate(replays)],
+            )
+            db.execute(_DROP_UNNEEDED)
         return True
 
 
-def _save_level_best(db: sqlite3.Connection, replay: Replay) -> bool:
-    score = level_score(replay.gold, replay.final_tick)
-    level = _digest(replay)
-    row = db.execute(
-        "SELECT score FROM replay WHERE id = (SELECT replay FROM level_best WHERE level = ? AND body = ?)",
-        (level, replay.body),
-    ).fetchone()
-    if row and row[0] >= score:
-        return False
-    number = _insert(db, replay, kept=False)
-    db.execute("REPLACE INTO level_best VALUES (?, ?, ?)", (level, replay.body, number))
-    _drop_unneeded(db)
-    return True
+_BEST = "JOIN level_best ON level_best.replay = replay.id AND level_best.level = replay.level WHERE level_best.body = ?"
+
+_UNNEEDED = "id NOT IN (SELECT replay FROM level_best) AND id NOT IN (SELECT replay FROM episode_replay) AND NOT kept"
+"""Replays that were bests once and that nobody asked for."""
+
+_DROP_UNNEEDED = f"DELETE FROM replay WHERE {_UNNEEDED}"
 
 
 def _digest(replay: Replay) -> str:
@@ -175,26 +193,12 @@ def _insert(db: sqlite3.Connection, replay: Replay, *, kept: bool) -> int:
         db.execute("UPDATE replay SET kept = max(kept, ?) WHERE id = ?", (kept, found[0]))
         return int(found[0])
     score = level_score(replay.gold, replay.final_tick) if replay.outcome == "exit" else 0
-    cursor = db.execute(
-        "INSERT INTO replay VALUES (NULL, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-        (
-            _digest(replay), write_level_string(replay.level, exact=True), replay.name, replay.author, replay.body,
-            replay.outcome, replay.final_tick, replay.gold, score, replay.digest, replay.inputs, now_text(), kept,
-        ),
+    values = (
+        _digest(replay), write_level_string(replay.level, exact=True), replay.name, replay.author, replay.body,
+        replay.outcome, replay.final_tick, replay.gold, score, replay.digest, replay.inputs, now_text(), kept,
+        replay.practice,
     )  # fmt: skip
+    marks = ", ".join("?" * len(values))
+    cursor = db.execute(f"INSERT INTO replay ({_WHOLE}) VALUES ({marks})", values)
     assert cursor.lastrowid is not None  # noqa: S101 - an INSERT has one
     return cursor.lastrowid
-
-
-def _needed(db: sqlite3.Connection) -> set[int]:
-    """Ids of the replays that bests refer to."""
-    needed = {number for (number,) in db.execute("SELECT replay FROM level_best")}
-    for (ids,) in db.execute("SELECT replays FROM episode_best"):
-        needed.update(map(int, ids.split()))
-    return needed
-
-
-def _drop_unneeded(db: sqlite3.Connection) -> None:
-    """Remove replays that were bests once and that nobody asked for."""
-    loose = {number for (number,) in db.execute("SELECT id FROM replay WHERE kept = 0")} - _needed(db)
-    db.executemany("DELETE FROM replay WHERE id = ?", [(number,) for number in loose])

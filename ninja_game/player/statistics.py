@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import hypot
+from typing import NamedTuple
 
 from ninja_game.player.store import Store
 from ninja_game.sim.events import DIED, MINE_EXPLODED
@@ -51,8 +51,7 @@ def _nearest_electric(world: World, x: float, y: float) -> str:
     return _ELECTRIC_KINDS[min(electric, key=lambda thing: hypot(thing.x - x, thing.y - y)).kind]
 
 
-@dataclass(frozen=True)
-class Played:
+class Played(NamedTuple):
     """How much was played, in all or of a level: attempts, passes, deaths, ticks in play, pieces of gold."""
 
     attempts: int = 0
@@ -69,26 +68,31 @@ class Statistics:
         self.store = store
 
     def attempt_ended(self, level: str, *, killer: str | None, passed: bool, ticks: int, gold: int) -> None:
-        """Count an attempt at a level (its digest) that ended: passed, killed by ``killer``, or given up."""
+        """Count an attempt at a level (its digest) that ended: passed, killed by ``killer``, or given up.
+
+        Raises sqlite3.Error.
+        """
         with self.store.change() as db:
             db.execute(
-                "INSERT INTO played VALUES (?, 1, ?, ?, ?, ?) ON CONFLICT (level) DO UPDATE SET"
+                "INSERT INTO played (level, attempts, passes, deaths, ticks, gold) VALUES (?, 1, ?, ?, ?, ?)"
+                " ON CONFLICT (level) DO UPDATE SET"
                 " attempts = attempts + 1, passes = passes + excluded.passes, deaths = deaths + excluded.deaths,"
                 " ticks = ticks + excluded.ticks, gold = gold + excluded.gold",
                 (level, int(passed), int(killer is not None), ticks, gold),
             )
             if killer is not None:
                 db.execute(
-                    "INSERT INTO death VALUES (?, 1) ON CONFLICT (killer) DO UPDATE SET times = times + 1", (killer,)
+                    "INSERT INTO death (killer, times) VALUES (?, 1)"
+                    " ON CONFLICT (killer) DO UPDATE SET times = times + 1",
+                    (killer,),
                 )
 
     def deaths(self) -> dict[str, int]:
         """Deaths by killer, every killer present, in the order of KILLERS."""
-        found = dict(self.store.connection.execute("SELECT killer, times FROM death"))
+        found = dict(self.store.rows("SELECT killer, times FROM death", (), [str, int]))
         return {killer: found.get(killer, 0) for killer in KILLERS}
 
     def played(self, level: str | None = None) -> Played:
         """How much was played: of one level (its digest) or in all."""
-        sums = "SELECT sum(attempts), sum(passes), sum(deaths), sum(ticks), sum(gold) FROM played"
-        rows = self.store.connection.execute(f"{sums} WHERE ?1 IS NULL OR level = ?1", (level,))
-        return Played(*(number or 0 for number in rows.fetchone()))
+        query = "SELECT attempts, passes, deaths, ticks, gold FROM played WHERE ?1 IS NULL OR level = ?1"
+        return Played(*map(sum, zip(*self.store.rows(query, (level,), [int] * 5), strict=True)))

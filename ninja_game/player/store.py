@@ -1,205 +1,188 @@
-"""The database of what was played: opened, brought up to date, set aside when it cannot be used.
+"""The database of what was played: transactions that are on the disk or not there, and what to do when it fails.
 
 Write-ahead log with full synchronisation: a transaction that has returned is on the disk, and the game tells the
 player that something is saved only after that. A process killed in between loses the transaction it was in, no other.
+What cannot be saved now is kept and tried again with every later save, and once more at the end.
 """
 
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
+from ninja_game.files.locking import locked
 from ninja_game.files.user_folder import quarantine
+from ninja_game.player.store_schema import NewerFileError, copy_in_memory, open_database
 
-APPLICATION_ID = 0x6E696E6A
-"""Tells our files from other people's SQLite files."""
+GAME_WAIT_MS, LAST_WAIT_MS = 200, 3000
+"""How long a save waits for another program that writes: during play, where it holds up the picture, and at the end."""
 
-MIGRATIONS = (
-    """
-    CREATE TABLE replay (
-        id INTEGER PRIMARY KEY,
-        level TEXT NOT NULL,          -- digest of the level
-        level_text TEXT NOT NULL,     -- the level itself, exact
-        name TEXT NOT NULL,
-        player TEXT NOT NULL,
-        body TEXT NOT NULL,
-        outcome TEXT NOT NULL,
-        final_tick INTEGER NOT NULL,
-        gold INTEGER NOT NULL,
-        score INTEGER NOT NULL,       -- ticks
-        digest TEXT NOT NULL,         -- of the world after the final tick
-        inputs BLOB NOT NULL,         -- one byte a tick
-        made_at TEXT NOT NULL,        -- UTC, ISO 8601
-        kept INTEGER NOT NULL         -- the player asked for it
-    );
-    CREATE VIEW saved_replay AS
-        SELECT id, level, name, player, body, outcome, final_tick, gold, score, made_at, kept FROM replay;
-    CREATE TABLE level_best (
-        level TEXT NOT NULL, body TEXT NOT NULL,
-        replay INTEGER NOT NULL REFERENCES replay (id),
-        PRIMARY KEY (level, body)
-    ) WITHOUT ROWID;
-    CREATE TABLE episode_best (
-        episode TEXT NOT NULL,        -- digest of its levels
-        body TEXT NOT NULL,
-        score INTEGER NOT NULL,
-        replays TEXT NOT NULL,        -- ids with blanks between, in the order of its levels
-        made_at TEXT NOT NULL,
-        PRIMARY KEY (episode, body)
-    ) WITHOUT ROWID;
-    CREATE TABLE progress (
-        grid_column INTEGER PRIMARY KEY,
-        reached_episode INTEGER NOT NULL, reached_level INTEGER NOT NULL,
-        beaten_episode INTEGER NOT NULL, beaten_level INTEGER NOT NULL
-    );
-    CREATE TABLE death (killer TEXT PRIMARY KEY, times INTEGER NOT NULL) WITHOUT ROWID;
-    """,
-    """
-    CREATE TABLE played (
-        level TEXT PRIMARY KEY,
-        attempts INTEGER NOT NULL, passes INTEGER NOT NULL, deaths INTEGER NOT NULL,
-        ticks INTEGER NOT NULL, gold INTEGER NOT NULL
-    ) WITHOUT ROWID;
-    CREATE TABLE fact (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
-    """,
-    # The digest of a replay became one of what the world shows; the older ones mean nothing any more.
-    "UPDATE replay SET digest = '';",
-)
-"""Each brings a file from the version of its index to the next; they are never edited once released."""
+STARTS_WAIT = 20.0
+"""Seconds that a start waits for other games that are opening the same file."""
 
-VERSION = len(MIGRATIONS)
-
-
-class NewerFileError(Exception):
-    """The file was written by a newer game."""
+Work = Callable[[], Sequence[str]]
+"""Changes to be made within one transaction; gives notices for the player. It may be done more than once."""
 
 
 class Store:
-    """An open database. ``messages``: what the player should know about its opening; ``path``: None in memory."""
+    """An open database. ``path``: None for one in memory, which forgets.
 
-    def __init__(self, connection: sqlite3.Connection, path: Path | None, messages: list[str]) -> None:
-        self.connection = connection
+    A damaged file, or one from a newer game, is moved aside and a new one begun. If the file cannot be opened or
+    written, the session goes on with a copy in memory, and ``problem`` says why what is saved would not last.
+    ``messages``: what the player should know. ``epoch`` changes whenever something read before may be out of date.
+    """
+
+    def __init__(self, path: Path | None) -> None:
         self.path = path
-        self.messages = messages
+        self.messages: list[str] = []
+        self.problem = ""
+        self.epoch = 0
+        self._pending: list[Work] = []
+        self.connection = self._first_connection()
+
+    # --- opening ---
+
+    def _first_connection(self) -> sqlite3.Connection:
+        if self.path is None:
+            return open_database(":memory:")
+        try:
+            return self._open(self.path)
+        except (sqlite3.Error, NewerFileError, OSError) as error:
+            self.problem = f"the records cannot be opened ({_reason(error)})"
+            self.tell(f"{self.problem[0].upper()}{self.problem[1:]}; until they can, they are kept in memory only.")
+            return copy_in_memory(self.path)
+
+    def _open(self, path: Path) -> sqlite3.Connection:
+        """The file, or a new one where it had to be moved aside. Raises sqlite3.Error, NewerFileError, OSError."""
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with locked(path, STARTS_WAIT):
+            try:
+                connection = open_database(str(path))
+            except NewerFileError:
+                self._move_aside(path, "newer", "The records were written by a newer game")
+                connection = open_database(str(path))
+            except sqlite3.OperationalError:
+                # Locked, read-only, no room: the file itself is sound.
+                raise
+            except sqlite3.DatabaseError as error:
+                self._move_aside(path, "damaged", f"The records are damaged ({error})")
+                connection = open_database(str(path))
+        connection.execute(f"PRAGMA busy_timeout = {GAME_WAIT_MS}")
+        return connection
+
+    def _move_aside(self, path: Path, why: str, text: str) -> None:
+        self.tell(f"{text}. They are kept as {quarantine(path, why).name}; new ones are begun.")
+
+    def _open_again(self) -> None:
+        """Try once more to open the file; what was saved in memory meanwhile waits in ``_pending``."""
+        if not self.problem or self.path is None:
+            return
+        try:
+            connection = self._open(self.path)
+        except (sqlite3.Error, NewerFileError, OSError) as error:
+            self.problem = f"the records cannot be opened ({_reason(error)})"
+            return
+        self.connection.close()
+        self.connection, self.problem = connection, ""
+        self.epoch += 1
+
+    # --- reading ---
+
+    def rows(self, query: str, values: Sequence[object], kinds: Sequence[type]) -> list[tuple[Any, ...]]:
+        """The rows that a query finds, if their values are of these ``kinds``; damaged rows are left out with a word.
+
+        Outside of a transaction a file that cannot be read has no rows, with a word too. Raises sqlite3.Error within.
+        """
+        try:
+            found = self.connection.execute(query, values).fetchall()
+        except sqlite3.Error as error:
+            if self.connection.in_transaction:
+                raise
+            self.tell(f"The records cannot be read ({error}).")
+            return []
+        sound = [row for row in found if [type(value) for value in row] == list(kinds)]
+        if len(sound) < len(found):
+            self.tell("Some of the records are damaged; they are left out.")
+        return sound
+
+    def tell(self, message: str) -> None:
+        """Note a message for the player, once."""
+        if message not in self.messages:
+            self.messages.append(message)
+
+    # --- writing ---
 
     @contextmanager
     def change(self) -> Iterator[sqlite3.Connection]:
         """One transaction: all of it is on the disk when the block has been left, or nothing of it is.
 
-        Within another one it is part of that.
+        Within another one it is part of that. Raises sqlite3.Error.
         """
         if self.connection.in_transaction:
             yield self.connection
             return
         self.connection.execute("BEGIN IMMEDIATE")
+        self.epoch += 1
         try:
             yield self.connection
+            self.connection.execute("COMMIT")
         except BaseException:
-            self.connection.execute("ROLLBACK")
+            # Some errors, a full disk for one, have ended the transaction already.
+            with suppress(sqlite3.Error):
+                self.connection.execute("ROLLBACK")
             raise
-        self.connection.execute("COMMIT")
+        finally:
+            self.epoch += 1
+
+    def save(self, work: Work) -> tuple[Sequence[str], str]:
+        """Do ``work`` in a transaction, after all that could not be saved before.
+
+        Gives its notices and ''; or why it is not on the disk, in which case it is tried again with the next save.
+        """
+        self._open_again()
+        self._pending.append(work)
+        if not self.problem:
+            return self._save_pending()
+        try:
+            with self.change():
+                return work(), self.problem
+        except sqlite3.Error:
+            return [], self.problem
+
+    def later(self, work: Work) -> None:
+        """Do ``work`` with the next save, or at the end: for what need not be on the disk at once."""
+        self._pending.append(work)
+
+    def _save_pending(self) -> tuple[Sequence[str], str]:
+        """Do what waits; the notices of the last of it, or why not."""
+        notices: Sequence[str] = []
+        problem = ""
+        while self._pending:
+            try:
+                with self.change():
+                    notices, problem = self._pending[0](), ""
+            except sqlite3.OperationalError as error:
+                # Locked or full: what waits keeps waiting.
+                return [], str(error)
+            except sqlite3.Error as error:
+                notices, problem = [], str(error)
+            del self._pending[0]
+        return notices, problem
 
     def close(self) -> None:
-        """Close the file. What was changed has long been saved."""
+        """Save what still waits, and close the file."""
+        if self._pending:
+            self._open_again()
+            if not self.problem:
+                self.connection.execute(f"PRAGMA busy_timeout = {LAST_WAIT_MS}")
+                self._save_pending()
         self.connection.close()
 
 
-def open_store(path: Path | None) -> Store:
-    """The database at ``path``, made or migrated as needed; None: one in memory, which forgets.
-
-    A damaged file or one from a newer game is set aside and a new one begun; if the place cannot be written, the
-    records live in memory. Either way the game goes on and ``messages`` says what happened.
-    """
-    messages: list[str] = []
-    if path is None:
-        return Store(_opened(":memory:"), None, messages)
-    for _ in range(2):
-        try:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            return Store(_opened(str(path)), path, messages)
-        except NewerFileError:
-            why, text = "newer", "The records were written by a newer game"
-        except sqlite3.OperationalError as error:
-            # Locked, read-only, no room: the file itself is sound.
-            messages.append(f"The records cannot be opened ({error}); this session's records will be lost.")
-            break
-        except sqlite3.DatabaseError as error:
-            why, text = "damaged", f"The records are damaged ({error})"
-        except OSError as error:
-            messages.append(f"There is no place for records ({error.strerror}); this session's records will be lost.")
-            break
-        try:
-            messages.append(f"{text}. They are kept as {quarantine(path, why).name}; new ones are begun.")
-        except OSError as error:
-            messages.append(f"{text} and cannot be moved ({error.strerror}); this session's records will be lost.")
-            break
-    return Store(_opened(":memory:"), None, messages)
-
-
-def _opened(name: str) -> sqlite3.Connection:
-    """A connection to a sound, up-to-date database. Raises sqlite3.DatabaseError or NewerFileError."""
-    connection = sqlite3.connect(name, timeout=5.0, isolation_level=None)
-    try:
-        _check_file(connection)
-        connection.execute("PRAGMA journal_mode = WAL")
-        connection.execute("PRAGMA synchronous = FULL")
-        connection.execute("PRAGMA foreign_keys = ON")
-        _migrate(connection)
-        _check_tables(connection)
-    except BaseException:
-        connection.close()
-        raise
-    return connection
-
-
-def _check_file(connection: sqlite3.Connection) -> None:
-    """Raise sqlite3.DatabaseError unless this is a sound file of ours or an empty one, NewerFileError for a newer."""
-    version = connection.execute("PRAGMA user_version").fetchone()[0]
-    application = connection.execute("PRAGMA application_id").fetchone()[0]
-    empty = not connection.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
-    if not empty and application != APPLICATION_ID:
-        raise sqlite3.DatabaseError("not a file of this game")
-    if version > VERSION:
-        raise NewerFileError
-    if connection.execute("PRAGMA quick_check(1)").fetchone()[0] != "ok":
-        raise sqlite3.DatabaseError("its pages contradict each other")
-
-
-def _migrate(connection: sqlite3.Connection) -> None:
-    """Bring a file up to VERSION, in one transaction; a second process that does the same meanwhile waits."""
-    if connection.execute("PRAGMA user_version").fetchone()[0] == VERSION:
-        return
-    connection.execute("BEGIN IMMEDIATE")
-    try:
-        version = connection.execute("PRAGMA user_version").fetchone()[0]
-        for script in MIGRATIONS[version:]:
-            for statement in _statements(script):
-                connection.execute(statement)
-        connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
-        connection.execute(f"PRAGMA user_version = {VERSION}")
-    except BaseException:
-        connection.execute("ROLLBACK")
-        raise
-    connection.execute("COMMIT")
-
-
-def _statements(script: str) -> Iterator[str]:
-    """The single statements of a script (``executescript`` would end the transaction)."""
-    statement = ""
-    for line in script.splitlines(keepends=True):
-        statement += line
-        if sqlite3.complete_statement(statement):
-            yield statement
-            statement = ""
-
-
-TABLES = {"replay", "level_best", "episode_best", "progress", "death", "played", "fact"}
-
-
-def _check_tables(connection: sqlite3.Connection) -> None:
-    """Raise sqlite3.DatabaseError where a table is missing."""
-    found = {name for (name,) in connection.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
-    if not found >= TABLES:
-        raise sqlite3.DatabaseError(f"without the table {min(TABLES - found)}")
+def _reason(error: Exception) -> str:
+    if isinstance(error, NewerFileError):
+        return "they were written by a newer game"
+    return (error.strerror if isinstance(error, OSError) else None) or str(error)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection
 
 from ninja_game.player.progress import COLUMNS, EPISODES_PER_COLUMN, Progress
@@ -42,9 +43,9 @@ def overclock_unlocked(columns: int, present: int) -> bool:
 
 
 def new_unlocks(store: Store, columns: int, present: int) -> list[str]:
-    """Messages for what has become unlocked since the last call; each comes once."""
-    row = store.connection.execute("SELECT value FROM fact WHERE name = ?", (_ANNOUNCED,)).fetchone()
-    before = int(row[0]) if row and row[0].isdecimal() else 0
+    """Messages for what has become unlocked since the last call; each comes once. Raises sqlite3.Error."""
+    rows = store.rows("SELECT value FROM fact WHERE name = ?", (_ANNOUNCED,), [str])
+    before = int(rows[0][0]) if rows and re.fullmatch("[0-9]{1,3}", rows[0][0]) else 0
     if columns <= before:
         return []
     messages = ["New ninja colour unlocked"] if unlocked_colours(columns) > before else []
@@ -53,5 +54,5 @@ def new_unlocks(store: Store, columns: int, present: int) -> list[str]:
     if custom_colour_unlocked(columns, present) and not custom_colour_unlocked(before, present):
         messages.append("Any ninja colour unlocked")
     with store.change() as db:
-        db.execute("REPLACE INTO fact VALUES (?, ?)", (_ANNOUNCED, str(columns)))
+        db.execute("REPLACE INTO fact (name, value) VALUES (?, ?)", (_ANNOUNCED, str(columns)))
     return messages

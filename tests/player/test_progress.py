@@ -9,7 +9,7 @@ import pytest
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.progress import CHEATED, LOCKED, UNLOCKED, Progress
 from ninja_game.player.statistics import SELF
-from ninja_game.player.store import open_store
+from ninja_game.player.store import Store
 from ninja_game.player.unlocks import complete_columns, new_unlocks
 from ninja_game.sim.rules import LIFETIME
 from tests.support.players import EXIT_TICK, deadly_level, entry, episode, played, player_data, short_level
@@ -17,7 +17,7 @@ from tests.support.players import EXIT_TICK, deadly_level, entry, episode, playe
 
 @pytest.fixture
 def progress() -> Progress:
-    return Progress(open_store(None))
+    return Progress(Store(None))
 
 
 def pass_levels(progress: Progress, number: int, levels: int = 5, *, legitimate: bool = True) -> None:
@@ -58,10 +58,10 @@ def test_tenth_episode_counts_from_its_last_level_on(progress: Progress) -> None
 
 
 def test_progress_is_read_back(tmp_path: Path) -> None:
-    store = open_store(tmp_path / "r.sqlite")
+    store = Store(tmp_path / "r.sqlite")
     pass_levels(Progress(store), 0)
     store.close()
-    assert Progress(open_store(tmp_path / "r.sqlite")).state(1) == UNLOCKED
+    assert Progress(Store(tmp_path / "r.sqlite")).state(1) == UNLOCKED
 
 
 def test_replaying_an_old_episode_changes_no_progress(progress: Progress) -> None:
@@ -73,7 +73,7 @@ def test_replaying_an_old_episode_changes_no_progress(progress: Progress) -> Non
 
 
 def test_unlocks_are_announced_once() -> None:
-    store = open_store(None)
+    store = Store(None)
     assert new_unlocks(store, 0, 10) == []
     assert new_unlocks(store, 1, 10) == ["New ninja colour unlocked"]
     assert new_unlocks(store, 1, 10) == []

@@ -4,15 +4,24 @@ from __future__ import annotations
 
 import os
 import sqlite3
+import subprocess
+import sys
+import time
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
-from ninja_game.player import store as store_module
-from ninja_game.player.playthrough import LevelRun
+from ninja_game.formats.replay.text import parse_replay, write_replay
+from ninja_game.player import store_schema as schema
+from ninja_game.player.playthrough import EpisodeRun, LevelRun, keep_replay
+from ninja_game.player.progress import LOCKED, UNLOCKED
 from ninja_game.player.records import Records
-from ninja_game.player.store import APPLICATION_ID, MIGRATIONS, VERSION, open_store
-from tests.support.players import entry, played, player_data, short_level
+from ninja_game.player.scoring import seconds_text
+from ninja_game.player.statistics import KILLERS
+from ninja_game.player.store import Store
+from ninja_game.player.store_schema import MIGRATIONS, VERSION
+from tests.support.players import deadly_level, entry, episode, played, player_data, short_level
 
 
 def saved_record(folder: Path) -> str:
@@ -41,7 +50,7 @@ def test_record_and_its_replay_come_back_equal(tmp_path: Path) -> None:
 def test_damaged_file_is_set_aside_and_the_game_starts(tmp_path: Path, damage: bytes) -> None:
     path = tmp_path / "records.sqlite"
     path.write_bytes(damage)
-    store = open_store(path)
+    store = Store(path)
     assert store.path == path
     if damage:
         assert "records.damaged-1.sqlite" in store.messages[0]
@@ -55,16 +64,16 @@ def test_torn_pages_in_the_middle_are_noticed(tmp_path: Path) -> None:
     data = bytearray(path.read_bytes())
     data[4096:] = os.urandom(len(data) - 4096)
     path.write_bytes(data)
-    assert open_store(path).messages
+    assert Store(path).messages
 
 
 def test_newer_file_is_set_aside(tmp_path: Path) -> None:
     path = tmp_path / "records.sqlite"
-    open_store(path).close()
+    Store(path).close()
     with sqlite3.connect(path) as db:
         db.execute(f"PRAGMA user_version = {VERSION + 1}")
     db.close()
-    store = open_store(path)
+    store = Store(path)
     assert "newer game" in store.messages[0]
     assert (tmp_path / "records.newer-1.sqlite").is_file()
 
@@ -74,7 +83,7 @@ def test_someone_elses_database_is_set_aside(tmp_path: Path) -> None:
     with sqlite3.connect(path) as db:
         db.execute("CREATE TABLE photographs (name TEXT)")
     db.close()
-    assert open_store(path).messages
+    assert Store(path).messages
     assert (tmp_path / "records.damaged-1.sqlite").is_file()
 
 
@@ -82,35 +91,40 @@ def test_setting_aside_never_overwrites(tmp_path: Path) -> None:
     path = tmp_path / "records.sqlite"
     for _ in range(3):
         path.write_bytes(b"rubbish" * 200)
-        open_store(path).close()
+        Store(path).close()
         path.unlink()
     assert sorted(each.name for each in tmp_path.glob("records.damaged-*.sqlite")) == [
         f"records.damaged-{number}.sqlite" for number in (1, 2, 3)
     ]
 
 
-def test_older_version_is_migrated_with_its_records(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = tmp_path / "records.sqlite"
-    old = sqlite3.connect(path)
-    old.executescript(MIGRATIONS[0])
-    old.execute("INSERT INTO death VALUES ('mine', 7)")
-    old.execute(f"PRAGMA application_id = {APPLICATION_ID}")
-    old.execute("PRAGMA user_version = 1")
-    old.commit()
+def test_older_version_is_migrated_with_its_records(tmp_path: Path) -> None:
+    old = sqlite3.connect(tmp_path / "records.sqlite")
+    old.executescript(Path(__file__).with_name("records-version-2.sql").read_text("utf-8"))
     old.close()
-    data = player_data(tmp_path)
-    assert data.statistics.deaths()["mine"] == 7
+    data = player_data(tmp_path, episode())
     assert data.store.connection.execute("PRAGMA user_version").fetchone()[0] == VERSION
-    assert not data.store.messages
+    assert not data.messages
+    best = data.records.episode_best(episode().key)
+    assert best is not None
+    assert best.score == 3485
+    assert [replay.level_digest for replay in map(data.records.replay, best.replays) if replay] == [
+        each.digest for each in episode().levels
+    ]
+    assert len(data.records.level_bests()) == 6
+    newest = data.records.replays()[0]
+    assert (newest.name, newest.player, newest.kept) == ("a death", "somebody", 1)
+    assert data.progress.state(1) == UNLOCKED
+    assert (data.statistics.deaths()["mine"], data.statistics.played().passes) == (1, 6)
 
 
 def test_failing_migration_leaves_the_old_file_as_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "records.sqlite"
-    open_store(path).close()
-    monkeypatch.setattr(store_module, "MIGRATIONS", (*MIGRATIONS, "CREATE TABLE more (x);\nCREATE TABLE death (x);"))
-    monkeypatch.setattr(store_module, "VERSION", VERSION + 1)
+    Store(path).close()
+    monkeypatch.setattr(schema, "MIGRATIONS", (*MIGRATIONS, "CREATE TABLE more (x);\nCREATE TABLE death (x);"))
+    monkeypatch.setattr(schema, "VERSION", VERSION + 1)
     with pytest.raises(sqlite3.OperationalError):
-        store_module._opened(str(path))
+        schema.open_database(str(path))
     db = sqlite3.connect(path)
     assert db.execute("PRAGMA user_version").fetchone()[0] == VERSION
     assert not db.execute("SELECT * FROM sqlite_master WHERE name = 'more'").fetchall()
@@ -118,7 +132,7 @@ def test_failing_migration_leaves_the_old_file_as_it_was(tmp_path: Path, monkeyp
 
 
 def test_failed_change_leaves_nothing_behind(tmp_path: Path) -> None:
-    store = open_store(tmp_path / "records.sqlite")
+    store = Store(tmp_path / "records.sqlite")
 
     def change_half() -> None:
         with store.change() as db, store.change():
@@ -130,11 +144,199 @@ def test_failed_change_leaves_nothing_behind(tmp_path: Path) -> None:
     assert store.connection.execute("SELECT * FROM death").fetchall() == []
 
 
-def test_unusable_place_keeps_the_records_in_memory(tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("in the way")
-    store = open_store(tmp_path / "file" / "records.sqlite")
-    assert store.path is None
-    assert "lost" in store.messages[0]
+# --- a place that cannot be used now ---
+
+
+def test_unusable_place_keeps_the_records_in_memory_and_says_so(tmp_path: Path) -> None:
+    (tmp_path / "player").write_text("in the way")
+    data = player_data(tmp_path / "player")
+    run = LevelRun(data, entry(short_level()))
+    notices = run.passed(played(short_level()))
+    assert not any("saved" in notice for notice in notices[:-1])
+    assert notices[-1].startswith("Not saved yet: the records cannot be opened")
+    assert "in memory only" in " ".join(data.messages)
+    assert data.records.level_best(run.entry.digest) is not None
+
+
+def test_what_was_kept_in_memory_is_saved_as_soon_as_the_place_can_be_used(tmp_path: Path) -> None:
+    (tmp_path / "player").write_text("in the way")
+    data = player_data(tmp_path / "player", episode())
+    EpisodeRun(data, episode()).passed(played(short_level()))
+    (tmp_path / "player").unlink()
+    assert keep_replay(data, played(deadly_level()).replay()) == "Replay: saved"
+    data.close()
+    again = player_data(tmp_path / "player", episode())
+    assert len(again.records.replays()) == 2
+    assert again.progress.columns[0].beaten == (0, 1)
+    assert again.statistics.played().passes == 1
+
+
+def lock(folder: Path) -> sqlite3.Connection:
+    """Another program that writes to the records for a long time."""
+    other = sqlite3.connect(folder / "records.sqlite", isolation_level=None)
+    other.execute("BEGIN IMMEDIATE")
+    return other
+
+
+def test_locked_records_hold_nobody_up_and_nothing_is_lost(tmp_path: Path) -> None:
+    data = player_data(tmp_path, episode())
+    assert not data.records.replays()
+    other = lock(tmp_path)
+    run = EpisodeRun(data, episode())
+    attempt = played(short_level())
+    start = time.monotonic()
+    assert run.passed(attempt) == ["Not saved yet: database is locked"]
+    run.died(played(deadly_level()))
+    assert time.monotonic() - start < 2
+    assert data.progress.columns[0].beaten == (0, 0)
+    # The same object goes on to another try; what was passed must not change.
+    attempt.restart()
+    other.execute("COMMIT")
+    other.close()
+    assert keep_replay(data, played(deadly_level()).replay()) == "Replay: saved"
+    assert data.records.level_best(run.entry.digest) is not None
+    assert data.progress.columns[0].beaten == (0, 1)
+    assert data.statistics.played().deaths == 1
+
+
+def test_what_waits_is_saved_at_the_end(tmp_path: Path) -> None:
+    data = player_data(tmp_path)
+    assert not data.records.replays()
+    other = lock(tmp_path)
+    LevelRun(data, entry(short_level())).passed(played(short_level()))
+    other.execute("ROLLBACK")
+    other.close()
+    data.close()
+    assert len(player_data(tmp_path).records.level_bests()) == 1
+
+
+def test_records_that_may_only_be_read_are_shown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    digest = saved_record(tmp_path)
+
+    def refuse(*_: object) -> None:
+        raise sqlite3.OperationalError("attempt to write a readonly database")
+
+    # A root user may write everything, so that modes would not do.
+    opened = schema.open_database
+    monkeypatch.setattr("ninja_game.player.store.open_database", refuse)
+    data = player_data(tmp_path)
+    assert data.records.level_best(digest) is not None
+    assert "readonly" in data.messages[0]
+    monkeypatch.setattr("ninja_game.player.store.open_database", opened)
+
+
+def test_failed_commit_advances_nothing(tmp_path: Path) -> None:
+    data = player_data(tmp_path, episode())
+    run = EpisodeRun(data, episode())
+    # A constraint that is looked at when the transaction ends.
+    data.store.connection.executescript(
+        "CREATE TABLE a (id INTEGER PRIMARY KEY); CREATE TABLE b (a REFERENCES a DEFERRABLE INITIALLY DEFERRED);"
+        "CREATE TRIGGER t AFTER INSERT ON progress BEGIN INSERT INTO b VALUES (7); END;"
+    )
+    assert run.passed(played(short_level())) == ["Not saved yet: FOREIGN KEY constraint failed"]
+    assert data.progress.columns[0].beaten == (0, 0)
+    assert not data.store.connection.in_transaction
+    data.store.connection.execute("DROP TRIGGER t")
+    assert "saved" in run.passed(played(short_level()))[0]
+    assert data.progress.columns[0].beaten == (0, 1)
+
+
+# --- two games at once ---
+
+
+def test_two_games_merge_their_progress(tmp_path: Path) -> None:
+    first, second = player_data(tmp_path), player_data(tmp_path)
+    assert first.progress.columns == second.progress.columns
+    for level in range(4):
+        first.progress.level_passed((0, level), legitimate=True)
+    second.progress.level_passed((0, 0), legitimate=True)
+    assert second.progress.columns[0].beaten == (0, 4)
+    assert player_data(tmp_path).progress.columns[0].beaten == (0, 4)
+
+
+def test_many_first_starts_at_once(tmp_path: Path) -> None:
+    program = (
+        "import pathlib, sys\nfrom ninja_game.player.player_data import PlayerData\n"
+        "data = PlayerData(pathlib.Path(sys.argv[1]))\ndata.statistics.attempt_ended('level', killer='mine', "
+        "passed=False, ticks=1, gold=0)\nprint(*data.messages, data.store.problem)\ndata.close()"
+    )
+    command = [sys.executable, "-c", program, str(tmp_path / "home")]
+    starts = [subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) for _ in range(8)]
+    assert [start.communicate()[0].strip() for start in starts] == [""] * 8
+    assert player_data(tmp_path / "home").statistics.deaths()["mine"] == 8
+
+
+@pytest.mark.parametrize("count", [1, 4])
+def test_damaged_file_costs_no_session_its_persistence(tmp_path: Path, count: int) -> None:
+    (tmp_path / "records.sqlite").write_bytes(b"rubbish" * 500)
+    program = (
+        "import pathlib, sys\nfrom ninja_game.player.store import Store\n"
+        "store = Store(pathlib.Path(sys.argv[1]))\nprint(store.problem)\nstore.close()"
+    )
+    command = [sys.executable, "-c", program, str(tmp_path / "records.sqlite")]
+    starts = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(count)]
+    assert [start.communicate()[0].strip() for start in starts] == [""] * count
+    assert [each.name for each in tmp_path.glob("records.damaged-*.sqlite")] == ["records.damaged-1.sqlite"]
+
+
+# --- damaged rows ---
+
+EDITS = [
+    f"UPDATE {table} SET {column} = {value}"
+    for table, columns in (
+        ("replay", ("name", "player", "body", "outcome", "final_tick", "gold", "score", "made_at", "kept", "inputs",
+                    "level_text", "level", "digest", "practice")),
+        ("level_best", ("level", "body")), ("episode_best", ("score", "made_at", "episode")),
+        ("episode_replay", ("episode", "place")), ("progress", ("beaten_episode", "reached_level")),
+        ("death", ("times",)), ("played", ("attempts", "ticks", "gold")), ("fact", ("value",)),
+    )
+    for column in columns
+    for value in ("x'ff00'", "'odd'", "-9e99", "9223372036854775807")
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("edit", EDITS)
+def test_damaged_rows_are_left_out_and_play_goes_on(edit: str, tmp_path: Path) -> None:
+    data = player_data(tmp_path, episode())
+    run = EpisodeRun(data, episode())
+    for _ in range(5):
+        attempt = played(run.entry.named.level, lifetime=run.lifetime)
+        run.passed(attempt)
+        run.advance(attempt)
+    run.died(played(deadly_level()))
+    with suppress(sqlite3.IntegrityError):
+        data.store.connection.execute(edit)
+    data.close()
+    again = player_data(tmp_path, episode())
+    for saved in again.records.replays():
+        seconds_text(saved.score)
+        again.records.replay(saved.id)
+    again.records.level_bests()
+    best = again.records.episode_best(episode().key)
+    assert best is None or all(isinstance(number, int) for number in best.replays)
+    assert set(again.statistics.deaths()) == set(KILLERS)
+    seconds_text(again.statistics.played().ticks)
+    assert again.progress.state(99) in {UNLOCKED, LOCKED}
+    assert again.columns_complete in {0, 1}
+    run = EpisodeRun(again, episode())
+    for _ in range(5):
+        attempt = played(run.entry.named.level, lifetime=run.lifetime)
+        assert not any("Not saved" in notice for notice in run.passed(attempt))
+        run.advance(attempt)
+    assert again.progress.state(1) == UNLOCKED
+
+
+def test_practice_replay_carries_its_mark(tmp_path: Path) -> None:
+    data = player_data(tmp_path)
+    keep_replay(data, played(short_level(), practice=True).replay("practised"))
+    keep_replay(data, played(deadly_level()).replay("played"))
+    marks = {saved.name: data.records.replay(saved.id) for saved in data.records.replays()}
+    practised, plain = marks["practised"], marks["played"]
+    assert practised is not None
+    assert plain is not None
+    assert "practice: yes\n" in write_replay(practised)
+    assert parse_replay(write_replay(practised)).practice
+    assert "practice" not in write_replay(plain)
 
 
 def test_replay_that_a_best_needs_is_not_forgotten(tmp_path: Path) -> None:

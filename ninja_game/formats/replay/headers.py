@@ -11,7 +11,18 @@ from ninja_game.errors import ReplayError
 
 REQUIRED = ("rules", "body", "final-tick", "outcome", "gold", "inputs")
 SECTIONS = ("inputs", "level-data", "waypoints")
-KEYS = (*REQUIRED, "name", "author", "level", "level-record", "level-digest", "digest", "level-data", "waypoints")
+KEYS = (
+    *REQUIRED,
+    "name",
+    "author",
+    "level",
+    "level-record",
+    "level-digest",
+    "digest",
+    "practice",
+    "level-data",
+    "waypoints",
+)
 
 COUNT_LIMIT = 10**9
 

@@ -49,7 +49,8 @@ class Replay:
     the last tick that is run, counted from 0; ``outcome``, ``gold`` and ``digest`` (64 hex digits of what the world
     shows, or '') are as after it. The level is given by one or more of: its digest, a path from the replay's folder
     with the number of the record in that file, the level itself. ``waypoints``: where the ninja passes, by tick, so
-    that a run that goes another way is noticed where it does.
+    that a run that goes another way is noticed where it does. ``practice``: it was made in practice, or with its
+    tools.
     """
 
     inputs: bytes
@@ -66,6 +67,7 @@ class Replay:
     level_record: int = 0
     level: Level | None = None
     waypoints: tuple[Waypoint, ...] = ()
+    practice: bool = False
 
     @property
     def ticks(self) -> int:
@@ -110,6 +112,7 @@ def parse_replay(text: str, *, file: str = "") -> Replay:
         level_record=headers.count("level-record"),
         level=_read_level(headers.section("level-data"), file),
         waypoints=read_waypoints(headers.section("waypoints"), file),
+        practice="practice" in headers.lines and headers.choice("practice", ("yes", "no")) == "yes",
     )
     problem = _contradiction(replay)
     if problem:
@@ -211,6 +214,7 @@ def write_replay(replay: Replay) -> str:
         "outcome": replay.outcome,
         "gold": str(replay.gold),
         "digest": replay.digest,
+        "practice": "yes" * replay.practice,
     }
     lines = [f"{MAGIC} {VERSION}", *(f"{key}: {value}" for key, value in headers.items() if value)]
     lines += ["inputs:", *(f"  {line}" for line in write_inputs(replay.inputs))]

@@ -42,6 +42,9 @@ class Course(Protocol):
     def died(self, attempt: Attempt) -> None:
         """Called once per death."""
 
+    def gave_up(self, attempt: Attempt) -> None:
+        """Called when an attempt is left or begun anew, whether it has ended or not."""
+
     def onward(self) -> Course | None:
         """What to play when the player goes on from a passed level; None: leave."""
 
@@ -76,6 +79,9 @@ class SingleLevel:
         return [] if first else ["Best run so far"]
 
     def died(self, attempt: Attempt) -> None:
+        """Nothing is counted."""
+
+    def gave_up(self, attempt: Attempt) -> None:
         """Nothing is counted."""
 
     def onward(self) -> Course | None:
@@ -121,6 +127,10 @@ class InOrder:
     def died(self, attempt: Attempt) -> None:
         """The present level's."""
         self._course.died(attempt)
+
+    def gave_up(self, attempt: Attempt) -> None:
+        """The present level's."""
+        self._course.gave_up(attempt)
 
     def onward(self) -> Course | None:
         """The next level of the file that can be played."""

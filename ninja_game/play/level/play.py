@@ -18,6 +18,7 @@ from ninja_game.play.screen import Screen
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays
 from ninja_game.player.attempt import Attempt
+from ninja_game.player.playthrough import keep_replay
 from ninja_game.player.statistics import SELF, killer_of
 from ninja_game.sim.level import GOLD
 
@@ -106,6 +107,7 @@ class LevelPlay(Screen):
     def retry(self) -> None:
         """Back to the level's start, at once."""
         self.app.audio_output.quiet()
+        self.course.gave_up(self.attempt)
         self.attempt.restart()
         self.practice.restarted()
         self.shown_lifetime = float(self.attempt.lifetime)
@@ -131,6 +133,7 @@ class LevelPlay(Screen):
 
     def quit(self) -> None:
         """Leave the level."""
+        self.course.gave_up(self.attempt)
         screen = self.course.leaving()
         if screen is None:
             self.app.pop()
@@ -148,8 +151,7 @@ class LevelPlay(Screen):
     def keep_replay(self) -> None:
         """Put this run among the player's replays, whatever it is worth."""
         player = self.app.player
-        player.records.keep_replay(self.attempt.replay(self.course.title, player.settings.name))
-        self.tell("Replay kept")
+        self.tell(keep_replay(player, self.attempt.replay(self.course.title, player.settings.name)))
 
     # --- what comes of it ---
 

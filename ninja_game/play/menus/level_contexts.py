@@ -71,6 +71,10 @@ class LevelCourse:
         """Count it."""
         self._run.died(attempt)
 
+    def gave_up(self, attempt: Attempt) -> None:
+        """Count it."""
+        self._run.gave_up(attempt)
+
     def onward(self) -> Course | None:
         """The same level again."""
         return self
@@ -111,6 +115,10 @@ class EpisodeCourse:
     def died(self, attempt: Attempt) -> None:
         """Count it."""
         self.run.died(attempt)
+
+    def gave_up(self, attempt: Attempt) -> None:
+        """Count it."""
+        self.run.gave_up(attempt)
 
     def onward(self) -> Course | None:
         """The next level, in practice also without passing this one; after the last one None."""

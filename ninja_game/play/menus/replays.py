@@ -23,8 +23,9 @@ from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.theme import Theme
 from ninja_game.play.ui.widgets import Area, Widget
 from ninja_game.play.ui.wording import fit
+from ninja_game.player.playthrough import forget_replay
 from ninja_game.player.records import SavedReplay
-from ninja_game.player.scoring import seconds_text
+from ninja_game.player.scoring import level_score, seconds_text
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
@@ -35,6 +36,7 @@ FILES_SHOWN = 300
 
 
 OUTCOMES = {"exit": "passed", "dead": "death", "running": "unfinished"}
+YOU = "you"
 HINT = "Enter: watch it. Delete: remove a saved one. E: write it as a text file, to share"
 
 
@@ -126,14 +128,12 @@ class ReplaysScreen(MenuScreen):
                 self.message = "This is a personal best; it stays"
                 self.redraw = True
                 return
-            forget = self.player.records.forget_replay
-            self.app.push(Question(self.app, "Remove this replay?", "Remove", lambda: self._forget(forget, number)))
+            self.app.push(Question(self.app, "Remove this replay?", "Remove", lambda: self._forget(number)))
             return
         super().act(action)
 
-    def _forget(self, forget: object, number: int) -> None:
-        assert callable(forget)  # noqa: S101 - bound above
-        forget(number)
+    def _forget(self, number: int) -> None:
+        self.message = forget_replay(self.player, number)
         self.enter()
         self.redraw = True
 
@@ -164,16 +164,23 @@ class ReplaysScreen(MenuScreen):
 
 
 def _row_of(saved: SavedReplay) -> Row:
-    passed = saved.outcome == "exit"
-    what = seconds_text(saved.score) if passed else OUTCOMES[saved.outcome]
-    return Row(saved.name or "nameless", saved.player, what, saved.made_at[:16].replace("T", "  "), passed, saved)
+    what = _result(saved.outcome, saved.gold, saved.final_tick)
+    when = saved.made_at[:16].replace("T", "  ")
+    return Row(saved.name or "nameless", saved.player or YOU, what, when, saved.outcome == "exit", saved)
 
 
 def _row_of_recording(recording: Recording, when: str) -> Row:
     replay = recording.replay
-    if replay is not None:
-        outcome = OUTCOMES[replay.outcome]
+    if replay is None:
+        result = f"recording, {seconds_text(recording.ticks)}"
     else:
-        outcome = "recording"
-    return Row(recording.name or "nameless", recording.author, f"{outcome}, {seconds_text(recording.ticks)} s", when,
-               outcome == "passed", recording)  # fmt: skip
+        result = _result(replay.outcome, replay.gold, replay.final_tick)
+    passed = replay is not None and replay.outcome == "exit"
+    return Row(recording.name or "nameless", recording.author, result, when, passed, recording)
+
+
+def _result(outcome: str, gold: int, final_tick: int) -> str:
+    """The score of a passed level; of any other run, how it ended and after which time."""
+    if outcome == "exit":
+        return seconds_text(level_score(gold, final_tick))
+    return f"{OUTCOMES[outcome]}, {seconds_text(final_tick + 1)}"
