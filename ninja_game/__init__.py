@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Any
 from ninja_game.errors import DemoError, FormatError, LevelError, NinjaGameError, ReplayError
 
 if TYPE_CHECKING:
-    from ninja_game.formats.load import load_level, load_levels, load_replays
-    from ninja_game.formats.n14.level_string import parse_level_string as parse_level
+    from ninja_game.formats.load import load_level, load_levels, load_replays, parse_level
+    from ninja_game.formats.n14.demo import parse_demo, write_demo
     from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
     from ninja_game.runs.run import RunResult, RunTrace, record_replay, run_level, trace_level
     from ninja_game.runs.verify import Verdict, verify_recording
@@ -38,12 +38,14 @@ _HOMES = {
     "load_level": ("ninja_game.formats.load", "load_level"),
     "load_levels": ("ninja_game.formats.load", "load_levels"),
     "load_replays": ("ninja_game.formats.load", "load_replays"),
-    "parse_level": ("ninja_game.formats.n14.level_string", "parse_level_string"),
+    "parse_demo": ("ninja_game.formats.n14.demo", "parse_demo"),
+    "parse_level": ("ninja_game.formats.load", "parse_level"),
     "parse_replay": ("ninja_game.formats.replay.text", "parse_replay"),
     "record_replay": ("ninja_game.runs.run", "record_replay"),
     "run_level": ("ninja_game.runs.run", "run_level"),
     "trace_level": ("ninja_game.runs.run", "trace_level"),
     "verify_recording": ("ninja_game.runs.verify", "verify_recording"),
+    "write_demo": ("ninja_game.formats.n14.demo", "write_demo"),
     "write_replay": ("ninja_game.formats.replay.text", "write_replay"),
 }
 
@@ -63,12 +65,14 @@ __all__ = [
     "load_level",
     "load_levels",
     "load_replays",
+    "parse_demo",
     "parse_level",
     "parse_replay",
     "record_replay",
     "run_level",
     "trace_level",
     "verify_recording",
+    "write_demo",
     "write_replay",
 ]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from ninja_game.errors import LevelError, ReplayError
@@ -10,7 +11,7 @@ from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.sim.level import Level
 
-__all__ = ["NamedLevel", "Recording", "load_level", "load_levels", "load_replays"]
+__all__ = ["NamedLevel", "Recording", "load_level", "load_levels", "load_replays", "parse_level"]
 
 
 def load_levels(path: Path | str) -> list[NamedLevel]:
@@ -30,9 +31,20 @@ def load_level(path: Path | str, record: int = 0) -> Level:
 
     Raises LevelError as ``load_levels`` does, and for a record that the file does not have.
     """
-    levels = load_levels(path)
+    return _one(load_levels(path), record, str(path))
+
+
+def parse_level(text: str, record: int = 0) -> Level:
+    """The level in a text of any format that ``load_level`` reads, or its level number ``record`` (from 0).
+
+    Raises LevelError (or ReplayError for a broken replay) with line and column; also for a text that is no level.
+    """
+    return _one(parse_levels(text), record, "")
+
+
+def _one(levels: Sequence[NamedLevel], record: int, file: str) -> Level:
     if not 0 <= record < len(levels):
-        raise LevelError(f"there is no record {record}", str(path), expected=f"0 to {len(levels) - 1}")
+        raise LevelError(f"there is no record {record}", file, expected=f"0 to {len(levels) - 1}")
     return levels[record].level
 
 

@@ -9,7 +9,9 @@ from pathlib import Path
 
 from ninja_game.errors import LevelError, ReplayError
 from ninja_game.files.reading import read_text
+from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level
+from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.n14.level_file import MARKER, LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, tidy_level_string
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
@@ -17,6 +19,7 @@ from ninja_game.sim.level import TILES, Level
 
 # What the object half of an in-game string is made of, odd numbers included.
 _OBJECTS = re.compile(r"[0-9.,^!+\-xeENa \t]+")
+_TILE = re.compile(r"[0-Q]")
 
 
 @dataclass(frozen=True)
@@ -76,12 +79,11 @@ def is_level_file(text: str) -> bool:
 
 def _level_strings(text: str, file: str) -> Iterator[tuple[int, str]]:
     """Line and text of the in-game strings in a text: one a line, or one wrapped over all lines."""
-    lines = [(number, line) for number, line in enumerate(text.split("\n"), 1) if line.strip()]
+    lines = list(numbered_lines(text))
     if len(lines) > 1 and not all(len(line.partition("|")[0]) >= TILES for _, line in lines):
         lines = [(lines[0][0], tidy_level_string(text))]
     for number, line in lines:
-        tiles, bar, objects = line.partition("|")
-        if not bar or not (len(tiles) >= TILES or _OBJECTS.fullmatch(objects)):
+        if not _is_level_string(line):
             raise LevelError(
                 "not a level in any format that is known here",
                 file,
@@ -95,6 +97,14 @@ def _level_strings(text: str, file: str) -> Iterator[tuple[int, str]]:
         raise LevelError("an empty file", file, expected="a level")
 
 
+def _is_level_string(text: str) -> bool:
+    """Whether a line may be an in-game string: most of its first half are tiles, its second half is objects."""
+    tiles, bar, objects = text.partition("|")
+    if not bar or 2 * len(_TILE.findall(tiles[:TILES])) < min(len(tiles), TILES):
+        return False
+    return len(tiles) >= TILES or _OBJECTS.fullmatch(objects) is not None
+
+
 def level_of_replay(replay: Replay, file: str, level: Level | None = None) -> Level:
     """The level that a replay was recorded on: its own, the one its path leads to, or else the given one.
 
@@ -104,18 +114,29 @@ def level_of_replay(replay: Replay, file: str, level: Level | None = None) -> Le
         return replay.level
     source = "the given level"
     if replay.level_path:
-        path = Path(file).parent / replay.level_path
+        path = _path_below(Path(file).parent, replay.level_path)
         source = str(path)
-        if path.is_file():
+        if path is not None and path.is_file():
             level = _level_at(path, replay.level_record, file)
     if level is None:
         hint = "give the level, or record the replay with its level inside"
-        found = replay.level_path or f"level-digest {replay.level_digest[:12]}…"
+        found = shown(replay.level_path) if replay.level_path else f"level-digest {replay.level_digest[:12]}…"
+        if replay.level_path and path is None:
+            hint = "'level:' leads to a file in the replay's folder or below it only"
         raise ReplayError("the replay's level is not here", file, found=found, hint=hint)
     if replay.level_digest and level_digest(level) != replay.level_digest:
         hint = "the level was changed after the recording"
         raise ReplayError("not the level of this replay", file, found=source, expected=replay.level_digest, hint=hint)
     return level
+
+
+def _path_below(folder: Path, name: str) -> Path | None:
+    """The path of a name in a folder or below it; None for one that leads elsewhere: replays come from strangers."""
+    try:
+        path = (folder / name).resolve()
+        return path if path.is_relative_to(folder.resolve()) else None
+    except (OSError, ValueError, RuntimeError):
+        return None
 
 
 def _level_at(path: Path, record: int, file: str) -> Level:

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import os
+import time
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
 from ninja_game.errors import DemoError, FileError, LevelError, NinjaGameError, ReplayError
 from ninja_game.formats.ascii.reader import write_ascii_level
-from ninja_game.formats.load import load_levels, load_replays
+from ninja_game.formats.load import load_levels, load_replays, parse_level
 from ninja_game.formats.n14.level_file import LevelRecord, write_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.named_level import parse_levels
+from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 
 TEXT = "0" * 713 + "|5^60,540!0^396,300!11^708,540,396,540"
@@ -146,20 +149,74 @@ def test_replays_of_ours(tmp_path: Path) -> None:
     assert (recording.ticks, recording.playback(8)) == (8, bytes([2, 2, 14, 0, 0, 0, 0, 0]))
 
 
-def test_a_replay_finds_its_level_from_its_own_folder(tmp_path: Path) -> None:
+def test_a_replay_finds_its_level_below_its_own_folder(tmp_path: Path) -> None:
     (tmp_path / "levels").mkdir()
-    (tmp_path / "replays").mkdir()
     saved(tmp_path / "levels", f"$a###{OTHER}#\n$b###{TEXT}#", "two.txt")
-    replay = Replay(b"", 0, "running", level_path="../levels/two.txt", level_record=1, level_digest=level_digest(LEVEL))
-    path = saved(tmp_path / "replays", write_replay(replay))
+    replay = Replay(b"", 0, "running", level_path="levels/two.txt", level_record=1, level_digest=level_digest(LEVEL))
+    path = saved(tmp_path, write_replay(replay))
     assert load_replays(path)[0].level == LEVEL
     assert load_levels(path)[0].level == LEVEL
+
+
+@pytest.mark.parametrize("name", ["../secret.txt", "/etc/passwd", "link/secret.txt", "../inside/../secret.txt", "pipe"])
+def test_a_replay_reads_nothing_but_files_of_its_own_folder(tmp_path: Path, name: str) -> None:
+    folder = tmp_path / "inside"
+    folder.mkdir()
+    (folder / "link").symlink_to(tmp_path)
+    os.mkfifo(folder / "pipe")
+    saved(tmp_path, "the secret", "secret.txt")
+    path = saved(folder, write_replay(Replay(b"", 0, "dead", level_path=name)))
+    with pytest.raises(ReplayError, match="level is not here") as caught:
+        load_replays(path)
+    assert "the secret" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [TEXT, f"$a###{TEXT}#", f"free\n$a###{TEXT}#{DEMO}#", write_ascii_level(LEVEL),
+     write_replay(Replay(b"", 0, "dead", level=LEVEL)), TEXT.replace("|", "\n|")],
+    ids=["string", "level file", "recording", "ASCII", "replay", "wrapped"],
+)  # fmt: skip
+def test_a_text_of_any_format_is_a_level(text: str) -> None:
+    assert parse_level(text) == LEVEL
+
+
+def test_a_text_of_several_levels_gives_the_one_that_is_asked_for() -> None:
+    assert parse_level(f"$a###{TEXT}#\n$b###{OTHER}#", 1) == parse_level_string(OTHER)
+    with pytest.raises(LevelError, match="there is no record 2; expected 0 to 1"):
+        parse_level(f"$a###{TEXT}#\n$b###{OTHER}#", 2)
+
+
+@pytest.mark.parametrize("text", ["", "hello", "hello|12", "a | b", "x" * 800 + "|5^60,60", "|", "{}", "0" * 713])
+def test_a_text_that_is_plainly_no_level_is_refused(text: str) -> None:
+    with pytest.raises(LevelError, match=r"not a level|an empty file"):
+        parse_level(text)
+
+
+BULK = {
+    "blank lines": "\n" * 2**23,
+    "blanks": " " * 2**23,
+    "lines of blanks": " \n" * 2**22,
+    "comments": ";\n" * 2**20,
+    "returns": "\r" * 2**23,
+    "dollars": "$" * 2**22,
+    "a level below blank lines": "\n" * 2**23 + TEXT,
+}
+
+
+@pytest.mark.parametrize("name", BULK)
+def test_megabytes_of_nothing_take_no_time(name: str) -> None:
+    for read in (parse_levels, parse_replays):
+        started = time.process_time()
+        with suppress(NinjaGameError):
+            read(BULK[name])
+        assert time.process_time() - started < 2
 
 
 @pytest.mark.parametrize(
     "replay, message",
     [
-        (Replay(b"", 0, "dead", level_path="nowhere.txt"), "the replay's level is not here; found nowhere.txt; give"),
+        (Replay(b"", 0, "dead", level_path="nowhere.txt"), "the replay's level is not here; found 'nowhere.txt'; give"),
         (Replay(b"", 0, "dead", level_digest="0f" * 32), "is not here; found level-digest 0f0f0f0f0f0f"),
         (Replay(b"", 0, "dead", level_path="two.txt", level_record=2), "not in its file.*expected a record 2"),
         (Replay(b"", 0, "dead", level_path="two.txt", level_digest="0f" * 32), "not the level of this.*was changed"),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -13,11 +12,10 @@ from ninja_game.formats.ascii.picture import ROW_START, read_picture
 from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.problems import Problems
 from ninja_game.formats.ascii.writer import HEADER_KEYS, MAGIC, VERSION, write_ascii_level
+from ninja_game.formats.lines import UNCOMMENTED, Line, numbered_lines
 from ninja_game.sim.level import Level
 
 __all__ = ["AsciiLevel", "is_ascii_level", "parse_ascii_level", "write_ascii_level"]
-
-NumberedLine = tuple[int, str]
 
 
 @dataclass(frozen=True)
@@ -32,8 +30,8 @@ class AsciiLevel:
 
 def is_ascii_level(text: str) -> bool:
     """Whether a text begins as an ASCII level does (after blank and comment lines)."""
-    lines = _lines(text)
-    return bool(lines) and lines[0][1].split()[:2] == MAGIC.split()
+    _, first = next(numbered_lines(text, UNCOMMENTED), (1, ""))
+    return first.split(None, 2)[:2] == MAGIC.split()
 
 
 def parse_ascii_level(text: str, *, file: str = "") -> AsciiLevel:
@@ -47,7 +45,7 @@ def parse_ascii_level(text: str, *, file: str = "") -> AsciiLevel:
     Raises LevelError: the first mistake by line, the others in its ``further``.
     """
     problems = Problems(file)
-    lines = _lines(text)
+    lines = list(numbered_lines(text, UNCOMMENTED))
     _check_first(lines, problems)
     header, rows, listed = _sections(lines[1:], problems)
     fields = _read_header(header, problems)
@@ -61,13 +59,7 @@ def parse_ascii_level(text: str, *, file: str = "") -> AsciiLevel:
     return AsciiLevel(fields.get("name", ""), fields.get("author", ""), fields.get("comment", ""), level)
 
 
-def _lines(text: str) -> list[NumberedLine]:
-    """Numbered lines (from 1) without blank and comment lines."""
-    lines = enumerate(re.split(r"\r\n|\r|\n", text.removeprefix("\ufeff")), 1)
-    return [(number, line) for number, line in lines if line.strip() and not line.lstrip().startswith(";")]
-
-
-def _check_first(lines: Sequence[NumberedLine], problems: Problems) -> None:
+def _check_first(lines: Sequence[Line], problems: Problems) -> None:
     """Raise LevelError unless the first line says what this is."""
     number, first = lines[0] if lines else (1, "")
     words = first.split()
@@ -80,13 +72,11 @@ def _check_first(lines: Sequence[NumberedLine], problems: Problems) -> None:
     problems.raise_if_any()
 
 
-def _sections(
-    lines: Sequence[NumberedLine], problems: Problems
-) -> tuple[list[NumberedLine], list[NumberedLine], list[NumberedLine]]:
+def _sections(lines: Sequence[Line], problems: Problems) -> tuple[list[Line], list[Line], list[Line]]:
     """Header lines, picture rows, lines of the list."""
-    header: list[NumberedLine] = []
-    rows: list[NumberedLine] = []
-    listed: list[NumberedLine] = []
+    header: list[Line] = []
+    rows: list[Line] = []
+    listed: list[Line] = []
     for number, line in lines:
         if ROW_START.match(line):
             if listed:
@@ -99,7 +89,7 @@ def _sections(
     return header, rows, listed
 
 
-def _read_header(lines: Sequence[NumberedLine], problems: Problems) -> dict[str, str]:
+def _read_header(lines: Sequence[Line], problems: Problems) -> dict[str, str]:
     fields: dict[str, str] = {}
     for number, line in lines:
         if problems.full:
@@ -125,7 +115,7 @@ def _header_value(text: str) -> str:
     return text if value is None else value
 
 
-def _read_list(lines: Sequence[NumberedLine], problems: Problems) -> tuple[list[Placed], list[PlacedTile]]:
+def _read_list(lines: Sequence[Line], problems: Problems) -> tuple[list[Placed], list[PlacedTile]]:
     objects: list[Placed] = []
     tiles: list[PlacedTile] = []
     for number, line in lines:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from difflib import get_close_matches
 
 from ninja_game.errors import ReplayError
+from ninja_game.formats.lines import Line
 
 REQUIRED = ("rules", "body", "final-tick", "outcome", "gold", "inputs")
 SECTIONS = ("inputs", "level-data", "waypoints")
@@ -29,9 +30,6 @@ COUNT_LIMIT = 10**9
 _HEADER_LINE = re.compile(r"([a-z-]+):(.*)", re.DOTALL)
 _DIGEST = re.compile(r"[0-9a-f]{64}")
 _COUNT = re.compile(r"0|[1-9][0-9]{0,8}")
-
-Line = tuple[int, str]
-"""A line with its number, from 1."""
 
 
 class Headers:

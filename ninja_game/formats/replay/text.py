@@ -11,9 +11,10 @@ from typing import NamedTuple
 
 from ninja_game.errors import ReplayError
 from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
+from ninja_game.formats.lines import Line, numbered_lines
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import NAN
-from ninja_game.formats.replay.headers import COUNT_LIMIT, Headers, Line
+from ninja_game.formats.replay.headers import COUNT_LIMIT, Headers
 from ninja_game.formats.replay.input_runs import MAX_TICKS, read_inputs, write_inputs
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
@@ -93,8 +94,7 @@ def parse_replay(text: str, *, file: str = "") -> Replay:
     Raises ReplayError, naming line and column, for whatever is not as `docs/replay-format.md` says; LevelError for the
     level inside.
     """
-    lines = list(enumerate(re.split(r"\r\n|\r|\n", text.removeprefix("\ufeff")), 1))
-    lines = [(number, line) for number, line in lines if line.strip() and not line.startswith(";")]
+    lines = [(number, line) for number, line in numbered_lines(text) if not line.startswith(";")]
     _check_first_line(lines, file)
     headers = Headers(lines[1:], file)
     replay = Replay(
