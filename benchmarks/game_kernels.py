@@ -9,7 +9,7 @@ from ninja_game.sim.collision.rays import cast
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.declare import entry_point
-from ninja_game.sim.objects.object_query import touch, touch_objects
+from ninja_game.sim.objects.dispatch import touch, touch_objects
 from ninja_game.sim.rules import DOWN, RIGHT, SOLID, STRIDE
 
 

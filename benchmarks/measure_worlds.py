@@ -18,7 +18,8 @@ from ninja_game.batch.batch import Batch
 from ninja_game.batch.thread_pool import cores
 from ninja_game.compile_cache import kernels
 from ninja_game.formats.recording import Recording
-from ninja_game.sim.level import GOLD, MINE, NINJA, TILES, Level, ObjectSpec
+from ninja_game.sim.kinds import GOLD, MINE, NINJA
+from ninja_game.sim.level import TILES, Level, ObjectSpec
 from ninja_game.sim.memory.compiled import load_compiled
 from ninja_game.sim.memory.layout import used_bytes
 from ninja_game.simulation import Simulation

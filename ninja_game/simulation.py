@@ -25,7 +25,8 @@ from ninja_game.compile_cache import choose_memory, kernels
 from ninja_game.sim.digest import differences, replay_digest, world_digest
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, pressed
-from ninja_game.sim.level import KIND_NAMES, Level
+from ninja_game.sim.kinds import KIND_NAMES
+from ninja_game.sim.level import Level
 from ninja_game.sim.memory.plain import load_plain, restore_plain, save_plain
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.states import OUTCOME_NAMES, STATE_NAMES

@@ -56,7 +56,7 @@ CHANGES = (
     # Grid, tiles, collision.
     Change("edge-under-the-surface", "collision/tiles.py", "OFF, INTERESTING, OFF]", "OFF, INTERESTING, SOLID]"),
     Change("thin-faces", "collision/tiles.py", "(shape == THIN_22 and side in (0, 2))", "(shape == THIN_22 and side == 4)"),
-    Change("order-of-the-nine-cells", "objects/object_query.py", "STRIDE, STRIDE + 1, STRIDE - 1, -1", "STRIDE, STRIDE - 1, STRIDE + 1, -1"),
+    Change("order-of-the-nine-cells", "objects/dispatch.py", "STRIDE, STRIDE + 1, STRIDE - 1, -1", "STRIDE, STRIDE - 1, STRIDE + 1, -1"),
     Change("keep-next-link", "grid.py", "    o.next = 0\n    o.prev = 0\n", "    o.prev = 0\n"),
     Change("keep-place-in-the-list", "grid.py", "    if cell == o.cell:\n        return 0\n", "    if cell == o.cell and cell == 0:\n        return 0\n"),
     Change("vertical-first", "collision/circle.py", "    dx = n.x - cx\n", "    dx = n.prev_x - cx\n"),

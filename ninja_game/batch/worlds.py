@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ninja_game.batch import kernels as _entry_points  # noqa: F401 - registers the entry point run_worlds
 from ninja_game.batch.thread_pool import thread_pool
 from ninja_game.compile_cache import kernels
-from ninja_game.sim.digest import KIND_CLASSES
+from ninja_game.sim.kinds import KINDS
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import grid_tiles, record_table
 from ninja_game.sim.memory.declare import fields_of
@@ -121,8 +121,8 @@ class CompiledWorlds:
 
 _SCALARS = [(field.name, attrgetter(field.name)) for field in WORLD_SCALARS]
 _NINJA = attrgetter(*(field.name for field in fields_of(Ninja)))
-_KIND_FIELDS = [[field.name for field in fields_of(kind)] for kind in KIND_CLASSES]
-_KIND_VALUES = [attrgetter(*names) for names in _KIND_FIELDS]
+_KIND_FIELDS = {kind.number: [field.name for field in fields_of(kind.fields)] for kind in KINDS}
+_KIND_VALUES = {number: attrgetter(*names) for number, names in _KIND_FIELDS.items()}
 
 
 class PlainWorlds:

@@ -78,7 +78,7 @@ def _recordings(file: Path) -> list[Recording]:
 
 def _counts(level: NamedLevel) -> Counter[str]:
     """How many objects of each kind."""
-    from ninja_game.sim.level import KIND_NAMES
+    from ninja_game.sim.kinds import KIND_NAMES
 
     return Counter(KIND_NAMES[record.kind] for record in level.level.objects if record.kind >= 0)
 

@@ -8,43 +8,24 @@ from operator import itemgetter
 from rich.text import Text
 
 from ninja_game.formats.ascii.legend import symbol_chars
+from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
-from ninja_game.sim.level import (
-    BOUNCE_BLOCK,
-    COLUMNS,
-    DOOR,
-    DRONE,
-    EXIT,
-    FLOOR_GUARD,
-    GOLD,
-    LAUNCH_PAD,
-    LAUNCHER,
-    MINE,
-    NINJA,
-    ONE_WAY,
-    ROWS,
-    THWUMP,
-    TURRET,
-    Level,
-)
+from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.schema import TileMap
 from ninja_game.sim.rules import CELL
 
-COLOURS = {
-    GOLD: "bright_yellow",
-    BOUNCE_BLOCK: "cyan",
-    LAUNCH_PAD: "bright_cyan",
-    TURRET: "bright_red",
-    FLOOR_GUARD: "bright_magenta",
-    NINJA: "bold bright_green",
-    DRONE: "bright_magenta",
-    ONE_WAY: "cyan",
-    THWUMP: "bright_magenta",
-    DOOR: "bright_blue",
-    LAUNCHER: "bright_red",
-    EXIT: "bold bright_green",
-    MINE: "bright_red",
+COLOURS = dict.fromkeys((kind.number for kind in kinds.KINDS if kind.killer), "bright_red") | {
+    kinds.GOLD: "bright_yellow",
+    kinds.BOUNCE_BLOCK: "cyan",
+    kinds.LAUNCH_PAD: "bright_cyan",
+    kinds.FLOOR_GUARD: "bright_magenta",
+    kinds.NINJA: "bold bright_green",
+    kinds.DRONE: "bright_magenta",
+    kinds.ONE_WAY: "cyan",
+    kinds.THWUMP: "bright_magenta",
+    kinds.DOOR: "bright_blue",
+    kinds.EXIT: "bold bright_green",
 }
 """Terminal colour of each kind: red and magenta kill, cyan moves you, green is where you begin and end."""
 

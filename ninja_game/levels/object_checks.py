@@ -7,28 +7,13 @@ from math import isnan, sqrt
 
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.levels.reach import Ground, edges_of, well_formed
+from ninja_game.sim import kinds
 from ninja_game.sim.arithmetic import is_set
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.collision.tiles import COLUMN, FULL, ROW, SHAPE
 from ninja_game.sim.grid import cell_at
-from ninja_game.sim.level import (
-    COLUMNS,
-    DOOR,
-    DRONE,
-    EXIT,
-    FLOOR_GUARD,
-    GOLD,
-    LAUNCH_PAD,
-    LAUNCHER,
-    MINE,
-    NINJA,
-    ONE_WAY,
-    ROWS,
-    THWUMP,
-    TURRET,
-    VALUE_COUNTS,
-    ObjectSpec,
-)
+from ninja_game.sim.kinds import VALUE_COUNTS
+from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
 from ninja_game.sim.rules import DOOR_SWITCH_RADIUS, EXIT_RADIUS, GOLD_RADIUS, OFF, SOLID, SWITCH_RADIUS
 
 _DIRECTIONS = (0, 1, 2, 3)
@@ -39,12 +24,12 @@ def oddities(record: ObjectSpec, ground: Ground) -> Iterator[str]:
     """What is odd about an object of the level that ``ground`` describes; nothing for a proper one."""
     if not well_formed(record):
         count, needed = len(record.values), VALUE_COUNTS[record.kind]
-        does = "starts at 45,70px" if record.kind == NINJA else "does nothing"
+        does = "starts at 45,70px" if record.kind == kinds.NINJA else "does nothing"
         yield f"it has {count} values where its kind needs {needed}: it {does}"
         return
     if any(map(isnan, record.values)):
         yield "one of its values is not a number"
-    if record.kind != DOOR:
+    if record.kind != kinds.DOOR:
         yield from _place_oddities(record, ground)
     if record.kind in _CHECKS:
         yield from _CHECKS[record.kind](record, ground)
@@ -55,23 +40,23 @@ def _place_oddities(record: ObjectSpec, ground: Ground) -> Iterator[str]:
     if isnan(x) or isnan(y):
         return
     cell = cell_at(x, y)
-    if record.kind == FLOOR_GUARD:
+    if record.kind == kinds.FLOOR_GUARD:
         return
     if not cell:
         yield "it is outside the grid"
     elif record.kind in _IN_TILE and _deep(ground, x, y):
         border = COLUMN[cell] in (0, COLUMNS + 1) or ROW[cell] in (0, ROWS + 1)
         yield "it is in the border of the level, inside the rock" if border else _IN_TILE[record.kind]
-    elif record.kind in (DRONE, THWUMP) and SHAPE[ground.level.tiles[cell]] == FULL:
+    elif record.kind in (kinds.DRONE, kinds.THWUMP) and SHAPE[ground.level.tiles[cell]] == FULL:
         yield "it is inside a full tile"
 
 
 _IN_TILE = {
-    NINJA: "it starts inside a tile",
-    TURRET: "it is inside a tile: what it sees and hits is odd",
-    MINE: "it is inside a tile",
-    LAUNCH_PAD: "it is inside a tile",
-    LAUNCHER: "it is inside a tile: its rockets explode at once",
+    kinds.NINJA: "it starts inside a tile",
+    kinds.TURRET: "it is inside a tile: what it sees and hits is odd",
+    kinds.MINE: "it is inside a tile",
+    kinds.LAUNCH_PAD: "it is inside a tile",
+    kinds.LAUNCHER: "it is inside a tile: its rockets explode at once",
 }
 
 
@@ -157,12 +142,12 @@ def _door(record: ObjectSpec, ground: Ground) -> Iterator[str]:
 
 
 _CHECKS: dict[int, Callable[[ObjectSpec, Ground], Iterator[str]]] = {
-    DOOR: _door,
-    DRONE: _drone,
-    EXIT: _exit,
-    FLOOR_GUARD: _floor_guard,
-    GOLD: _gold,
-    LAUNCH_PAD: _launch_pad,
-    ONE_WAY: _one_way,
-    THWUMP: _thwump,
+    kinds.DOOR: _door,
+    kinds.DRONE: _drone,
+    kinds.EXIT: _exit,
+    kinds.FLOOR_GUARD: _floor_guard,
+    kinds.GOLD: _gold,
+    kinds.LAUNCH_PAD: _launch_pad,
+    kinds.ONE_WAY: _one_way,
+    kinds.THWUMP: _thwump,
 }

@@ -16,7 +16,8 @@ from ninja_game.sim.collision.tiles import (
     set_edges,
 )
 from ninja_game.sim.grid import cell_at, grid_remove
-from ninja_game.sim.level import DOOR, NINJA, VALUE_COUNTS, Level, ObjectSpec
+from ninja_game.sim.kinds import DOOR, NINJA, VALUE_COUNTS
+from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.schema import Object, TileMap, World
 from ninja_game.sim.objects.door import create_door

@@ -9,7 +9,9 @@ from ninja_game.formats.ascii.object_writer import best_form
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.levels.object_checks import oddities
 from ninja_game.levels.reach import Ground, well_formed
-from ninja_game.sim.level import DOOR, EXIT, KIND_NAMES, MINE, NINJA, ROWS, Level, ObjectSpec
+from ninja_game.sim import kinds
+from ninja_game.sim.kinds import KIND_NAMES
+from ninja_game.sim.level import ROWS, Level, ObjectSpec
 from ninja_game.sim.rules import MINE_RADIUS, RADIUS
 
 MANY_OBJECTS = 2000
@@ -41,7 +43,7 @@ def object_name(record: ObjectSpec, number: int) -> str:
     name = keyword or KIND_NAMES[record.kind]
     if not place and len(record.values) > 1:
         place = place_text(*record.values[:2])
-        name = f"{name} with its switch" if record.kind == DOOR else name
+        name = f"{name} with its switch" if record.kind == kinds.DOOR else name
     return f"{name} at {place} (object {number})" if place else f"{name} (object {number})"
 
 
@@ -63,14 +65,14 @@ def _odd_tiles(level: Level) -> Iterator[str]:
 
 def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[str]:
     """What concerns the level as a whole."""
-    ninjas = [number for number, record in enumerate(objects) if record.kind == NINJA]
+    ninjas = [number for number, record in enumerate(objects) if record.kind == kinds.NINJA]
     if not ninjas:
         yield "there is no ninja: the level cannot be played"
     elif len(ninjas) > 1:
         last = object_name(objects[ninjas[-1]], ninjas[-1])
         yield f"there are {len(ninjas)} ninjas: the last one plays, {last}; the others only stand there"
     yield from _deadly_start(objects)
-    if not any(record.kind == EXIT and well_formed(record) for record in objects):
+    if not any(record.kind == kinds.EXIT and well_formed(record) for record in objects):
         yield "there is no exit: the level cannot be passed"
     if len(objects) > MANY_OBJECTS:
         yield f"there are {len(objects)} objects, more than {MANY_OBJECTS}: the game may be slow"
@@ -81,9 +83,9 @@ def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[str
 
 def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[str]:
     """The mine that the ninja touches where it starts."""
-    starts = [record.values for record in objects if record.kind == NINJA and well_formed(record)]
+    starts = [record.values for record in objects if record.kind == kinds.NINJA and well_formed(record)]
     for number, record in enumerate(objects):
-        mine = record.kind == MINE and well_formed(record)
+        mine = record.kind == kinds.MINE and well_formed(record)
         if mine and starts and dist(record.values, starts[-1]) < MINE_RADIUS + RADIUS:
             yield f"{object_name(record, number)}: the ninja touches it where it starts and dies at once"
             return

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from ninja_game.player.store import Store
 from ninja_game.sim.events import DIED, MINE_EXPLODED
-from ninja_game.sim.level import DRONE, FLOOR_GUARD, THWUMP
+from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, THWUMP
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import BULLET, ELECTRIC, EXPLOSIVE, HARD_BULLET, LASER, WEAK_BULLET, WEAPON_ZAP
 

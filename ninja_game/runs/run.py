@@ -24,9 +24,10 @@ from ninja_game.formats.replay.text import WAYPOINT_TICKS, Replay, Waypoint
 from ninja_game.sim.arithmetic import clean
 from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.events import EVENT_NAMES
-from ninja_game.sim.level import KIND_NAMES, NINJA, Level
+from ninja_game.sim.kinds import KIND_NAMES, KIND_OF
+from ninja_game.sim.level import Level
 from ninja_game.sim.memory.plain import load_plain
-from ninja_game.sim.memory.schema import INERT, World
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import OUTCOME_NAMES, STATE_NAMES
 from ninja_game.sim.traces import is_traced, place_of, status_of
@@ -211,7 +212,7 @@ def _trace_compiled(level: Level, inputs: bytes, body: Body, with_objects: bool)
     trace: Callable[..., Any] = kernels()["trace_world"]
     levels, worlds = load_compiled(kernels(), level, body == "box")
     kinds = worlds[0]["objects"]["kind"][: worlds[0]["id_count"] + 1].tolist()
-    slots = [slot for slot, kind in enumerate(kinds) if slot and kind not in (NINJA, INERT)] if with_objects else []
+    slots = [slot for slot, kind in enumerate(kinds) if slot and KIND_OF[kind].traced] if with_objects else []
     ninja = np.empty(len(inputs), NINJA_RECORD)
     objects = np.empty((len(inputs), len(slots)), OBJECT_RECORD)
     trace(levels, worlds, 0, np.frombuffer(inputs, np.uint8), np.array(slots, np.int64), ninja, objects)

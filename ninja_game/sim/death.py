@@ -6,23 +6,26 @@ dying, which would be a circle of imports.
 
 from __future__ import annotations
 
-from ninja_game.sim.events import CHAINGUN_OFF, DIED, LASER_OFF, WON, emit
+from math import sqrt
+
+from ninja_game.sim import kinds
+from ninja_game.sim.events import DIED, WON, emit
 from ninja_game.sim.grid import grid_remove
-from ninja_game.sim.level import DOOR, DRONE, EXIT, FLOOR_GUARD, GOLD, LAUNCHER, TURRET
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Drone, World
+from ninja_game.sim.memory.schema import World
+from ninja_game.sim.objects.drone import stop_firing
+from ninja_game.sim.rules import RADIUS, ZAP_IMPULSE
 from ninja_game.sim.schedule import end_think, end_update
 from ninja_game.sim.states import (
     CELEBRATING,
     DEAD,
     DRONE_FIRING,
-    DRONE_POST_FIRE,
+    ELECTRIC,
     GUARD_IDLE,
     LAUNCHER_IDLE,
     OUTCOME_DEAD,
     OUTCOME_EXIT,
     TURRET_WAITING,
-    WEAPON_LASER,
     leave_state,
 )
 
@@ -40,6 +43,20 @@ def kill(w: World, kind: int, fx: float, fy: float, cx: float, cy: float) -> Non
         w.outcome = OUTCOME_DEAD
     emit(w, DIED, kind, cx, cy, fx, fy)
     idle_event(w)
+
+
+@fast
+def zap(w: World, dx: float, dy: float, radius: float) -> None:
+    """The electric disc of guards and zap drones: kill if the ninja is nearer than the sum of the radii."""
+    n = w.ninja
+    length = sqrt(dx * dx + dy * dy)
+    if length < radius + RADIUS:
+        a = 0.0
+        b = 0.0
+        if length > 0.0:
+            a = dx / length
+            b = dy / length
+        kill(w, ELECTRIC, (-a) * ZAP_IMPULSE, (-b) * ZAP_IMPULSE, n.x + RADIUS * a, n.y + RADIUS * b)
 
 
 @fast
@@ -68,33 +85,25 @@ def idle_event(w: World) -> None:
     for slot in range(w.id_count, 0, -1):
         o = w.objects[slot]
         kind = o.kind
-        if kind == GOLD:
+        if kind == kinds.GOLD:
             if not o.spent:
                 grid_remove(w, o)
-        elif kind == EXIT:
+        elif kind == kinds.EXIT:
             if o.spent:
                 grid_remove(w, o)
-        elif kind == DOOR:
+        elif kind == kinds.DOOR:
             grid_remove(w, o)
-        elif kind == LAUNCHER:
+        elif kind == kinds.LAUNCHER:
             if o.routine == LAUNCHER_IDLE:
                 end_think(w, o, slot)
-        elif kind == TURRET:
+        elif kind == kinds.TURRET:
             end_update(w, o, slot)
             o.think = TURRET_WAITING
             end_think(w, o, slot)
-        elif kind == FLOOR_GUARD:
+        elif kind == kinds.FLOOR_GUARD:
             o.routine = GUARD_IDLE
             end_update(w, o, slot)
-        elif kind == DRONE:
+        elif kind == kinds.DRONE:
             o.chasing = 0
             if o.routine == DRONE_FIRING:
                 stop_firing(w, o, slot)
-
-
-@fast
-def stop_firing(w: World, o: Drone, slot: int) -> None:
-    """A weapon drone's beam or burst ends; it cools down before it moves on."""
-    o.routine = DRONE_POST_FIRE
-    o.counter = 0
-    emit(w, LASER_OFF if o.weapon == WEAPON_LASER else CHAINGUN_OFF, slot, o.x, o.y, 0.0, 0.0)

@@ -13,36 +13,12 @@ from collections.abc import Iterator
 from operator import attrgetter
 from typing import Any
 
-from ninja_game.sim.level import KIND_NAMES
+from ninja_game.sim.kinds import KIND_OF, KINDS
 from ninja_game.sim.memory.declare import fields_of
 from ninja_game.sim.memory.plain import WORLD_SCALARS
-from ninja_game.sim.memory.schema import (
-    BounceBlock,
-    Door,
-    Drone,
-    Exit,
-    FloorGuard,
-    Gold,
-    Header,
-    Launcher,
-    LaunchPad,
-    Mine,
-    Ninja,
-    Object,
-    OneWay,
-    Switch,
-    Thwump,
-    Turret,
-    World,
-)
+from ninja_game.sim.memory.schema import Ninja, Object, World
 from ninja_game.sim.rules import NAN
 from ninja_game.sim.traces import is_traced, place_of, status_of
-
-KIND_CLASSES: tuple[type, ...] = (
-    Gold, BounceBlock, LaunchPad, Turret, FloorGuard, Header, Drone,
-    OneWay, Thwump, Door, Launcher, Exit, Mine, Switch, Header,
-)  # fmt: skip
-"""The schema class of each kind number; ninja records and inert objects have only the header."""
 
 _SCALARS = [field for field in WORLD_SCALARS if field.name != "event_count"]
 
@@ -67,7 +43,7 @@ def _canonical(value: Any) -> Any:
 
 _WORLD = _Reader(_SCALARS)
 _NINJA = _Reader(fields_of(Ninja))
-_THINGS = [_Reader(fields_of(cls)) for cls in KIND_CLASSES]
+_OBJECTS = {kind.number: _Reader(fields_of(kind.fields)) for kind in KINDS}
 
 
 def world_digest(w: World) -> str:
@@ -75,7 +51,7 @@ def world_digest(w: World) -> str:
     digest = hashlib.sha256(_WORLD.bytes_of(w) + _NINJA.bytes_of(w.ninja))
     digest.update(struct.pack(f"<{len(w.heads)}h", *w.heads) + bytes(w.edges))
     for o in w.objects[1 : w.slots_used]:
-        digest.update(_THINGS[o.kind].bytes_of(o))
+        digest.update(_OBJECTS[o.kind].bytes_of(o))
     return digest.hexdigest()
 
 
@@ -103,7 +79,7 @@ def differences(ours: World, theirs: World) -> Iterator[tuple[str, Any, Any]]:
     yield from _unequal("world", _WORLD, ours, theirs)
     for slot in range(1, min(ours.slots_used, theirs.slots_used)):
         mine, other = ours.objects[slot], theirs.objects[slot]
-        yield from _unequal(object_name(mine), _THINGS[mine.kind], mine, other)
+        yield from _unequal(object_name(mine), _OBJECTS[mine.kind], mine, other)
     for name in ("heads", "edges"):
         for index, (mine, other) in enumerate(zip(getattr(ours, name), getattr(theirs, name), strict=True)):
             if mine != other:
@@ -112,8 +88,8 @@ def differences(ours: World, theirs: World) -> Iterator[tuple[str, Any, Any]]:
 
 def object_name(o: Object) -> str:
     """An object as reports call it: "object 12 (drone)"."""
-    kind = KIND_NAMES[o.kind] if o.kind < len(KIND_NAMES) else ("exit switch", "inert object")[o.kind - len(KIND_NAMES)]
-    return f"object {o.id} ({kind})" if o.id >= 0 else f"{kind} at ({o.x}, {o.y})"
+    name = KIND_OF[o.kind].name
+    return f"object {o.id} ({name})" if o.id >= 0 else f"{name} at ({o.x}, {o.y})"
 
 
 def _unequal(name: str, reader: _Reader, ours: Any, theirs: Any) -> Iterator[tuple[str, Any, Any]]:

@@ -9,18 +9,6 @@ COLUMNS = 31
 ROWS = 23
 TILES = COLUMNS * ROWS
 
-GOLD, BOUNCE_BLOCK, LAUNCH_PAD, TURRET, FLOOR_GUARD, NINJA, DRONE = range(7)
-ONE_WAY, THWUMP, DOOR, LAUNCHER, EXIT, MINE = range(7, 13)
-
-KIND_NAMES = (
-    "gold", "bounce block", "launch pad", "gauss turret", "floor guard", "ninja", "drone",
-    "one-way platform", "thwump", "door", "homing launcher", "exit", "mine",
-)  # fmt: skip
-"""Name of each object type number, spec objects.md §5."""
-
-VALUE_COUNTS = (2, 2, 4, 2, 3, 2, 6, 3, 3, 9, 2, 4, 2)
-"""How many values a record of each type needs; any other number makes an inert object (objects.md §2.1)."""
-
 
 class ObjectSpec(NamedTuple):
     """One object record of a level string (objects.md §5).

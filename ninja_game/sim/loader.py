@@ -8,10 +8,11 @@ from typing import NamedTuple
 from ninja_game.errors import LevelError
 from ninja_game.sim.collision.tiles import ODD_HALF_ID, UNDEFINED_ID
 from ninja_game.sim.grid import cell_at
-from ninja_game.sim.level import COLUMNS, EXIT, NINJA, ROWS, VALUE_COUNTS, Level
+from ninja_game.sim.kinds import EXIT, INERT, NINJA, VALUE_COUNTS
+from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import CAPACITY, INERT, Ninja, TileMap, World
-from ninja_game.sim.objects.creation import create
+from ninja_game.sim.memory.schema import CAPACITY, Ninja, TileMap, World
+from ninja_game.sim.objects.dispatch import create
 from ninja_game.sim.rules import DEFAULT_SPAWN_X, DEFAULT_SPAWN_Y, DRAG, GRAVITY, GRID_COLUMNS, GRID_ROWS, STRIDE
 
 

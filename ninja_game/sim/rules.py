@@ -74,6 +74,7 @@ PAD_RADIUS = 6.0
 MINE_RADIUS = 4.0
 GUARD_RADIUS = 6.0
 DRONE_RADIUS = 9.0
+ROCKET_RADIUS = 0.0  # its tip is a point
 AUTOMATIC_DOOR_RADIUS = 10.0  # also half the width and height of the box
 DOOR_SWITCH_RADIUS = 5.0
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ninja_game.sim.level import DOOR, EXIT, GOLD, MINE, ONE_WAY
+from ninja_game.sim import kinds
 from ninja_game.sim.memory.compiled import Kernels
 from ninja_game.sim.memory.layout import Records
 from ninja_game.sim.rules import STRIDE
@@ -64,17 +64,17 @@ class Goals:
             thing = objects[slot]
             kind = int(thing["kind"])
             x, y = float(thing["x"]), float(thing["y"])
-            if kind == EXIT:
+            if kind == kinds.EXIT:
                 switch = objects[int(thing["partner"])]
                 exits.append(Switchable(slot, False, False, x, y, float(switch["x"]), float(switch["y"]), ()))
-            elif kind == DOOR and int(thing["mechanism"]) != AUTOMATIC:
+            elif kind == kinds.DOOR and int(thing["mechanism"]) != AUTOMATIC:
                 trap = int(thing["mechanism"]) != LOCKED
                 doors.append(Switchable(slot, True, trap, x, y, x, y, _bars(int(thing["edge_1"]))))
-            elif kind == GOLD:
+            elif kind == kinds.GOLD:
                 gold.append((slot, x, y))
-            elif kind == MINE:
+            elif kind == kinds.MINE:
                 self._avoid(x, y)
-            elif kind == ONE_WAY:
+            elif kind == kinds.ONE_WAY:
                 self._bar_one_way(x, y, float(thing["face_x"]), float(thing["face_y"]))
         self.exits = exits
         self.switches = (exits + doors)[:MAX_BITS]

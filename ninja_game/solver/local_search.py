@@ -10,7 +10,7 @@ from math import sqrt
 from typing import Any
 
 from ninja_game.sim.inputs import pressed
-from ninja_game.sim.level import EXIT
+from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
 from ninja_game.sim.world import step

@@ -7,7 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from threading import Event, Lock
 
-from ninja_game.sim.level import GOLD, Level
+from ninja_game.sim.kinds import GOLD
+from ninja_game.sim.level import Level
 from ninja_game.simulation import Body
 from ninja_game.solver.certificate import VerifiedRun, verified_run
 from ninja_game.solver.plan import WORK_PER_SECOND

@@ -12,7 +12,7 @@ from ninja_game import Level, Simulation, parse_level
 from ninja_game.batch.batch import Batch
 from ninja_game.batch.thread_pool import ThreadPool
 from ninja_game.compile_cache import MemoryUnavailableError, compiled_available, compiled_sources, kernels
-from ninja_game.sim.level import DRONE, EXIT, MINE
+from ninja_game.sim.kinds import DRONE, EXIT, MINE
 from ninja_game.sim.memory.layout import OBJECT
 from ninja_game.sim.states import OUTCOME_NAMES
 

@@ -31,7 +31,8 @@ from ninja_game.sim.collision.tiles import (
     THIN_22,
     THIN_67,
 )
-from ninja_game.sim.level import KIND_NAMES, LAUNCH_PAD, VALUE_COUNTS, ObjectSpec
+from ninja_game.sim.kinds import KIND_NAMES, LAUNCH_PAD, VALUE_COUNTS
+from ninja_game.sim.level import ObjectSpec
 
 CLASSES = (SLOPE_45, THIN_22, THICK_22, THIN_67, THICK_67, CONCAVE, CONVEX)
 OPEN_SIDES = (

@@ -15,7 +15,8 @@ from ninja_game.formats.ascii.object_writer import same_record
 from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level, write_ascii_level
 from ninja_game.formats.ascii.writer import picture_rows
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.sim.level import GOLD, NINJA, TILES, VALUE_COUNTS, Level, ObjectSpec
+from ninja_game.sim.kinds import GOLD, NINJA, VALUE_COUNTS
+from ninja_game.sim.level import TILES, Level, ObjectSpec
 from tests.support.reference import fuzz, levels, random_runs, scenes
 
 EMPTY = "|" + "." * 31 + "|"

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from ninja_game.errors import LevelError
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file, write_level_file
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
-from ninja_game.sim.level import FLOOR_GUARD, NINJA
+from ninja_game.sim.kinds import FLOOR_GUARD, NINJA
 from tests.support.strategies import demos, proper_levels, words
 
 TILES = ("1" + "0" * 21 + "1") * 31

@@ -15,7 +15,8 @@ from ninja_game.formats.n14.level_string import (
     tidy_level_string,
     write_level_string,
 )
-from ninja_game.sim.level import DRONE, GOLD, NINJA, TILES, Level, ObjectSpec
+from ninja_game.sim.kinds import DRONE, GOLD, NINJA
+from ninja_game.sim.level import TILES, Level, ObjectSpec
 from tests.support.strategies import odd_levels, proper_levels
 
 EMPTY = "0" * TILES

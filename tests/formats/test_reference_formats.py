@@ -13,7 +13,7 @@ from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
 from ninja_game.sim.inputs import Demo
-from ninja_game.sim.level import NINJA, VALUE_COUNTS
+from ninja_game.sim.kinds import NINJA, VALUE_COUNTS
 from tests.support import reference
 
 Named = tuple[str, str, str]

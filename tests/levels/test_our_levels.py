@@ -8,7 +8,7 @@ import pytest
 
 from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
 from ninja_game.levels.warnings import level_warnings
-from ninja_game.sim.level import GOLD
+from ninja_game.sim.kinds import GOLD
 
 LEVELS = sorted((Path(__file__).resolve().parent.parent.parent / "levels").glob("*.txt"))
 

@@ -11,10 +11,11 @@ from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.levels.reach import Ground
 from ninja_game.levels.warnings import level_warnings, object_name
-from ninja_game.sim.level import DOOR, EXIT, GOLD, MINE, NINJA, TILES, Level, ObjectSpec
+from ninja_game.sim import kinds
+from ninja_game.sim.level import TILES, Level, ObjectSpec
 from tests.support.reference import levels
 
-PROPER = (ObjectSpec(NINJA, (36.0, 564.0)), ObjectSpec(EXIT, (700.0, 564.0, 300.0, 564.0)))
+PROPER = (ObjectSpec(kinds.NINJA, (36.0, 564.0)), ObjectSpec(kinds.EXIT, (700.0, 564.0, 300.0, 564.0)))
 
 
 def warnings_of(*lines: str, rows: dict[int, str] | None = None, keep: bool = True) -> list[str]:
@@ -235,7 +236,7 @@ def test_odd_tiles() -> None:
 
 
 def test_many_objects() -> None:
-    level = Level(objects=(*PROPER, *(ObjectSpec(MINE, (300.0, 300.0 + number / 100)) for number in range(2000))))
+    level = Level(objects=(*PROPER, *(ObjectSpec(kinds.MINE, (300.0, 300.0 + number / 100)) for number in range(2000))))
     assert level_warnings(level) == ["there are 2002 objects, more than 2000: the game may be slow"]
 
 
@@ -288,7 +289,7 @@ def test_a_pad_on_the_floor_of_the_last_row_is_not_in_the_border() -> None:
 def test_many_locked_doors_behind_each_other_take_no_time() -> None:
     # Each of the doors opens the next one: the fill looks at none of them again for each one that opens.
     doors = tuple(
-        ObjectSpec(DOOR, (36.0 + number % 24, 564.0 - number / 1e6, 0, 0, 2.0 + number % 28, 23, 1, 0, 0))
+        ObjectSpec(kinds.DOOR, (36.0 + number % 24, 564.0 - number / 1e6, 0, 0, 2.0 + number % 28, 23, 1, 0, 0))
         for number in range(20_000)
     )
     started = time.process_time()
@@ -297,12 +298,12 @@ def test_many_locked_doors_behind_each_other_take_no_time() -> None:
 
 
 def test_names_say_where_an_object_is_in_its_file() -> None:
-    assert object_name(ObjectSpec(GOLD, (36.0, 42.0)), 3) == "gold at 1,1.25 (object 3)"
-    assert object_name(ObjectSpec(GOLD, (math.nan, 42.0)), 3) == "gold at nan,42px (object 3)"
+    assert object_name(ObjectSpec(kinds.GOLD, (36.0, 42.0)), 3) == "gold at 1,1.25 (object 3)"
+    assert object_name(ObjectSpec(kinds.GOLD, (math.nan, 42.0)), 3) == "gold at nan,42px (object 3)"
 
 
 def test_ids_skip_records_that_create_nothing() -> None:
-    level = Level((0,) * TILES, (*PROPER, ObjectSpec(-1, (), "77"), ObjectSpec(GOLD, (900.0, 36.0))))
+    level = Level((0,) * TILES, (*PROPER, ObjectSpec(-1, (), "77"), ObjectSpec(kinds.GOLD, (900.0, 36.0))))
     assert level_warnings(level)[-1] == "gold at 900,36px (object 2): it is outside the grid"
 
 

@@ -14,7 +14,7 @@ from ninja_game.play.view.sprites.backdrop import Backdrop
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
 from ninja_game.play.view.sprites.sprite_book import SpriteBook
 from ninja_game.sim.events import EXIT_OPENED
-from ninja_game.sim.memory.schema import SWITCH
+from ninja_game.sim.kinds import SWITCH
 from ninja_game.simulation import Simulation
 
 REPLAYS = sorted((Path(__file__).parent.parent / "replays").glob("*.replay.txt"))

@@ -8,7 +8,8 @@ import pytest
 
 from ninja_game import Level, Replay, ReplayError, parse_replay, record_replay, verify_recording, write_replay
 from ninja_game.formats.recording import parse_replays
-from ninja_game.sim.level import NINJA, ObjectSpec
+from ninja_game.sim.kinds import NINJA
+from ninja_game.sim.level import ObjectSpec
 
 FLAT = Level(objects=(ObjectSpec(NINJA, (100.0, 566.0)),))
 

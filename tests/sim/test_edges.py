@@ -8,7 +8,8 @@ import pytest
 
 from ninja_game.sim.collision.tiles import COLUMN, EXISTS, ODD_HALF_ID, ROW, SHAPE, STEP, UNDEFINED_ID
 from ninja_game.sim.grid import cell_at, cell_index
-from ninja_game.sim.level import NINJA, Level, ObjectSpec
+from ninja_game.sim.kinds import NINJA
+from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.rules import INTERESTING, OFF, SOLID, STRIDE
 

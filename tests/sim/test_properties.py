@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from ninja_game.compile_cache import compiled_available
 from ninja_game.errors import LevelError
-from ninja_game.sim.level import GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS, Level, ObjectSpec
+from ninja_game.sim.kinds import GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS
+from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.simulation import BODIES, Body, Simulation
 from tests.support.crowded import crowded_inputs, crowded_level
 from tests.support.memories import BOTH

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ninja_game.sim.level import (
+from ninja_game.sim.kinds import (
     BOUNCE_BLOCK,
-    COLUMNS,
     DOOR,
     DRONE,
     EXIT,
@@ -21,12 +20,10 @@ from ninja_game.sim.level import (
     MINE,
     NINJA,
     ONE_WAY,
-    ROWS,
     THWUMP,
     TURRET,
-    Level,
-    ObjectSpec,
 )
+from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 
 TICKS = 300
 MASK = (1 << 64) - 1

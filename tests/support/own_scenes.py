@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from ninja_game.sim.level import (
+from ninja_game.sim.kinds import (
     DOOR,
     DRONE,
     EXIT,
@@ -16,12 +16,10 @@ from ninja_game.sim.level import (
     MINE,
     NINJA,
     ONE_WAY,
-    ROWS,
     THWUMP,
     TURRET,
-    Level,
-    ObjectSpec,
 )
+from ninja_game.sim.level import ROWS, Level, ObjectSpec
 
 RIGHT = bytes([2])
 STILL = bytes([0])

@@ -9,7 +9,7 @@ from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, R
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.memory.schema import TileMap, World
-from ninja_game.sim.objects.object_query import NINE_CELLS
+from ninja_game.sim.objects.dispatch import NINE_CELLS
 from ninja_game.sim.rules import OFF, RADIUS, STRIDE
 from tools import ROOT
 from tools.draw.svg import BLUE, FAINT, GOLD, GREEN, INK, PAPER, RED, SOLID, Picture, Point
@@ -173,7 +173,7 @@ TICK = (
     ("world.py", "1. update_objects: newest first", "objects/*.py"),
     ("world.py", "2. think: one object every fourth tick", "objects/*.py → collision/rays.py"),
     ("ninja/tick.py", "3. integrate, look up the cell", "grid.py"),
-    ("objects/object_query.py", "4. touch_objects: nine cells", "objects/*.py → ninja/contact_response.py, death.py"),
+    ("objects/dispatch.py", "4. touch_objects: nine cells", "objects/*.py → ninja/contact_response.py, death.py"),
     ("collision/circle.py", "5. collide_circle: at most four cells", "circle_own_tile.py, circle_neighbours.py"),
     ("ninja/tick.py", "6. evaluate_floor, probe_walls", "collision/rays.py (solid_at)"),
     ("ninja/control.py", "7. think_in_air, think_on_ground", "keys, states, jumps"),

@@ -32,20 +32,8 @@ from ninja_game.play.level.phase import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.replay.playback import Take
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.sim.level import (
-    BOUNCE_BLOCK,
-    DRONE,
-    EXIT,
-    FLOOR_GUARD,
-    GOLD,
-    LAUNCHER,
-    MINE,
-    NINJA,
-    THWUMP,
-    TURRET,
-    Level,
-    ObjectSpec,
-)
+from ninja_game.sim import kinds
+from ninja_game.sim.level import Level, ObjectSpec
 
 SIZE = (1584, 1200)
 
@@ -63,18 +51,18 @@ def busy_level() -> Level:
                 put(column, row, (1, 2, 3, 10, 18, 26, 30)[(column + row) % 7] if column % 3 == 0 else 1)
     for row in range(19, 24):
         put(8, row, 1)
-    records = [ObjectSpec(NINJA, (60.0, 560.0)), ObjectSpec(EXIT, (744.0, 60.0, 744.0, 200.0))]
+    records = [ObjectSpec(kinds.NINJA, (60.0, 560.0)), ObjectSpec(kinds.EXIT, (744.0, 60.0, 744.0, 200.0))]
     chance = Random(1)
     for k in range(24):
         x, y = 36.0 + 24 * (k + 3), (60.0, 204.0, 348.0)[k % 3]
-        records.append(ObjectSpec(DRONE, (x, y, float(k % 6), float(k % 2), float(k % 3), float(k % 4))))
-    records += [ObjectSpec(THWUMP, (300.0 + 48 * k, 454.0, 1.0)) for k in range(9)]
-    records += [ObjectSpec(FLOOR_GUARD, (250.0 + 60 * k, 570.0, 1.0)) for k in range(6)]
-    records += [ObjectSpec(BOUNCE_BLOCK, (100.0 + 40 * k, 250.0)) for k in range(14)]
-    records += [ObjectSpec(TURRET, (180.0 * k + 90, 36.0)) for k in range(4)]
-    records += [ObjectSpec(LAUNCHER, (150.0 * k + 90, 470.0)) for k in range(4)]
-    records += [ObjectSpec(MINE, (chance.uniform(250, 750), 576.0)) for _ in range(12)]
-    records += [ObjectSpec(GOLD, (36.0 + 12 * (k % 60), 100.0 + 40 * (k // 60))) for k in range(180)]
+        records.append(ObjectSpec(kinds.DRONE, (x, y, float(k % 6), float(k % 2), float(k % 3), float(k % 4))))
+    records += [ObjectSpec(kinds.THWUMP, (300.0 + 48 * k, 454.0, 1.0)) for k in range(9)]
+    records += [ObjectSpec(kinds.FLOOR_GUARD, (250.0 + 60 * k, 570.0, 1.0)) for k in range(6)]
+    records += [ObjectSpec(kinds.BOUNCE_BLOCK, (100.0 + 40 * k, 250.0)) for k in range(14)]
+    records += [ObjectSpec(kinds.TURRET, (180.0 * k + 90, 36.0)) for k in range(4)]
+    records += [ObjectSpec(kinds.LAUNCHER, (150.0 * k + 90, 470.0)) for k in range(4)]
+    records += [ObjectSpec(kinds.MINE, (chance.uniform(250, 750), 576.0)) for _ in range(12)]
+    records += [ObjectSpec(kinds.GOLD, (36.0 + 12 * (k % 60), 100.0 + 40 * (k // 60))) for k in range(180)]
     return Level(tuple(tiles), tuple(records))
 
 

@@ -5,27 +5,12 @@ The tables here are the format; `docs/level-format.md` shows them as pictures. E
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import NamedTuple
 
-from ninja_game.sim.level import (
-    BOUNCE_BLOCK,
-    COLUMNS,
-    DOOR,
-    DRONE,
-    EXIT,
-    FLOOR_GUARD,
-    GOLD,
-    LAUNCH_PAD,
-    LAUNCHER,
-    MINE,
-    NINJA,
-    ONE_WAY,
-    ROWS,
-    THWUMP,
-    TURRET,
-    VALUE_COUNTS,
-    ObjectSpec,
-)
+from ninja_game.sim import kinds
+from ninja_game.sim.kinds import VALUE_COUNTS
+from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
 
 CELL = 24.0
 """Side of a cell, px."""
@@ -98,47 +83,48 @@ def _pad(word: str) -> Symbol:
     # surface of a 45° tile does.
     a, b = PAD_NORMALS[word]
     dx, dy = (0.0, 0.0) if a and b else (0.0 - 12.0 * a, 0.0 - 12.0 * b)
-    return Symbol(PAD_DIGITS[word], f"launch pad {word}", LAUNCH_PAD, dx, dy, (a, b))
+    return Symbol(PAD_DIGITS[word], f"launch pad {word}", kinds.LAUNCH_PAD, dx, dy, (a, b))
 
 
 SYMBOLS = (
-    Symbol("@", "ninja", NINJA),
-    Symbol("X", "exit", EXIT),
-    Symbol("x", "exit switch", EXIT),
-    Symbol("o", "gold", GOLD),
-    Symbol("*", "mine", MINE),
-    Symbol("B", "bounce block", BOUNCE_BLOCK),
-    Symbol("^", "one-way up", ONE_WAY, values=(UP,)),
-    Symbol("v", "one-way down", ONE_WAY, values=(DOWN,)),
-    Symbol("<", "one-way left", ONE_WAY, values=(LEFT,)),
-    Symbol(">", "one-way right", ONE_WAY, values=(RIGHT,)),
+    Symbol("@", "ninja", kinds.NINJA),
+    Symbol("X", "exit", kinds.EXIT),
+    Symbol("x", "exit switch", kinds.EXIT),
+    Symbol("o", "gold", kinds.GOLD),
+    Symbol("*", "mine", kinds.MINE),
+    Symbol("B", "bounce block", kinds.BOUNCE_BLOCK),
+    Symbol("^", "one-way up", kinds.ONE_WAY, values=(UP,)),
+    Symbol("v", "one-way down", kinds.ONE_WAY, values=(DOWN,)),
+    Symbol("<", "one-way left", kinds.ONE_WAY, values=(LEFT,)),
+    Symbol(">", "one-way right", kinds.ONE_WAY, values=(RIGHT,)),
     *(_pad(word) for word in PAD_NORMALS),
-    Symbol("5", "launch pad, other normal", LAUNCH_PAD, values=None),
-    Symbol("M", "thwump up", THWUMP, values=(UP,)),
-    Symbol("W", "thwump down", THWUMP, values=(DOWN,)),
-    Symbol("{", "thwump left", THWUMP, values=(LEFT,)),
-    Symbol("}", "thwump right", THWUMP, values=(RIGHT,)),
-    Symbol("n", "floor guard", FLOOR_GUARD, 0.0, 6.0, (1.0,)),
-    Symbol("+", "gauss turret", TURRET),
-    Symbol("Q", "homing launcher", LAUNCHER),
-    Symbol("Z", "zap drone", DRONE, values=None),
-    Symbol("L", "laser drone", DRONE, values=None),
-    Symbol("C", "chaingun drone", DRONE, values=None),
-    Symbol("&", "locked door switch", DOOR, values=None),
-    Symbol("!", "trap door switch", DOOR, values=None),
+    Symbol("5", "launch pad, other normal", kinds.LAUNCH_PAD, values=None),
+    Symbol("M", "thwump up", kinds.THWUMP, values=(UP,)),
+    Symbol("W", "thwump down", kinds.THWUMP, values=(DOWN,)),
+    Symbol("{", "thwump left", kinds.THWUMP, values=(LEFT,)),
+    Symbol("}", "thwump right", kinds.THWUMP, values=(RIGHT,)),
+    Symbol("n", "floor guard", kinds.FLOOR_GUARD, 0.0, 6.0, (1.0,)),
+    Symbol("+", "gauss turret", kinds.TURRET),
+    Symbol("Q", "homing launcher", kinds.LAUNCHER),
+    Symbol("Z", "zap drone", kinds.DRONE, values=None),
+    Symbol("L", "laser drone", kinds.DRONE, values=None),
+    Symbol("C", "chaingun drone", kinds.DRONE, values=None),
+    Symbol("&", "locked door switch", kinds.DOOR, values=None),
+    Symbol("!", "trap door switch", kinds.DOOR, values=None),
 )
 """Every character that draws an object, in the order of the legend."""
 
 SYMBOL_OF_CHAR = {symbol.char: symbol for symbol in SYMBOLS}
 SYMBOL_OF_NAME = {symbol.name: symbol for symbol in SYMBOLS}
 
-_SINGLE = {NINJA: "@", GOLD: "o", MINE: "*", BOUNCE_BLOCK: "B", TURRET: "+", LAUNCHER: "Q", FLOOR_GUARD: "n"}
+_KINDS_OF_ONE = {kind for kind, count in Counter(symbol.kind for symbol in SYMBOLS).items() if count == 1}
+_SINGLE = {symbol.kind: symbol.char for symbol in SYMBOLS if symbol.kind in _KINDS_OF_ONE}
 _DRONES = {0.0: "Z", 1.0: "L", 2.0: "C"}
 _FACING = {
     kind: {symbol.values[0]: symbol.char for symbol in SYMBOLS if symbol.kind == kind and symbol.values}
-    for kind in (ONE_WAY, THWUMP)
+    for kind in (kinds.ONE_WAY, kinds.THWUMP)
 }
-_PADS = {symbol.values: symbol.char for symbol in SYMBOLS if symbol.kind == LAUNCH_PAD and symbol.values}
+_PADS = {symbol.values: symbol.char for symbol in SYMBOLS if symbol.kind == kinds.LAUNCH_PAD and symbol.values}
 
 
 class Part(NamedTuple):
@@ -155,13 +141,13 @@ def symbol_chars(record: ObjectSpec) -> tuple[tuple[str, float, float], ...]:
     if not 0 <= kind < len(VALUE_COUNTS) or len(values) != VALUE_COUNTS[kind]:
         return ()
     x, y = values[:2]
-    if kind == EXIT:
+    if kind == kinds.EXIT:
         return ("X", x, y), ("x", values[2], values[3])
-    if kind == DOOR:
+    if kind == kinds.DOOR:
         return (("&", x, y),) if values[6] == 1 else (("!", x, y),) if values[3] == 1 else ()
-    if kind == LAUNCH_PAD:
+    if kind == kinds.LAUNCH_PAD:
         return ((_PADS.get(values[2:], "5"), x, y),)
-    if kind == DRONE:
+    if kind == kinds.DRONE:
         char = _DRONES.get(values[4], "")
     elif kind in _FACING:
         char = _FACING[kind].get(values[2], "")

@@ -9,7 +9,8 @@ from ninja_game.formats.ascii.legend import ODD_TILE, SYMBOL_OF_CHAR, TILE_CHARS
 from ninja_game.formats.ascii.object_lines import Listed, OddTile
 from ninja_game.formats.ascii.picture import Cell, Picture
 from ninja_game.formats.ascii.problems import Problems
-from ninja_game.sim.level import COLUMNS, EXIT, NINJA, ROWS, Level, ObjectSpec
+from ninja_game.sim.kinds import EXIT, NINJA
+from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 
 _NEEDED_LINES = {
     "5": "launch pad {cell} normal 0.6,-0.8",

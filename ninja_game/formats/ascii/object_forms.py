@@ -12,21 +12,7 @@ from typing import TypeVar
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS, SYMBOL_OF_NAME
 from ninja_game.formats.ascii.places import read_cell, read_number, read_place, shown
-from ninja_game.sim.level import (
-    BOUNCE_BLOCK,
-    DOOR,
-    DRONE,
-    EXIT,
-    FLOOR_GUARD,
-    GOLD,
-    LAUNCH_PAD,
-    LAUNCHER,
-    MINE,
-    NINJA,
-    ONE_WAY,
-    THWUMP,
-    TURRET,
-)
+from ninja_game.sim.kinds import DOOR, DRONE, EXIT, FLOOR_GUARD, KINDS, LAUNCH_PAD, ONE_WAY, THWUMP
 
 T = TypeVar("T")
 
@@ -79,12 +65,7 @@ _DRONE = Form(
 )
 
 FORMS: dict[str, Form] = {
-    "ninja": Form(NINJA),
-    "gold": Form(GOLD),
-    "mine": Form(MINE),
-    "bounce block": Form(BOUNCE_BLOCK),
-    "gauss turret": Form(TURRET),
-    "homing launcher": Form(LAUNCHER),
+    **{kind.name: Form(kind.number) for kind in KINDS if kind.value_count == 2},
     "floor guard": Form(FLOOR_GUARD, takes=("facing",)),
     "one-way": Form(ONE_WAY, _DIRECTED, needs=(("direction",),)),
     "thwump": Form(THWUMP, _DIRECTED, needs=(("direction",),)),

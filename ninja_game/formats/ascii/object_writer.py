@@ -10,7 +10,9 @@ from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS
 from ninja_game.formats.ascii.object_forms import DOORS, FORMS, MOVEMENTS, SIDES, WEAPONS, door_middle, natural_offset
 from ninja_game.formats.ascii.object_lines import Listed, read_object_line
 from ninja_game.formats.ascii.places import number_text, place_text, read_cell, same_bits
-from ninja_game.sim.level import DOOR, DRONE, EXIT, FLOOR_GUARD, LAUNCH_PAD, ONE_WAY, THWUMP, VALUE_COUNTS, ObjectSpec
+from ninja_game.sim import kinds
+from ninja_game.sim.kinds import VALUE_COUNTS
+from ninja_game.sim.level import ObjectSpec
 
 _LINE_WIDTH = 100
 
@@ -62,23 +64,23 @@ def best_form(record: ObjectSpec) -> tuple[str, str, str]:
         return "", "", ""
     x, y = values[:2]
     keyword = next(keyword for keyword, form in FORMS.items() if form.kind == kind)
-    if kind == DOOR:
+    if kind == kinds.DOOR:
         return _door_form(values)
-    if kind == EXIT:
+    if kind == kinds.EXIT:
         return keyword, place_text(x, y), f"switch {place_text(values[2], values[3])}"
-    if kind == FLOOR_GUARD:
+    if kind == kinds.FLOOR_GUARD:
         words = "" if values[2] == 1 else f"facing {number_text(values[2])}"
         return keyword, place_text(x, y, *natural_offset(keyword)), words
-    if kind == LAUNCH_PAD:
+    if kind == kinds.LAUNCH_PAD:
         direction = next((word for word, normal in PAD_NORMALS.items() if normal == values[2:]), "")
         if not all(map(same_bits, PAD_NORMALS.get(direction, ()), values[2:])):
             direction = ""
         words = direction or f"normal {number_text(values[2])},{number_text(values[3])}"
         return keyword, place_text(x, y, *natural_offset(keyword, direction)), words
-    if kind in (ONE_WAY, THWUMP):
+    if kind in (kinds.ONE_WAY, kinds.THWUMP):
         word = _word(DIRECTION_WORDS, values[2])
         return (keyword if word else ""), place_text(x, y), word
-    if kind == DRONE:
+    if kind == kinds.DRONE:
         move, direction, keyword = (
             _word(MOVEMENTS, values[2]), _word(DIRECTION_WORDS, values[5]), _word(WEAPONS, values[4])
         )  # fmt: skip

@@ -17,7 +17,8 @@ from ninja_game.formats.ascii.legend import (
 from ninja_game.formats.ascii.match import point_of
 from ninja_game.formats.ascii.object_writer import same_record, write_object_lines
 from ninja_game.formats.ascii.picture import FRAME, Cell
-from ninja_game.sim.level import COLUMNS, EXIT, NINJA, ROWS, Level, ObjectSpec
+from ninja_game.sim.kinds import EXIT, NINJA
+from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 
 MAGIC = "ninja-game level"
 VERSION = 1

@@ -8,7 +8,8 @@ from collections.abc import Callable
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.numbers import format_exact, format_number, parse_number
-from ninja_game.sim.level import KIND_NAMES, TILES, Level, ObjectSpec
+from ninja_game.sim.kinds import KIND_NAMES
+from ninja_game.sim.level import TILES, Level, ObjectSpec
 
 MISSING_TILE = -1
 """Id of a cell that the tile string does not reach: never solid, yet not empty."""

@@ -12,7 +12,7 @@ import pygame
 
 from ninja_game.play.audio.table import BY_DEATH, BY_EVENT, CORPSE, LOOPS, OTHER_DEATH, loop_levels
 from ninja_game.sim.events import DIED
-from ninja_game.sim.level import DRONE, FLOOR_GUARD, LAUNCHER
+from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
 from ninja_game.sim.memory.schema import Object, World
 from ninja_game.sim.rules import WORLD_WIDTH
 from ninja_game.sim.states import WEAPON_LASER

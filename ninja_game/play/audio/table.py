@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from math import floor
 
 from ninja_game.sim import events
-from ninja_game.sim.level import DRONE, FLOOR_GUARD, LAUNCHER
+from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
 from ninja_game.sim.memory.schema import Object, World
 from ninja_game.sim.states import (
     DRONE_FIRING,

@@ -20,7 +20,7 @@ from ninja_game.play.view.overlays import Overlays
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.playthrough import keep_replay
 from ninja_game.player.statistics import SELF, killer_of
-from ninja_game.sim.level import GOLD
+from ninja_game.sim.kinds import GOLD
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App

@@ -6,20 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ninja_game.sim import rules
-from ninja_game.sim.level import (
-    BOUNCE_BLOCK,
-    DOOR,
-    DRONE,
-    EXIT,
-    FLOOR_GUARD,
-    GOLD,
-    LAUNCH_PAD,
-    LAUNCHER,
-    MINE,
-    ONE_WAY,
-    THWUMP,
-)
-from ninja_game.sim.memory.schema import SWITCH, Object, World
+from ninja_game.sim.kinds import DOOR, DRONE, KIND_OF, SWITCH
+from ninja_game.sim.memory.schema import Object, World
 from ninja_game.sim.states import AUTOMATIC
 
 
@@ -37,12 +25,8 @@ class HitShape:
     vy: float = 0.0
 
 
-_DISCS = {
-    GOLD: rules.GOLD_RADIUS, MINE: rules.MINE_RADIUS, EXIT: rules.EXIT_RADIUS, SWITCH: rules.SWITCH_RADIUS,
-    LAUNCH_PAD: rules.PAD_RADIUS, FLOOR_GUARD: rules.GUARD_RADIUS, DRONE: rules.DRONE_RADIUS, LAUNCHER: 1.0,
-}  # fmt: skip
-_BOXES = {BOUNCE_BLOCK: rules.BLOCK_HALF, ONE_WAY: rules.ONE_WAY_HALF, THWUMP: rules.THWUMP_HALF}
-_LETHAL = {MINE, FLOOR_GUARD, DRONE, LAUNCHER, THWUMP}
+_SMALLEST = 1.0
+"""Half size, px, at which a point is drawn: the tip of a rocket."""
 
 
 def hit_shapes(world: World) -> Iterator[HitShape]:
@@ -50,17 +34,19 @@ def hit_shapes(world: World) -> Iterator[HitShape]:
     for slot in range(1, world.slots_used):
         o = world.objects[slot]
         if o.in_grid or (o.kind == SWITCH and not world.objects[o.partner].spent):
-            half = _half(o)
-            if half:
-                yield HitShape(o.x, o.y, half, o.kind not in _BOXES, o.kind in _LETHAL and not _unarmed(o))
+            kind, half = KIND_OF[o.kind], _half(o)
+            if half is not None:
+                deadly = kind.by_touch and not _unarmed(o)
+                yield HitShape(o.x, o.y, max(half, _SMALLEST), kind.disc is not None, deadly)
     n = world.ninja
     yield HitShape(n.x, n.y, rules.RADIUS, not n.box, ninja=True, vx=n.x - n.prev_x, vy=n.y - n.prev_y)
 
 
-def _half(o: Object) -> float:
-    if o.kind == DOOR:
-        return rules.AUTOMATIC_DOOR_RADIUS if o.mechanism == AUTOMATIC else rules.DOOR_SWITCH_RADIUS
-    return _DISCS.get(o.kind) or _BOXES.get(o.kind, 0.0)
+def _half(o: Object) -> float | None:
+    if o.kind == DOOR and o.mechanism != AUTOMATIC:
+        return rules.DOOR_SWITCH_RADIUS
+    kind = KIND_OF[o.kind]
+    return kind.box if kind.disc is None else kind.disc
 
 
 def _unarmed(o: Object) -> bool:

@@ -20,10 +20,6 @@ MAX_EVENTS = 48
 
 EDGE_STATES = GRID_CELLS * 4
 
-# Kinds beyond the thirteen of the level string (level_data.py).
-SWITCH = 13
-INERT = 14
-
 
 @struct
 class TileMap:

@@ -13,7 +13,7 @@ from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import Ninja, TileMap, World
 from ninja_game.sim.ninja.control import celebrate, think_in_air, think_on_ground
-from ninja_game.sim.objects.object_query import touch_objects
+from ninja_game.sim.objects.dispatch import touch_objects
 from ninja_game.sim.rules import FATAL_IMPACT, FLOOR_ALLOWANCE, PARALLEL_FLOORS, WALL_PROBE
 from ninja_game.sim.states import CELEBRATING, DEAD, FALL
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ninja_game.sim.arithmetic import is_set
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, ROW, STEP, UNIT_X, UNIT_Y
-from ninja_game.sim.events import CHASE_STARTED, emit
+from ninja_game.sim.events import CHAINGUN_OFF, CHASE_STARTED, LASER_OFF, emit
 from ninja_game.sim.grid import cell_at, grid_move, link
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import Drone, World
@@ -24,6 +24,7 @@ from ninja_game.sim.rules import (
 from ninja_game.sim.schedule import start_think, start_update
 from ninja_game.sim.states import (
     ALTERNATING,
+    DRONE_POST_FIRE,
     MOVEMENT_BELOW,
     MOVEMENT_BEYOND,
     NO_DIRECTION,
@@ -204,3 +205,11 @@ def chase(w: World, o: Drone) -> bool:
     elif o.movement == MOVEMENT_BELOW:
         return False
     return True
+
+
+@fast
+def stop_firing(w: World, o: Drone, slot: int) -> None:
+    """A weapon drone's beam or burst ends; it cools down before it moves on."""
+    o.routine = DRONE_POST_FIRE
+    o.counter = 0
+    emit(w, LASER_OFF if o.weapon == WEAPON_LASER else CHAINGUN_OFF, slot, o.x, o.y, 0.0, 0.0)

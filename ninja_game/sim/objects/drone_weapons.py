@@ -6,11 +6,11 @@ from math import sqrt
 
 from ninja_game.sim.arithmetic import div
 from ninja_game.sim.collision.rays import ray_tiles, sees
-from ninja_game.sim.death import kill, stop_firing
+from ninja_game.sim.death import kill, zap
 from ninja_game.sim.events import CHAINGUN_CHARGING, CHAINGUN_ON, CHAINGUN_SHOT, LASER_CHARGING, LASER_ON, emit
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import Drone, TileMap, World
-from ninja_game.sim.objects.floor_guard import zap
+from ninja_game.sim.objects.drone import stop_firing
 from ninja_game.sim.rules import (
     BULLET_IMPULSE,
     BURST_SHOTS,

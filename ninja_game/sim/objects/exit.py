@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import sqrt
 
 from ninja_game.sim.death import win
 from ninja_game.sim.events import EXIT_OPENED, emit
 from ninja_game.sim.grid import grid_insert
+from ninja_game.sim.kinds import SWITCH
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import SWITCH, Exit, Object, Switch, World
+from ninja_game.sim.memory.schema import Exit, Switch, World
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS, SWITCH_RADIUS
 
 
 @fast
-def create_switch(w: World, o: Object, slot: int, x: float, y: float) -> None:
+def create_exit(w: World, o: Exit, slot: int, p: Sequence[float]) -> None:
     """An exit files only its switch, which has no id: it takes a slot behind those of the ids."""
     switch_slot = w.slots_used
     w.slots_used = switch_slot + 1
     switch = w.objects[switch_slot]
     switch.kind = SWITCH
     switch.id = -1
-    switch.x = x
-    switch.y = y
+    switch.x = p[2]
+    switch.y = p[3]
     switch.partner = slot
     o.partner = switch_slot
     grid_insert(w, switch, switch_slot)

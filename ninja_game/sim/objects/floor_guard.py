@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from math import sqrt
-
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, ROW, UNDEFINED_ID
-from ninja_game.sim.death import kill
+from ninja_game.sim.death import zap
 from ninja_game.sim.events import GUARD_STARTED, emit
 from ninja_game.sim.grid import cell_at, grid_insert, grid_move
+from ninja_game.sim.kinds import INERT
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import INERT, FloorGuard, TileMap, World
-from ninja_game.sim.rules import DOWN, GUARD_RADIUS, GUARD_SPEED, HALF, RADIUS, SOLID, ZAP_IMPULSE
+from ninja_game.sim.memory.schema import FloorGuard, TileMap, World
+from ninja_game.sim.rules import DOWN, GUARD_RADIUS, GUARD_SPEED, HALF, SOLID
 from ninja_game.sim.schedule import start_update
-from ninja_game.sim.states import ELECTRIC, GUARD_CHASE, GUARD_IDLE
+from ninja_game.sim.states import GUARD_CHASE, GUARD_IDLE
 
 
 @fast
@@ -85,17 +84,3 @@ def chase_to_end(w: World, o: FloorGuard, slot: int) -> None:
 def touch_guard(w: World, o: FloorGuard) -> None:
     """Disc contact, active or not: lethal."""
     zap(w, o.x - w.ninja.x, o.y - w.ninja.y, GUARD_RADIUS)
-
-
-@fast
-def zap(w: World, dx: float, dy: float, radius: float) -> None:
-    """The electric disc of guards and zap drones: kill if the ninja is nearer than the sum of the radii."""
-    n = w.ninja
-    length = sqrt(dx * dx + dy * dy)
-    if length < radius + RADIUS:
-        a = 0.0
-        b = 0.0
-        if length > 0.0:
-            a = dx / length
-            b = dy / length
-        kill(w, ELECTRIC, (-a) * ZAP_IMPULSE, (-b) * ZAP_IMPULSE, n.x + RADIUS * a, n.y + RADIUS * b)

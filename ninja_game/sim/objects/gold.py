@@ -5,10 +5,16 @@ from __future__ import annotations
 from math import sqrt
 
 from ninja_game.sim.events import GOLD_TAKEN, emit
-from ninja_game.sim.grid import grid_remove
+from ninja_game.sim.grid import grid_insert, grid_remove
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import Gold, World
 from ninja_game.sim.rules import GOLD_RADIUS, RADIUS
+
+
+@fast
+def create_gold(w: World, o: Gold, slot: int) -> None:
+    """In the grid, to be found."""
+    grid_insert(w, o, slot)
 
 
 @fast

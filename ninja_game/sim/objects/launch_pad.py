@@ -2,13 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import sqrt
 
 from ninja_game.sim.events import LAUNCHED, emit
+from ninja_game.sim.grid import grid_insert
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import LaunchPad, World
 from ninja_game.sim.rules import PAD_RADIUS, PAD_STRENGTH, RADIUS
 from ninja_game.sim.states import FALLING, enter_state
+
+
+@fast
+def create_pad(w: World, o: LaunchPad, slot: int, p: Sequence[float]) -> None:
+    """With the normal of its record."""
+    o.face_x = p[2]
+    o.face_y = p[3]
+    grid_insert(w, o, slot)
 
 
 @fast

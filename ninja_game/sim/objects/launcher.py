@@ -17,13 +17,26 @@ from ninja_game.sim.rules import (
     RADIUS,
     ROCKET_ACCELERATION,
     ROCKET_GROWTH,
+    ROCKET_HEADING_X,
+    ROCKET_HEADING_Y,
     ROCKET_PREPARE,
+    ROCKET_RADIUS,
     ROCKET_SPEED,
     ROCKET_TURN,
     SOLID,
 )
 from ninja_game.sim.schedule import end_think, end_update, start_think, start_update
 from ninja_game.sim.states import EXPLOSIVE, LAUNCHER_FLIGHT, LAUNCHER_IDLE, LAUNCHER_PREPARE
+
+
+@fast
+def create_launcher(w: World, o: Launcher, slot: int) -> None:
+    """Waiting; in no cell: it cannot be touched."""
+    o.base_x = o.x
+    o.base_y = o.y
+    o.heading_x = ROCKET_HEADING_X
+    o.heading_y = ROCKET_HEADING_Y
+    start_think(w, o, slot)
 
 
 @fast
@@ -123,7 +136,7 @@ def touch_rocket(w: World, o: Launcher, slot: int) -> None:
     n = w.ninja
     dx = n.x - o.x
     dy = n.y - o.y
-    if sqrt(dx * dx + dy * dy) < RADIUS:
+    if sqrt(dx * dx + dy * dy) < ROCKET_RADIUS + RADIUS:
         kill(w, EXPLOSIVE, dx, dy, o.x, o.y)
         explode(w, o, slot)
 

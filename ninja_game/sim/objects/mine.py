@@ -6,11 +6,17 @@ from math import sqrt
 
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import MINE_EXPLODED, emit
-from ninja_game.sim.grid import grid_remove
+from ninja_game.sim.grid import grid_insert, grid_remove
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import Mine, World
 from ninja_game.sim.rules import MINE_RADIUS, RADIUS
 from ninja_game.sim.states import EXPLOSIVE
+
+
+@fast
+def create_mine(w: World, o: Mine, slot: int) -> None:
+    """In the grid, to be met."""
+    grid_insert(w, o, slot)
 
 
 @fast

@@ -2,10 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from ninja_game.sim.collision.tiles import UNIT_X, UNIT_Y
+from ninja_game.sim.grid import grid_insert
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import OneWay, World
 from ninja_game.sim.ninja.contact_response import push
 from ninja_game.sim.rules import ONE_WAY_HALF, RADIUS
+
+
+@fast
+def create_one_way(w: World, o: OneWay, slot: int, p: Sequence[float]) -> None:
+    """Facing its direction; down if that is none."""
+    o.face_x = 0.0
+    o.face_y = 1.0
+    for direction in range(4):
+        if p[2] == direction:
+            o.face_x = UNIT_X[direction]
+            o.face_y = UNIT_Y[direction]
+    grid_insert(w, o, slot)
 
 
 @fast

@@ -37,6 +37,14 @@ from ninja_game.sim.states import (
 
 
 @fast
+def create_turret(w: World, o: Turret, slot: int) -> None:
+    """Waiting, aimed at itself; in no cell: it cannot be touched."""
+    o.aim_x = o.x
+    o.aim_y = o.y
+    start_think(w, o, slot)
+
+
+@fast
 def sees_ninja(level: TileMap, w: World, o: Turret) -> bool:
     """Tell whether the way from the turret to the ninja is free."""
     return sees(level, w, o.x, o.y, w.ninja.x, w.ninja.y)[0]

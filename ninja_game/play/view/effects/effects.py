@@ -9,7 +9,7 @@ from random import Random
 from ninja_game.play.view.effects.particles import Particle, Particles
 from ninja_game.sim import events as ev
 from ninja_game.sim.collision.rays import ray_tiles
-from ninja_game.sim.level import DRONE, LAUNCHER
+from ninja_game.sim.kinds import DRONE, LAUNCHER
 from ninja_game.sim.memory.schema import Event, TileMap, World
 from ninja_game.sim.states import (
     DRONE_FIRING,

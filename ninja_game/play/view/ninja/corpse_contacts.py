@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ninja_game.play.view.ninja.box_contact import Box
-from ninja_game.sim.level import BOUNCE_BLOCK, DRONE, FLOOR_GUARD, LAUNCH_PAD, ONE_WAY, THWUMP
+from ninja_game.sim import kinds
 from ninja_game.sim.memory.schema import Object, World
 from ninja_game.sim.rules import BLOCK_HALF, THWUMP_HALF
 from ninja_game.sim.states import WEAPON_ZAP
@@ -19,11 +19,11 @@ def thing_pushes(world: World, box: Box) -> Iterator[tuple[float, float, float]]
         o = world.objects[slot]
         if o.kind in CONTACTS and abs(o.x - box.x) < 26 and abs(o.y - box.y) < 26:
             half, kick = CONTACTS[o.kind]
-            if o.kind == LAUNCH_PAD:
+            if o.kind == kinds.LAUNCH_PAD:
                 yield from _pad(o, box)
-            elif o.kind == ONE_WAY:
+            elif o.kind == kinds.ONE_WAY:
                 yield from _one_way(o, box)
-            elif o.kind != DRONE or o.weapon == WEAPON_ZAP:
+            elif o.kind != kinds.DRONE or o.weapon == WEAPON_ZAP:
                 yield from _square(o, box, half, kick)
 
 
@@ -36,13 +36,13 @@ def _square(o: Object, box: Box, half: float, kick: float) -> Iterator[tuple[flo
     if oy < ox:
         sign = -1.0 if dy < 0 else 1.0
         box.y += sign * oy
-        if o.kind == THWUMP:
+        if o.kind == kinds.THWUMP:
             live = kick if sign == o.face_y else 0.0
         yield 0.0, sign, live
     else:
         sign = -1.0 if dx < 0 else 1.0
         box.x += sign * ox
-        if o.kind == THWUMP:
+        if o.kind == kinds.THWUMP:
             live = kick if sign == o.face_x else 0.0
         yield sign, 0.0, live
 
@@ -66,11 +66,11 @@ def _one_way(o: Object, box: Box) -> Iterator[tuple[float, float, float]]:
 
 
 CONTACTS = {
-    BOUNCE_BLOCK: (BLOCK_HALF, 0.0),
-    THWUMP: (THWUMP_HALF, _THWUMP_KICK),
-    LAUNCH_PAD: (6.0, _PAD_KICK),
-    ONE_WAY: (12.0, 0.0),
-    FLOOR_GUARD: (6.0, _GUARD_KICK),
-    DRONE: (9.0, _ZAP_KICK),
+    kinds.BOUNCE_BLOCK: (BLOCK_HALF, 0.0),
+    kinds.THWUMP: (THWUMP_HALF, _THWUMP_KICK),
+    kinds.LAUNCH_PAD: (6.0, _PAD_KICK),
+    kinds.ONE_WAY: (12.0, 0.0),
+    kinds.FLOOR_GUARD: (6.0, _GUARD_KICK),
+    kinds.DRONE: (9.0, _ZAP_KICK),
 }
 """Half size (px) and kick of each kind that the corpse can touch."""

@@ -13,7 +13,7 @@ from ninja_game.play.view.sprites.sprite_book import SpriteBook
 from ninja_game.play.view.sprites.static_sprite_state import SETTLED_TICKS, PlacedSprite, static_sprites_of
 from ninja_game.play.view.sprites.tile_shapes import tile_picture
 from ninja_game.sim.collision.tiles import EMPTY, SHAPE
-from ninja_game.sim.level import GOLD, MINE
+from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import STRIDE
 

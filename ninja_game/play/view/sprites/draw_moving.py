@@ -10,7 +10,7 @@ from ninja_game.play.view.sprites import moving_sprites as drawings
 from ninja_game.play.view.sprites.draw_target import DrawTarget
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
 from ninja_game.play.view.sprites.static_sprites import crosshair
-from ninja_game.sim.level import BOUNCE_BLOCK, DRONE, FLOOR_GUARD, LAUNCHER, THWUMP, TURRET
+from ninja_game.sim import kinds
 from ninja_game.sim.memory.schema import Object, World
 from ninja_game.sim.states import (
     DRONE_FIRING,
@@ -53,7 +53,7 @@ def draw_moving(target: DrawTarget, world: World, animation: ObjectAnimation, fr
     shown = [Moving(world.objects[s], s, *animation.place(s, fraction), animation, fraction)
              for s in animation.moving_slots]  # fmt: skip
     for m in shown:
-        if m.o.kind == DRONE and m.o.weapon == WEAPON_LASER:
+        if m.o.kind == kinds.DRONE and m.o.weapon == WEAPON_LASER:
             _beam(target, m)
     for m in shown:
         # A rocket that met its target point exactly is nowhere (not a number).
@@ -135,11 +135,11 @@ def _beam(target: DrawTarget, m: Moving) -> None:
 
 
 PAINTERS: dict[int, Callable[[DrawTarget, Moving], None]] = {
-    BOUNCE_BLOCK: _block,
-    THWUMP: _thwump,
-    FLOOR_GUARD: _guard,
-    TURRET: _crosshair,
-    LAUNCHER: _rocket,
-    DRONE: _drone,
+    kinds.BOUNCE_BLOCK: _block,
+    kinds.THWUMP: _thwump,
+    kinds.FLOOR_GUARD: _guard,
+    kinds.TURRET: _crosshair,
+    kinds.LAUNCHER: _rocket,
+    kinds.DRONE: _drone,
 }
 """How each kind is drawn."""

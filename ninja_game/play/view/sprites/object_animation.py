@@ -7,11 +7,13 @@ from __future__ import annotations
 
 from math import atan2, pi
 
-from ninja_game.sim.level import BOUNCE_BLOCK, DOOR, DRONE, FLOOR_GUARD, LAUNCHER, NINJA, THWUMP, TURRET
-from ninja_game.sim.memory.schema import INERT, SWITCH, Object, World
+from ninja_game.sim import kinds
+from ninja_game.sim.memory.schema import Object, World
 from ninja_game.sim.states import DRONE_MOVE, LAUNCHER_FLIGHT
 
-MOVING_KINDS = frozenset({BOUNCE_BLOCK, THWUMP, FLOOR_GUARD, DRONE, TURRET, LAUNCHER})
+MOVING_KINDS = frozenset(
+    {kinds.BOUNCE_BLOCK, kinds.THWUMP, kinds.FLOOR_GUARD, kinds.DRONE, kinds.TURRET, kinds.LAUNCHER}
+)
 LONG_AGO = -100_000
 _JUMP = 30.0
 """A thing that is farther away than this (px) after a tick was put there, it did not move."""
@@ -24,15 +26,15 @@ Place = tuple[float, float]
 
 def state_of(world: World, o: Object) -> tuple[int, int, int]:
     """What must change for an object to look different, apart from its place."""
-    if o.kind == SWITCH:
+    if o.kind == kinds.SWITCH:
         # An exit's switch has no state of its own: it is pressed when the exit is open.
         o = world.objects[o.partner]
-    return o.spent if o.kind != DRONE else o.chasing, o.routine, o.updating
+    return o.spent if o.kind != kinds.DRONE else o.chasing, o.routine, o.updating
 
 
 def drawn_place(o: Object) -> Place:
     """The place of a thing that moves; of a turret its crosshair."""
-    return (o.aim_x, o.aim_y) if o.kind == TURRET else (o.x, o.y)
+    return (o.aim_x, o.aim_y) if o.kind == kinds.TURRET else (o.x, o.y)
 
 
 class ObjectAnimation:
@@ -46,14 +48,16 @@ class ObjectAnimation:
         self.tick = 0
         slots = range(1, world.slots_used)
         self.moving_slots = [slot for slot in slots if world.objects[slot].kind in MOVING_KINDS]
-        self.static_slots = [slot for slot in slots if world.objects[slot].kind not in {NINJA, INERT}]
+        self.static_slots = [slot for slot in slots if world.objects[slot].kind not in {kinds.NINJA, kinds.INERT}]
         self.states = {slot: state_of(world, world.objects[slot]) for slot in self.static_slots}
         self.since = dict.fromkeys(self.static_slots, LONG_AGO)
         self.changed: set[int] = set()
         self.now = {slot: drawn_place(world.objects[slot]) for slot in self.moving_slots}
         self.before = dict(self.now)
         self.eyes = {
-            slot: _gaze(world, world.objects[slot]) for slot in self.moving_slots if world.objects[slot].kind == DRONE
+            slot: _gaze(world, world.objects[slot])
+            for slot in self.moving_slots
+            if world.objects[slot].kind == kinds.DRONE
         }
         self.trails: dict[int, list[Place]] = {}
         n = world.ninja
@@ -66,10 +70,10 @@ class ObjectAnimation:
         for slot in self.moving_slots:
             o = world.objects[slot]
             self.now[slot] = drawn_place(o)
-            if o.kind == DRONE:
+            if o.kind == kinds.DRONE:
                 turn = (_gaze(world, o) - self.eyes[slot] + pi) % (2 * pi) - pi
                 self.eyes[slot] += _EYE_TURN * turn
-            elif o.kind == LAUNCHER:
+            elif o.kind == kinds.LAUNCHER:
                 self._follow_rocket(slot, o)
         for slot in self.static_slots:
             state = state_of(world, world.objects[slot])
@@ -78,7 +82,7 @@ class ObjectAnimation:
                 self.since[slot] = self.tick
                 self.changed.add(slot)
         for event in world.events[: world.event_count]:
-            if event.slot in self.since and world.objects[event.slot].kind not in MOVING_KINDS | {DOOR}:
+            if event.slot in self.since and world.objects[event.slot].kind not in MOVING_KINDS | {kinds.DOOR}:
                 self.since[event.slot] = self.tick
                 self.changed.add(event.slot)
         self.ninja_before = self.ninja_now

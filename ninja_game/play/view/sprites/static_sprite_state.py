@@ -7,9 +7,9 @@ from math import atan2, degrees
 from ninja_game.play.view.sprites import static_sprites as drawings
 from ninja_game.play.view.sprites.drawing import SpriteKey
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
+from ninja_game.sim import kinds
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
-from ninja_game.sim.level import DOOR, EXIT, GOLD, LAUNCH_PAD, LAUNCHER, MINE, ONE_WAY, TURRET
-from ninja_game.sim.memory.schema import SWITCH, Object, World
+from ninja_game.sim.memory.schema import Object, World
 from ninja_game.sim.states import AUTOMATIC, LAUNCHER_PREPARE, TRAP, TURRET_POST_FIRE, TURRET_PRE_FIRE
 
 PlacedSprite = tuple[SpriteKey, float, float]
@@ -26,23 +26,23 @@ def static_sprites_of(world: World, slot: int, animation: ObjectAnimation, fract
     """The drawings of one thing; [] if nothing of it is fixed to the walls, or it is gone."""
     o = world.objects[slot]
     kind = o.kind
-    if kind in {GOLD, MINE}:
-        return [] if o.spent else [((drawings.gold if kind == GOLD else drawings.mine)(), o.x, o.y)]
-    if kind == EXIT:
+    if kind in {kinds.GOLD, kinds.MINE}:
+        return [] if o.spent else [((drawings.gold if kind == kinds.GOLD else drawings.mine)(), o.x, o.y)]
+    if kind == kinds.EXIT:
         step = animation.step(slot, fraction, _EXIT_FRAMES) if o.spent else 0
         return [(drawings.exit_door(step), o.x, o.y)]
-    if kind == SWITCH:
+    if kind == kinds.SWITCH:
         return [(drawings.exit_switch(world.objects[o.partner].spent), o.x, o.y)]
-    if kind == DOOR:
+    if kind == kinds.DOOR:
         return _door_sprites(o, slot, animation, fraction)
-    if kind == LAUNCH_PAD:
+    if kind == kinds.LAUNCH_PAD:
         step = 8 - animation.step(slot, fraction, _PAD_FRAMES)
         return [(drawings.launch_pad(step).turned(_upright(o.face_x, o.face_y)), o.x, o.y)]
-    if kind == ONE_WAY:
+    if kind == kinds.ONE_WAY:
         return [(drawings.one_way().turned(_upright(o.face_x, o.face_y)), o.x, o.y)]
-    if kind == TURRET:
+    if kind == kinds.TURRET:
         return [(drawings.turret_base(_turret_step(o, slot, animation, fraction)), o.x, o.y)]
-    if kind == LAUNCHER:
+    if kind == kinds.LAUNCHER:
         step = animation.step(slot, fraction, _PREPARE_FRAMES) if o.routine == LAUNCHER_PREPARE else 0
         return [(drawings.launcher_base(step), o.base_x, o.base_y)]
     return []

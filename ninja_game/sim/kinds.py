@@ -1,0 +1,91 @@
+"""The kinds of objects, once: number, name, record, fields, rules, contact. Numbers, names and tables derive from here.
+
+How to add one: docs/new-kind.md.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ninja_game.sim import rules
+from ninja_game.sim.memory import schema
+
+GOLD, BOUNCE_BLOCK, LAUNCH_PAD, TURRET, FLOOR_GUARD, NINJA, DRONE = range(7)
+ONE_WAY, THWUMP, DOOR, LAUNCHER, EXIT, MINE = range(7, 13)
+"""Numbers of the level string (objects.md §5)."""
+
+NO_KIND, SWITCH, INERT = -1, -2, -3
+"""A record that creates nothing; an exit's switch and an object that does nothing, which no record names."""
+
+
+class Kind(NamedTuple):
+    """What the rest of the game needs to know of a kind of objects.
+
+    ``number``: its type number in level strings, below 0 for what only the game makes. ``name``: as people read it.
+    ``value_count``: how many values a record needs; any other number makes an inert object (objects.md §2.1).
+    ``fields``: its class in the schema. ``rules``: which of the dispatching functions know it: create, touch, update,
+    think, idle, status. ``disc`` or ``box``: radius or half side, px, of what the ninja touches; neither: nothing.
+    ``killer``: what it is called when it kills ("": it does not). ``by_touch``: it kills who touches it. ``moves``: it
+    is drawn where it goes, not once on the wall. ``traced``: whether traces show it.
+    """
+
+    number: int
+    name: str
+    value_count: int
+    fields: type
+    rules: tuple[str, ...]
+    disc: float | None = None
+    box: float | None = None
+    killer: str = ""
+    by_touch: bool = False
+    moves: bool = False
+    traced: bool = True
+
+
+KINDS = (
+    Kind(GOLD, "gold", 2, schema.Gold, ("create", "touch", "idle", "status"), disc=rules.GOLD_RADIUS),
+    Kind(
+        BOUNCE_BLOCK, "bounce block", 2, schema.BounceBlock, ("create", "touch", "update", "think", "status"),
+        box=rules.BLOCK_HALF, moves=True,
+    ),
+    Kind(LAUNCH_PAD, "launch pad", 4, schema.LaunchPad, ("create", "touch"), disc=rules.PAD_RADIUS),
+    Kind(
+        TURRET, "gauss turret", 2, schema.Turret, ("create", "update", "think", "idle", "status"),
+        killer="gauss turret", moves=True,
+    ),
+    Kind(
+        FLOOR_GUARD, "floor guard", 3, schema.FloorGuard, ("create", "touch", "update", "idle", "status"),
+        disc=rules.GUARD_RADIUS, killer="floor guard", by_touch=True, moves=True,
+    ),
+    Kind(NINJA, "ninja", 2, schema.Header, (), traced=False),
+    Kind(
+        DRONE, "drone", 6, schema.Drone, ("create", "touch", "update", "think", "idle", "status"),
+        disc=rules.DRONE_RADIUS, killer="zap drone", by_touch=True, moves=True,
+    ),
+    Kind(ONE_WAY, "one-way platform", 3, schema.OneWay, ("create", "touch"), box=rules.ONE_WAY_HALF),
+    Kind(
+        THWUMP, "thwump", 3, schema.Thwump, ("create", "touch", "update", "status"),
+        box=rules.THWUMP_HALF, killer="thwump", by_touch=True, moves=True,
+    ),
+    Kind(
+        DOOR, "door", 9, schema.Door, ("create", "touch", "update", "idle", "status"),
+        disc=rules.AUTOMATIC_DOOR_RADIUS,
+    ),
+    Kind(
+        LAUNCHER, "homing launcher", 2, schema.Launcher, ("create", "touch", "update", "think", "idle", "status"),
+        disc=rules.ROCKET_RADIUS, killer="homing rocket", by_touch=True, moves=True,
+    ),
+    Kind(EXIT, "exit", 4, schema.Exit, ("create", "touch", "idle", "status"), disc=rules.EXIT_RADIUS),
+    Kind(
+        MINE, "mine", 2, schema.Mine, ("create", "touch", "status"),
+        disc=rules.MINE_RADIUS, killer="mine", by_touch=True,
+    ),
+    Kind(SWITCH, "exit switch", 0, schema.Switch, ("touch",), disc=rules.SWITCH_RADIUS, traced=False),
+    Kind(INERT, "inert object", 0, schema.Header, (), traced=False),
+)  # fmt: skip
+"""Every kind: those of the level string in the order of their numbers, then the game's own."""
+
+KIND_OF = {kind.number: kind for kind in KINDS}
+KIND_NAMES = tuple(kind.name for kind in KINDS if kind.number >= 0)
+VALUE_COUNTS = tuple(kind.value_count for kind in KINDS if kind.number >= 0)
+"""By number, of the kinds of the level string."""

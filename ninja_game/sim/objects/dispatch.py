@@ -1,0 +1,166 @@
+"""Which kind's rule runs: at load, when the ninja asks the nine cells, in an update, in a think (objects.md §2-§3).
+
+If-chains over small integers, because both memories are fastest with them (docs/architecture.md). What every kind does
+about a death or a win is in ``death.py``, what traces show of it in ``traces.py``; ``kinds.py`` says who is where.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ninja_game.sim.kinds import (
+    BOUNCE_BLOCK,
+    DOOR,
+    DRONE,
+    EXIT,
+    FLOOR_GUARD,
+    GOLD,
+    LAUNCH_PAD,
+    LAUNCHER,
+    MINE,
+    ONE_WAY,
+    SWITCH,
+    THWUMP,
+    TURRET,
+)
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import Object, TileMap, World
+from ninja_game.sim.objects.bounce_block import create_block, think_block, touch_block, update_block
+from ninja_game.sim.objects.door import create_door, touch_door, update_door
+from ninja_game.sim.objects.drone import create_drone, move_drone
+from ninja_game.sim.objects.drone_weapons import think_drone, touch_drone, update_weapon
+from ninja_game.sim.objects.exit import create_exit, touch_exit, touch_switch
+from ninja_game.sim.objects.floor_guard import create_guard, touch_guard, update_guard
+from ninja_game.sim.objects.gold import create_gold, touch_gold
+from ninja_game.sim.objects.launch_pad import create_pad, touch_pad
+from ninja_game.sim.objects.launcher import create_launcher, think_launcher, touch_rocket, update_launcher
+from ninja_game.sim.objects.mine import create_mine, touch_mine
+from ninja_game.sim.objects.one_way import create_one_way, touch_one_way
+from ninja_game.sim.objects.thwump import create_thwump, touch_thwump, update_thwump
+from ninja_game.sim.objects.turret import create_turret, think_turret, update_turret
+from ninja_game.sim.rules import STRIDE
+from ninja_game.sim.states import DRONE_MOVE
+
+NINE_CELLS = [0, STRIDE, STRIDE + 1, STRIDE - 1, -1, -STRIDE - 1, 1, -STRIDE + 1, -STRIDE]
+"""Own, below, below right, below left, left, above left, right, above right, above."""
+
+
+@fast
+def create(level: TileMap, w: World, o: Object, slot: int, p: Sequence[float]) -> None:
+    """What an object does at load; its kind and place are set. ``p``: the nine values of its record."""
+    kind = o.kind
+    if kind == GOLD:
+        create_gold(w, o, slot)
+    elif kind == MINE:
+        create_mine(w, o, slot)
+    elif kind == BOUNCE_BLOCK:
+        create_block(w, o, slot)
+    elif kind == LAUNCH_PAD:
+        create_pad(w, o, slot, p)
+    elif kind == ONE_WAY:
+        create_one_way(w, o, slot, p)
+    elif kind == EXIT:
+        create_exit(w, o, slot, p)
+    elif kind == TURRET:
+        create_turret(w, o, slot)
+    elif kind == LAUNCHER:
+        create_launcher(w, o, slot)
+    elif kind == DOOR:
+        create_door(w, o, slot, p)
+    elif kind == THWUMP:
+        create_thwump(level, w, o, slot, p[2])
+    elif kind == FLOOR_GUARD:
+        create_guard(level, w, o, slot)
+    elif kind == DRONE:
+        create_drone(w, o, slot, p)
+
+
+@fast
+def touch_objects(w: World) -> None:
+    """Test the ninja against everything filed in the nine cells about its registered cell.
+
+    The link to the next object is read after the contact: one that unfiles itself ends the walk of its list (quirk).
+    """
+    centre = w.ninja.cell
+    if centre == 0:
+        return
+    heads = w.heads
+    for offset in NINE_CELLS:
+        slot = heads[centre + offset]
+        while slot:
+            touch(w, slot)
+            slot = w.objects[slot].next
+
+
+@fast
+def touch(w: World, slot: int) -> None:
+    """The contact of one object with the ninja."""
+    o = w.objects[slot]
+    kind = o.kind
+    if kind == GOLD:
+        touch_gold(w, o, slot)
+    elif kind == MINE:
+        touch_mine(w, o, slot)
+    elif kind == DRONE:
+        touch_drone(w, o)
+    elif kind == DOOR:
+        touch_door(w, o, slot)
+    elif kind == ONE_WAY:
+        touch_one_way(w, o)
+    elif kind == LAUNCH_PAD:
+        touch_pad(w, o, slot)
+    elif kind == FLOOR_GUARD:
+        touch_guard(w, o)
+    elif kind == THWUMP:
+        touch_thwump(w, o)
+    elif kind == BOUNCE_BLOCK:
+        touch_block(w, o, slot)
+    elif kind == LAUNCHER:
+        touch_rocket(w, o, slot)
+    elif kind == SWITCH:
+        touch_switch(w, o)
+    elif kind == EXIT:
+        touch_exit(w, o)
+
+
+@fast
+def update_objects(level: TileMap, w: World) -> None:
+    """The update pass. The cursor lives in the world, so that an object ended meanwhile can move it along."""
+    slot = w.update_head
+    while slot:
+        o = w.objects[slot]
+        w.update_cursor = o.older
+        kind = o.kind
+        if kind == DRONE:
+            if o.routine == DRONE_MOVE:
+                move_drone(w, o, slot)
+            else:
+                update_weapon(level, w, o, slot)
+        elif kind == THWUMP:
+            update_thwump(w, o, slot)
+        elif kind == FLOOR_GUARD:
+            update_guard(w, o, slot)
+        elif kind == TURRET:
+            update_turret(level, w, o, slot)
+        elif kind == LAUNCHER:
+            update_launcher(level, w, o, slot)
+        elif kind == BOUNCE_BLOCK:
+            update_block(o)
+        elif kind == DOOR:
+            update_door(w, o, slot)
+        slot = w.update_cursor
+
+
+@fast
+def think(level: TileMap, w: World, slot: int) -> None:
+    """The think of one object."""
+    o = w.objects[slot]
+    kind = o.kind
+    if kind == DRONE:
+        think_drone(level, w, o, slot)
+    elif kind == TURRET:
+        think_turret(level, w, o, slot)
+    elif kind == LAUNCHER:
+        think_launcher(level, w, o, slot)
+    elif kind == BOUNCE_BLOCK:
+        think_block(w, o, slot)
