@@ -1,0 +1,120 @@
+"""Every kind of object has an entry in every place that needs one; what a kind does not need, its table says so."""
+
+from __future__ import annotations
+
+import ast
+import inspect
+import re
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ninja_game.cli.picture import COLOURS
+from ninja_game.formats.ascii.legend import SYMBOLS
+from ninja_game.formats.ascii.object_forms import FORMS
+from ninja_game.play.audio.table import BY_DEATH, BY_EVENT, OTHER_DEATH
+from ninja_game.play.view.sprites.draw_moving import PAINTERS
+from ninja_game.play.view.sprites.static_sprite_state import static_sprites_of
+from ninja_game.player.statistics import KILLERS
+from ninja_game.sim import events, kinds
+from ninja_game.sim.death import idle_event
+from ninja_game.sim.kinds import INERT, KINDS, NINJA, NO_KIND, Kind
+from ninja_game.sim.memory.schema import Header, Object
+from ninja_game.sim.objects import dispatch
+from ninja_game.sim.traces import status_of
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+OF_LEVELS = [kind for kind in KINDS if kind.number >= 0]
+DISPATCHING: dict[str, Callable[..., Any]] = {
+    "create": dispatch.create,
+    "touch": dispatch.touch,
+    "update": dispatch.update_objects,
+    "think": dispatch.think,
+    "idle": idle_event,
+    "status": status_of,
+}
+SILENT = {
+    events.DIED,  # sounds by its cause
+    events.BLOCK_WOKEN, events.THWUMP_FELL, events.THWUMP_LANDED, events.GUARD_STARTED,
+    events.LASER_ON, events.LASER_OFF, events.CHAINGUN_ON,
+}  # fmt: skip
+"""Events that deliberately have no sound of their own; some start or end a loop."""
+
+
+def chained(function: Callable[..., Any]) -> Counter[int]:
+    """The kinds that a function compares ``kind`` with, as often as it does."""
+    found: list[int] = []
+    for node in ast.walk(ast.parse(inspect.getsource(function))):
+        if isinstance(node, ast.Compare) and isinstance(node.left, ast.Name) and node.left.id == "kind":
+            for side in node.comparators:
+                names = side.elts if isinstance(side, ast.Set) else [side]
+                found += [getattr(kinds, ast.unparse(name).removeprefix("kinds.")) for name in names]
+    return Counter(found)
+
+
+@pytest.mark.parametrize("rule", DISPATCHING)
+def test_each_dispatching_function_knows_just_the_kinds_that_the_table_says(rule: str) -> None:
+    told = chained(DISPATCHING[rule])
+    assert max(told.values()) == 1, "a kind stands twice: its second branch is never reached"
+    assert set(told) == {kind.number for kind in KINDS if rule in kind.rules}
+
+
+def test_rules_in_the_table_are_known() -> None:
+    assert {rule for kind in KINDS for rule in kind.rules} == set(DISPATCHING)
+
+
+def test_numbers_are_in_order_and_internal_kinds_can_never_meet_a_new_one() -> None:
+    assert [kind.number for kind in KINDS if kind.number >= 0] == list(range(len(OF_LEVELS)))
+    assert len({kind.number for kind in KINDS} | {NO_KIND}) == len(KINDS) + 1
+    assert len({kind.name for kind in KINDS}) == len(KINDS)
+    assert {kind.number for kind in KINDS} | {NO_KIND} == {
+        value for name, value in vars(kinds).items() if name.isupper() and isinstance(value, int)
+    }
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: str(kind.name))
+def test_a_kind_is_complete_in_the_world(kind: Kind) -> None:
+    assert kind.fields is Header or kind.fields in Object.__bases__
+    assert ("create" in kind.rules) == (kind.number >= 0 and kind.number != NINJA)
+    assert ("touch" in kind.rules) == (kind.disc is not None) + (kind.box is not None), "its contact needs one shape"
+    assert not kind.by_touch or (kind.killer and "touch" in kind.rules)
+
+
+def test_every_class_of_the_schema_belongs_to_a_kind() -> None:
+    assert {kind.fields for kind in KINDS} == {Header, *Object.__bases__}
+
+
+@pytest.mark.parametrize("kind", OF_LEVELS, ids=lambda kind: str(kind.name))
+def test_a_kind_can_be_written_and_read(kind: Kind) -> None:
+    assert any(symbol.kind == kind.number for symbol in SYMBOLS), "no character in the legend"
+    assert any(form.kind == kind.number for form in FORMS.values()), "no form in lists of objects"
+    assert kind.number in COLOURS, "no colour in the terminal"
+    assert kind.value_count >= 2
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: str(kind.name))
+def test_a_kind_is_drawn(kind: Kind) -> None:
+    assert kind.moves == (kind.number in PAINTERS)
+    hidden = kind.number in (NINJA, INERT)
+    assert hidden != (kind.moves or kind.number in chained(static_sprites_of))
+
+
+def test_who_kills_is_counted() -> None:
+    assert {kind.killer for kind in KINDS if kind.killer} <= set(KILLERS)
+
+
+def test_every_event_has_a_name_and_a_sound_or_deliberately_none() -> None:
+    assert set(BY_EVENT) | SILENT == set(range(len(events.EVENT_NAMES)))
+    assert not set(BY_EVENT) & SILENT
+    assert all(BY_DEATH.values())
+    assert OTHER_DEATH
+
+
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind.traced], ids=lambda kind: str(kind.name))
+def test_what_a_trace_shows_of_a_kind_is_documented(kind: Kind) -> None:
+    table = (ROOT / "docs" / "replay-format.md").read_text("utf-8").partition("| kind | x, y | s |")[2]
+    first_column = re.findall(r"^\| ([^|]+) \|", table, re.MULTILINE)
+    assert kind.name in ", ".join(first_column).split(", ")
