@@ -5,13 +5,14 @@ from __future__ import annotations
 from functools import cached_property
 from pathlib import Path
 
+from ninja_game.errors import FileError
 from ninja_game.files.user_folder import LEVELS, RECORDS, REPLAYS, SETTINGS, make_user_folder, user_folder
 from ninja_game.files.writing import remove_leftovers
 from ninja_game.player.catalogue import Catalogue
 from ninja_game.player.progress import Progress
 from ninja_game.player.records import Records
 from ninja_game.player.settings import Settings
-from ninja_game.player.settings_file import read_settings, write_settings
+from ninja_game.player.settings_file import read_settings, write_changes
 from ninja_game.player.statistics import Statistics
 from ninja_game.player.store import Store
 from ninja_game.player.unlocks import complete_columns
@@ -29,6 +30,7 @@ class PlayerData:
         except OSError as error:
             self._messages.append(f"{self.folder} cannot be made ({error.strerror}).")
         self.settings, messages = read_settings(self.folder / SETTINGS)
+        self._saved_settings = self.settings
         self._messages += messages
         self.catalogue = Catalogue(self.folder / LEVELS)
 
@@ -77,12 +79,13 @@ class PlayerData:
         return len({episode.column for episode in self.catalogue.episodes.values()})
 
     def change_settings(self, settings: Settings) -> str:
-        """Take and save settings; a message if they could not be saved, else ''."""
+        """Take and save settings; a message if they could not be saved, else ''. Then the next change tries again."""
         self.settings = settings
         try:
-            write_settings(settings, self.folder / SETTINGS)
-        except OSError as error:
-            return f"The settings could not be saved ({error.strerror})."
+            write_changes(self._saved_settings, settings, self.folder / SETTINGS)
+        except (OSError, FileError) as error:
+            return f"The settings could not be saved ({getattr(error, 'strerror', '') or error})."
+        self._saved_settings = settings
         return ""
 
     def close(self) -> None:

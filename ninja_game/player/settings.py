@@ -11,6 +11,9 @@ PALETTES = ("classic", "dark", "contrast", "safe", "safe-dark")
 DEFAULT_COLOUR = ""
 """The ninja's colour that comes with the palette."""
 
+MOST_INPUTS = 16
+"""Keys or buttons of one action at most."""
+
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 Bindings = Mapping[str, tuple[str, ...]]
@@ -22,11 +25,11 @@ class Settings:
     """Every setting. ``keys`` and ``pad`` hold only the actions whose inputs are not the default ones.
 
     ``volume`` and ``loop_volume``: 0 to 99. ``dead_zone``: share of a stick's way that counts as rest.
-    ``flavour``: colour of the ninja, "" or "#rrggbb". ``frame_limit``: pictures a second at most, 0: as the display.
+    ``ninja_colour``: colour of the ninja, "" or "#rrggbb". ``frame_limit``: pictures a second, 0: as the display.
     """
 
     palette: str = PALETTES[0]
-    flavour: str = DEFAULT_COLOUR
+    ninja_colour: str = DEFAULT_COLOUR
     fullscreen: bool = False
     smooth: bool = True
     reduced_motion: bool = False
@@ -86,6 +89,7 @@ def _is_bindings(value: Any) -> bool:
     return isinstance(value, Mapping) and all(
         isinstance(action, str)
         and isinstance(inputs, (list, tuple))
+        and len(inputs) <= MOST_INPUTS
         and all(isinstance(name, str) and name.isprintable() for name in inputs)
         for action, inputs in value.items()
     )
@@ -93,7 +97,7 @@ def _is_bindings(value: Any) -> bool:
 
 RULES = {
     "palette": Rule("look", lambda value: value in PALETTES, f"one of {', '.join(PALETTES)}"),
-    "flavour": Rule("look", _is_colour, "'' or a colour such as '#186285'"),
+    "ninja_colour": Rule("look", _is_colour, "'' or a colour such as '#186285'"),
     "fullscreen": _flag("look"),
     "smooth": _flag("look"),
     "reduced_motion": _flag("look"),
@@ -107,7 +111,7 @@ RULES = {
     "practice": _flag("play"),
     "name": Rule("play", _is_name, "at most 40 printable characters"),
     "dead_zone": Rule("pad", _is_share, "a number from 0.05 to 0.95"),
-    "keys": Rule("", _is_bindings, "lists of names of keys"),
-    "pad": Rule("", _is_bindings, "lists of names of buttons"),
+    "keys": Rule("", _is_bindings, "lists of names of keys, such as jump = ['z', 'lshift']"),
+    "pad": Rule("", _is_bindings, "lists of names of buttons, such as jump = ['a']"),
 }
 """By setting. Bindings are tables of their own: ``[keys]`` and ``[pad-buttons]``."""

@@ -1,52 +1,74 @@
-"""Settings in their file: TOML that a person can edit. Whatever is in it, the game starts."""
+"""Settings in their file: TOML that a person can edit. Whatever is in it, the game starts, and comments stay.
+
+Only what the player has changed is written into a file that is there, so that two games at once, or a person with an
+editor, do not undo each other's changes.
+"""
 
 from __future__ import annotations
 
+import sys
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, MutableMapping
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from ninja_game.errors import FileError
+from ninja_game.files.locking import locked
+from ninja_game.files.reading import read_utf8
+from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import quarantine
 from ninja_game.files.writing import write_atomically
 from ninja_game.player.settings import RULES, Settings
-from ninja_game.player.toml_text import Value, write_toml
+
+if TYPE_CHECKING:
+    from tomlkit import TOMLDocument
 
 VERSION = 1
 BINDING_TABLES = {"keys": "keys", "pad": "pad-buttons"}
-COMMENT = "Settings of ninja-game. What is missing or wrong here has its default."
+OLD_KEYS = {"ninja_colour": "flavour"}
+"""What a setting was once called in its table; the old key is read, and goes when the setting is written."""
+
+COMMENT = "Settings of ninja-game. What is missing or wrong here has its default; comments stay."
+MAX_BYTES = 2**16
+"""More than this is no file of settings; a number of so many digits is read within 0.1 s."""
+
+LOCK_SECONDS = 1.0
 
 
-def write_settings(settings: Settings, path: Path) -> None:
-    """Put the settings into their file, whole or not at all. Raises OSError."""
-    tables: dict[str, dict[str, Value]] = {"": {"version": VERSION}}
-    for name, rule in RULES.items():
-        if name in BINDING_TABLES:
-            tables[BINDING_TABLES[name]] = dict(getattr(settings, name))
-        else:
-            tables.setdefault(rule.table, {})[name.replace("_", "-")] = getattr(settings, name)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    write_atomically(path, write_toml(tables, comment=COMMENT))
+# --- reading ---
 
 
 def read_settings(path: Path) -> tuple[Settings, list[str]]:
     """The settings in a file, and messages about what in it could not be used.
 
-    A missing file gives the defaults. A file that is no TOML, or from a newer game, is set aside; a wrong value only
+    A missing file gives the defaults. A file that is no TOML, or from a newer game, is moved aside; a wrong value only
     falls back to its default.
     """
     try:
-        data = tomllib.loads(path.read_text("utf-8"))
+        with _long_numbers():
+            data = tomllib.loads(read_utf8(path, MAX_BYTES))
     except FileNotFoundError:
         return Settings(), []
     except OSError as error:
         return Settings(), [f"The settings cannot be read ({error.strerror}); the defaults are used."]
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
-        return Settings(), [f"The settings file is damaged ({error}). {_put_aside(path, 'damaged')}"]
-    version = data.get("version")
+    except (FileError, ValueError, RecursionError) as error:
+        return Settings(), [f"The settings file is damaged ({shown_text(str(error))}). {_put_aside(path, 'damaged')}"]
+    version = data.get("version", VERSION)
     if not isinstance(version, int) or version > VERSION:
         return Settings(), [f"The settings file is from a newer game. {_put_aside(path, 'newer')}"]
     return _settings_of(data)
+
+
+@contextmanager
+def _long_numbers() -> Iterator[None]:
+    """Numbers of any length are read within, so that one only costs its own setting."""
+    limit = sys.get_int_max_str_digits()
+    sys.set_int_max_str_digits(0)
+    try:
+        yield
+    finally:
+        sys.set_int_max_str_digits(limit)
 
 
 def _put_aside(path: Path, why: str) -> str:
@@ -62,17 +84,101 @@ def _settings_of(data: Mapping[str, Any]) -> tuple[Settings, list[str]]:
     values: dict[str, Any] = {}
     messages = []
     for name, rule in RULES.items():
-        table_name = BINDING_TABLES.get(name, rule.table)
-        table = data.get(table_name, {})
-        key = name.replace("_", "-")
-        place = table_name if name in BINDING_TABLES else f"{table_name}.{key}"
-        found = table if name in BINDING_TABLES else table.get(key) if isinstance(table, Mapping) else table
+        place = BINDING_TABLES.get(name, rule.table)
+        found = data.get(place)
+        expected = rule.expected
+        if name not in BINDING_TABLES:
+            if isinstance(found, Mapping):
+                place = f"{place}.{_key(name)}"
+                found = found.get(_key(name), found.get(OLD_KEYS.get(name, "")))
+            else:
+                expected = f"the table [{place}]"
         if found is None:
             continue
-        if not rule.fits(found):
-            messages.append(f"settings.toml: {place} is {found!r}; expected {rule.expected}; the default is used.")
+        if expected != rule.expected or not rule.fits(found):
+            text = f"settings.toml: {place} is {_shown(found)}; expected {expected}; the default is used."
+            messages += [text] * (text not in messages)
         elif name in BINDING_TABLES:
             values[name] = {action: tuple(inputs) for action, inputs in found.items()}
         else:
             values[name] = float(found) if name == "dead_zone" else found
     return Settings(**values), messages
+
+
+def _shown(value: object) -> str:
+    """A wrong value for a message."""
+    try:
+        return shown_text(repr(value), 60)
+    except ValueError:
+        return "a number of very many digits"
+
+
+def _key(name: str) -> str:
+    return name.replace("_", "-")
+
+
+# --- writing ---
+
+
+def write_changes(before: Settings, after: Settings, path: Path) -> None:
+    """Put what differs between two settings into a file, whole or not at all; everything else in it stays.
+
+    A missing file gets all settings, an unusable one is moved aside first. Raises OSError, FileError.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with locked(path, LOCK_SECONDS):
+        document = _document(path)
+        new = document is None
+        if document is None:
+            document = _new_document()
+        for name in RULES:
+            if new or getattr(before, name) != getattr(after, name):
+                _put(document, name, {} if new else getattr(before, name), getattr(after, name))
+        write_atomically(path, document.as_string())
+
+
+def _document(path: Path) -> TOMLDocument | None:
+    """The file with its comments; None where there is none that can be used."""
+    import tomlkit
+
+    try:
+        with _long_numbers():
+            document = tomlkit.parse(read_utf8(path, MAX_BYTES))
+    except FileNotFoundError:
+        return None
+    except (FileError, ValueError, RecursionError):
+        quarantine(path, "damaged")
+        return None
+    if document.get("version", VERSION) != VERSION:
+        quarantine(path, "newer")
+        return None
+    return document
+
+
+def _new_document() -> TOMLDocument:
+    import tomlkit
+
+    document = tomlkit.document()
+    document.add(tomlkit.comment(COMMENT))
+    document.add("version", tomlkit.item(VERSION))
+    return document
+
+
+def _put(document: TOMLDocument, name: str, before: Any, after: Any) -> None:
+    """Bring one setting in the document to its new value; of bindings only the actions that have changed."""
+    import tomlkit
+
+    table_name = BINDING_TABLES.get(name, RULES[name].table)
+    table = document.get(table_name)
+    if not isinstance(table, MutableMapping):
+        document[table_name] = tomlkit.table()
+        table = document[table_name]
+    if name not in BINDING_TABLES:
+        table[_key(name)] = after
+        table.pop(OLD_KEYS.get(name, ""), None)
+        return
+    for action in {**before, **after}:
+        if action not in after:
+            table.pop(action, None)
+        elif before.get(action) != after[action]:
+            table[action] = list(after[action])

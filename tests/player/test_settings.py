@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-import tomllib
+import os
 from dataclasses import fields
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 from hypothesis import given
 from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
 
-from ninja_game.player.settings import PALETTES, RULES, Settings
-from ninja_game.player.settings_file import read_settings, write_settings
-from ninja_game.player.toml_text import write_toml
+from ninja_game.player.player_data import PlayerData
+from ninja_game.player.settings import MOST_INPUTS, PALETTES, RULES, Settings
+from ninja_game.player.settings_file import read_settings, write_changes
 
 PRINTABLE = st.text(st.characters(exclude_categories=["Cs", "Cc", "Cf", "Zl", "Zp", "Zs", "Co", "Cn"]), max_size=30)
 BINDINGS = st.dictionaries(PRINTABLE, st.lists(PRINTABLE, max_size=3).map(tuple), max_size=4)
 VALUES = {
     "palette": st.sampled_from(PALETTES),
-    "flavour": st.sampled_from(["", "#000000", "#aB12Ff"]),
+    "ninja_colour": st.sampled_from(["", "#000000", "#aB12Ff"]),
     "frame_limit": st.integers(0, 1000),
     "volume": st.integers(0, 99),
     "loop_volume": st.integers(0, 99),
@@ -37,27 +38,130 @@ def test_every_setting_has_a_rule_that_its_default_fits() -> None:
 
 
 @hypothesis_settings(max_examples=40)
-@given(settings=SETTINGS)
-def test_settings_come_back_equal(settings: Settings, tmp_path_factory: pytest.TempPathFactory) -> None:
+@given(settings=SETTINGS, more=SETTINGS)
+def test_settings_come_back_equal(settings: Settings, more: Settings, tmp_path_factory: pytest.TempPathFactory) -> None:
     path = tmp_path_factory.getbasetemp() / "settings.toml"
-    write_settings(settings, path)
+    path.unlink(missing_ok=True)
+    write_changes(Settings(), settings, path)
     assert read_settings(path) == (settings, [])
+    write_changes(settings, more, path)
+    assert read_settings(path) == (more, [])
 
 
-@hypothesis_settings(max_examples=40)
-@given(tables=st.dictionaries(st.text(), st.dictionaries(st.text(), st.text() | st.integers() | st.booleans())))
-def test_any_table_is_written_as_valid_toml(tables: dict[str, dict[str, str | int | bool]]) -> None:
-    whole = {
-        _whole(name): {_whole(key): _whole(value) if isinstance(value, str) else value for key, value in table.items()}
-        for name, table in tables.items()
-    }
-    nameless = whole.pop("", {})
-    expected = {**{k: v for k, v in nameless.items() if k not in whole}, **whole}
-    assert tomllib.loads(write_toml({"": {k: v for k, v in nameless.items() if k not in whole}, **whole})) == expected
+MINE = """# my settings
+version = 1
+
+[look]
+flavour = "#112233"  # like the sea
+palette = "dark"     # easier at night
+
+[keys]
+# I have small hands
+jump = ["z"]
+duck = ["odd", 7]
+"""
 
 
-def _whole(text: str) -> str:
-    return text.encode("utf-8", "replace").decode()
+def test_comments_and_everything_not_changed_stay(tmp_path: Path) -> None:
+    path = tmp_path / "settings.toml"
+    path.write_text(MINE.replace('duck = ["odd", 7]\n', ""))
+    settings, messages = read_settings(path)
+    assert not messages
+    assert (settings.ninja_colour, settings.palette, settings.keys) == ("#112233", "dark", {"jump": ("z",)})
+    write_changes(settings, settings.changed(palette="safe", keys={"jump": ("x", "y")}), path)
+    text = path.read_text()
+    for line in ("# my settings", "# like the sea", 'palette = "safe"     # easier at night', "# I have small hands",
+                 'jump = ["x", "y"]'):  # fmt: skip
+        assert line in text
+
+
+def test_old_key_goes_when_its_setting_is_written(tmp_path: Path) -> None:
+    path = tmp_path / "settings.toml"
+    path.write_text(MINE)
+    settings, messages = read_settings(path)
+    assert "settings.toml: keys is" in messages[0]
+    write_changes(settings, settings.changed(ninja_colour="#445566"), path)
+    assert "flavour" not in path.read_text()
+    assert read_settings(path)[0].ninja_colour == "#445566"
+
+
+def test_two_games_change_only_what_their_players_changed(tmp_path: Path) -> None:
+    first, second = PlayerData(tmp_path), PlayerData(tmp_path)
+    first.change_settings(first.settings.changed(volume=11, keys={"jump": ("x",), "left": ("a",)}))
+    second.change_settings(second.settings.changed(palette="dark", keys={"right": ("d",)}))
+    first.change_settings(first.settings.changed(show_keys=True, keys={"jump": ("x",)}))
+    settings = PlayerData(tmp_path).settings
+    assert (settings.volume, settings.palette, settings.show_keys) == (11, "dark", True)
+    assert settings.keys == {"jump": ("x",), "right": ("d",)}
+
+
+def test_settings_that_could_not_be_saved_are_saved_with_the_next_change(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    data = PlayerData(tmp_path)
+    data.change_settings(data.settings.changed(name="me"))
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "fsync", Mock(side_effect=OSError(28, "No space left on device")))
+        expected = "The settings could not be saved (No space left on device)."
+        assert data.change_settings(data.settings.changed(volume=11)) == expected
+    assert not data.change_settings(data.settings.changed(loop_volume=12))
+    assert PlayerData(tmp_path).settings == data.settings
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        f"volume = {'9' * 5000}",
+        f"volume = -{'9' * 5000}",
+        "volume = 1e999",
+        "volume = nan",
+        "volume = [[[]]]",
+        "volume = 1979-05-27",
+        "volume = { a = 1 }",
+        'volume = "\\u0000"',
+    ],
+)
+def test_odd_value_falls_back_alone_with_a_word(tmp_path: Path, line: str) -> None:
+    path = tmp_path / "settings.toml"
+    path.write_text(f"[sound]\n{line}\nloop-volume = 3\n")
+    settings, messages = read_settings(path)
+    assert (settings.volume, settings.loop_volume) == (Settings().volume, 3)
+    assert len(messages) == 1
+    assert "sound.volume is" in messages[0]
+    assert len(messages[0]) < 200
+    write_changes(settings, settings.changed(loop_volume=4), path)
+    assert line in path.read_text()
+    write_changes(settings, settings.changed(volume=5), path)
+    assert read_settings(path)[0].volume == 5
+
+
+ODD_TEXTS = [b"a = " + b"[" * 5000, b"\xff\xfe", b"\xed\xa0\x80 = 1", b"a = 1\na = 2", b"[a]\n[a]", b"x" * 2**17,
+             b"a.b = 1\na = 2", b"look = 3\nkeys = 4\nsound = [1]", b"[[look]]\n[[keys]]",
+             b"[keys]\njump = [" + b"'a', " * (MOST_INPUTS + 1) + b"]", b"keys.jump = []",
+             b"[look.palette]"]  # fmt: skip
+
+
+@pytest.mark.parametrize("text", ODD_TEXTS)
+def test_game_starts_with_any_text_and_settings_can_be_changed_then(tmp_path: Path, text: bytes) -> None:
+    path = tmp_path / "settings.toml"
+    path.write_bytes(text)
+    data = PlayerData(tmp_path)
+    changed = data.settings.changed(volume=11, palette="dark", keys={"jump": ("x",)})
+    assert not data.change_settings(changed)
+    assert PlayerData(tmp_path).settings == changed
+    if not path.read_bytes().startswith(text[:5]):
+        assert [each.read_bytes() for each in tmp_path.glob("settings.damaged*")] in ([text], [])
+
+
+@pytest.mark.parametrize("start", [b"", MINE.encode()])
+@hypothesis_settings(max_examples=60)
+@given(text=st.binary(max_size=80) | st.text("[]{}=.,'\"#\n ax1-\ud800").map(lambda t: t.encode("utf-8", "replace")))
+def test_any_text_can_be_read_and_changed(start: bytes, text: bytes, tmp_path_factory: pytest.TempPathFactory) -> None:
+    path = tmp_path_factory.mktemp("any") / "settings.toml"
+    path.write_bytes(start + text)
+    settings, _ = read_settings(path)
+    write_changes(settings, settings.changed(volume=settings.volume ^ 1), path)
+    assert read_settings(path)[0].volume == settings.volume ^ 1
 
 
 def test_missing_file_gives_the_defaults(tmp_path: Path) -> None:

@@ -157,7 +157,11 @@ class LevelView:
     @property
     def colour(self) -> pygame.Color:
         """The ninja's colour."""
-        return pygame.Color(self.app.settings.flavour) if self.app.settings.flavour else self.target.palette.ninja
+        return (
+            pygame.Color(self.app.settings.ninja_colour)
+            if self.app.settings.ninja_colour
+            else self.target.palette.ninja
+        )
 
     def draw(self, surface: pygame.Surface, fraction: float = 1.0, *, whole: bool = False) -> list[pygame.Rect] | None:
         """Draw the world ``fraction`` of a tick after the last but one; the px that changed, None for all.
