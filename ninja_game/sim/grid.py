@@ -41,7 +41,7 @@ def link(w: World, o: Header, slot: int, cell: int) -> None:
 
 @fast
 def unlink(w: World, o: Header) -> None:
-    """Take out of the cell's list. The object's own next link is cleared: a walk standing on it ends there (O 3)."""
+    """Take out of the cell's list. Its own next link is cleared: a walk that stands on it ends there, objects.md §3."""
     if o.cell:
         if o.prev:
             w.objects[o.prev].next = o.next

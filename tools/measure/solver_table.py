@@ -1,5 +1,8 @@
 """Make the solver's table: the reference levels of episodes 00, 10, ... 90 and our own, each for some seconds.
 
+    python3 tools/dev.py tool measure.solver_table results.jsonl --seconds 60
+    python3 tools/dev.py tool measure.solver_table results.jsonl --table
+
 Results are appended to a JSON-lines file after each level; levels that are in it are not solved again, so a long run
 can be interrupted. ``--improve N`` shortens N people's speedruns instead. ``--table`` prints Markdown of a file.
 """

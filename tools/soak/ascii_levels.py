@@ -1,6 +1,8 @@
-"""Soak of the ASCII level format: all reference levels there and back, then mutated texts; prints counts.
+"""Write and read again all reference levels as ASCII levels, then read mutated ones; prints counts.
 
-python3 tools/dev.py tool soak.ascii_levels [NUMBER OF MUTATIONS]
+    python3 tools/dev.py tool soak.ascii_levels [NUMBER OF MUTATIONS]
+
+Without the reference data only the bundled levels are mutated.
 """
 
 from __future__ import annotations

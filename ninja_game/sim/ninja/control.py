@@ -60,7 +60,7 @@ def jump_off_wall(w: World, n: Ninja, jx: float, jy: float) -> None:
 
 @fast
 def think_in_air(w: World, n: Ninja) -> None:
-    """Air control, the end of a jump, wall slide and wall jumps (§7.1)."""
+    """Air control, the end of a jump, wall slide and wall jumps (ninja.md §7.1)."""
     vx = n.x - n.prev_x
     vy = n.y - n.prev_y
     a = vx + n.direction * AIR_ACCELERATION
@@ -96,7 +96,7 @@ def think_in_air(w: World, n: Ninja) -> None:
 
 @fast
 def think_on_ground(w: World, n: Ninja) -> None:
-    """Landing, jumps, running, skidding, standing (§7.2)."""
+    """Landing, jumps, running, skidding, standing (ninja.md §7.2)."""
     direction = n.direction
     vx = n.x - n.prev_x
     vy = n.y - n.prev_y
@@ -141,7 +141,7 @@ def think_on_ground(w: World, n: Ninja) -> None:
 
 @fast
 def run_uphill(n: Ninja, vx: float, vy: float, a: float) -> None:
-    """Help against gravity on a slope (§7.2.1). ``a`` is this tick's speed before the help."""
+    """Help against gravity on a slope (ninja.md §7.2.1). ``a`` is this tick's speed before the help."""
     steepness = UPHILL_HELP * abs(n.floor_y)
     tx = n.direction * abs(n.floor_y) * steepness
     ty = -abs(n.floor_x) * steepness
@@ -154,7 +154,7 @@ def run_uphill(n: Ninja, vx: float, vy: float, a: float) -> None:
 
 @fast
 def celebrate(n: Ninja) -> None:
-    """After the exit: no control, only drag, more of it on the ground (§9)."""
+    """After the exit: no control, only drag, more of it on the ground (ninja.md §9)."""
     if n.in_air and not n.celebrated_in_air:
         n.drag = DRAG
         n.celebrated_in_air = 1

@@ -161,7 +161,7 @@ def first_open(w: World, o: Drone, movement: int) -> int:
 
 @fast
 def chase(w: World, o: Drone) -> bool:
-    """Seekers: run in a straight line past a ninja on the same row or column to the first blocked edge (§8.16)."""
+    """Seekers: run straight past a ninja on the same row or column to the first blocked edge (objects.md §8.16)."""
     if not o.seeker:
         return False
     if w.round_over:

@@ -40,7 +40,7 @@ def touch_pad(w: World, o: LaunchPad, slot: int) -> None:
 
 @fast
 def launch(w: World, slot: int, lx: float, ly: float) -> None:
-    """Replace the ninja's velocity. Leaves whatever state it was in: also the dead come back to life (quirk, O 3)."""
+    """Replace the ninja's velocity. Leaves whatever state it was in, so the dead come back to life (objects.md §3)."""
     n = w.ninja
     n.prev_x = n.x
     n.prev_y = n.y

@@ -1,0 +1,83 @@
+"""What the documents promise: links and section references lead somewhere, named files exist, every tool is listed."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGES = [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("tests/**/*.md")]
+SOURCES = [path for folder in ("ninja_game", "tests", "tools", "benchmarks") for path in (ROOT / folder).rglob("*.py")]
+TOP_FOLDERS = ("assets", "benchmarks", "docs", "levels", "ninja_game", "tests", "tools")
+SECTIONS = re.compile(r"\b(world|objects|ninja|game|presentation)\.md((?:(?:,? |, | and |-)?§\d+(?:\.\d+)*)+)")
+
+
+def named(path: Path) -> str:
+    return str(path.relative_to(ROOT))
+
+
+def slug(heading: str) -> str:
+    """The anchor that a heading gets: lower case, no punctuation, blanks as hyphens."""
+    words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).strip().lower()
+    return re.sub(r"[^\w\- ]", "", words).replace(" ", "-")
+
+
+@cache
+def anchors(page: Path) -> set[str]:
+    text = re.sub(r"^```.*?^```", "", page.read_text("utf-8"), flags=re.MULTILINE | re.DOTALL)
+    return {slug(heading) for heading in re.findall(r"^#+ (.+)$", text, re.MULTILINE)}
+
+
+@cache
+def sections(name: str) -> set[str]:
+    page = (ROOT / "docs" / "rules" / f"{name}.md").read_text("utf-8")
+    return set(re.findall(r"^#+ (\d+(?:\.\d+)*)\.? ", page, re.MULTILINE))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=named)
+def test_links_lead_somewhere(page: Path) -> None:
+    dead = []
+    for target, anchor in re.findall(r"\]\(([^)#\s]*)(?:#([^)\s]*))?\)", page.read_text("utf-8")):
+        other = (page.parent / target).resolve() if target else page
+        missing = anchor and (other.suffix != ".md" or not other.exists() or anchor not in anchors(other))
+        if "://" not in target and (missing or not other.exists()):
+            dead.append(f"{target}#{anchor}")
+    assert not dead
+
+
+def test_every_reference_to_the_rules_leads_to_a_section() -> None:
+    found, dead = 0, []
+    for path in [*SOURCES, *PAGES]:
+        for page, numbers in SECTIONS.findall(path.read_text("utf-8")):
+            wanted = re.findall(r"§(\d+(?:\.\d+)*)", numbers)
+            found += len(wanted)
+            dead += [f"{named(path)}: {page}.md §{number}" for number in wanted if number not in sections(page)]
+    assert found > 150
+    assert not dead
+
+
+@pytest.mark.parametrize("page", PAGES, ids=named)
+def test_files_that_a_page_names_exist(page: Path) -> None:
+    names = {path.name for folder in TOP_FOLDERS for path in (ROOT / folder).rglob("*")}
+    missing = []
+    for word in re.findall(r"`([\w./*-]+)`", page.read_text("utf-8")):
+        if "/" in word and word.split("/")[0] in TOP_FOLDERS:
+            exists = any(ROOT.glob(word.rstrip("/")))
+        elif word.endswith(".py"):
+            # A tour may shorten: `circle.py`, `objects/mine.py` for a file somewhere below the package.
+            exists = any(ROOT.glob(f"**/{word}")) if "*" in word or "/" in word else word in names
+        else:
+            continue
+        missing += [] if exists else [word]
+    assert not missing
+
+
+def test_every_tool_is_listed_with_its_module_name() -> None:
+    page = (ROOT / "docs" / "tools.md").read_text("utf-8")
+    scripts = [path for path in (ROOT / "tools").rglob("*.py") if '__name__ == "__main__"' in path.read_text("utf-8")]
+    modules = {".".join(path.relative_to(ROOT / "tools").with_suffix("").parts) for path in scripts} - {"dev"}
+    assert {name for name in re.findall(r"^\| `([\w.]+)", page, re.MULTILINE) if "." not in name or "/" not in name}
+    assert set(re.findall(r"^\| `([\w.]+)[ `]", page, re.MULTILINE)) == modules

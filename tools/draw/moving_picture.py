@@ -1,0 +1,22 @@
+"""Make the moving picture at the top of the README: `python3 tools/dev.py tool draw.moving_picture`.
+
+It is a bundled replay, exported as the game's replay viewer exports it.
+"""
+
+from __future__ import annotations
+
+import os
+
+os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+
+from ninja_game.formats.load import load_replays
+from ninja_game.play.replay.export import export_film
+from ninja_game.play.replay.playback import take_of
+from tools import ROOT
+
+REPLAY = ROOT / "tests" / "replays" / "07-night-shift.replay.txt"
+PICTURE = ROOT / "docs" / "pictures" / "ninja-game.gif"
+
+if __name__ == "__main__":
+    export_film(take_of(load_replays(REPLAY)[0]), PICTURE)
+    print(f"{PICTURE.relative_to(ROOT)}: {PICTURE.stat().st_size / 1000:.0f} kB")
