@@ -170,8 +170,8 @@ def draw_ray() -> Picture:
 
 TICK = (
     ("world.py", "step: the whole tick", ""),
-    ("world.py", "1. update_objects: newest first", "objects/*.py"),
-    ("world.py", "2. think: one object every fourth tick", "objects/*.py → collision/rays.py"),
+    ("objects/dispatch.py", "1. update_objects: newest first", "objects/*.py"),
+    ("objects/dispatch.py", "2. think: one object every fourth tick", "objects/*.py → collision/rays.py"),
     ("ninja/tick.py", "3. integrate, look up the cell", "grid.py"),
     ("objects/dispatch.py", "4. touch_objects: nine cells", "objects/*.py → ninja/contact_response.py, death.py"),
     ("collision/circle.py", "5. collide_circle: at most four cells", "circle_own_tile.py, circle_neighbours.py"),
