@@ -10,6 +10,7 @@ from typing import IO, TYPE_CHECKING
 
 import click
 
+from ninja_game.cli.main import complain
 from ninja_game.cli.run_options import jobs_option, with_progress
 from ninja_game.files.shown_text import shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
@@ -28,6 +29,12 @@ FAILED = 1
     "--memory", type=click.Choice(["auto", "plain", "compiled", "both"]), default="auto", show_default=True,
     help="Plain Python, or compiled by Numba; both: compare them in every tick.",
 )  # fmt: skip
+@click.option(
+    "--level", metavar="LEVELS", type=click.Path(exists=True, path_type=Path),
+    help="The level that counts, or a file of them: a run on any other fails. One level is also that of recordings "
+    "without.",
+)  # fmt: skip
+@click.option("--strict", is_flag=True, help="Only what a board may believe: see docs/verification.md.")
 @jobs_option
 @click.option(
     "--workers", type=click.Choice(["threads", "processes"]),
@@ -49,6 +56,8 @@ def command(
     ctx: click.Context,
     files: Sequence[Path],
     memory: str,
+    level: Path | None,
+    strict: bool,
     jobs: int | None,
     workers: str | None,
     cluster: str,
@@ -61,7 +70,8 @@ def command(
 
     FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Every recording
     runs until the exit, death, or the end of its inputs. A replay of ours must do what it says; any other recording
-    must reach the exit.
+    must reach the exit. With --strict it must reach the exit of a level that counts (one of the game's own or of
+    --level), in time, by keys that a keyboard can make, under today's rules, outside practice.
 
     Exit code 0: all of them did; 1: some did not; 2: something cannot be read.
 
@@ -69,10 +79,12 @@ def command(
     Examples:
       ninja-game verify tests/replays/
       ninja-game verify demos.txt --json
+      ninja-game verify run.replay.txt --strict --level the-level.txt
       ninja-game verify demos.txt --memory both
       ninja-game verify archive/ -q --resume archive.log --report archive.json
       ninja-game verify archive/ -q --cluster tcp://10.0.0.5:8786
     """
+    from ninja_game.formats.load import load_levels
     from ninja_game.runs.recording_reader import Unreadable
     from ninja_game.verification.verify_many import Tally, verify_all
 
@@ -86,13 +98,15 @@ def command(
             processes=processes,
             cluster=cluster,
             resume=resume,
+            levels=load_levels(level) if level else (),
+            strict=strict,
         )
         if report:
             results = _reported(results, report, files, stack)
         for result in with_progress(results, "runs"):
             tally.add(result)
             if isinstance(result, Unreadable):
-                click.echo(f"ninja-game: {result.message}", err=True)
+                complain(result.message)
             elif as_json:
                 click.echo(json.dumps(result.as_json()))
             elif not (quiet and result.good):
@@ -119,7 +133,10 @@ def _write_table(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
     tally = Tally()
     for result in results:
         tally.add(result)
-        row = f"??   {result.message}" if isinstance(result, Unreadable) else click.unstyle(_row(result))
+        if isinstance(result, Unreadable):
+            row = f"??   {shown_text(result.message, 1000)}"
+        else:
+            row = click.unstyle(_row(result))
         out.write(row.encode() + b"\n")
         yield result
     out.write(_summary(tally).encode() + b"\n")
@@ -128,11 +145,11 @@ def _write_table(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
 def _row(verdict: Verdict) -> str:
     """A recording in a line, and a line for each claim that does not hold."""
     mark = click.style("ok  ", fg="green") if verdict.good else click.style("FAIL", fg="red")
-    tick = str(verdict.end_tick) if verdict.end_tick >= 0 else ""
+    when = f"tick {verdict.end_tick}" if verdict.end_tick >= 0 else f"{verdict.ticks} ticks"
     score = f"{verdict.score_ticks / TICKS_PER_SECOND:.3f}" if verdict.score_ticks is not None else ""
     where = f"{shown_text(verdict.file)}:{verdict.record}"
     name = shown_text(verdict.name)
-    row = f"{mark} {verdict.outcome:<7} {tick:>6} tick  {verdict.gold:>3} gold  {score:>8}  {name}  {where}"
+    row = f"{mark} {verdict.outcome:<7} {when:>11}  {verdict.gold:>3} gold  {score:>8}  {name}  {where}"
     return "\n     ".join([row, *map(shown_text, verdict.problems)])
 
 

@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from pathlib import Path
 
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.reading import read_text, text_files
-from ninja_game.formats.load import load_replays
-from ninja_game.formats.n14.level_file import read_level_file
+from ninja_game.files.reading import LeftOut, files_below, read_text
+from ninja_game.formats.ascii.reader import is_ascii_level
+from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
+from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.named_level import is_level_file, parse_levels
-from ninja_game.formats.recording import Recording
+from ninja_game.formats.recording import Recording, parse_replays, recording_of
+from ninja_game.formats.replay.text import is_replay
+from ninja_game.sim.level import Level
 from ninja_game.simulation import Body
+
+LEVELS_KEPT = 512
+"""Levels that are kept read, some 10 MB: recordings of one level often stand near each other."""
+
+_MEANT_AS_DEMO = re.compile(r"[-+]?[0-9.]+\s*:|\S*[|:]\S*\Z|A\S*[^\sA-Za-z]\S*\Z")
+"""What stands in a demo's place and is none, but looks like one: not the free text of level files."""
 
 
 @dataclass(frozen=True)
@@ -23,20 +34,89 @@ class Unreadable:
     message: str
 
 
-def recordings_in(paths: Iterable[Path]) -> Iterator[Recording | Unreadable]:
-    """Every recording of files and folders, in order. Levels among the recordings of a folder are passed by."""
+def texts_in(paths: Iterable[Path]) -> Iterator[tuple[str, str, bool] | Unreadable]:
+    """Name and text of every file in files and folders, in order, and whether the caller named it; one at a time."""
     for path in paths:
-        files = text_files(path)
-        if not files:
+        if not path.is_dir():
+            yield _text_of(path, named=True)
+            continue
+        empty = True
+        for file in files_below(path):
+            empty = False
+            yield Unreadable(str(file)) if isinstance(file, LeftOut) else _text_of(file, named=False)
+        if empty:
             yield Unreadable(f"{path}: no recordings here")
-        for file in files:
-            try:
-                yield from load_replays(file)
-            except NinjaGameError as error:
-                if not (path.is_dir() and _has_only_levels(file)):
-                    yield Unreadable(str(error))
-            except OSError as error:
-                yield Unreadable(f"{file}: {error.strerror or error}")
+
+
+def _text_of(path: Path, *, named: bool) -> tuple[str, str, bool] | Unreadable:
+    try:
+        return str(path), read_text(path), named
+    except NinjaGameError as error:
+        return Unreadable(str(error))
+    except OSError as error:
+        return Unreadable(f"{path}: {error.strerror or error}")
+
+
+def recordings_in(paths: Iterable[Path], level: Level | None = None) -> Iterator[Recording | Unreadable]:
+    """Every recording of files and folders, in order. Files of levels alone are passed by in folders.
+
+    ``level``: what recordings that do not hold their level are played on.
+    """
+    for found in texts_in(paths):
+        if isinstance(found, Unreadable):
+            yield found
+            continue
+        file, text, named = found
+        records = records_of(text, file)
+        yield from recordings_of(records, file, level) if records else recording_of_text(text, file, level, named=named)
+
+
+def records_of(text: str, file: str = "") -> list[LevelRecord]:
+    """The records of a file of recordings of N; none for any other file, and for one that cannot be read."""
+    if is_replay(text) or is_ascii_level(text) or not is_level_file(text):
+        return []
+    try:
+        records = read_level_file(text, file=file)
+    except NinjaGameError:
+        return []
+    return records if any(record.demo or _MEANT_AS_DEMO.match(record.note) for record in records) else []
+
+
+def recordings_of(
+    records: Iterable[LevelRecord], file: str, level: Level | None = None
+) -> Iterator[Recording | Unreadable]:
+    """The recording of each record."""
+    for record in records:
+        try:
+            yield recording_of(record, file, _level(record.level) if record.level else level)
+        except NinjaGameError as error:
+            yield Unreadable(str(error))
+
+
+@lru_cache(LEVELS_KEPT)
+def _level(text: str) -> Level:
+    """A level by its text."""
+    return parse_level_string(text)
+
+
+def recording_of_text(
+    text: str, file: str, level: Level | None = None, *, named: bool
+) -> Iterator[Recording | Unreadable]:
+    """What a text without records holds: a replay of ours, a bare demo; nothing for levels that were not named."""
+    try:
+        yield from parse_replays(text, file=file, level=level)
+    except NinjaGameError as error:
+        if named or not _holds_levels(text, file):
+            yield Unreadable(str(error))
+    except OSError as error:
+        yield Unreadable(f"{file}: {error.strerror or error}")
+
+
+def _holds_levels(text: str, file: str) -> bool:
+    try:
+        return not is_replay(text) and bool(parse_levels(text, file=file))
+    except (NinjaGameError, OSError):
+        return False
 
 
 @contextmanager
@@ -52,20 +132,3 @@ def named_errors(recording: Recording) -> Iterator[None]:
 def body_of(recording: Recording) -> Body:
     """The ninja's body: as a replay of ours says, else the circle of the classic rules."""
     return "box" if recording.replay and recording.replay.body == "box" else "circle"
-
-
-def _has_only_levels(file: Path) -> bool:
-    """Whether a file can be read and holds levels and no recording."""
-    try:
-        return holds_only_levels(read_text(file), str(file))
-    except (NinjaGameError, OSError):
-        return False
-
-
-def holds_only_levels(text: str, file: str = "") -> bool:
-    """Whether a text holds levels and no recording."""
-    try:
-        parse_levels(text, file=file)
-        return not is_level_file(text) or not any(record.demo for record in read_level_file(text))
-    except (NinjaGameError, OSError):
-        return False

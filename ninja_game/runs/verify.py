@@ -6,36 +6,66 @@ final tick, gold and the digest of the world after that tick. Inputs alone are t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
+from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import RULES_VERSION, Replay
 from ninja_game.runs.recording_reader import body_of, named_errors
-from ninja_game.runs.run import RunResult, run_level
+from ninja_game.runs.run import RunResult, run_level, trace_level
+from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import STATE_NAMES
 from ninja_game.simulation import Simulation
+
+STRICT = {
+    "outcome": "exit",
+    "body": "circle",
+    "rules": RULES_VERSION,
+    "possible_by_keyboard": True,
+    "in_time": True,
+    "practice": False,
+    "complete": True,
+}
+"""What a strict verdict demands of its fields, besides a level that counts."""
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What came of a recording.
+    """What came of a recording, and what it was (docs/verification.md).
+
+    ``name``, ``author``, ``practice``: as the recording says. ``level_digest``: of the level that was played;
+    ``level_name``: of the level with that digest among those that count, else ''. ``body``, ``rules``: of the run.
 
     ``outcome``: "exit", "dead" or "running"; ``end_tick``: the tick of the first exit contact or death, -1 if neither;
     ``score_ticks``: of a passed level, else None; ``ticks``: how many were run up to and including ``end_tick``, or all
-    of the recording's; ``xy_sha256``: of the ninja's positions. ``problems``: every claim that does not hold.
+    of the recording's; ``xy_sha256``: of the ninja's positions.
+
+    ``possible_by_keyboard``: the jump triggers exactly in the first tick of being held; ``in_time``: the lifetime of a
+    level that is played alone never ran out; ``complete``: the demo's text holds all frames that it claims.
+    ``problems``: every claim that does not hold.
     """
 
     file: str
     record: int
     name: str
+    author: str
+    level_digest: str
+    level_name: str
+    body: str
+    rules: int
     outcome: str
     end_tick: int
     gold: int
     score_ticks: int | None
     ticks: int
     xy_sha256: str
+    possible_by_keyboard: bool
+    in_time: bool
+    practice: bool
+    complete: bool
     problems: tuple[str, ...] = ()
 
     @property
@@ -60,28 +90,78 @@ def verify_recording(recording: Recording, memory: str = "auto") -> Verdict:
         claims_digest = bool(replay and replay.digest)
         inputs = recording.playback(recording.ticks)
         run = run_level(recording.level, inputs, body=body, memory=one_memory, digest=claims_digest)
+        in_time = _in_time(recording, run, one_memory)
         problems = list(_broken_claims(replay, run)) if replay else []
         if memory == "both":
             problems += filter(None, [memory_difference(recording)])
     if not replay and run.outcome != "exit":
-        problems.append(f"does not reach the exit: {_ending(run.outcome, run.end_tick)}")
+        problems.append(f"does not reach the exit: {_ending(recording, run)}")
+    sampled = run.ticks - 1 if run.outcome != "running" else min(run.ticks, len(recording.demo.inputs))
     return Verdict(
         file=recording.file,
         record=recording.record,
         name=recording.name,
+        author=recording.author,
+        level_digest=level_digest(recording.level),
+        level_name="",
+        body=body,
+        rules=replay.rules if replay else RULES_VERSION,
         outcome=run.outcome,
         end_tick=run.end_tick,
         gold=run.gold,
         score_ticks=run.score_ticks if run.outcome == "exit" else None,
         ticks=run.ticks,
         xy_sha256=run.xy_sha256,
+        possible_by_keyboard=press_jumps(inputs[:sampled]) == inputs[:sampled],
+        in_time=in_time,
+        practice=bool(replay and replay.practice),
+        complete=not recording.demo.missing,
         problems=tuple(problems),
     )
 
 
-def _ending(outcome: str, tick: int) -> str:
+def judged(verdict: Verdict, levels: Mapping[str, str], *, only_these: bool, strict: bool) -> Verdict:
+    """The verdict with the name of its level and with what is demanded of it beyond its own claims.
+
+    ``levels``: the names of the levels that count, by digest; ``only_these``: a run on any other level is a problem;
+    ``strict``: so is each field that is not as STRICT has it.
+    """
+    demanded = []
+    if (only_these or strict) and verdict.level_digest not in levels:
+        demanded.append(f"level_digest is {verdict.level_digest}, which is none of the levels that count")
+    for field, expected in STRICT.items() if strict else ():
+        found = getattr(verdict, field)
+        if found != expected:
+            demanded.append(f"{field} is {_word(found)}, --strict expects {_word(expected)}")
+    name = levels.get(verdict.level_digest, "")
+    return replace(verdict, level_name=name, problems=verdict.problems + tuple(demanded))
+
+
+def _word(value: object) -> str:
+    """A field's value as JSON has it."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _ending(recording: Recording, run: RunResult) -> str:
     """An outcome in words."""
-    return "still running in the last tick" if outcome == "running" else f"{outcome} in tick {tick}"
+    if run.outcome != "running":
+        return f"{run.outcome} in tick {run.end_tick}"
+    missing, end = recording.demo.missing, recording.demo.end
+    if missing:
+        return f"the demo is cut, it holds {end - missing} of its {end} ticks"
+    return f"still running after {run.ticks} ticks"
+
+
+def _in_time(recording: Recording, run: RunResult, memory: str) -> bool:
+    """Whether the lifetime lasted until the run's end (game.md §1.1): it begins full, as in a level played alone."""
+    if run.ticks <= LIFETIME:
+        return True
+    inputs = recording.playback(run.ticks)
+    trace = trace_level(recording.level, inputs, body=body_of(recording), memory=memory, with_objects=False)
+    # After each tick but that of the end one tick of lifetime is gone; none may be the last.
+    lived = run.ticks - (run.outcome != "running")
+    gold = trace.ninja["gold"][:lived].tolist()
+    return all(LIFETIME + GOLD_BONUS * got > tick for tick, got in enumerate(gold, 1))
 
 
 def _broken_claims(replay: Replay, run: RunResult) -> Iterator[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntFlag
 
 from ninja_game.errors import DemoError
@@ -53,11 +53,13 @@ class Demo:
     """A recording's inputs.
 
     ``inputs``: one byte a tick from tick 0, the sum of its ``Input`` flags; in ticks beyond them no key is down.
-    ``length``: how many ticks the recording claims; texts may claim a fraction, NaN or the absurd.
+    ``length``: how many ticks the recording claims; texts may claim a fraction, NaN or the absurd. ``missing``: how
+    many inputs it claims that its text does not hold; no key is down in them.
     """
 
     inputs: bytes
     length: float
+    missing: int = field(default=0, compare=False)
 
     @property
     def end(self) -> int:
@@ -83,7 +85,7 @@ class Demo:
 def fitted_demo(inputs: bytes, length: float) -> Demo:
     """The demo with as many inputs as it plays: superfluous ones dropped, missing ones added (no key)."""
     demo = Demo(inputs, length)
-    return Demo(inputs[: demo.end].ljust(demo.end, b"\0"), length)
+    return Demo(inputs[: demo.end].ljust(demo.end, b"\0"), length, max(0, demo.end - len(inputs)))
 
 
 def check_inputs(inputs: bytes) -> None:

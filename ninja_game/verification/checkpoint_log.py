@@ -1,7 +1,8 @@
 """The checkpoint log of a long verification: what is done already, so that it can be stopped and resumed.
 
 A text file, one JSON object a line: first what it is a log of, then each chunk with its results, as soon as it is
-done. A line that was not finished, because the program or the machine died, is cut off and its chunk done again.
+done. Chunks are known by a digest of everything that their results depend on. A last line that was not finished,
+because the program or the machine died, is cut off and its chunk done again.
 """
 
 from __future__ import annotations
@@ -12,22 +13,29 @@ from pathlib import Path
 from typing import IO, Any, Self
 
 from ninja_game import __version__
-from ninja_game.errors import FormatError
+from ninja_game.errors import FileError, FormatError
+from ninja_game.files.reading import what_it_is
 from ninja_game.formats.replay.text import RULES_VERSION
-from ninja_game.runs.recording_reader import Unreadable
-from ninja_game.runs.verify import Verdict
-from ninja_game.verification.chunks import Result
+from ninja_game.verification.chunks import Result, as_data, result_from_data
 
 HEADER = {"checkpoint-log": "ninja-game verify", "version": __version__, "rules": RULES_VERSION}
+
+LONGEST_LINE = 2**26
+"""Bytes; the results of a chunk are a thousandth of it."""
 
 
 class CheckpointLog:
     """A checkpoint log that is open for reading and writing; a context manager.
 
-    ``path`` is made if it is missing. Raises FormatError for a file that is something else, OSError.
+    ``path`` is made if it is missing. Raises FormatError for a file that is something else, and leaves it as it is;
+    OSError.
     """
 
     def __init__(self, path: Path) -> None:
+        if path.exists() and not path.is_file():
+            raise FileError(
+                "only a regular file can be a checkpoint log", str(path), found=what_it_is(path.stat().st_mode)
+            )
         self.path = path
         self._places: dict[str, int] = {}
         self._file: IO[bytes] = path.open("r+b" if path.exists() else "w+b")
@@ -39,40 +47,40 @@ class CheckpointLog:
 
     def _read(self) -> None:
         """Note where the results of every finished chunk stand, and cut off what was not finished."""
-        whole = 0
-        for number, line in enumerate(self._file, 1):
-            if not line.endswith(b"\n"):
-                break
-            found = self._parse(line, number)
-            if number == 1:
-                if found != HEADER:
-                    raise self._odd(number, line, f"{json.dumps(HEADER)}; start another file")
-            else:
-                self._places[str(found["chunk"])] = whole
-            whole += len(line)
+        header = json.dumps(HEADER).encode() + b"\n"
+        first = self._file.readline(len(header))
+        if first == header:
+            whole = self._read_chunks(len(header))
+        elif header.startswith(first):
+            # Empty, or its writer died in the first line.
+            whole = 0
+        else:
+            raise self._odd(1, first, f"{json.dumps(HEADER)}; start another file")
         self._file.truncate(whole)
         self._file.seek(whole)
         if not whole:
-            self._write(HEADER)
+            self._write(header)
 
-    def _parse(self, line: bytes, number: int) -> dict[str, Any]:
-        """A line's object. Raises FormatError where it is none."""
-        try:
-            found = json.loads(line)
-        except ValueError:
-            found = None
-        if not isinstance(found, dict) or (number > 1 and not {"chunk", "results"} <= found.keys()):
-            raise self._odd(number, line, "a line that `ninja-game verify --resume` wrote")
-        return found
+    def _read_chunks(self, whole: int) -> int:
+        """Note the chunks of all lines but the first; where the last whole line ends."""
+        number = 1
+        while line := self._file.readline(LONGEST_LINE):
+            number += 1
+            if not line.endswith(b"\n") and len(line) < LONGEST_LINE:
+                break
+            try:
+                self._places[_parse(line)[0]] = whole
+            except (ValueError, RecursionError):
+                raise self._odd(number, line, "a line that `ninja-game verify --resume` wrote") from None
+            whole += len(line)
+        return whole
 
     def _odd(self, number: int, line: bytes, expected: str) -> FormatError:
-        found = repr(line[:60].decode("utf-8", "replace"))
-        return FormatError(
-            "not a checkpoint log that can be resumed", str(self.path), number, found=found, expected=expected
-        )
+        what, found = "not a checkpoint log that can be resumed", repr(line[:60].decode("utf-8", "replace"))
+        return FormatError(what, str(self.path), number, found=found, expected=expected)
 
-    def _write(self, line: dict[str, Any]) -> None:
-        self._file.write(json.dumps(line).encode() + b"\n")
+    def _write(self, line: bytes) -> None:
+        self._file.write(line)
         self._file.flush()
 
     def __len__(self) -> int:
@@ -85,14 +93,15 @@ class CheckpointLog:
         """The results of a finished chunk."""
         end = self._file.tell()
         self._file.seek(self._places[key])
-        line = json.loads(self._file.readline())
+        _, results = _parse(self._file.readline())
         self._file.seek(end)
-        return [_result(fields) for fields in line["results"]]
+        return results
 
     def add(self, key: str, results: Sequence[Result]) -> None:
         """Note that a chunk is finished."""
         self._places[key] = self._file.tell()
-        self._write({"chunk": key, "results": [_fields(result) for result in results]})
+        fields: dict[str, Any] = {"chunk": key, "results": [as_data(result) for result in results]}
+        self._write(json.dumps(fields).encode() + b"\n")
 
     def __enter__(self) -> Self:
         return self
@@ -101,11 +110,9 @@ class CheckpointLog:
         self._file.close()
 
 
-def _fields(result: Result) -> dict[str, Any]:
-    return {"message": result.message} if isinstance(result, Unreadable) else result.as_json()
-
-
-def _result(fields: dict[str, Any]) -> Result:
-    if "message" in fields:
-        return Unreadable(fields["message"])
-    return Verdict(**(fields | {"problems": tuple(fields.get("problems", ()))}))
+def _parse(line: bytes) -> tuple[str, list[Result]]:
+    """The key and the results of a chunk's line. Raises ValueError where it is none, RecursionError."""
+    fields = json.loads(line)
+    if not isinstance(fields, dict) or fields.keys() != {"chunk", "results"} or not isinstance(fields["results"], list):
+        raise ValueError("not the line of a chunk")
+    return str(fields["chunk"]), [result_from_data(data) for data in fields["results"]]

@@ -13,19 +13,35 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import CancelledError
 from contextlib import ExitStack
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
+from hashlib import sha256
 from pathlib import Path
 from typing import IO, Any, TypeAlias
 
 from ninja_game.batch.thread_pool import cores
 from ninja_game.compile_cache import choose_memory, kernels
+from ninja_game.files.resources import bundled_levels
+from ninja_game.formats.load import NamedLevel, load_levels
+from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.runs.recording_reader import Unreadable
+from ninja_game.runs.verify import judged
+from ninja_game.sim.level import Level
 from ninja_game.verification.checkpoint_log import CheckpointLog
-from ninja_game.verification.chunks import Chunk, Result, chunks_in, self_contained, verify_chunk
+from ninja_game.verification.chunks import (
+    Chunk,
+    Result,
+    chunks_as_text,
+    chunks_from_text,
+    chunks_in,
+    results_as_text,
+    results_from_text,
+    self_contained,
+    verify_chunk,
+)
 from ninja_game.verification.workers import ClusterError, WorkerLostError, Workers, in_order, workers
 
 JOB_WEIGHT = 64
@@ -43,35 +59,66 @@ def verify_all(
     processes: bool | None = None,
     cluster: str = "",
     resume: Path | None = None,
+    levels: Sequence[NamedLevel] = (),
+    strict: bool = False,
 ) -> Iterator[Result]:
     """A verdict on every recording in files and folders, in order; what cannot be read is said and stops nothing.
 
     ``jobs``: how many run at a time, by default as many as there are cores. ``processes``: on processes instead of
     threads; by default where the interpreter's lock would be in the way, on the plain memory. ``cluster``: address of a
     Dask scheduler whose workers do it instead. ``resume``: a checkpoint log; what it has is not run again.
+    ``levels``: those that count, by default the game's own where it matters; a single one is also the level of
+    recordings that do not hold theirs. ``strict``: what docs/verification.md demands must hold too.
 
     Results never depend on who computed them, nor on workers that died meanwhile. Raises ClusterError, FormatError for
     a file that is no checkpoint log, OSError.
     """
+    counting = levels or [level for path in bundled_levels() for level in load_levels(path)]
+    names = {level_digest(each.level): each.name or f"{each.file}:{each.record}" for each in counting}
+    level = levels[0].level if len(levels) == 1 else None
+    for result in _verify_all(paths, memory, level, jobs, processes, cluster, resume):
+        if isinstance(result, Unreadable):
+            yield result
+        else:
+            yield judged(result, names, only_these=bool(levels), strict=strict)
+
+
+def _verify_all(
+    paths: Iterable[Path],
+    memory: str,
+    level: Level | None,
+    jobs: int | None,
+    processes: bool | None,
+    cluster: str,
+    resume: Path | None,
+) -> Iterator[Result]:
+    """The results as the recordings alone give them."""
     if processes is None:
         processes = memory == "both" or choose_memory(memory) == "plain"
     with ExitStack() as stack:
         log = stack.enter_context(CheckpointLog(resume)) if resume else None
-        chunks: Iterable[Chunk] = chunks_in(paths)
-        if cluster:
+        chunks = chunks_in(paths)
+        if cluster or log:
             chunks = map(self_contained, chunks)
-        batches = batched(chunks, log)
+        context = f"{memory == 'both'} {level_digest(level) if level else ''} "
+        batches = batched(chunks, log, context)
         # Few recordings are done before a second worker has started.
         first = next(batches, ())
         second = next(batches, ())
         if not cluster and not second:
-            yield from _record_results(zip([first], [_verify(memory, first)], strict=True), log)
+            yield from _record_results(zip([first], [_verify(memory, level, first)], strict=True), log)
             return
         pool: Workers = stack.enter_context(workers(jobs or cores(), processes=processes, cluster=cluster))
         if not processes and not cluster and choose_memory(memory) == "compiled":
             kernels()  # once, before several threads ask for it
+        all_jobs = _chain(first, second, batches)
         try:
-            done = _isolate_failing(pool, partial(_verify, memory), _chain(first, second, batches))
+            if cluster:
+                text = write_level_string(level, exact=True) if level else ""
+                run = partial(_verify_text, memory, text)
+                done = _isolate_failing(pool, run, all_jobs, chunks_as_text, results_from_text)
+            else:
+                done = _isolate_failing(pool, partial(_verify, memory, level), all_jobs, tuple, list)
             yield from _record_results(done, log)
         except (CancelledError, ConnectionError) as error:
             if not cluster:
@@ -86,14 +133,13 @@ def _chain(first: Job, second: Job, rest: Iterator[Job]) -> Iterator[Job]:
     yield from rest
 
 
-def batched(chunks: Iterable[Chunk], log: CheckpointLog | None) -> Iterator[Job]:
+def batched(chunks: Iterable[Chunk], log: CheckpointLog | None, context: str = "") -> Iterator[Job]:
     """Chunks in jobs of some weight, neighbours together. What the checkpoint log has counts as no work."""
     batch: list[Chunk] = []
     weight = 0
     for chunk in chunks:
-        done = log is not None and chunk.key in log
-        batch.append(Chunk(chunk.file, chunk.first, stamp=chunk.stamp, done=chunk.key) if done else chunk)
-        weight += 0 if done else chunk.weight
+        batch.append(chunk if log is None else _looked_up(chunk, log, context))
+        weight += 0 if batch[-1].done else chunk.weight
         if weight >= JOB_WEIGHT or len(batch) >= 16 * JOB_WEIGHT:
             yield tuple(batch)
             batch, weight = [], 0
@@ -101,18 +147,39 @@ def batched(chunks: Iterable[Chunk], log: CheckpointLog | None) -> Iterator[Job]
         yield tuple(batch)
 
 
-def _verify(memory: str, job: Job) -> list[list[Result]]:
+def _looked_up(chunk: Chunk, log: CheckpointLog, context: str) -> Chunk:
+    """The chunk with its key in the checkpoint log; without its text if its results are there."""
+    key = sha256(f"{context}{chunk.digest}".encode()).hexdigest()
+    return Chunk(chunk.file, key=key, done=True) if key in log else replace(chunk, key=key)
+
+
+def _verify(memory: str, level: Level | None, job: Job) -> list[list[Result]]:
     """Verdicts on every chunk of a job that is not done yet."""
-    return [[] if chunk.done else verify_chunk(chunk, memory) for chunk in job]
+    return [[] if chunk.done else verify_chunk(chunk, memory, level) for chunk in job]
 
 
-def _isolate_failing(pool: Workers, function: Callable[[Job], list[list[Result]]], jobs: Iterator[Job]) -> Done:
-    """All jobs with their results; one that kills its workers is done again chunk by chunk, to find the one chunk."""
-    for job, found in in_order(pool, function, jobs):
+def _verify_text(memory: str, level: str, job: str) -> str:
+    """The same on another machine: nothing but text goes there and comes back."""
+    given = parse_level_string(level) if level else None
+    return results_as_text(_verify(memory, given, tuple(chunks_from_text(job))))
+
+
+def _isolate_failing(
+    pool: Workers,
+    function: Callable[[Any], Any],
+    jobs: Iterator[Job],
+    send: Callable[[Job], Any],
+    read: Callable[[Any], list[list[Result]]],
+) -> Done:
+    """All jobs with their results; one that kills its workers is done again chunk by chunk, to find the one chunk.
+
+    ``send``, ``read``: what turns a job and its results into what travels, and back.
+    """
+    for job, found in in_order(pool, function, jobs, send):
         if isinstance(found, WorkerLostError) and len(job) > 1:
-            yield from in_order(pool, function, ((chunk,) for chunk in job))
+            yield from _isolate_failing(pool, function, ((chunk,) for chunk in job), send, read)
         else:
-            yield job, found
+            yield job, found if isinstance(found, WorkerLostError) else read(found)
 
 
 def _record_results(done: Done, log: CheckpointLog | None) -> Iterator[Result]:
@@ -123,7 +190,7 @@ def _record_results(done: Done, log: CheckpointLog | None) -> Iterator[Result]:
             continue
         for chunk, results in zip(job, found, strict=True):
             if log is not None and chunk.done:
-                yield from log[chunk.done]
+                yield from log[chunk.key]
                 continue
             if log is not None:
                 log.add(chunk.key, results)

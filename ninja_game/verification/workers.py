@@ -166,14 +166,23 @@ def workers(count: int, *, processes: bool = False, cluster: str = "") -> Iterat
         found.close()
 
 
-def in_order(pool: Workers, function: Callable[[J], R], jobs: Iterable[J]) -> Iterator[tuple[J, R | WorkerLostError]]:
-    """Every job with its result, in the jobs' order; WorkerLostError for one that kills every worker it meets."""
+def _itself(job: J) -> J:
+    return job
+
+
+def in_order(
+    pool: Workers, function: Callable[[Any], R], jobs: Iterable[J], send: Callable[[J], Any] = _itself
+) -> Iterator[tuple[J, R | WorkerLostError]]:
+    """Every job with its result, in the jobs' order; WorkerLostError for one that kills every worker it meets.
+
+    ``send``: what of a job goes to the worker.
+    """
     flying: deque[tuple[J, Any]] = deque()
     waiting = iter(jobs)
     try:
         while True:
             for job in islice(waiting, max(0, AHEAD * pool.count - len(flying))):
-                flying.append((job, pool.submit(function, job)))
+                flying.append((job, pool.submit(function, send(job))))
             if not flying:
                 return
             job, future = flying.popleft()
@@ -181,8 +190,8 @@ def in_order(pool: Workers, function: Callable[[J], R], jobs: Iterable[J]) -> It
                 result = future.result()
             except pool.lost:
                 # Whose fault it was is not known: this job goes again alone, then all that fell with it.
-                result = _retry(pool, function, job)
-                flying = deque((job, _kept(pool, function, job, future)) for job, future in flying)
+                result = _retry(pool, function, send(job))
+                flying = deque((job, _kept(pool, function, send(job), future)) for job, future in flying)
             yield job, result
     finally:
         for _, future in flying:

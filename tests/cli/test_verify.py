@@ -16,6 +16,8 @@ from click.testing import CliRunner, Result
 from ninja_game import parse_level, run_level
 from ninja_game.cli.main import cli
 from ninja_game.compile_cache import compiled_available
+from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.formats.replay.text import RULES_VERSION
 from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
 
 
@@ -50,12 +52,21 @@ def test_json_has_the_fields_that_programs_read(walk: Path) -> None:
         "file": str(walk),
         "record": 0,
         "name": "Walk",
+        "author": "me",
+        "level_digest": level_digest(parse_level(WALK)),
+        "level_name": "",
+        "body": "circle",
+        "rules": RULES_VERSION,
         "outcome": "exit",
         "end_tick": WALK_END,
         "gold": 1,
         "score_ticks": 3600 + 80 - WALK_END,
         "ticks": WALK_END + 1,
         "xy_sha256": sha256(run.positions.astype("<f8").tobytes()).hexdigest(),
+        "possible_by_keyboard": True,
+        "in_time": True,
+        "practice": False,
+        "complete": True,
     }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ninja_game.formats.n14.demo import parse_demo, write_demo
+from ninja_game.formats.replay.text import write_replay
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.scoring import episode_score, level_score
 from ninja_game.runs.run import run_level
@@ -80,3 +81,9 @@ def test_giving_up_is_a_death_by_own_hand() -> None:
     attempt.give_up(0.1, 2.0, -3.0)
     assert attempt.outcome == "dead"
     assert attempt.own_hand
+
+
+def test_a_replay_of_practice_says_so() -> None:
+    assert played(short_level(), practice=True).replay().practice
+    assert not played(short_level()).replay().practice
+    assert "practice: yes" in write_replay(played(short_level(), practice=True).replay())

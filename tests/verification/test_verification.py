@@ -13,10 +13,12 @@ from pathlib import Path
 import pytest
 
 from ninja_game.errors import FormatError
+from ninja_game.files.reading import files_below
 from ninja_game.runs.recording_reader import Unreadable
+from ninja_game.sim.level import Level
 from ninja_game.verification import verify_many as verification
-from ninja_game.verification.checkpoint_log import CheckpointLog
-from ninja_game.verification.chunks import RECORDS, Chunk, Result, chunks_in, files_below, self_contained, verify_chunk
+from ninja_game.verification.checkpoint_log import HEADER, CheckpointLog
+from ninja_game.verification.chunks import RECORDS, Chunk, Result, chunks_in, self_contained, verify_chunk
 from ninja_game.verification.verify_many import Tally, verify_all, write_report
 from ninja_game.verification.workers import Local, WorkerLostError, in_order, workers
 from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
@@ -60,7 +62,7 @@ def test_nothing_stops_the_rest(archive: Path) -> None:
 
 
 def test_files_come_in_the_order_of_their_names_as_paths_have_it(archive: Path) -> None:
-    found = [Path(file) for file in files_below(archive)]
+    found = [file for file in files_below(archive) if isinstance(file, Path)]
     assert found == sorted(found)
     assert len(found) == 7
 
@@ -87,6 +89,31 @@ def test_a_report_holds_all_results_and_their_sums(archive: Path) -> None:
     assert report["results"][0]["name"] == "Run 0"
 
 
+@pytest.mark.parametrize("demo", ["23:35791394|x|35791394", "A\x01\x02", "23;35791394|35791394"])
+def test_a_corrupt_demo_in_a_folder_is_named_and_counted(demo: str, tmp_path: Path) -> None:
+    (tmp_path / "corrupt.txt").write_text(f"$Walk#me#test#{WALK}#{demo}#\n")
+    for path in (tmp_path, tmp_path / "corrupt.txt"):
+        (result,) = verify_plainly([path])
+        assert isinstance(result, Unreadable)
+        assert "corrupt.txt:1: record 0 has no demo" in result.message
+
+
+def test_free_text_behind_a_level_is_no_corrupt_demo(tmp_path: Path) -> None:
+    (tmp_path / "level.txt").write_text(f"$Walk#me#test#{WALK}#\nThe next level is harder: have fun\n")
+    assert list(verify_plainly([tmp_path])) == []
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+def test_a_folder_with_pipes_and_loops_is_verified_and_what_was_left_out_is_named(tmp_path: Path) -> None:
+    write_records(tmp_path / "a.txt", ("Walk", WALK, running(WALK_END)))
+    os.mkfifo(tmp_path / "pipe.txt")
+    (tmp_path / "loop").symlink_to(tmp_path)
+    results = list(verify_plainly([tmp_path]))
+    assert [getattr(result, "outcome", "") for result in results] == ["exit", "", ""]
+    messages = [result.message for result in results if isinstance(result, Unreadable)]
+    assert ["loop" in messages[0], "pipe.txt: a pipe" in messages[1]] == [True, True]
+
+
 # --- checkpoint logs ---
 
 
@@ -104,9 +131,9 @@ def test_a_journal_lets_a_stopped_run_go_on_where_it_was(
     assert 1 < done < 8
     ran: list[str] = []
 
-    def spy(chunk: Chunk, memory: str) -> list[Result]:
-        ran.append(chunk.key)
-        return verify_chunk(chunk, memory)
+    def spy(chunk: Chunk, memory: str, level: Level | None) -> list[Result]:
+        ran.append(chunk.digest)
+        return verify_chunk(chunk, memory, level)
 
     monkeypatch.setattr(verification, "verify_chunk", spy)
     assert list(verify_plainly([archive], jobs=1, processes=False, resume=path)) == expected(archive)
@@ -136,15 +163,57 @@ def test_a_file_that_changed_is_verified_again(tmp_path: Path) -> None:
     assert [getattr(first, "good", None), getattr(second, "good", None)] == [False, True]
 
 
+def test_a_level_that_changed_is_verified_again(tmp_path: Path) -> None:
+    log, run, level = tmp_path / "log", tmp_path / "run.replay.txt", tmp_path / "level.txt"
+    level.write_text(WALK)
+    run.write_text(replay_of_walk(level=None, level_path="level.txt"))
+    (first,) = verify_plainly([run], resume=log)
+    level.write_text(SPIKED)
+    (second,) = verify_plainly([run], resume=log)
+    assert [getattr(first, "outcome", None), getattr(second, "outcome", None)] == ["exit", "dead"]
+
+
+def test_size_and_time_of_a_file_prove_nothing(tmp_path: Path) -> None:
+    log, run = tmp_path / "log", tmp_path / "run.replay.txt"
+    run.write_text(replay_of_walk(gold=1))
+    (first,) = verify_plainly([run], resume=log)
+    about = run.stat()
+    run.write_text(replay_of_walk(gold=7))
+    os.utime(run, ns=(about.st_atime_ns, about.st_mtime_ns))
+    assert run.stat().st_size == about.st_size
+    (second,) = verify_plainly([run], resume=log)
+    assert [getattr(first, "good", None), getattr(second, "good", None)] == [True, False]
+
+
 @pytest.mark.parametrize(
-    "text", ["nonsense\n", '{"checkpoint-log": "ninja-game verify", "version": "0", "rules": 1}\n', "[1]\n[2]\n"]
+    "text",
+    [
+        "nonsense\n",
+        "one line of somebody's notes, not ended",
+        json.dumps(HEADER)[:20] + "...",
+        json.dumps(HEADER | {"version": "0"}) + "\n",
+        "[1]\n[2]\n",
+        json.dumps(HEADER) + "\n[1]\n",
+        json.dumps(HEADER) + '\n{"chunk": "x", "results": 3}\n',
+        json.dumps(HEADER) + '\n{"chunk": "x", "results": [{"outcome": "exit"}]}\n',
+        json.dumps(HEADER) + '\n{"chunk": "x", "results": [{"message": 3}]}\n',
+        json.dumps(HEADER) + "\n" + "[" * 100_000 + "\n",
+        json.dumps(HEADER) + "\n" + "9" * 5_000 + "\n",
+    ],
 )
-def test_another_file_is_no_journal(text: str, tmp_path: Path) -> None:
+def test_another_file_is_no_checkpoint_log_and_keeps_every_byte(text: str, tmp_path: Path) -> None:
     path = tmp_path / "log"
     path.write_text(text)
     with pytest.raises(FormatError, match="not a checkpoint log that can be resumed"):
         list(verify_plainly([tmp_path / "x.txt"], resume=path))
     assert path.read_text() == text
+
+
+def test_a_log_whose_first_line_was_not_finished_begins_anew(archive: Path, tmp_path: Path) -> None:
+    path = tmp_path / "log"
+    path.write_text(json.dumps(HEADER)[:20])
+    assert list(verify_plainly([archive], resume=path)) == expected(archive)
+    assert json.loads(path.read_text().splitlines()[0]) == HEADER
 
 
 # --- workers ---
