@@ -19,9 +19,8 @@ from ninja_game.play.input.events import InputEvent
 from ninja_game.play.menus.boss import BossScreen
 from ninja_game.play.screen import Screen, ScreenStack
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
-from ninja_game.play.ui.palette import PALETTES
+from ninja_game.play.ui.palette import palette_named
 from ninja_game.play.ui.theme import Theme
-from ninja_game.play.ui.wording import fit
 from ninja_game.play.window import Window
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import Settings
@@ -96,7 +95,7 @@ class App:
     def _lay_out(self) -> None:
         """Draw everything again, at the window's present size and in the present palette."""
         self.canvas = Canvas(self.surface.get_size())
-        self.theme = Theme(PALETTES[self.settings.palette], self.canvas)
+        self.theme = Theme(palette_named(self.settings.palette), self.canvas)
         self.stack.redraw_all()
 
     # --- the screens ---
@@ -220,8 +219,7 @@ class App:
         """The notice, in the border below the stage."""
         theme = self.theme
         rect = self.canvas.fill_rect(self.surface, theme.palette.panel, 0, HEIGHT - 24, WIDTH, 24)
-        text = fit(theme, self.notice, WIDTH - 40, 9.5)
-        theme.text(self.surface, text, WIDTH / 2, HEIGHT - 17, size=9.5, align="centre")
+        theme.text(self.surface, self.notice, WIDTH / 2, HEIGHT - 17, size=9.5, align="centre", width=WIDTH - 40)
         return rect
 
     def keep_screenshot(self) -> None:

@@ -12,8 +12,7 @@ from ninja_game.files.user_folder import export_path
 from ninja_game.play.app import App
 from ninja_game.play.main import first_screen, main
 from ninja_game.play.menus.boss import BossScreen
-from ninja_game.play.menus.panels import PausePanel
-from ninja_game.play.menus.settings import SettingsScreen
+from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.window import Window
 from tests.support.menu_driver import MenuDriver
 from tests.support.scripted import frames, press, scripted_app
@@ -61,12 +60,11 @@ def test_damaged_records_are_told_whatever_the_first_screen(tmp_path: Path, monk
 @pytest.mark.parametrize("name", ["tab", "f12", "f11"])
 def test_key_of_the_app_can_be_bound(tmp_path: Path, name: str) -> None:
     driver = MenuDriver(tmp_path)
-    screen = driver.open("Settings")
-    assert isinstance(screen, SettingsScreen)
-    driver.mouse(*screen.widgets[3].centre)
-    screen.focus = screen.widgets[5]
+    driver.open("Settings")
+    screen = driver.settings_page("Keyboard")
     driver.press("return")
     driver.press(name)
+    driver.press("down", "return")
     assert driver.player.settings.keys["left"][0] == name
     assert driver.top() is screen
     assert not list((tmp_path / "exports").iterdir())

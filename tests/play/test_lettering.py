@@ -12,8 +12,8 @@ from ninja_game.play.ui.glyphs import GLYPHS
 from ninja_game.play.ui.lettering import Lettering
 from ninja_game.play.ui.palette import CLASSIC
 from ninja_game.play.ui.stroke_font import StrokeFont, glyph
+from ninja_game.play.ui.text_layout import wrapped
 from ninja_game.play.ui.theme import Theme
-from ninja_game.play.ui.wording import fit, wrapped
 
 
 @pytest.fixture(autouse=True)
@@ -91,11 +91,11 @@ def test_long_text_is_fitted_in_no_time() -> None:
     theme = Theme(CLASSIC, Canvas((792, 600)))
     start = time.perf_counter()
     for _ in range(20):
-        shown = fit(theme, "m" * 100_000, 200, 12)
+        shown = theme.fit("m" * 100_000, 200, 12)
     assert time.perf_counter() - start < 1
     assert shown.endswith("...")
     assert theme.width(shown, 12) <= 200 < theme.width("m" + shown, 12)
-    assert fit(theme, "short", 200, 12) == "short"
+    assert theme.fit("short", 200, 12) == "short"
 
 
 def test_no_word_is_left_alone_on_a_line() -> None:
@@ -112,7 +112,7 @@ def test_no_word_is_left_alone_on_a_line() -> None:
 def test_any_name_can_be_drawn(name: str) -> None:
     theme = Theme(CLASSIC, Canvas((792, 600)))
     started = time.process_time()
-    shown = fit(theme, name, 200, 12)
+    shown = theme.fit(name, 200, 12)
     assert theme.width(shown, 12) <= 200
     assert Lettering(theme.canvas).rendered(name, 12, "black").get_width() < 5000
     assert wrapped(theme, f"{name} " * 3, 100, 12)

@@ -12,6 +12,7 @@ from ninja_game.play.app import build_app
 from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.input.scancodes import SCANCODES
 from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.settings.screen import PAGES, SettingsScreen
 from ninja_game.play.screen import Screen
 from ninja_game.player.player_data import PlayerData
 
@@ -91,6 +92,14 @@ class MenuDriver:
         menu.focus = next(widget for widget in menu.widgets if getattr(widget, "text", "") == entry)
         self.press("return")
         return self.top()
+
+    def settings_page(self, page: str) -> SettingsScreen:
+        """Choose a page of the settings, which are open, with the mouse."""
+        screen = self.top()
+        assert isinstance(screen, SettingsScreen)
+        x, y, w, h = screen.tabs.row_area(PAGES.index(page))
+        self.mouse(x + w / 2, y + h / 2)
+        return screen
 
     def play_replay(self, number: int) -> None:
         """Feed the bundled replay of a level (from 1) to the level on top; it runs to its end and a little on."""

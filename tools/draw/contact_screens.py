@@ -9,8 +9,8 @@ import pygame
 
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.panels import PausePanel
-from ninja_game.play.menus.settings import SettingsScreen
+from ninja_game.play.menus.pause import PausePanel
+from ninja_game.play.menus.settings.screen import SettingsScreen
 from tests.support.menu_driver import MenuDriver
 
 SIZE = (1188, 900)

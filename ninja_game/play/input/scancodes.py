@@ -33,8 +33,10 @@ LABELS = {
     "lshift": "Shift", "rshift": "Right Shift", "lctrl": "Ctrl", "rctrl": "Right Ctrl", "lalt": "Alt",
     "ralt": "Right Alt", "return": "Enter", "kp_enter": "Keypad Enter", "escape": "Esc", "backspace": "Backspace",
     "pageup": "Page Up", "pagedown": "Page Down", "left": "Left", "right": "Right", "up": "Up", "down": "Down",
-    "capslock": "Caps Lock", "comma": ",", "period": ".", "minus": "-", "equals": "=", "leftbracket": "[",
-    "rightbracket": "]", "semicolon": ";", "apostrophe": "'", "slash": "/", "backslash": "\\", "grave": "`",
+    "capslock": "Caps Lock", "comma": "Comma", "period": "Period", "minus": "Minus", "equals": "Equals",
+    "leftbracket": "[", "rightbracket": "]", "semicolon": "Semicolon", "apostrophe": "Apostrophe",
+
+    "slash": "/", "backslash": "\\", "grave": "Backtick",
     "lgui": "Left Meta", "rgui": "Right Meta",
 }  # fmt: skip
 

@@ -13,7 +13,7 @@ from ninja_game.play.level.hud import followed
 from ninja_game.play.level.phase import DEATH_PAUSE, PHASE_OF_OUTCOME, Phase
 from ninja_game.play.level.practice import REWIND_TICKS, SLOW_TICK_MS, Practice
 from ninja_game.play.level.run_clock import RunClock
-from ninja_game.play.menus.panels import PausePanel
+from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.screen import Screen
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays

@@ -15,14 +15,13 @@ from ninja_game.formats.load import load_levels
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.level_contexts import LevelCourse
-from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.thumbnails import Thumbnails
+from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.play.menus.watch_replay import watch
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_entry import TextEntry
-from ninja_game.play.ui.theme import Theme
-from ninja_game.play.ui.widgets import Area, Button, Choice, Widget
-from ninja_game.play.ui.wording import counted, fit
+from ninja_game.play.ui.text_layout import counted, unreadable
+from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.widgets import Button, Choice, Widget
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.records import SavedReplay
 from ninja_game.player.scoring import seconds_text
@@ -33,17 +32,18 @@ if TYPE_CHECKING:
 ROW = 54
 PICTURE = 60
 SIDE, SIDE_WIDTH = 436, 320
-SORTS: list[tuple[str, object]] = [("as listed", "listed"), ("name", "name"), ("author", "author"), ("best", "best")]
+SORTS: list[tuple[str, object]] = [
+    ("Original order", "listed"), ("Name", "name"), ("Author", "author"), ("Best", "best"),
+]  # fmt: skip
 
 
-class Browser(MenuScreen):
+class Browser(ThumbnailScreen):
     """A list at the left, the selected level at the right. The list is read anew whenever the screen is entered."""
 
     title = "Levels"
 
     def __init__(self, app: App) -> None:
         super().__init__(app)
-        self.thumbnails = Thumbnails(app)
         self.search = ""
         self.sort: object = "listed"
         self.message = ""
@@ -52,8 +52,9 @@ class Browser(MenuScreen):
         self.bests: dict[str, SavedReplay] = {}
         self.list = ListView(
             (44, 112, 376, 8 * ROW), ROW, self._draw_row, self._play, empty="No level has these words",
-            hint="Enter plays; right leads to the buttons, up to the search",
+            hint="Enter plays; right leads to the buttons, up to the search", selected=self._select,
         )  # fmt: skip
+        self.watch_best = Button((SIDE, 510, 320, 32), "Watch your best", self._watch)
         self.entry_field = TextEntry((44, 66, 236, 32), "Search name or author", "", self._search)
 
     def enter(self) -> None:
@@ -62,7 +63,7 @@ class Browser(MenuScreen):
         catalogue.problems.clear()
         self.entries = catalogue.singles()
         self.bests = self.player.records.level_bests()
-        self.message = f"{len(catalogue.problems)} files cannot be read" if catalogue.problems else ""
+        self.message = unreadable(catalogue.problems)
         self._arrange()
         super().enter()
 
@@ -73,9 +74,8 @@ class Browser(MenuScreen):
             (SIDE + 166, 470, 154, 32), "Practise", lambda: self._play(self.list.index, practice=True),
             hint="No clock, quick save, rewind, slow motion; no records",
         )  # fmt: skip
-        watch_best = Button((SIDE, 510, 320, 32), "Watch your best", self._watch)
         sort = Choice((288, 66, 132, 32), "", SORTS, lambda: self.sort, self._sort, hint="How the list is sorted")
-        return [self.list, self.entry_field, sort, play, practice, watch_best]
+        return [self.list, self.entry_field, sort, play, practice, self.watch_best]
 
     def handle(self, event: InputEvent) -> None:
         """A file dropped on the window is copied into the player's folder; coming back to the window looks again."""
@@ -133,6 +133,12 @@ class Browser(MenuScreen):
         """The selected level."""
         return self.shown[self.list.index] if self.list.index < len(self.shown) else None
 
+    def _select(self, _index: int) -> None:
+        """Only what has been passed can be watched."""
+        selected = self.selected
+        self.watch_best.enabled = selected is not None and selected.digest in self.bests
+        self.watch_best.hint = "" if self.watch_best.enabled else "This level has not been passed yet"
+
     # --- go ---
 
     def _play(self, index: int, *, practice: bool = False) -> None:
@@ -148,13 +154,8 @@ class Browser(MenuScreen):
 
     def _watch(self) -> None:
         best = self.bests.get(self.selected.digest) if self.selected else None
-        if best is None or not watch(self.app, [self.player.records.replay(best.id)]):
-            self.message = "This level has not been passed yet"
-
-    def update(self, real_ms: int) -> None:
-        """Thumbnails come in."""
-        super().update(real_ms)
-        self.redraw = self.thumbnails.work() or self.redraw
+        if best is not None:
+            watch(self.app, [self.player.records.replay(best.id)])
 
     # --- picture ---
 
@@ -166,15 +167,14 @@ class Browser(MenuScreen):
         count = f"{len(self.shown)} of {len(self.entries)} levels"
         theme.text(surface, count, 44, 549, size=9.5, colour=palette.faint)
         if self.message:
-            theme.text(surface, fit(theme, self.message, SIDE_WIDTH, 10), SIDE, 548, size=10, colour=palette.bad)
+            theme.text(surface, self.message, SIDE, 548, size=10, colour=palette.bad, width=SIDE_WIDTH)
         if entry is None:
             return
         self.thumbnails.draw(surface, entry, SIDE, 66, SIDE_WIDTH)
-        theme.text(surface, fit(theme, entry.title, SIDE_WIDTH, 17), SIDE, 320, size=17, bold=True)
+        theme.text(surface, entry.title, SIDE, 320, size=17, bold=True, width=SIDE_WIDTH)
         by = f"by {entry.named.author}" if entry.named.author else "author unknown"
-        theme.text(surface, fit(theme, by, SIDE_WIDTH, 11), SIDE, 346, size=11, colour=palette.faint)
-        comment = fit(theme, entry.named.comment, SIDE_WIDTH, 11)
-        theme.text(surface, comment, SIDE, 364, size=11)
+        theme.text(surface, by, SIDE, 346, size=11, colour=palette.faint, width=SIDE_WIDTH)
+        theme.text(surface, entry.named.comment, SIDE, 364, size=11, width=SIDE_WIDTH)
         best = self.bests.get(entry.digest)
         text = f"Your best: {seconds_text(best.score)} with {best.gold} gold" if best else "Not passed yet"
         theme.text(surface, text, SIDE, 390, size=12, colour=palette.good if best else palette.faint)
@@ -187,17 +187,15 @@ class Browser(MenuScreen):
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         entry = self.shown[index]
-        canvas, palette = theme.canvas, theme.palette
+        palette = theme.palette
         x, y, w, h = area
         chosen = index == self.list.index
-        canvas.fill_rect(surface, palette.panel, x, y + 1, w, h - 2, 4)
-        edge = palette.accent if chosen else palette.panel_edge
-        canvas.frame_rect(surface, edge, x, y + 1, w, h - 2, 2.5 if focused else 1, 4)
+        theme.row(surface, (x, y + 1, w, h - 2), chosen=chosen, focused=focused)
         self.thumbnails.draw(surface, entry, x + 4, y + 4, PICTURE)
         left = x + PICTURE + 14
-        theme.text(surface, fit(theme, entry.title, 200, 12), left, y + 11, size=12, bold=chosen)
+        theme.text(surface, entry.title, left, y + 11, size=12, bold=chosen, width=200)
         source = entry.named.author or ("your folder" if entry.source == "yours" else "")
-        theme.text(surface, fit(theme, source, 200, 10), left, y + 30, size=10, colour=palette.faint)
+        theme.text(surface, source, left, y + 30, size=10, colour=palette.faint, width=200)
         best = self.bests.get(entry.digest)
         if best:
             theme.text(

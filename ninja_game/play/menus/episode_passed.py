@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.play.level.context import Course
-from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.thumbnails import Thumbnails
+from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.play.ui.canvas import WIDTH
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Episode
@@ -26,7 +25,7 @@ CourseOf = Callable[["App", PlayerData, Episode], Course]
 """What makes the course of an episode."""
 
 
-class EpisodePassed(MenuScreen):
+class EpisodePassed(ThumbnailScreen):
     """Shown after an episode's last level. Space goes on to the next episode."""
 
     def __init__(self, app: App, run: EpisodeRun, notices: Sequence[str], course_of: CourseOf) -> None:
@@ -35,7 +34,6 @@ class EpisodePassed(MenuScreen):
         self.course_of = course_of
         self.notices = list(notices)
         self.title = f"Episode {run.episode.number} passed"
-        self.thumbnails = Thumbnails(app)
 
     @property
     def next_episode(self) -> Episode | None:
@@ -48,7 +46,7 @@ class EpisodePassed(MenuScreen):
         following = self.next_episode
         buttons: list[Widget] = []
         if following is not None:
-            buttons.append(Button((236, 440, 320, 36), f"Go on: episode {following.number}", self.go_on, size=13))
+            buttons.append(Button((236, 440, 320, 36), f"Next: episode {following.number}", self.go_on, size=13))
         watch = Button((236, 482, 156, 30), "Watch the run", self.watch, hint="The best run of this episode")
         watch.enabled = self.player.records.episode_best(self.run.episode.key) is not None
         return [*buttons, watch, Button((400, 482, 156, 30), "Episodes", self.back)]
@@ -67,11 +65,6 @@ class EpisodePassed(MenuScreen):
         best = self.player.records.episode_best(self.run.episode.key)
         if best is not None:
             watch(self.app, [self.player.records.replay(number) for number in best.replays])
-
-    def update(self, real_ms: int) -> None:
-        """Thumbnails come in."""
-        super().update(real_ms)
-        self.redraw = self.thumbnails.work() or self.redraw
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         """The levels in a row, the score below."""

@@ -9,18 +9,32 @@ import pygame
 
 from ninja_game import __version__
 from ninja_game.play.menus.attract import Attract
+from ninja_game.play.menus.browser import Browser
+from ninja_game.play.menus.episode_grid import EpisodeGrid
+from ninja_game.play.menus.help.screen import HelpScreen
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question
+from ninja_game.play.menus.records import RecordsScreen
+from ninja_game.play.menus.replays import ReplaysScreen
+from ninja_game.play.menus.settings.screen import SettingsScreen
 from ninja_game.play.screen import Screen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
-from ninja_game.play.ui.widgets import Area, Button, Widget
-from ninja_game.play.ui.wording import fit
+from ninja_game.play.ui.theme import Area
+from ninja_game.play.ui.widgets import Button, Widget
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
 
-PANEL: Area = (44, 96, 232, 420)
+LEFT, WIDE, MIDDLE = 44, 232, 306
+"""Where the panel lies: its left edge, its width, the height of its middle."""
+
+HEAD, ROW, FOOT = 98, 43, 12
+"""Heights of the title, of a row, and of what is below the last row."""
+
 TITLE = "NINJA"
+
+Entry = tuple[str, Callable[[], object], str]
+"""Text, action, hint."""
 
 
 class MainMenu(MenuScreen):
@@ -30,35 +44,36 @@ class MainMenu(MenuScreen):
         super().__init__(app)
         self.attract = Attract(app)
 
-    def build(self) -> Sequence[Widget]:
-        """One button for each screen."""
-        x, y, w, _ = PANEL
+    def entries(self) -> list[Entry]:
+        """One for each screen; the panel is as high as they need."""
         return [
-            Button((x + 22, y + 98 + 43 * k, w - 44, 34), text, action, hint=hint, size=13)
-            for k, (text, action, hint) in enumerate(self._entries())
-        ]
-
-    def _entries(self) -> list[tuple[str, Callable[[], object], str]]:
-        return [
-            ("Play", self._open("episode_grid", "EpisodeGrid"), "Episodes: up to five levels in a row on one clock"),
-            ("Levels", self._open("browser", "Browser"), "Single levels, and your own files"),
-            ("Records", self._open("records", "RecordsScreen"), "Your best runs, and what killed you"),
-            ("Replays", self._open("replays", "ReplaysScreen"), "Watch runs again"),
-            ("Settings", self._open("settings", "SettingsScreen"), "Keys, sound, colours, comfort"),
-            ("Help", self._open("help", "HelpScreen"), "How to move, and what everything does"),
+            ("Play", self._opener(EpisodeGrid), "Play the episodes"),
+            ("Levels", self._opener(Browser), "Single levels, and your own files"),
+            ("Records", self._opener(RecordsScreen), "Your best runs, and what killed you"),
+            ("Replays", self._opener(ReplaysScreen), "Watch runs again"),
+            ("Settings", self._opener(SettingsScreen), "Keys, sound, colours, comfort"),
+            ("Help", self._opener(HelpScreen), "How to move, and what everything does"),
             ("Quit", self.back, "Leave the game"),
         ]
 
-    def _open(self, module: str, name: str) -> Callable[[], None]:
-        """What opens a screen; its module is imported only then."""
+    def _opener(self, screen: Callable[[App], Screen]) -> Callable[[], None]:
+        return lambda: self.app.push(screen(self.app))
 
-        def open_screen() -> None:
-            from importlib import import_module
+    def build(self) -> Sequence[Widget]:
+        """A button for each entry."""
+        x, y, w, h = self.panel
+        entries = self.entries()
+        row = (h - HEAD - FOOT) / len(entries)
+        return [
+            Button((x + 22, y + HEAD + row * k, w - 44, row - 9), text, action, hint=hint, size=13)
+            for k, (text, action, hint) in enumerate(entries)
+        ]
 
-            screen: Screen = getattr(import_module(f"ninja_game.play.menus.{module}"), name)(self.app)
-            self.app.push(screen)
-
-        return open_screen
+    @property
+    def panel(self) -> Area:
+        """Where the panel lies: as high as its entries, as far as the stage allows."""
+        height = min(HEAD + ROW * len(self.entries()) + FOOT, HEIGHT - 48)
+        return LEFT, max(12, min(MIDDLE - height / 2, HEIGHT - 36 - height)), WIDE, height
 
     def back(self) -> None:
         """Ask before the game ends."""
@@ -73,9 +88,8 @@ class MainMenu(MenuScreen):
         """The replay, and the menu over it."""
         changed = self.attract.draw(surface, whole=self.redraw)
         canvas, theme = self.app.canvas, self.app.theme
-        x, y, w, h = PANEL
-        rect = canvas.fill_rect(surface, theme.palette.background, x, y, w, h, 6)
-        canvas.frame_rect(surface, theme.palette.panel_edge, x, y, w, h, 1.5, 6)
+        x, y, w, h = self.panel
+        rect = theme.window(surface, x, y, w, h)
         theme.text(surface, TITLE, x + w / 2, y + 22, size=40, align="centre", bold=True)
         theme.text(
             surface, f"version {__version__}", x + w / 2, y + 68, size=9, colour=theme.palette.faint, align="centre"
@@ -94,5 +108,6 @@ class MainMenu(MenuScreen):
         canvas, theme, palette = self.app.canvas, self.app.theme, self.app.theme.palette
         text = self.focus.hint if self.focus else ""
         canvas.fill_rect(surface, palette.tile, 0, HEIGHT - 24, WIDTH, 24)
-        theme.text(surface, fit(theme, text, WIDTH - 40, 10.5), WIDTH / 2, HEIGHT - 18, size=10.5,
-                   colour=palette.on_tile, align="centre")  # fmt: skip
+        theme.text(
+            surface, text, WIDTH / 2, HEIGHT - 18, size=10.5, colour=palette.on_tile, align="centre", width=WIDTH - 40
+        )

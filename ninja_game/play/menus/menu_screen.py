@@ -89,8 +89,8 @@ class MenuScreen(Screen):
                 self._repeat, self._repeat_in = event.menu, FIRST_REPEAT_MS
             self.act(event.menu)
 
-    def act(self, action: str) -> None:
-        """Do what a menu action says: the focused widget first, then the screen."""
+    def act(self, action: str, *, held: bool = False) -> None:
+        """Do what a menu action says: the focused widget first, then the screen. ``held``: it repeats."""
         self.redraw = True
         if action == "back":
             self.chime("menu-choose")
@@ -101,7 +101,8 @@ class MenuScreen(Screen):
                 self.focus.confirm()
         elif self.focus is not None and self.focus.nudge(action):
             self.chime("menu-move")
-        elif action in DIRECTIONS:
+        elif action in DIRECTIONS and not (held and action in ("left", "right")):
+            # A slider that is held down to its end keeps the focus.
             self._move(*DIRECTIONS[action])
         elif action == "next":
             self._next()
@@ -129,19 +130,29 @@ class MenuScreen(Screen):
             self.focus_on(able[(place + 1) % len(able)])
 
     def _move(self, dx: int, dy: int) -> None:
-        """The focus goes to the nearest widget in a direction; at the end of the screen to the far end of the other."""
-        if self.focus is None:
+        """The focus goes to the nearest widget in a direction.
+
+        Up and down stay among the widgets above and below each other; at the end they lead to the other end.
+        """
+        focus = self.focus
+        if focus is None:
             return
-        others = [widget for widget in self.widgets if widget.focusable and widget is not self.focus]
-        ahead = [widget for widget in others if _ahead(self.focus, widget, dx, dy) > 0]
+        others = [widget for widget in self.widgets if widget.focusable and widget is not focus]
+        if dy:
+            others = [widget for widget in others if _aside(focus, widget, dx) == 0]
+        ahead = [widget for widget in others if _ahead(focus, widget, dx, dy) > 0]
         if ahead:
-            goal = min(
-                ahead, key=lambda widget: _ahead(self.focus, widget, dx, dy) + 3 * _aside(self.focus, widget, dx)
+            # Of several that are equally near the one whose upper edges are most alike: the first of a page.
+            self.focus_on(
+                min(
+                    ahead,
+                    key=lambda w: (
+                        _ahead(focus, w, dx, dy) + 3 * _aside(focus, w, dx) + 0.01 * abs(w.area[1] - focus.area[1])
+                    ),
+                )
             )
-            self.focus_on(goal)
         elif others and dy:
-            goal = max(others, key=lambda w: -dy * w.centre[1] - 3 * _aside(self.focus, w, dx))
-            self.focus_on(goal)
+            self.focus_on(max(others, key=lambda w: -dy * w.centre[1]))
 
     def _handle_mouse(self, event: pygame.Event) -> None:
         if event.type == pygame.MOUSEWHEEL:
@@ -181,7 +192,7 @@ class MenuScreen(Screen):
         self._repeat_in -= min(real_ms, LONGEST_STEP_MS)
         if self._repeat_in <= 0:
             self._repeat_in = REPEAT_MS
-            self.act(self._repeat)
+            self.act(self._repeat, held=True)
 
     def leave(self) -> None:
         """Nothing repeats in another screen's time."""
@@ -201,9 +212,11 @@ class MenuScreen(Screen):
         palette, canvas, theme = self.app.theme.palette, self.app.canvas, self.app.theme
         surface.fill(palette.tile)
         canvas.fill_rect(surface, palette.background, 24, 52, WIDTH - 48, HEIGHT - 52 - 36, 6)
-        theme.text(surface, self.title, 36, 17, size=TITLE_SIZE, colour=palette.on_tile, bold=True)
+        theme.text(surface, self.title, 36, 17, size=TITLE_SIZE, colour=palette.on_tile, bold=True, width=WIDTH - 72)
         hint = (self.focus.hint if self.focus is not None else "") or self.foot
-        theme.text(surface, hint, WIDTH / 2, HEIGHT - 25, size=10.5, colour=palette.on_tile, align="centre")
+        theme.text(
+            surface, hint, WIDTH / 2, HEIGHT - 25, size=10.5, colour=palette.on_tile, align="centre", width=WIDTH - 48
+        )
 
     def draw_widgets(self, surface: pygame.Surface) -> None:
         """The widgets, the focused one last since its mark stands out."""
@@ -211,19 +224,17 @@ class MenuScreen(Screen):
             widget.draw(surface, self.app.theme, focused=widget is self.focus)
 
 
-def _ahead(start: Widget | None, goal: Widget, dx: int, dy: int) -> float:
+def _ahead(start: Widget, goal: Widget, dx: int, dy: int) -> float:
     """How far a widget lies in a direction, px, from edge to edge; not positive: not in that direction."""
-    assert start is not None  # noqa: S101 - called with a focus only
     (ax, ay), (bx, by) = start.centre, goal.centre
     along = (bx - ax) * dx + (by - ay) * dy
     gap = (start.area[2] + goal.area[2]) / 2 if dx else (start.area[3] + goal.area[3]) / 2
     return along - gap + 4 if along > 0 and along > gap / 2 else 0.0
 
 
-def _aside(start: Widget | None, goal: Widget, dx: int) -> float:
+def _aside(start: Widget, goal: Widget, dx: int) -> float:
     """How far two widgets are apart across a direction, px; 0 where they overlap."""
-    assert start is not None  # noqa: S101 - called with a focus only
     side = 1 if dx else 0
     low, high = start.area[side], start.area[side] + start.area[side + 2]
     other_low, other_high = goal.area[side], goal.area[side] + goal.area[side + 2]
-    return max(0.0, other_low - high, low - other_high) + 0.01 * abs(start.centre[side] - goal.centre[side])
+    return max(0.0, other_low - high, low - other_high)

@@ -1,4 +1,4 @@
-"""Panels over another screen: a question, the pause."""
+"""Panels over another screen: a few buttons, a question."""
 
 from __future__ import annotations
 
@@ -7,16 +7,12 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.input.events import InputEvent
-from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.widgets import Button, Widget
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
-    from ninja_game.play.level.play import LevelPlay
 
 PANEL_WIDTH = 300
 ROW = 40
@@ -57,9 +53,8 @@ class Panel(MenuScreen):
         veil.a = 130
         canvas.fill_rect(surface, veil, 0, 0, WIDTH, HEIGHT)
         x, y, w, h = self._box
-        canvas.fill_rect(surface, palette.background, x, y, w, h, 6)
-        canvas.frame_rect(surface, palette.panel_edge, x, y, w, h, 1.5, 6)
-        theme.text(surface, self.title, x + w / 2, y + 17, size=17, align="centre", bold=True)
+        theme.window(surface, x, y, w, h)
+        theme.text(surface, self.title, x + w / 2, y + 17, size=17, align="centre", bold=True, width=w - 24)
         self.draw_widgets(surface)
         return None
 
@@ -79,38 +74,3 @@ class Question(Panel):
     def _do(self) -> None:
         self.app.pop()
         self._action()
-
-
-class PausePanel(Panel):
-    """The game waits. Space, the pause key or Esc go on."""
-
-    def __init__(self, app: App, playing: LevelPlay) -> None:
-        super().__init__(app, "Paused")
-        self.playing = playing
-
-    def rows(self) -> list[tuple[str, Callable[[], object], str]]:
-        """What can be done."""
-        return [
-            ("Go on", self.back, ""),
-            ("Retry", lambda: self._leave(self.playing.retry), ""),
-            ("Settings", lambda: self.app.push(SettingsScreen(self.app)), ""),
-            ("Help", lambda: self.app.push(HelpScreen(self.app)), ""),
-            ("Leave the level", lambda: self._leave(self.playing.quit), ""),
-        ]
-
-    def handle(self, event: InputEvent) -> None:
-        """The pause key ends the pause too, the quit key leaves."""
-        if "pause" in event.pressed:
-            self.back()
-        elif "quit" in event.pressed:
-            self._leave(self.playing.quit)
-        else:
-            super().handle(event)
-
-    def back(self) -> None:
-        """Go on playing."""
-        self._leave(self.playing.resume)
-
-    def _leave(self, then: Callable[[], object]) -> None:
-        self.app.pop()
-        then()

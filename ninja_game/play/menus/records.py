@@ -10,9 +10,8 @@ import pygame
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.watch_replay import watch
 from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.theme import Theme
-from ninja_game.play.ui.widgets import Area, Widget
-from ninja_game.play.ui.wording import fit
+from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.widgets import Widget
 from ninja_game.player.scoring import seconds_text
 from ninja_game.sim.rules import TICK_MS
 
@@ -41,7 +40,7 @@ class RecordsScreen(MenuScreen):
     def __init__(self, app: App) -> None:
         super().__init__(app)
         self.rows: list[Row] = []
-        self.list = ListView((44, 92, 468, 15 * ROW), ROW, self._draw_row, self._watch, hint="Enter: watch it")
+        self.list = ListView((44, 92, 468, 15 * ROW), ROW, self._draw_row, self._watch, selected=self._say)
         self.list.empty = "No records yet: pass a level"
 
     def build(self) -> Sequence[Widget]:
@@ -72,6 +71,10 @@ class RecordsScreen(MenuScreen):
         return rows + [
             Row(saved.name or "nameless", saved.score, (saved.id,), False, saved.made_at[:10]) for saved in others
         ]
+
+    def _say(self, index: int) -> None:
+        """The hint of the selected row."""
+        self.list.hint = "Enter: watch it" if self.rows[index].replays else "Nothing to watch yet"
 
     def _watch(self, index: int) -> None:
         watch(self.app, [self.player.records.replay(number) for number in self.rows[index].replays])
@@ -104,16 +107,13 @@ class RecordsScreen(MenuScreen):
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         row = self.rows[index]
-        canvas, palette = theme.canvas, theme.palette
+        palette = theme.palette
         x, y, w, h = area
-        if row.head:
-            canvas.fill_rect(surface, palette.panel, x, y + 2, w, h - 4, 3)
-        if index == self.list.index:
-            edge = palette.accent if focused else palette.panel_edge
-            canvas.frame_rect(surface, edge, x, y + 2, w, h - 4, 2.5 if focused else 1, 3)
+        chosen = index == self.list.index
+        theme.row(surface, (x, y + 2, w, h - 4), chosen=chosen, focused=focused, radius=3, filled=row.head)
         top = y + h / 2 - 6
         left = x + (8 if row.head else 24)
-        theme.text(surface, fit(theme, row.text, w - 200, 12), left, top, size=12, bold=row.head)
+        theme.text(surface, row.text, left, top, size=12, bold=row.head, width=w - 200)
         if row.score is not None:
             score = seconds_text(row.score)
             theme.text(surface, score, x + w - 90, top, size=12, colour=palette.good, align="right", bold=row.head)

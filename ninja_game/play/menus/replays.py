@@ -20,9 +20,9 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question
 from ninja_game.play.menus.watch_replay import watch, watch_recording
 from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.theme import Theme
-from ninja_game.play.ui.widgets import Area, Widget
-from ninja_game.play.ui.wording import fit
+from ninja_game.play.ui.text_layout import unreadable
+from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.widgets import Widget
 from ninja_game.player.playthrough import forget_replay
 from ninja_game.player.records import SavedReplay
 from ninja_game.player.scoring import level_score, seconds_text
@@ -59,7 +59,7 @@ class ReplaysScreen(MenuScreen):
     def __init__(self, app: App) -> None:
         super().__init__(app)
         self.rows: list[Row] = []
-        self.problems = 0
+        self.problems: list[str] = []
         self._files: list[Row] | None = None
         self.list = ListView((44, 96, 712, 13 * ROW), ROW, self._draw_row, self._watch)
         self.list.empty = "No replays yet"
@@ -78,12 +78,12 @@ class ReplaysScreen(MenuScreen):
         rows = []
         folder = self.player.replay_folder
         own = text_files(folder) if folder.is_dir() else []
-        for when, files in (("your folder", own), ("the game's", bundled_replays())):
+        for when, files in (("Your folder", own), ("Bundled", bundled_replays())):
             for file in files:
                 try:
                     recordings = load_replays(file)
                 except (NinjaGameError, OSError):
-                    self.problems += 1
+                    self.problems.append(file.name)
                     continue
                 rows += [_row_of_recording(recording, when) for recording in recordings]
                 if len(rows) > FILES_SHOWN:
@@ -119,7 +119,7 @@ class ReplaysScreen(MenuScreen):
                 self.message = str(error)
         self.redraw = True
 
-    def act(self, action: str) -> None:
+    def act(self, action: str, *, held: bool = False) -> None:
         """Delete asks first; all else as in other menus."""
         source = self.rows[self.list.index].source if self.rows else None
         if action == "delete" and isinstance(source, SavedReplay):
@@ -130,7 +130,7 @@ class ReplaysScreen(MenuScreen):
                 return
             self.app.push(Question(self.app, "Remove this replay?", "Remove", lambda: self._forget(number)))
             return
-        super().act(action)
+        super().act(action, held=held)
 
     def _forget(self, number: int) -> None:
         self.message = forget_replay(self.player, number)
@@ -144,20 +144,18 @@ class ReplaysScreen(MenuScreen):
         for x, text, align in ((54, "Level", "left"), (340, "Player", "left"), (598, "Result", "right"),
                                (734, "From", "right")):  # fmt: skip
             theme.text(surface, text, x, 72, size=10.5, colour=palette.faint, align=align)
-        message = self.message or (f"{self.problems} files cannot be read" if self.problems else "")
-        theme.text(surface, fit(theme, message, 712, 10), 44, 545, size=10, colour=palette.faint)
+        message = self.message or unreadable(self.problems)
+        theme.text(surface, message, 44, 545, size=10, colour=palette.faint, width=712)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         row = self.rows[index]
-        canvas, palette = theme.canvas, theme.palette
+        palette = theme.palette
         x, y, w, h = area
-        canvas.fill_rect(surface, palette.panel, x, y + 2, w, h - 4, 3)
-        if index == self.list.index:
-            edge = palette.accent if focused else palette.panel_edge
-            canvas.frame_rect(surface, edge, x, y + 2, w, h - 4, 2.5 if focused else 1, 3)
+        chosen = index == self.list.index
+        theme.row(surface, (x, y + 2, w, h - 4), chosen=chosen, focused=focused, radius=3)
         top = y + h / 2 - 6
-        theme.text(surface, fit(theme, row.text, 270, 12), x + 10, top, size=12, bold=index == self.list.index)
-        theme.text(surface, fit(theme, row.who, 150, 11), 340, top + 0.5, size=11, colour=palette.faint)
+        theme.text(surface, row.text, x + 10, top, size=12, bold=chosen, width=270)
+        theme.text(surface, row.who, 340, top + 0.5, size=11, colour=palette.faint, width=150)
         colour = palette.good if row.good else palette.faint
         theme.text(surface, row.what, 598, top, size=12, colour=colour, align="right")
         theme.text(surface, row.when, 734, top + 1, size=10, colour=palette.faint, align="right")

@@ -1,4 +1,4 @@
-"""Small pictures of levels for lists, made a few at a time, so that opening a list never waits for them."""
+"""Small pictures of levels on screens, made a few at a time, so that opening a screen never waits for them."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
+from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.player.catalogue import Entry
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 BUDGET = 0.006
 """Seconds a picture may cost beyond its first thumbnail."""
 
-KEPT = 600
+MOST_KEPT = 600
 
 Key = tuple[int, int, str]
 
@@ -45,7 +46,7 @@ class Thumbnails:
         while self._wanted and (not made or perf_counter() - start < BUDGET):
             key, entry = self._wanted.popitem()
             picture = thumbnail(entry.named.level, self.app.theme.palette, key[1])
-            if len(self._made) >= KEPT:
+            if len(self._made) >= MOST_KEPT:
                 self._made.clear()
             # The entry is kept too, so that its level's id stays its own.
             self._made[key] = entry, picture
@@ -62,3 +63,16 @@ class Thumbnails:
         else:
             surface.blit(picture, canvas.point(x, y))
         canvas.frame_rect(surface, palette.panel_edge, x - 0.5, y - 0.5, width + 1, height + 1, 1)
+
+
+class ThumbnailScreen(MenuScreen):
+    """A menu that shows pictures of levels."""
+
+    def __init__(self, app: App) -> None:
+        super().__init__(app)
+        self.thumbnails = Thumbnails(app)
+
+    def update(self, real_ms: int) -> None:
+        """Make pictures that were asked for."""
+        super().update(real_ms)
+        self.redraw = self.thumbnails.work() or self.redraw

@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 
 import pygame
 
-from ninja_game.play.ui.theme import Theme
-from ninja_game.play.ui.widgets import Area, Widget
+from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.widgets import Widget
 
 DrawRow = Callable[[pygame.Surface, Theme, int, Area, bool], None]
 """Shows a row: surface, theme, its number, its area, whether it is the chosen one while the list has the focus."""

@@ -7,8 +7,8 @@ from collections.abc import Callable
 import pygame
 
 from ninja_game.play.input.scancodes import key_name, scancode_of
-from ninja_game.play.ui.theme import Theme
-from ninja_game.play.ui.widgets import PAD, TEXT, Area, Widget
+from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.widgets import PAD, TEXT, Widget
 
 
 class TextEntry(Widget):

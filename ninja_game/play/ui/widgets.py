@@ -9,11 +9,7 @@ from collections.abc import Callable, Sequence
 
 import pygame
 
-from ninja_game.play.ui.theme import Theme
-from ninja_game.play.ui.wording import fit
-
-Area = tuple[float, float, float, float]
-"""x, y, width, height."""
+from ninja_game.play.ui.theme import Area, Theme
 
 PAD = 8
 TEXT = 11
@@ -71,15 +67,11 @@ class Widget:
 
     def draw_base(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         """A panel; with the focus it has a thick edge and a mark at its left, so that not only colour tells."""
-        palette, canvas = theme.palette, theme.canvas
-        x, y, w, h = self.area
-        canvas.fill_rect(surface, palette.panel, x, y, w, h, 4)
-        edge = palette.accent if focused else palette.panel_edge
-        canvas.frame_rect(surface, edge, x, y, w, h, 2.5 if focused else 1, 4)
+        theme.row(surface, self.area, chosen=focused, focused=focused)
         if focused:
-            canvas.polygon(
-                surface, palette.accent, [(x - 9, y + h / 2 - 5), (x - 9, y + h / 2 + 5), (x - 3, y + h / 2)]
-            )
+            x, y, _, h = self.area
+            mark = [(x - 9, y + h / 2 - 5), (x - 9, y + h / 2 + 5), (x - 3, y + h / 2)]
+            theme.canvas.polygon(surface, theme.palette.accent, mark)
 
 
 class Label(Widget):
@@ -134,8 +126,9 @@ class Button(Widget):
         text = self.text() if callable(self.text) else self.text
         colour = theme.palette.text if self.enabled else theme.palette.faint
         top = y + (h - self.size) / 2
-        fitted = fit(theme, text, w - 2 * PAD, self.size)
-        theme.text(surface, fitted, x, top, size=self.size, colour=colour, align=self.align, bold=focused)
+        theme.text(
+            surface, text, x, top, size=self.size, colour=colour, align=self.align, bold=focused, width=w - 2 * PAD
+        )
 
 
 class Choice(Widget):
@@ -184,10 +177,10 @@ class Choice(Widget):
         self.draw_base(surface, theme, focused=focused)
         x, y, w, h = self.area
         top = y + (h - TEXT) / 2
-        theme.text(surface, fit(theme, self.text, w * 0.5 - PAD, TEXT), x + PAD, top, size=TEXT, bold=focused)
+        theme.text(surface, self.text, x + PAD, top, size=TEXT, bold=focused, width=w * 0.5 - PAD)
         left, width = self._values()
-        value = fit(theme, self.options[self.index][0], width - 40, TEXT)
-        theme.text(surface, value, left + width / 2, top, size=TEXT, align="centre")
+        value = self.options[self.index][0]
+        theme.text(surface, value, left + width / 2, top, size=TEXT, align="centre", width=width - 40)
         for side, tip in ((left + 14, -5), (left + width - 14, 5)):
             points = [(side, y + h / 2 - 4), (side, y + h / 2 + 4), (side + tip, y + h / 2)]
             theme.canvas.polygon(surface, theme.palette.accent if focused else theme.palette.panel_edge, points)
@@ -213,8 +206,8 @@ class Slider(Widget):
         return True
 
     def nudge(self, action: str) -> bool:
-        """One step down or up."""
-        if action not in ("left", "right"):
+        """One step down or up; left at the lowest number leads out of it."""
+        if action not in ("left", "right") or (action == "left" and self.get() <= self.low):
             return False
         return self._take(self.get() + (self.step if action == "right" else -self.step))
 
@@ -237,7 +230,7 @@ class Slider(Widget):
         canvas, palette = theme.canvas, theme.palette
         x, y, w, h = self.area
         top = y + (h - TEXT) / 2
-        theme.text(surface, fit(theme, self.text, w * 0.5 - PAD, TEXT), x + PAD, top, size=TEXT, bold=focused)
+        theme.text(surface, self.text, x + PAD, top, size=TEXT, bold=focused, width=w * 0.5 - PAD)
         theme.text(surface, self.show(self.get()), x + w - PAD, top, size=TEXT, align="right")
         left, width = self._track()
         knob = left + width * (self.get() - self.low) / (self.high - self.low)

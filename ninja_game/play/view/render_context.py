@@ -6,7 +6,7 @@ from typing import Protocol
 
 from ninja_game.play.audio.output import AudioOutput, NullAudio
 from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.palette import PALETTES
+from ninja_game.play.ui.palette import palette_named
 from ninja_game.play.ui.theme import Theme
 from ninja_game.player.settings import Settings
 
@@ -29,5 +29,5 @@ class OffscreenContext:
     def __init__(self, size: tuple[int, int], settings: Settings | None = None) -> None:
         self.settings = settings or Settings()
         self.canvas = Canvas(size)
-        self.theme = Theme(PALETTES[self.settings.palette], self.canvas)
+        self.theme = Theme(palette_named(self.settings.palette), self.canvas)
         self.audio_output: AudioOutput = NullAudio()

@@ -12,13 +12,14 @@ from ninja_game.play.level.phase import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episode_grid import EpisodeGrid
-from ninja_game.play.menus.help import HelpScreen
+from ninja_game.play.menus.help.screen import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import PausePanel, Question
+from ninja_game.play.menus.panels import Question
+from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
-from ninja_game.play.menus.settings import PAGES, SettingsScreen
+from ninja_game.play.menus.settings.screen import PAGES, SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.ui.palette import PALETTES
 from ninja_game.player.settings import PALETTES as NAMES_IN_SETTINGS
@@ -120,11 +121,9 @@ def test_stall_during_a_short_press_does_not_repeat_it(driver: MenuDriver) -> No
 
 
 def test_every_page_of_the_settings_shows(driver: MenuDriver) -> None:
-    screen = driver.open("Settings")
-    assert isinstance(screen, SettingsScreen)
-    for number, page in enumerate(PAGES):
-        driver.mouse(*screen.widgets[number].centre)
-        assert screen.page == page
+    driver.open("Settings")
+    for page in PAGES:
+        assert driver.settings_page(page).page == page
         driver.frames(2)
 
 
@@ -141,10 +140,8 @@ def test_palette_is_changed_shown_and_saved(driver: MenuDriver) -> None:
 
 
 def test_key_is_rebound_by_pressing_it(driver: MenuDriver) -> None:
-    screen = driver.open("Settings")
-    assert isinstance(screen, SettingsScreen)
-    driver.mouse(*screen.widgets[PAGES.index("Keyboard")].centre)
-    screen.focus = screen.widgets[len(PAGES)]
+    driver.open("Settings")
+    screen = driver.settings_page("Keyboard")
     driver.press("down", "down", "return", "x")
     assert driver.player.settings.keys["jump"][0] == "x"
     assert "jump" in driver.keys.decode(pygame.Event(pygame.KEYDOWN, key=0, scancode=pygame.KSCAN_X)).pressed

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import pygame
 
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.rebinding import BindingTable, binding_widgets
+from ninja_game.play.menus.settings.rebinding import BindingTable, binding_widgets
 from ninja_game.play.ui.canvas import WIDTH
+from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.palette import NINJA_COLOURS, PALETTES
 from ninja_game.play.ui.text_entry import TextEntry
-from ninja_game.play.ui.widgets import Button, Choice, Label, Slider, Widget
+from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.widgets import Choice, Label, Slider, Widget
 from ninja_game.player.unlocks import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 
 if TYPE_CHECKING:
@@ -20,8 +22,8 @@ if TYPE_CHECKING:
 
 PAGES = ("Picture", "Sound", "Play", "Keyboard", "Gamepad")
 SWITCH = [("off", False), ("on", True)]
-RATES = [("as the display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 144), ("240", 240)]
-COLOUR_NAMES = ("the palette's", "pink", "olive", "teal", "mauve", "maroon", "white", "gold", "slate", "silver")
+RATES = [("match display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 144), ("240", 240)]
+COLOUR_NAMES = ("default", "pink", "olive", "teal", "mauve", "maroon", "white", "gold", "slate", "silver")
 PRACTICE_HINT = "No clock; quick save, rewind, slow motion; no records"
 LEFT, TOP, STEP, HEIGHT_OF_ROW = 216, 72, 42, 32
 WIDTH_OF_ROW = WIDTH - 36 - LEFT - 12
@@ -36,24 +38,31 @@ class SettingsScreen(MenuScreen):
         super().__init__(app)
         self.page = PAGES[0]
         self.tables: dict[str, BindingTable] = {}
+        self.tabs = ListView((40, TOP - 4, 158, 40 * len(PAGES)), 40, self._draw_tab, self._go_in, selected=self._show)
+        self.tabs.hint = "Up and down choose a page, Right goes to it, Esc leaves the settings"
+        self.tabs.fill(PAGES)
 
     def build(self) -> Sequence[Widget]:
         """The pages, and the present page's widgets."""
-        tabs: list[Widget] = [
-            Button((44, TOP + 40 * k, 150, 32), page, self._opener(page), size=12) for k, page in enumerate(PAGES)
-        ]
-        return [*tabs, *self._page_widgets()]
+        return [self.tabs, *self._page_widgets()]
 
-    def _opener(self, page: str) -> Callable[[], None]:
-        def open_page() -> None:
-            self.page = page
-            focus = self.focus
+    def _show(self, index: int) -> None:
+        """Show the page that is selected."""
+        if self.page != PAGES[index]:
+            self.page = PAGES[index]
             self.enter()
-            if focus in self.widgets:
-                self.focus = focus
             self.redraw = True
 
-        return open_page
+    def _go_in(self, _index: int) -> None:
+        """To the first widget of the page."""
+        self.focus_on(next(widget for widget in self.widgets[1:] if widget.focusable))
+
+    def back(self) -> None:
+        """One step: from a page to the list of pages, from there out."""
+        if self.focus is self.tabs:
+            super().back()
+        else:
+            self.focus_on(self.tabs)
 
     def _page_widgets(self) -> list[Widget]:
         if self.page in ("Keyboard", "Gamepad"):
@@ -88,7 +97,7 @@ class SettingsScreen(MenuScreen):
             self._choice(1, "Ninja colour", "ninja_colour", colours, more),
             self._choice(2, "Full screen", "fullscreen", SWITCH, "F11 at any time"),
             self._choice(3, "Smooth motion", "smooth", SWITCH, "Draw between the 40 ticks of a second"),
-            self._choice(4, "Pictures per second", "frame_limit", RATES),
+            self._choice(4, "Frame rate", "frame_limit", RATES),
             self._choice(5, "Reduced motion", "reduced_motion", SWITCH, "Fewer particles; nothing plays behind menus"),
             self._choice(6, "Reduced gore", "reduced_gore", SWITCH, "No blood"),
             self._choice(7, "Ghost of your best run", "show_ghost", SWITCH),
@@ -100,12 +109,12 @@ class SettingsScreen(MenuScreen):
         def slider(place: int, text: str, name: str, hint: str) -> Slider:
             return Slider(
                 self._area(place), text, (0, 99, 3), lambda: getattr(self.player.settings, name),
-                lambda value: self._set_volume(name, value), hint=hint,
+                lambda value: self._set_volume(name, value), show=lambda value: f"{value / 0.99:.0f}", hint=hint,
             )  # fmt: skip
 
         return [
             slider(0, "Volume", "volume", "0 is silence"),
-            slider(1, "Lasting sounds", "loop_volume", "Skids, slides, rockets, lasers: share of the volume"),
+            slider(1, "Ambient loops", "loop_volume", "Skids, slides, rockets, lasers: share of the volume"),
         ]
 
     def _set_volume(self, name: str, value: float) -> None:
@@ -135,5 +144,8 @@ class SettingsScreen(MenuScreen):
         super().draw_frame(surface)
         canvas, palette = self.app.canvas, self.app.theme.palette
         canvas.fill_rect(surface, palette.panel_edge, 204, 64, 1, 490)
-        y = TOP + 40 * PAGES.index(self.page)
-        canvas.fill_rect(surface, palette.accent, 198, y + 2, 4, 28, 2)
+
+    def _draw_tab(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        x, y, w, h = area
+        theme.row(surface, (x + 4, y + 4, w, h - 8), chosen=index == self.tabs.index, focused=focused)
+        theme.text(surface, PAGES[index], x + 4 + w / 2, y + h / 2 - 6, size=12, align="centre", bold=focused)

@@ -1,26 +1,13 @@
-"""Texts that fit: shortened, wrapped, counted."""
+"""Text in lines, and numbers with their nouns."""
 
 from __future__ import annotations
 
-from bisect import bisect_right
+from collections.abc import Sequence
 
 from ninja_game.play.ui.theme import Theme
 
-NARROWEST = 0.2
-"""Width of the narrowest letter with its space, as a share of the size: longer texts need not be measured."""
-
 NARROWER = (0.95, 0.9, 0.85, 0.8, 0.75, 0.7, 0.65, 0.6, 0.55)
 """Shares of the width that are tried to make lines equally long."""
-
-
-def fit(theme: Theme, text: str, width: float, size: float) -> str:
-    """The text, shortened by dots to fit a width."""
-    most = int(width / (NARROWEST * size)) + 1
-    if len(text) <= most and theme.width(text, size) <= width:
-        return text
-    lengths = range(min(len(text), most) + 1)
-    kept = bisect_right(lengths, width, key=lambda length: theme.width(text[:length] + "...", size)) - 1
-    return text[: max(0, kept)].rstrip() + "..."
 
 
 def wrapped(theme: Theme, text: str, width: float, size: float) -> list[str]:
@@ -52,3 +39,15 @@ def counted(number: int, one: str, more: str) -> str:
     ('1 try', '2 tries')
     """
     return f"{number} {one if number == 1 else more}"
+
+
+def unreadable(names: Sequence[str]) -> str:
+    """What to say of files that cannot be read; '' if there are none.
+
+    >>> unreadable(["a.txt"]), unreadable(["a.txt", "b.txt", "c.txt"])
+    ('Cannot be read: a.txt', 'Cannot be read: a.txt and 2 more files')
+    """
+    if not names:
+        return ""
+    more = f" and {counted(len(names) - 1, 'more file', 'more files')}" if len(names) > 1 else ""
+    return f"Cannot be read: {names[0]}{more}"

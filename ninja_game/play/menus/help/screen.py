@@ -10,13 +10,13 @@ import pygame
 from ninja_game.play.input.actions import ACTIONS
 from ninja_game.play.input.bindings import MOVES
 from ninja_game.play.level.run_clock import RunClock
-from ninja_game.play.menus.demonstrations import Page, read_pages
+from ninja_game.play.menus.help.pages import Page, read_pages
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.ui.canvas import HEIGHT, Canvas
 from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.theme import Theme
-from ninja_game.play.ui.widgets import Area, Button, Widget
-from ninja_game.play.ui.wording import wrapped
+from ninja_game.play.ui.text_layout import wrapped
+from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.simulation import Simulation
 
@@ -33,8 +33,7 @@ REST_TICKS = 60
 """How long a demonstration stands still after its last input (game.md §4.4)."""
 
 KEYS_TITLE = "Keys"
-SHOWN_KEYS = ("left", "right", "jump", "confirm", "retry", "pause", "replay", "suicide", "ghost", "quit", "back")
-PRACTICE_KEYS = ("quick_save", "quick_load", "rewind", "slow", "step", "skip", "overlay_hitboxes")
+KEYS_PER_COLUMN = 15
 
 
 class HelpScreen(MenuScreen):
@@ -99,9 +98,7 @@ class HelpScreen(MenuScreen):
         x, y, w, h = area
         chosen = index == self.list.index
         if chosen:
-            theme.canvas.fill_rect(surface, theme.palette.panel, x, y + 1, w, h - 2, 3)
-            edge = theme.palette.accent if focused else theme.palette.panel_edge
-            theme.canvas.frame_rect(surface, edge, x, y + 1, w, h - 2, 2.5 if focused else 1, 3)
+            theme.row(surface, (x, y + 1, w, h - 2), chosen=True, focused=focused, radius=3)
         theme.text(surface, self.topics[index], x + 10, y + 7, size=11.5, bold=chosen)
 
     def _draw_keys_pressed(self, surface: pygame.Surface, keys: int) -> pygame.Rect:
@@ -123,16 +120,15 @@ class HelpScreen(MenuScreen):
     def _draw_table(self, surface: pygame.Surface, theme: Theme) -> None:
         """What every key does, as it is bound now."""
         theme.canvas.fill_rect(surface, theme.palette.background, *WINDOW)
-        for column, actions in enumerate((SHOWN_KEYS, PRACTICE_KEYS)):
-            for row, action in enumerate(actions):
-                x, y = WINDOW[0] + 262 * column, WINDOW[1] + 10 + 25 * row
-                theme.text(surface, self.app.controls.name(action), x, y, size=12, bold=True)
-                theme.text(surface, ACTIONS[action].label.replace(" (practice)", ""), x + 92, y, size=12)
+        for place, (action, entry) in enumerate(ACTIONS.items()):
+            column, row = divmod(place, KEYS_PER_COLUMN)
+            x, y = WINDOW[0] + 262 * column, WINDOW[1] + 4 + 19 * row
+            theme.text(surface, self.app.controls.name(action), x, y, size=10.5, bold=True, width=76)
+            theme.text(surface, entry.label, x + 80, y, size=10.5, width=178)
         x, y, _, h = WINDOW
         theme.text(surface, "All of them can be changed in the settings.", x, y + h + 86, size=12.5)
-        theme.text(surface, "Right column: in practice mode only.", x, y + h + 106, size=12.5)
         if self.app.controls.pads.count:
-            theme.text(surface, "A gamepad works everywhere too.", x, y + h + 126, size=12.5)
+            theme.text(surface, "A gamepad works everywhere too.", x, y + h + 106, size=12.5)
 
 
 class Demonstration:

@@ -1,4 +1,4 @@
-"""The settings' pages of keys and buttons: every action, up to four inputs each, changed by pressing another."""
+"""The settings' pages of keys and buttons: every action, up to five inputs each, changed by pressing another."""
 
 from __future__ import annotations
 
@@ -7,23 +7,19 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.play.input.actions import ACTIONS
-from ninja_game.play.input.events import InputEvent
-from ninja_game.play.input.gamepad import pad_label
-from ninja_game.play.input.scancodes import key_label
-from ninja_game.play.screen import Screen
+from ninja_game.play.menus.settings.capture import Capture, Conflict, clash, input_label
 from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.theme import Theme
-from ninja_game.play.ui.widgets import TEXT, Area, Button, Slider, Widget
-from ninja_game.play.ui.wording import fit
+from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.widgets import TEXT, Button, Slider, Widget
 
 if TYPE_CHECKING:
-    from ninja_game.play.menus.settings import SettingsScreen
+    from ninja_game.play.menus.settings.screen import SettingsScreen
 
 
-SLOTS = 4
+SLOTS = 5
 ROW = 30
 LIST: Area = (216, 72, 540, 13 * ROW)
-LABEL_SHARE = 0.4
+LABEL_SHARE = 0.34
 
 
 def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
@@ -33,7 +29,7 @@ def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
     table = screen.tables.setdefault(device, BindingTable(screen, device, actions))
     widgets: list[Widget] = [
         table,
-        Button((216, 478, 260, 30), "All as they were at first", lambda: screen.change(**{device: {}})),
+        Button((216, 478, 260, 30), "Reset to defaults", lambda: screen.change(**{device: {}})),
     ]
     if device == "pad":
         widgets.append(_dead_zone(screen))
@@ -106,67 +102,32 @@ class BindingTable(ListView):
         self.screen.app.push(Capture(self, self.actions[index], self.slot))
 
     def taken(self, action: str, slot: int, name: str) -> None:
-        """An input was pressed for an action: put it in its place; twice in one row is once."""
+        """An input was pressed for an action: use it, unless other actions have it; then the player chooses."""
+        others = [other for other in ACTIONS if name in self.inputs(other) and clash(action, other)]
+        if others:
+            self.screen.app.push(Conflict(self, action, slot, name, others))
+        else:
+            self.put(action, slot, name)
+
+    def put(self, action: str, slot: int, name: str) -> None:
+        """Put an input in its place; twice in one row is once."""
         inputs = [each for each in self.inputs(action) if each != name]
         inputs[slot : slot + 1] = [name]
         self.bind(action, tuple(inputs[:SLOTS]))
 
     def _draw_action(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
-        canvas, palette = theme.canvas, theme.palette
         _, y, _, h = area
         action = self.actions[index]
         top = y + (h - TEXT) / 2
-        label = fit(theme, ACTIONS[action].label, LIST[2] * LABEL_SHARE - 8, TEXT)
-        theme.text(surface, label, area[0] + 2, top, size=TEXT, bold=focused)
+        theme.text(
+            surface, ACTIONS[action].label, area[0] + 2, top, size=TEXT, bold=focused, width=LIST[2] * LABEL_SHARE - 8
+        )
         left, width = self._cells()
         inputs = self.inputs(action)
         for slot in range(SLOTS):
             x = left + slot * width
             here = focused and slot == self.slot
-            canvas.fill_rect(surface, palette.panel, x + 2, y + 2, width - 4, h - 4, 3)
-            edge = palette.accent if here else palette.panel_edge
-            canvas.frame_rect(surface, edge, x + 2, y + 2, width - 4, h - 4, 2.5 if here else 1, 3)
+            theme.row(surface, (x + 2, y + 2, width - 4, h - 4), chosen=here, focused=here, radius=3)
             if slot < len(inputs):
-                text = key_label(inputs[slot]) if self.device == "keys" else pad_label(inputs[slot])
-                shown = fit(theme, text, width - 12, 10)
-                theme.text(surface, shown, x + width / 2, top + 0.5, size=10, align="centre")
-
-
-class Capture(Screen):
-    """Waits for one press, which becomes the input. Esc leaves all as it was."""
-
-    see_through = True
-
-    def __init__(self, table: BindingTable, action: str, slot: int) -> None:
-        super().__init__(table.screen.app)
-        self.table = table
-        self.action = action
-        self.slot = slot
-
-    def capture(self, event: InputEvent) -> bool:
-        """Take the press, whatever it means elsewhere."""
-        if event.raw.type == pygame.MOUSEBUTTONDOWN:
-            self.app.pop()
-            return True
-        if event.source is None:
-            return False
-        device, name = event.source
-        if device == "keys" and name == "escape":
-            self.app.pop()
-        elif device == self.table.device:
-            self.app.pop()
-            self.table.taken(self.action, self.slot, name)
-        return True
-
-    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """What to do."""
-        if not self.redraw:
-            return []
-        theme, canvas = self.app.theme, self.app.canvas
-        canvas.fill_rect(surface, theme.palette.background, 206, 240, 380, 110, 6)
-        canvas.frame_rect(surface, theme.palette.accent, 206, 240, 380, 110, 2.5, 6)
-        what = "key" if self.table.device == "keys" else "button, or move a stick,"
-        theme.text(surface, ACTIONS[self.action].label, 396, 262, size=16, align="centre", bold=True)
-        theme.text(surface, f"Press a {what} for it", 396, 292, size=12, align="centre")
-        theme.text(surface, "Esc leaves it as it was", 396, 318, size=10, colour=theme.palette.faint, align="centre")
-        return None
+                text = input_label(self.device, inputs[slot])
+                theme.text(surface, text, x + width / 2, top + 0.5, size=10, align="centre", width=width - 10)

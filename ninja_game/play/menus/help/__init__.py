@@ -1,0 +1,1 @@
+"""The help: pages with demonstrations, and the table of keys."""

@@ -1,0 +1,50 @@
+"""The pause: a panel over the level."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from ninja_game.play.input.events import InputEvent
+from ninja_game.play.menus.help.screen import HelpScreen
+from ninja_game.play.menus.panels import Panel
+from ninja_game.play.menus.settings.screen import SettingsScreen
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+    from ninja_game.play.level.play import LevelPlay
+
+
+class PausePanel(Panel):
+    """The game waits. Space, the pause key or Esc go on."""
+
+    def __init__(self, app: App, playing: LevelPlay) -> None:
+        super().__init__(app, "Paused")
+        self.playing = playing
+
+    def rows(self) -> list[tuple[str, Callable[[], object], str]]:
+        """What can be done."""
+        return [
+            ("Resume", self.back, ""),
+            ("Retry", lambda: self._leave(self.playing.retry), ""),
+            ("Settings", lambda: self.app.push(SettingsScreen(self.app)), ""),
+            ("Help", lambda: self.app.push(HelpScreen(self.app)), ""),
+            ("Leave the level", lambda: self._leave(self.playing.quit), ""),
+        ]
+
+    def handle(self, event: InputEvent) -> None:
+        """The pause key ends the pause too, the quit key leaves."""
+        if "pause" in event.pressed:
+            self.back()
+        elif "quit" in event.pressed:
+            self._leave(self.playing.quit)
+        else:
+            super().handle(event)
+
+    def back(self) -> None:
+        """Go on playing."""
+        self._leave(self.playing.resume)
+
+    def _leave(self, then: Callable[[], object]) -> None:
+        self.app.pop()
+        then()

@@ -1,0 +1,1 @@
+"""The settings: pages of widgets, and the change of keys and buttons."""

@@ -1,0 +1,139 @@
+"""Nothing spills out of its panel, lies over its neighbour, or promises what is not there."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+
+from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menus.browser import Browser
+from ninja_game.play.menus.episode_grid import Cells, EpisodeGrid
+from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.records import RecordsScreen
+from ninja_game.play.menus.replays import ReplaysScreen
+from ninja_game.play.ui.canvas import HEIGHT, WIDTH
+from ninja_game.play.ui.theme import Area
+from ninja_game.play.ui.widgets import Widget
+from ninja_game.simulation import Simulation
+from tests.support.menu_driver import MenuDriver
+
+
+def lies_in(inner: Area, outer: Area) -> bool:
+    return (
+        inner[0] >= outer[0]
+        and inner[1] >= outer[1]
+        and inner[0] + inner[2] <= outer[0] + outer[2]
+        and inner[1] + inner[3] <= outer[1] + outer[3]
+    )
+
+
+def overlap(a: Widget, b: Widget) -> bool:
+    (ax, ay, aw, ah), (bx, by, bw, bh) = a.area, b.area
+    return ax < bx + bw and bx < ax + aw and ay < by + bh and by < ay + ah
+
+
+@pytest.mark.parametrize("entry", ["Play", "Levels", "Records", "Replays", "Settings", "Help", "Quit"])
+def test_widgets_lie_in_the_stage_and_not_over_each_other(driver: MenuDriver, entry: str) -> None:
+    screen = driver.open(entry)
+    assert isinstance(screen, MenuScreen)
+    able = [widget for widget in screen.widgets if widget.focusable]
+    assert able
+    for widget in able:
+        assert lies_in(widget.area, (24, 52, WIDTH - 48, HEIGHT - 88))
+    assert not any(overlap(a, b) for a, b in combinations(able, 2))
+
+
+@pytest.mark.parametrize("count", [3, 7, 8, 10, 14])
+def test_panel_of_the_main_menu_holds_its_entries(
+    driver: MenuDriver, monkeypatch: pytest.MonkeyPatch, count: int
+) -> None:
+    menu = driver.top()
+    assert isinstance(menu, MainMenu)
+    entries = (menu.entries() * 2)[:count]
+    monkeypatch.setattr(MainMenu, "entries", lambda _: entries)
+    menu.enter()
+    driver.frames(1)
+    assert lies_in(menu.panel, (0, 0, WIDTH, HEIGHT - 24))
+    assert len(menu.widgets) == count
+    for widget in menu.widgets:
+        assert lies_in(widget.area, menu.panel)
+        assert widget.area[3] >= 18
+    assert not any(overlap(a, b) for a, b in combinations(menu.widgets, 2))
+
+
+def test_grid_shows_only_the_episodes_that_there_are(driver: MenuDriver) -> None:
+    grid = driver.open("Play")
+    assert isinstance(grid, EpisodeGrid)
+    episodes = driver.player.catalogue.episodes
+    assert sorted(number for number in grid.grid.numbers if number >= 0) == sorted(episodes)
+    for _ in range(3 * len(grid.grid.numbers)):
+        driver.press("down")
+        assert grid.episode is not None
+
+
+def test_grid_with_gaps_never_selects_a_gap() -> None:
+    cells = Cells((0, 0, 1, 1), 10, lambda *_: None, lambda _: None)
+    cells.arrange([0, 1, 2, 10, 30, 31])
+    assert cells.columns == 3
+    assert cells.numbers == [0, 10, 30, 1, -1, 31, 2, -1, -1]
+    assert cells.nudge("right")
+    assert not cells.nudge("down")
+    assert cells.numbers[cells.index] == 10
+    assert not cells.click(*(value + 1 for value in cells.row_area(4)[:2]))
+    assert cells.numbers[cells.index] == 10
+
+
+def test_only_what_was_passed_can_be_watched(driver: MenuDriver) -> None:
+    records = driver.open("Records")
+    assert isinstance(records, RecordsScreen)
+    assert records.list.hint == "Nothing to watch yet"
+    driver.press("return")
+    assert isinstance(driver.top(), RecordsScreen)
+    driver.press("escape")
+    browser = driver.open("Levels")
+    assert isinstance(browser, Browser)
+    assert browser.watch_best.enabled is False
+    driver.press("return")
+    level = driver.top()
+    assert isinstance(level, LevelScreen)
+    level.begin()
+    driver.play_replay(1)
+    driver.press("q")
+    enabled: bool = browser.watch_best.enabled
+    assert enabled
+    driver.press("escape")
+    again = driver.open("Records")
+    assert isinstance(again, RecordsScreen)
+    driver.press("down")
+    assert again.list.hint == "Enter: watch it"
+
+
+def test_file_that_cannot_be_read_is_named(driver: MenuDriver) -> None:
+    (driver.player.folder / "levels" / "broken.txt").write_text("ninja-game level 1\nnonsense")
+    (driver.player.replay_folder / "torn.replay.txt").write_text("ninja-game replay 1\nnonsense")
+    browser = driver.open("Levels")
+    assert isinstance(browser, Browser)
+    assert "broken.txt" in browser.message
+    driver.press("escape")
+    replays = driver.open("Replays")
+    assert isinstance(replays, ReplaysScreen)
+    assert replays.problems == ["torn.replay.txt"]
+
+
+@pytest.mark.parametrize("name", ["x" * 8000, "nul \x00 here", "日本語 with ascii", "\u202e turned \x1b[31m"])
+def test_any_name_of_a_level_is_shown(driver: MenuDriver, name: str) -> None:
+    text = (Path(__file__).parents[3] / "levels" / "01-first-steps.txt").read_text("utf-8")
+    named = text.replace("name: First Steps", f"name: {name}", 1)
+    assert named != text
+    (driver.player.folder / "levels" / "odd.txt").write_text(named, "utf-8")
+    browser = driver.open("Levels")
+    assert isinstance(browser, Browser)
+    driver.press("end")
+    driver.frames(3)
+    driver.press("return")
+    driver.frames(3)
+    assert driver.app.running
+    assert Simulation(browser.shown[0].named.level)

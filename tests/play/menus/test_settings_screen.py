@@ -1,0 +1,89 @@
+"""The settings: pages are chosen by moving, Esc goes back one step, and no input gets two meanings unasked."""
+
+from __future__ import annotations
+
+import pytest
+
+from ninja_game.play.input.actions import ACTIONS
+from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.settings.capture import Conflict, clash
+from ninja_game.play.menus.settings.rebinding import SLOTS
+from ninja_game.play.menus.settings.screen import PAGES, SettingsScreen
+from tests.support.menu_driver import MenuDriver
+
+
+@pytest.fixture
+def screen(driver: MenuDriver) -> SettingsScreen:
+    opened = driver.open("Settings")
+    assert isinstance(opened, SettingsScreen)
+    return opened
+
+
+def test_moving_between_pages_shows_them(driver: MenuDriver, screen: SettingsScreen) -> None:
+    for page in PAGES[1:]:
+        driver.press("down")
+        assert screen.page == page
+        assert screen.focus is screen.tabs
+
+
+def test_right_enters_the_first_row_and_escape_goes_back_one_step(driver: MenuDriver, screen: SettingsScreen) -> None:
+    for page in PAGES:
+        assert screen.page == page
+        driver.press("right")
+        assert screen.focus is screen.widgets[1]
+        driver.press("escape")
+        assert screen.focus is screen.tabs
+        driver.press("down")
+    driver.press("escape")
+    assert isinstance(driver.top(), MainMenu)
+
+
+def test_up_from_the_top_row_stays_on_the_page(driver: MenuDriver, screen: SettingsScreen) -> None:
+    driver.settings_page("Sound")
+    assert screen.focus is screen.widgets[1]
+    driver.press("up")
+    assert screen.focus is screen.widgets[2]
+    assert screen.page == "Sound"
+
+
+def test_left_at_the_low_end_of_a_slider_goes_back_to_the_pages(driver: MenuDriver, screen: SettingsScreen) -> None:
+    driver.settings_page("Sound")
+    driver.app.change_settings(volume=3)
+    driver.press("left")
+    assert driver.player.settings.volume == 0
+    assert screen.focus is screen.widgets[1]
+    screen.act("left", held=True)
+    assert screen.focus is screen.widgets[1]
+    driver.press("left")
+    assert screen.focus is screen.tabs
+
+
+@pytest.mark.parametrize("presses, jump, retry", [
+    (("return",), False, True),
+    (("down", "return"), True, False),
+    (("down", "down", "return"), True, True),
+])  # fmt: skip
+def test_taken_key_asks_what_becomes_of_it(
+    driver: MenuDriver, screen: SettingsScreen, presses: tuple[str, ...], jump: bool, retry: bool
+) -> None:
+    driver.settings_page("Keyboard")
+    driver.press("down", "down", "return", "r")
+    question = driver.top()
+    assert isinstance(question, Conflict)
+    assert ACTIONS["retry"].label in question.title
+    driver.press(*presses)
+    assert driver.top() is screen
+    assert ("r" in driver.keys.keys["jump"]) == jump
+    assert ("r" in driver.keys.keys["retry"]) == retry
+
+
+def test_defaults_do_not_clash_and_every_input_has_a_place() -> None:
+    for name, action in ACTIONS.items():
+        assert len(action.keys) <= SLOTS
+        assert len(action.pad) <= SLOTS
+        for other, its in ACTIONS.items():
+            if set(action.keys) & set(its.keys) or set(action.pad) & set(its.pad):
+                assert not clash(name, other)
+    assert clash("left", "retry")
+    assert clash("boss", "faster")
+    assert not clash("faster", "quick_save")
