@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ninja_game.cli.run_options import level_given, level_option
 from ninja_game.cli.solver_options import (
     check_gold,
     default_threads,
@@ -29,10 +30,7 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("replay", type=click.Path(exists=True, dir_okay=False, path_type=Path))
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
-@click.option(
-    "--level", "level_path", type=click.Path(exists=True, dir_okay=False, path_type=Path),
-    help="The level, if the recording does not hold it.",
-)  # fmt: skip
+@level_option
 @gold_option
 @seconds_option(60.0)
 @work_option
@@ -63,12 +61,10 @@ def command(
       ninja-game improve first.replay.txt -o shorter.replay.txt
       ninja-game improve demos.txt --record 3 --seconds 300 -o shorter.replay.txt
     """
-    from ninja_game.cli.solver_options import choose_level
     from ninja_game.formats.load import load_replays
     from ninja_game.solver.solve import Task, solve
 
-    level = choose_level(level_path, None).level if level_path else None
-    recordings = load_replays(replay, level=level)
+    recordings = load_replays(replay, level=level_given(level_path))
     if record is not None:
         recordings = [recording for recording in recordings if recording.record == record]
         if not recordings:

@@ -1,4 +1,4 @@
-"""What the commands that run recordings have in common: two options and a progress bar."""
+"""What the commands that run recordings have in common: options and a progress bar."""
 
 from __future__ import annotations
 
@@ -6,9 +6,14 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack
-from typing import TypeVar
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar
 
 import click
+
+if TYPE_CHECKING:
+    from ninja_game.formats.named_level import NamedLevel
+    from ninja_game.sim.level import Level
 
 T = TypeVar("T")
 
@@ -23,6 +28,30 @@ memory_option = click.option(
 jobs_option = click.option(
     "--jobs", type=click.IntRange(1, 1024), help="How many workers run recordings. [default: one a core]"
 )
+
+level_option = click.option(
+    "--level", "level_path", metavar="FILE", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="The level of recordings that do not hold theirs.",
+)  # fmt: skip
+
+
+def choose_level(path: Path, record: int | None) -> NamedLevel:
+    """The level of a file; of several the one with that record number. Usage error if that is none or not one."""
+    from ninja_game.formats.load import load_levels
+
+    levels = load_levels(path)
+    if record is not None:
+        levels = [level for level in levels if level.record == record]
+        if not levels:
+            raise click.UsageError(f"{path}: there is no record {record}")
+    if len(levels) > 1:
+        raise click.UsageError(f"{path} holds {len(levels)} levels; choose one with --record")
+    return levels[0]
+
+
+def level_given(path: Path | None) -> Level | None:
+    """The level that ``level_option`` names."""
+    return choose_level(path, None).level if path else None
 
 
 def with_progress(items: Iterable[T], label: str) -> Iterator[T]:

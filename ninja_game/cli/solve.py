@@ -7,11 +7,11 @@ from typing import Any
 
 import click
 
+from ninja_game.cli.run_options import choose_level
 from ninja_game.cli.solver_options import (
     NOT_FOUND,
     body_option,
     check_gold,
-    choose_level,
     default_threads,
     gold_option,
     progress_line,
@@ -37,8 +37,8 @@ from ninja_game.cli.solver_options import (
 @smooth_option
 @body_option
 @click.option(
-    "-o", "--output", metavar="REPLAY", required=True, type=click.Path(dir_okay=False, path_type=Path),
-    help="Where the best run so far is kept.",
+    "-o", "--output", metavar="REPLAY", type=click.Path(dir_okay=False, path_type=Path),
+    help="Where the best run so far is kept. [default: LEVEL's name and .replay.txt, in the current folder]",
 )  # fmt: skip
 @click.pass_context
 def command(
@@ -46,7 +46,7 @@ def command(
     /,
     level: Path,
     record: int | None,
-    output: Path,
+    output: Path | None,
     jobs: int | None,
     smooth: int | None,
     **wish: Any,
@@ -66,6 +66,7 @@ def command(
     from ninja_game.solver.solve import Task, solve
 
     chosen = choose_level(level, record)
+    output = output or free_replay(level)
     task = Task(chosen.level, jobs=default_threads(jobs), **wish)
     check_gold(task)
     save = saver(output, chosen.name)
@@ -78,3 +79,9 @@ def command(
         run = smoothed_run(run, smooth)
         save(run)
     click.echo(f"{output}: {time_text(run.end_tick)}, {run.gold} gold")
+
+
+def free_replay(level: Path) -> Path:
+    """A path in the current folder that nothing has yet, named after a level's file."""
+    names = (f"{level.stem}{number}.replay.txt" for number in ("", *(f"-{count}" for count in range(2, 10_000))))
+    return next(path for path in map(Path, names) if not path.exists())

@@ -14,7 +14,6 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from ninja_game.formats.named_level import NamedLevel
     from ninja_game.solver.certificate import VerifiedRun
     from ninja_game.solver.solve import Progress, Task
 
@@ -86,20 +85,6 @@ def default_threads(jobs: int | None) -> int:
     from ninja_game.batch.thread_pool import cores
 
     return jobs or cores()
-
-
-def choose_level(path: Path, record: int | None) -> NamedLevel:
-    """The level of a file; of several the one with that record number. Usage error if that is none or not one."""
-    from ninja_game.formats.load import load_levels
-
-    levels = load_levels(path)
-    if record is not None:
-        levels = [level for level in levels if level.record == record]
-        if not levels:
-            raise click.UsageError(f"{path}: there is no record {record}")
-    if len(levels) > 1:
-        raise click.UsageError(f"{path} holds {len(levels)} levels; choose one with --record")
-    return levels[0]
 
 
 def check_gold(task: Task) -> None:

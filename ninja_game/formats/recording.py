@@ -8,9 +8,9 @@ from pathlib import Path
 
 from ninja_game.errors import DemoError, ReplayError
 from ninja_game.formats.ascii.reader import is_ascii_level
-from ninja_game.formats.n14.demo import parse_demo
+from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import LevelRecord, is_demo, read_level_file
-from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
 from ninja_game.formats.named_level import is_level_file, level_of_replay
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
 from ninja_game.sim.inputs import Demo
@@ -40,9 +40,40 @@ class Recording:
         """How many ticks to run it at most: those of our replay; N + 1 for a demo of length N."""
         return self.replay.ticks if self.replay else self.demo.end + 1
 
+    @property
+    def missing(self) -> int:
+        """How many ticks of inputs a demo claims and does not hold; more than 0 for one that was cut."""
+        return 0 if self.replay else self.demo.missing
+
     def playback(self, ticks: int) -> bytes:
         """The input of each of the first ``ticks`` ticks."""
         return self.replay.playback(ticks) if self.replay else self.demo.playback(ticks)
+
+
+def record_of(recording: Recording) -> LevelRecord:
+    """The record of N, ``$name#author#comment#level#demo#``, that holds a recording and its level.
+
+    Raises LevelError or DemoError for what such a record cannot hold.
+    """
+    demo = recording.demo
+    if recording.replay:
+        # A demo of length N runs N + 1 ticks, the last one without inputs of its own (game.md §4.4).
+        inputs = recording.playback(recording.ticks)
+        short = Demo(inputs[:-1], float(len(inputs) - 1))
+        demo = short if short.playback(len(inputs)) == inputs else Demo(inputs, float(len(inputs)))
+    level = write_level_string(recording.level, exact=True)
+    return LevelRecord(recording.name, recording.author, recording.comment, level, write_demo(demo))
+
+
+def holds_recordings(text: str) -> bool:
+    """Whether there are recordings in a text, readable or not. Raises LevelError for a broken level file."""
+    if is_replay(text):
+        return True
+    if is_ascii_level(text):
+        return False
+    if is_level_file(text):
+        return any(record.demo for record in read_level_file(text))
+    return is_demo("".join(text.split()))
 
 
 def parse_replays(text: str, *, file: str = "", level: Level | None = None) -> list[Recording]:

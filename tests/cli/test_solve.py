@@ -10,6 +10,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game.cli.main import cli
+from ninja_game.cli.solve import free_replay
 from ninja_game.cli.solver_options import default_threads
 from ninja_game.compile_cache import compiled_available
 from ninja_game.formats.n14.level_string import parse_level_string
@@ -94,7 +95,7 @@ def test_check_certifies_and_keeps_replays(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     "words, message",
     [
-        (["solve", "level.txt"], "Missing option '-o'"),
+        (["improve", "level.txt"], "Missing option '-o'"),
         (["solve", "level.txt", "--gold", "some", "-o", "x"], "'some' is neither 'all' nor a whole number"),
         (["solve", "level.txt", "--gold", "7", "-o", "x"], "the level holds 1 pieces of gold"),
         (["solve", "two.txt", "-o", "x"], "holds 2 levels; choose one with --record"),
@@ -118,3 +119,10 @@ def test_bad_requests_are_explained(
     result = command(*words)
     assert result.exit_code == 2
     assert message in " ".join(result.stderr.split())
+
+
+def test_a_run_without_a_name_is_called_after_its_level(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert free_replay(Path("levels/hill.txt")) == Path("hill.replay.txt")
+    Path("hill.replay.txt").touch()
+    assert free_replay(Path("levels/hill.txt")) == Path("hill-2.replay.txt")

@@ -18,6 +18,11 @@ def test_a_word_holds_seven_frames_the_first_in_the_lowest_bits() -> None:
     assert parse_demo(f"9:{word}|2").inputs == bytes([1, 2, 3, 4, 8, 15, 12, 2, 0])
 
 
+@pytest.mark.parametrize("text, missing", [("9:801|2", 0), ("15:801|2", 1), ("702:801", 695), ("0:", 0), ("3:", 0)])
+def test_a_cut_demo_says_how_many_ticks_are_missing(text: str, missing: int) -> None:
+    assert parse_demo(text).missing == missing
+
+
 @pytest.mark.parametrize(
     "text, inputs",
     [
