@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -71,9 +71,8 @@ def command(
     if replays:
         replays.mkdir(parents=True, exist_ok=True)
     missing = 0
-    for level in chosen:
+    for level, where in zip(chosen, _certificates(chosen, replays), strict=True):
         task = Task(level.level, jobs=default_threads(jobs), **wish)
-        where = replays / f"{Path(level.file).stem}-{level.record}.replay.txt" if replays else None
         with progress_line() as report:
             run = solve(task, report=report, on_better=saver(where, level.name) if where else None)
         missing += run is None
@@ -84,6 +83,20 @@ def command(
     if not as_json:
         click.echo(f"{len(chosen)} levels, {len(chosen) - missing} solvable, {missing} not solved in the time")
     ctx.exit(NOT_FOUND if missing else 0)
+
+
+def _certificates(levels: Sequence[NamedLevel], folder: Path | None) -> Iterator[Path | None]:
+    """Where each level's run is kept: ``file-record.replay.txt``, numbered where that name is given already."""
+    given: set[str] = set()
+    for level in levels:
+        stem = name = f"{Path(level.file).stem}-{level.record}"
+        number = 1
+        # File systems may take large and small letters for the same.
+        while name.casefold() in given:
+            number += 1
+            name = f"{stem}-{number}"
+        given.add(name.casefold())
+        yield folder / f"{name}.replay.txt" if folder else None
 
 
 def _row(level: NamedLevel, run: VerifiedRun | None) -> str:

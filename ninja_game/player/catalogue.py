@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.reading import read_utf8, text_files
+from ninja_game.files.reading import LeftOut, files_below, read_utf8
 from ninja_game.files.resources import bundled_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
@@ -100,13 +100,18 @@ class Catalogue:
         return entries + self.own()
 
     def own(self) -> list[Entry]:
-        """The levels in the player's folder as it is now; broken files become ``problems``.
+        """The levels in the player's folder as it is now; what cannot be read becomes ``problems``.
 
         Files that have not changed since they were last asked for are not read again.
         """
-        if self.folder is None or not self.folder.is_dir():
-            return []
-        return [entry for file in text_files(self.folder) for entry in self._entries_of(file)]
+        entries: list[Entry] = []
+        if self.folder is not None:
+            for found in files_below(self.folder):
+                if isinstance(found, LeftOut):
+                    self.problems.append(str(found))
+                else:
+                    entries += self._entries_of(found)
+        return entries
 
     def _entries_of(self, file: Path) -> list[Entry]:
         """The levels of one file of the player's."""

@@ -92,6 +92,17 @@ def test_check_certifies_and_keeps_replays(tmp_path: Path) -> None:
     assert "solvable par   0.575 s" in result.stdout
 
 
+def test_check_gives_every_certificate_a_name_of_its_own(tmp_path: Path) -> None:
+    for folder, name in (("a", "x.txt"), ("b", "x.txt"), ("c", "X.txt")):
+        (tmp_path / folder).mkdir()
+        level_file(tmp_path / folder, WALK, name)
+    command(
+        "check", *(tmp_path / part for part in "abc"), "--ticks", "300000", "--jobs", "1", "--replays", tmp_path / "out"
+    )
+    names = ["X-0-3.replay.txt", "x-0-2.replay.txt", "x-0.replay.txt"]
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == names
+
+
 @pytest.mark.parametrize(
     "words, message",
     [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
@@ -40,6 +41,19 @@ def test_broken_file_is_named_and_the_others_stay(tmp_path: Path) -> None:
     catalogue = Catalogue(tmp_path)
     assert len(catalogue.own()) == 1
     assert "b.txt" in catalogue.problems[0]
+
+
+def test_odd_things_in_the_players_folder_are_named_and_stop_nothing(tmp_path: Path) -> None:
+    (tmp_path / "mine.txt").write_text(write_level_string(short_level()))
+    os.mkfifo(tmp_path / "pipe.txt")
+    (tmp_path / "loop").symlink_to(tmp_path)
+    (tmp_path / "gone.txt").symlink_to(tmp_path / "nowhere")
+    (tmp_path / "folder.txt").mkdir()
+    catalogue = Catalogue(tmp_path)
+    assert [entry.title for entry in catalogue.own()] == ["mine"]
+    assert len(catalogue.problems) == 3
+    assert "a pipe, not a file" in catalogue.problems[-1]
+    assert Catalogue(tmp_path / "missing").own() == []
 
 
 def test_unchanged_file_is_read_once_and_a_changed_one_again(tmp_path: Path) -> None:

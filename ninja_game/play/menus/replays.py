@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import pygame
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.reading import text_files
+from ninja_game.files.reading import LeftOut, files_below
 from ninja_game.files.resources import bundled_replays
 from ninja_game.files.user_folder import export_path
 from ninja_game.files.writing import write_atomically
@@ -75,11 +75,12 @@ class ReplaysScreen(MenuScreen):
         return [self.list]
 
     def _file_rows(self) -> list[Row]:
-        rows = []
-        folder = self.player.replay_folder
-        own = text_files(folder) if folder.is_dir() else []
-        for when, files in (("Your folder", own), ("Bundled", bundled_replays())):
+        rows: list[Row] = []
+        for when, files in (("Your folder", files_below(self.player.replay_folder)), ("Bundled", bundled_replays())):
             for file in files:
+                if isinstance(file, LeftOut):
+                    self.problems.append(file.path.name)
+                    continue
                 try:
                     recordings = load_replays(file)
                 except (NinjaGameError, OSError):

@@ -8,6 +8,8 @@ import pygame
 import pytest
 
 from ninja_game.formats.load import load_replays
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.play.level.phase import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
@@ -235,6 +237,26 @@ def test_damaged_files_are_told_of_in_the_menu(tmp_path: Path) -> None:
     assert isinstance(driver.top(), MainMenu)
     driver.frames(3)
     driver.close()
+
+
+def test_odd_names_and_a_level_without_ninja_stop_no_screen(driver: MenuDriver) -> None:
+    level = parse_level_string("0" * 713 + "|0^100,100")
+    odd = "$na\tme \x00 \x1b[31m#me#c#" + "0" * 713 + "|5^60,540!0^396,300#"
+    (driver.player.folder / "levels" / "odd.txt").write_text(odd.replace("\x00", "\u200b"))
+    replay = Replay(b"\1\1", 1, "running", name="x\0y\x1b\ud800" * 100, level=level)
+    (driver.player.folder / "replays" / "a.txt").write_text(write_replay(replay))
+    driver.open("Levels")
+    driver.frames(5)
+    driver.press("escape")
+    screen = driver.open("Replays")
+    assert isinstance(screen, ReplaysScreen)
+    screen.list.index = next(place for place, row in enumerate(screen.rows) if row.text.startswith("x"))
+    driver.press("return")
+    driver.frames(3)
+    assert driver.top() is screen
+    assert "no ninja" in driver.app.notice
+    driver.press("e")
+    assert len(list((driver.player.folder / "exports").iterdir())) == 1
 
 
 def test_file_dropped_on_the_window_is_taken_in(driver: MenuDriver, tmp_path: Path) -> None:
