@@ -1,4 +1,4 @@
-"""The project keeps its own promises: the README's commands exist, versions agree, files stay short."""
+"""The project keeps its own promises: commands in documents exist, versions agree, files stay short."""
 
 from __future__ import annotations
 
@@ -16,23 +16,37 @@ from tools import dev
 ROOT = Path(__file__).resolve().parent.parent
 LONGEST_FILE = 400
 """Lines; the house style wants 50 to 250, a table of shapes may need more."""
+FIRST_WORDS = {"level", "replay"}
+"""What follows "ninja-game" in the first line of our files."""
 
 
 def commands_in(text: str, program: str) -> list[list[str]]:
     """The words after ``program`` on every line of ``text``'s code that starts with it."""
-    lines = re.findall(rf"^ *(?:\$ )?{re.escape(program)} +([^#\n]+)", text, re.MULTILINE)
+    code = "\n".join(re.findall(r"^```.*?^```|^    [^\n]*$", text, re.MULTILINE | re.DOTALL))
+    lines = re.findall(rf"^ *(?:\$ )?{re.escape(program)} +([^#\n]+)", code, re.MULTILINE)
     inline = re.findall(rf"`{re.escape(program)} +([^`]+)`", text)
     return [shlex.split(line) for line in lines + inline]
 
 
-def test_readme_names_only_commands_that_exist() -> None:
-    readme = (ROOT / "README.md").read_text("utf-8")
-    named = [words[0] for words in commands_in(readme, "ninja-game")]
-    assert named
-    assert set(named) <= set(COMMANDS)
+def test_documents_name_only_commands_that_exist() -> None:
+    pages = [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("tests/**/README.md")]
+    text = "\n".join(page.read_text("utf-8") for page in pages)
+    assert {words[0] for words in commands_in(text, "ninja-game")} - FIRST_WORDS <= {*COMMANDS, "--version", "--help"}
     known = set(re.findall(r"^  ([\w-]+)  +\S", dev.__doc__ or "", re.MULTILINE))
-    tools = {words[0] for words in commands_in(readme, "python3 tools/dev.py")}
-    assert {"play", "test"} <= tools <= known
+    named = commands_in(text, "python3 tools/dev.py")
+    assert {"play", "test"} <= {words[0] for words in named} <= {*known, "COMMAND"}
+    tools = {words[1] for words in named if words[0] == "tool"} - {"NAME"}
+    assert not [name for name in tools if not (ROOT / "tools" / f"{name.replace('.', '/')}.py").is_file()]
+
+
+def test_what_tests_and_tools_share_imports_neither() -> None:
+    support = [path.read_text("utf-8") for path in (ROOT / "tests" / "support").glob("*.py")]
+    assert support
+    assert not [text for text in support if re.search(r"^\s*(from|import) tools\b", text, re.MULTILINE)]
+    assert not [text for text in support if re.search(r"^\s*from tests\.(?!support)", text, re.MULTILINE)]
+    tools = [path.read_text("utf-8") for path in (ROOT / "tools").rglob("*.py")]
+    assert not [text for text in tools if re.search(r"^\s*from tests\.(?!support)", text, re.MULTILINE)]
+    assert not [text for text in tools if "sys.path" in text]
 
 
 def test_changelog_knows_the_version() -> None:
