@@ -1,4 +1,4 @@
-"""`ninja-game convert`: levels of N to readable ones and back."""
+"""`ninja-game convert`: levels and recordings of N to readable ones and back."""
 
 from __future__ import annotations
 
@@ -8,60 +8,123 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ninja_game.errors import LevelError
+from ninja_game.cli.run_options import level_given, level_option
+from ninja_game.errors import FileError, LevelError
 
 if TYPE_CHECKING:
-    from ninja_game.formats.load import NamedLevel
+    from ninja_game.formats.load import NamedLevel, Recording
 
-FORMS = ("ascii", "string", "file")
+FORMS = ("ascii", "string", "file", "replay")
 STANDARD_STREAM = "-"
+
+FORM_OF_NAME = {".replay.txt": "replay", ".replay": "replay", ".demo": "file", ".nlevel": "string"}
+"""What is written where OUT ends so."""
 
 
 @click.command()
-@click.argument("source", metavar="IN", type=click.Path(exists=True, path_type=Path))
+@click.argument("sources", metavar="IN...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
 @click.argument("target", metavar="OUT", type=click.Path(allow_dash=True))
 @click.option("--to", "form", type=click.Choice(FORMS), help="The form to write, whatever OUT is called.")
 @click.option("--legend", is_flag=True, help="End readable levels with the meaning of all characters, as comments.")
-def command(source: Path, target: str, form: str | None, legend: bool) -> None:
-    """Turn levels from one format into the other.
+@level_option
+@click.option("--force", is_flag=True, help="Replace files that exist. IN is never replaced.")
+def command(
+    sources: Sequence[Path], target: str, form: str | None, legend: bool, level_path: Path | None, force: bool
+) -> None:
+    """Turn levels and recordings from one format into the other.
 
-    IN is a file or folder of levels in any format; OUT a file, a folder, or - for the terminal. What is written:
+    IN is a file or folder in any format; OUT a file, a folder, or - for the terminal. What is written:
 
     \b
-      ascii   the readable format of docs/level-format.md; several levels: one file each, in the folder OUT
-      string  the in-game string of N; several levels: one a line
-      file    a level file of N with all levels, $name#author#comment#data#
+      ascii   levels in the readable format of docs/level-format.md; several: one file each, in the folder OUT
+      string  levels as in-game strings of N, one a line
+      file    a level file of N, $name#author#comment#level#, recordings with their demos behind the level
+      replay  recordings as replay texts of docs/replay-format.md, run once; several: one file each, in the folder OUT
 
-    Without --to: levels of N become ascii; readable ones become a string where OUT ends in .nlevel, else a level file.
+    Without --to: replay where OUT ends in .replay.txt or .replay, file for .demo, string for .nlevel; else levels of N
+    become ascii and readable ones a level file. What the form cannot hold is told.
 
     \b
     Examples:
       ninja-game convert userlevels.txt my-levels/
       ninja-game convert my-levels/ userlevels.txt
+      ninja-game convert first.txt second.txt pack.txt
       ninja-game convert my-levels/first.txt first.nlevel
+      ninja-game convert demos.txt replays/ --to replay
+      ninja-game convert run.replay.txt run.demo
       ninja-game convert first.nlevel -
     """
-    from ninja_game.formats.load import load_levels
+    from ninja_game.files.reading import text_files
+    from ninja_game.formats.load import load_levels, load_replays
+    from ninja_game.runs.conversion import left_out, level_file_text, replay_texts
 
-    levels = load_levels(source)
-    form = form or _form_for(target, levels)
-    if form == "ascii" and (_is_folder(target) or (len(levels) > 1 and target != STANDARD_STREAM)):
-        _write_folder(Path(target), levels, legend, source)
-    elif form == "ascii":
-        _write(target, "\n".join(_ascii_text(level, legend) for level in levels), source)
+    output = Output(target, sources, force=force)
+    files = [file for source in sources for file in text_files(source)]
+    level = level_given(level_path)
+    form = form or next((form for suffix, form in FORM_OF_NAME.items() if target.lower().endswith(suffix)), "")
+    if level and form not in ("replay", "file", ""):
+        raise click.UsageError("--level is for recordings: add --to replay or --to file")
+    found: Sequence[NamedLevel | Recording]
+    if form == "replay" or level:
+        found = recordings = [recording for source in sources for recording in load_replays(source, level=level)]
+        form = form or "file"
+        if form == "replay":
+            output.write_each(list(replay_texts(recordings)), recordings, ".replay.txt")
     else:
-        _write(target, _level_file_text(levels) if form == "file" else _strings_text(levels), source)
+        found = levels = [named for source in sources for named in load_levels(source)]
+        form = form or ("file" if all(named.ascii for named in levels) else "ascii")
+        if form == "ascii":
+            output.write_each([_ascii_text(named, legend) for named in levels], levels, ".txt")
+    if form == "file":
+        output.write(level_file_text(files, level))
+    elif form == "string":
+        output.write(_strings_text(found))
+    if lost := left_out(form, found, files):
+        click.echo(f"left out: {', '.join(lost)}", err=True)
 
 
-def _form_for(target: str, levels: Sequence[NamedLevel]) -> str:
-    """The form to write when none is asked for: the other one."""
-    if not all(level.ascii for level in levels):
-        return "ascii"
-    return "string" if Path(target).suffix == ".nlevel" else "file"
+class Output:
+    """Where the texts go: a file, a folder or the terminal. Nothing is written over what is there unless ``force``."""
 
+    def __init__(self, target: str, sources: Sequence[Path], *, force: bool) -> None:
+        self.target = target
+        self.sources = sources
+        self.force = force
 
-def _is_folder(target: str) -> bool:
-    return target.endswith(("/", "\\")) or Path(target).is_dir()
+    def write(self, text: str) -> None:
+        """Write one file, or to the terminal."""
+        if self.target == STANDARD_STREAM:
+            click.echo(text, nl=False)
+        else:
+            self._put([(Path(self.target), text)])
+
+    def write_each(self, texts: Sequence[str], found: Sequence[NamedLevel | Recording], suffix: str) -> None:
+        """Write a file each; one text is a file by itself unless OUT is a folder."""
+        folder = Path(self.target)
+        if self.target == STANDARD_STREAM and (suffix == ".txt" or len(texts) == 1):
+            self.write("\n".join(texts))
+        elif len(texts) == 1 and not folder.is_dir() and not self.target.endswith(("/", "\\")):
+            self.write(texts[0])
+        elif (folder.exists() and not folder.is_dir()) or folder.suffix or self.target == STANDARD_STREAM:
+            what = f"{len(texts)} {'levels' if suffix == '.txt' else 'recordings'} do not fit into one file"
+            raise LevelError(what, self.target, hint="name a folder, or use --to file")
+        else:
+            folder.mkdir(parents=True, exist_ok=True)
+            self._put([(folder / name, text) for name, text in zip(_file_names(found, suffix), texts, strict=True)])
+            click.echo(f"{len(texts)} file{'s' * (len(texts) != 1)} written to {folder}", err=True)
+
+    def _put(self, files: Sequence[tuple[Path, str]]) -> None:
+        """Write files. Raises FileError, before any is written, for what must not be replaced."""
+        from ninja_game.files.writing import write_atomically
+
+        there = [path for path, _ in files if path.exists()]
+        for path in there:
+            if any(source.samefile(path) for source in self.sources):
+                raise FileError("OUT is IN", str(path), hint="choose another name for the output")
+            if not self.force:
+                raise FileError("the file exists already", str(path), hint="--force replaces it")
+        for path, text in files:
+            write_atomically(path, text, keep=self.sources)
 
 
 def _ascii_text(level: NamedLevel, legend: bool) -> str:
@@ -72,56 +135,20 @@ def _ascii_text(level: NamedLevel, legend: bool) -> str:
     )  # fmt: skip
 
 
-def _level_file_text(levels: Sequence[NamedLevel]) -> str:
-    """All levels as one level file of N."""
-    from ninja_game.formats.n14.level_file import LevelRecord, write_level_file
-    from ninja_game.formats.n14.level_string import write_level_string
-
-    return write_level_file(
-        LevelRecord(level.name, level.author, level.comment, write_level_string(level.level)) for level in levels
-    )
-
-
-def _strings_text(levels: Sequence[NamedLevel]) -> str:
+def _strings_text(levels: Sequence[NamedLevel | Recording]) -> str:
     """All levels as in-game strings, one a line."""
     from ninja_game.formats.n14.level_string import write_level_string
 
-    return "".join(write_level_string(level.level) + "\n" for level in levels)
+    return "".join(write_level_string(level.level, exact=True) + "\n" for level in levels)
 
 
-def _write(target: str, text: str, source: Path) -> None:
-    """Write one file, never the one that was read, or to the terminal."""
-    from ninja_game.files.writing import write_atomically
-
-    if target == STANDARD_STREAM:
-        click.echo(text, nl=False)
-    else:
-        write_atomically(Path(target), text, keep=[source])
-
-
-def _write_folder(folder: Path, levels: Sequence[NamedLevel], legend: bool, source: Path) -> None:
-    """Write one readable file a level, named after its place and its name."""
-    from ninja_game.files.writing import write_atomically
-
-    if folder.exists() and not folder.is_dir():
-        raise LevelError(
-            f"{len(levels)} levels do not fit into one file", str(folder), hint="name a folder, or use --to file"
-        )
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, level in zip(_file_names(levels), levels, strict=True):
-        write_atomically(folder / name, _ascii_text(level, legend), keep=[source])
-    click.echo(f"{len(levels)} level{'s' * (len(levels) != 1)} written to {folder}", err=True)
-
-
-def _file_names(levels: Sequence[NamedLevel]) -> Iterator[str]:
-    """`0007-name-of-the-level.txt`; files that came from a folder keep their names."""
+def _file_names(found: Sequence[NamedLevel | Recording], suffix: str) -> Iterator[str]:
+    """`0007-name-of-the-level.txt`; what came from a folder of single files keeps their names."""
     from ninja_game.files.shown_text import file_stem
 
-    digits = max(3, len(str(len(levels) - 1)))
-    stems = [Path(level.file).stem for level in levels]
-    for number, level in enumerate(levels):
-        if len(set(stems)) == len(levels) > 1:
-            yield f"{stems[number]}.txt"
-        else:
-            name = file_stem(level.name)
-            yield f"{number:0{digits}d}{'-' * bool(name)}{name}.txt"
+    digits = max(3, len(str(len(found) - 1)))
+    stems = [Path(each.file).name.removesuffix(".txt").removesuffix(".replay") for each in found]
+    alone = len(set(stems)) == len(found) > 1
+    for number, (each, stem) in enumerate(zip(found, stems, strict=True)):
+        name = file_stem(each.name)
+        yield (Path(stem).stem if alone else f"{number:0{digits}d}{'-' * bool(name)}{name}") + suffix

@@ -27,7 +27,7 @@ COMMANDS = {
     "solve": "Find a run to the exit, then shorten it.",
     "improve": "Shorten a run that exists.",
     "check": "Certify levels: whether they can be passed, how fast, and what is odd.",
-    "convert": "Turn levels from one format into the other.",
+    "convert": "Turn levels and recordings from one format into the other.",
     "info": "Show what is in level and replay files.",
     "completion": "Set up completion of commands and options in your shell.",
 }

@@ -40,11 +40,6 @@ class Recording:
         """How many ticks to run it at most: those of our replay; N + 1 for a demo of length N."""
         return self.replay.ticks if self.replay else self.demo.end + 1
 
-    @property
-    def missing(self) -> int:
-        """How many ticks of inputs a demo claims and does not hold; more than 0 for one that was cut."""
-        return 0 if self.replay else self.demo.missing
-
     def playback(self, ticks: int) -> bytes:
         """The input of each of the first ``ticks`` ticks."""
         return self.replay.playback(ticks) if self.replay else self.demo.playback(ticks)
@@ -53,9 +48,11 @@ class Recording:
 def record_of(recording: Recording) -> LevelRecord:
     """The record of N, ``$name#author#comment#level#demo#``, that holds a recording and its level.
 
-    Raises LevelError or DemoError for what such a record cannot hold.
+    Raises LevelError, DemoError or ReplayError for what such a record cannot hold.
     """
     demo = recording.demo
+    if recording.replay and recording.replay.body != "circle":
+        raise ReplayError("a run with another body is no demo of N", recording.file, found=recording.replay.body)
     if recording.replay:
         # A demo of length N runs N + 1 ticks, the last one without inputs of its own (game.md §4.4).
         inputs = recording.playback(recording.ticks)

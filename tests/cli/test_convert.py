@@ -8,8 +8,14 @@ import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game.cli.main import cli
-from ninja_game.formats.load import load_levels
-from tests.support.samples import SPIKED, WALK, write_records
+from ninja_game.formats.load import load_levels, load_replays
+from ninja_game.runs.verify import verify_recording
+from tests.support.samples import SPIKED, WALK, WALK_END, running, write_records
+
+TINY = "\n".join(
+    ["ninja-game level 1", "name: Tiny", "author: me", "; a note", *["|" + "." * 31 + "|"] * 22, "|@" + "." * 30 + "|",
+     "mine 5.5,7 ; watch out", ""]
+)  # fmt: skip
 
 
 def convert(*words: str | Path) -> Result:
@@ -76,3 +82,93 @@ def test_missing_input_is_wrong_usage(tmp_path: Path) -> None:
     result = convert(tmp_path / "gone.txt", "-")
     assert result.exit_code == 2
     assert "gone.txt" in result.stderr
+
+
+def test_a_recording_of_n_becomes_a_replay_and_comes_back(tmp_path: Path) -> None:
+    source = write_records(tmp_path / "tas.txt", ("Walk", WALK, running(60)))
+    replay, back = tmp_path / "tas.replay.txt", tmp_path / "back.demo"
+    assert convert(source, replay).exit_code == 0
+    (recording,) = load_replays(replay)
+    assert recording.replay
+    assert (recording.name, recording.replay.outcome, recording.replay.final_tick) == ("Walk", "exit", WALK_END)
+    assert verify_recording(recording).good
+    assert convert(replay, back).exit_code == 0
+    assert verify_recording(load_replays(back)[0]).end_tick == WALK_END
+    assert load_levels(back)[0].level == load_levels(source)[0].level
+
+
+def test_a_run_that_goes_on_keeps_its_length_there_and_back(tmp_path: Path) -> None:
+    source = write_records(tmp_path / "tas.txt", ("Walk", WALK, running(20)))
+    first, second = tmp_path / "first.replay.txt", tmp_path / "second.replay.txt"
+    assert convert(source, first).exit_code == 0
+    assert convert(first, tmp_path / "back.demo").exit_code == 0
+    assert convert(tmp_path / "back.demo", second).exit_code == 0
+    assert first.read_text() == second.read_text()
+
+
+def test_many_recordings_become_a_folder_of_replays(tmp_path: Path) -> None:
+    source = write_records(tmp_path / "two.txt", ("A", WALK, running(60)), ("B", WALK, running(30)))
+    assert convert(source, tmp_path / "out", "--to", "replay").exit_code == 0
+    assert [path.name for path in sorted((tmp_path / "out").iterdir())] == ["000-a.replay.txt", "001-b.replay.txt"]
+    result = convert(source, tmp_path / "out.replay.txt")
+    assert "2 recordings do not fit into one file" in result.stderr
+
+
+def test_recordings_are_kept_by_a_level_file_and_told_of_where_they_are_not(tmp_path: Path) -> None:
+    source = write_records(tmp_path / "two.txt", ("A", WALK, running(60)), ("B", SPIKED, ""))
+    assert convert(source, tmp_path / "copy.txt", "--to", "file").stderr == ""
+    assert (tmp_path / "copy.txt").read_text() == source.read_text()
+    result = convert(source, tmp_path / "levels")
+    assert "left out: the recordings (--to replay or --to file keeps them)" in result.stderr
+
+
+def test_a_recording_without_its_level_takes_one(tmp_path: Path) -> None:
+    source, level = tmp_path / "demo.txt", tmp_path / "walk.nlevel"
+    source.write_text(f"$Walk####{running(60)}#\n")
+    level.write_text(WALK)
+    assert convert(source, tmp_path / "a.replay.txt").exit_code == 2
+    assert convert(source, tmp_path / "a.replay.txt", "--level", level).exit_code == 0
+    assert verify_recording(load_replays(tmp_path / "a.replay.txt")[0]).outcome == "exit"
+    assert convert(source, tmp_path / "a.demo", "--level", level).exit_code == 0
+    assert load_levels(tmp_path / "a.demo")[0].level == load_levels(level)[0].level
+    assert convert(source, tmp_path / "a", "--level", level, "--to", "ascii").exit_code == 2
+
+
+def test_input_is_never_replaced_and_other_files_only_by_force(tmp_path: Path) -> None:
+    source, target = tmp_path / "mine.txt", tmp_path / "theirs.txt"
+    source.write_text(TINY)
+    target.write_text("theirs")
+    for words in ((), ("--force",)):
+        result = convert(source, source, *words)
+        assert (result.exit_code, "OUT is IN" in result.stderr) == (2, True)
+    assert "exists already; --force replaces it" in convert(source, target).stderr
+    assert (source.read_text(), target.read_text()) == (TINY, "theirs")
+    assert convert(source, target, "--force").exit_code == 0
+    assert target.read_text().startswith("$Tiny#me##")
+
+
+def test_what_the_other_format_cannot_hold_is_told(tmp_path: Path) -> None:
+    source = tmp_path / "mine.txt"
+    source.write_text(TINY)
+    assert (
+        convert(source, tmp_path / "a.nlevel").stderr
+        == "left out: names, authors and comments of levels, comment lines\n"
+    )
+    assert convert(source, tmp_path / "a.txt", "--to", "file").stderr == "left out: comment lines\n"
+    assert convert(tmp_path / "a.txt", tmp_path / "b.txt").stderr == ""
+    source.write_text(TINY.replace("mine 5.5,7 ; watch out", "mine 1.15,7px"))
+    assert "the last bit of some numbers" in convert(source, tmp_path / "c.txt").stderr
+
+
+def test_several_files_make_a_pack(tmp_path: Path) -> None:
+    first, second, pack = tmp_path / "a.txt", tmp_path / "b.txt", tmp_path / "pack.txt"
+    first.write_text(TINY)
+    second.write_text(TINY.replace("Tiny", "Other"))
+    assert convert(first, second, pack).exit_code == 0
+    assert [level.name for level in load_levels(pack)] == ["Tiny", "Other"]
+
+
+def test_a_missing_folder_is_named_without_temporary_names(tmp_path: Path) -> None:
+    source = write_records(tmp_path / "walk.txt", ("Walk", WALK, ""))
+    target = tmp_path / "gone" / "out.txt"
+    assert convert(source, target).stderr == f"ninja-game: {target}: No such file or directory\n"

@@ -1,0 +1,91 @@
+"""Levels and recordings as texts of other formats, and what those formats cannot hold."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from ninja_game.files.reading import read_text
+from ninja_game.formats.ascii.legend import legend_text
+from ninja_game.formats.ascii.reader import is_ascii_level
+from ninja_game.formats.ascii.writer import RULER
+from ninja_game.formats.n14.level_file import LevelRecord, read_level_file, write_level_file
+from ninja_game.formats.n14.level_string import write_level_string
+from ninja_game.formats.named_level import NamedLevel, is_level_file, parse_levels
+from ninja_game.formats.recording import Recording, holds_recordings, parse_replays, record_of
+from ninja_game.formats.replay.text import is_replay, write_replay
+from ninja_game.runs.recording_reader import body_of, named_errors
+from ninja_game.runs.run import record_replay
+from ninja_game.sim.level import Level
+
+_COMMENT = re.compile(r"(?![^;]*:)[^|;]*;.*")
+"""A line of an ASCII level, neither of its header nor of its picture, with a comment."""
+
+
+def replay_texts(recordings: Iterable[Recording]) -> Iterator[str]:
+    """Each recording as a replay text of ours with its level inside; one of N is run to see what comes of it.
+
+    Raises LevelError for a level that cannot be played.
+    """
+    for recording in recordings:
+        if recording.replay:
+            replay = replace(recording.replay, level=recording.level, level_path="", level_record=0)
+        else:
+            with named_errors(recording):
+                inputs = recording.playback(recording.ticks)
+                replay = record_replay(
+                    recording.level, inputs, body=body_of(recording), name=recording.name, author=recording.author
+                )
+        yield write_replay(replay)
+
+
+def level_file_text(files: Iterable[Path], level: Level | None = None) -> str:
+    """All levels and recordings of files as one level file of N; ``level``: of recordings that leave theirs out.
+
+    Raises LevelError, ReplayError or DemoError for what cannot be read, or what such a file cannot hold.
+    """
+    return write_level_file(record for file in files for record in _records(read_text(file), str(file), level))
+
+
+def _records(text: str, file: str, level: Level | None) -> Iterator[LevelRecord]:
+    if is_level_file(text) and not is_replay(text) and not is_ascii_level(text):
+        given = write_level_string(level, exact=True) if level else ""
+        return (replace(record, level=record.level or given) for record in read_level_file(text, file=file))
+    if holds_recordings(text):
+        return map(record_of, parse_replays(text, file=file, level=level))
+    return (
+        LevelRecord(named.name, named.author, named.comment, write_level_string(named.level, exact=True))
+        for named in parse_levels(text, file=file)
+    )
+
+
+def left_out(form: str, found: Sequence[NamedLevel | Recording], files: Iterable[Path]) -> list[str]:
+    """What ``form`` ("ascii", "string", "file" or "replay") does not hold of what was found in files, in words."""
+    texts = [read_text(file) for file in files]
+    lost = []
+    if form in ("ascii", "string") and any(map(holds_recordings, texts)):
+        lost.append("the recordings (--to replay or --to file keeps them)")
+    if form == "string" and any(named.author or named.comment for named in found):
+        lost.append("names, authors and comments of levels")
+    if form == "replay" and any(recording.comment for recording in found):
+        lost.append("comments of recordings")
+    if any(map(_own_comments, filter(is_ascii_level, texts))):
+        lost.append("comment lines")
+    if form in ("string", "file") and any(isinstance(named, NamedLevel) and _rounded(named.level) for named in found):
+        lost.append("the last bit of some numbers, which N cannot read")
+    return lost
+
+
+def _own_comments(text: str) -> bool:
+    """Whether somebody wrote comments into an ASCII level, beside those that we write."""
+    ours = {line.strip() for line in (RULER + legend_text()).splitlines()}
+    return any(_COMMENT.fullmatch(line) and line.strip() not in ours for line in text.splitlines())
+
+
+def _rounded(level: Level) -> bool:
+    """Whether a level changes on its way through the in-game string."""
+    from ninja_game.formats.n14.level_string import level_digest, parse_level_string
+
+    return level_digest(parse_level_string(write_level_string(level, exact=True))) != level_digest(level)
