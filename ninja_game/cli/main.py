@@ -18,6 +18,7 @@ import click
 from ninja_game import __version__
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
+from ninja_game.signals import Terminated, end_on_signals, leave
 
 COMMANDS = {
     "play": "Play a level in a window.",
@@ -39,8 +40,8 @@ BAD_INPUT = 2
 INTERNAL_ERROR = 3
 """Exit code for a fault of this program; its traceback is on stderr."""
 
-INTERRUPTED = 130
-"""Exit code after Ctrl-C, as shells have it."""
+INTERRUPTED, TERMINATED = 130, 143
+"""Exit codes after Ctrl-C and after SIGTERM, as shells have them."""
 
 BROKEN_PIPE = 141
 """Exit code when whoever read our output has gone, as shells have it."""
@@ -112,6 +113,9 @@ class Commands(click.Group):
         except (click.Abort, KeyboardInterrupt):
             complain("interrupted")
             code = INTERRUPTED
+        except Terminated:
+            complain("terminated")
+            code = TERMINATED
         except Exception:  # noqa: BLE001 - nothing may end like a run that failed
             traceback.print_exc()
             complain("this is a fault of ninja-game, not of your input; please report it with the lines above")
@@ -143,4 +147,12 @@ def main() -> NoReturn:
     for stream in (sys.stdout, sys.stderr):
         # Names of levels may hold what the terminal's encoding has not.
         getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")
-    cli.main(prog_name="ninja-game")
+    if sys.argv[1:2] != ["play"]:
+        # A window ends by itself, and may have something to save.
+        end_on_signals()
+    try:
+        cli.main(prog_name="ninja-game")
+    except SystemExit as end:
+        if end.code in {INTERRUPTED, TERMINATED}:
+            leave(end.code)
+        raise

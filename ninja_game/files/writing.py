@@ -22,6 +22,9 @@ from ninja_game.files.reading import SUFFIXES, what_it_is
 PART_PREFIX, PART_SUFFIX = ".ninja-game-", ".part"
 """Name of a temporary file; it lies in the folder of the file that it will become."""
 
+_unfinished: set[Path] = set()
+"""The temporary files that this process is writing."""
+
 _tidied: set[Path] = set()
 """Folders in which this process has looked for what killed writers left behind."""
 
@@ -54,6 +57,7 @@ def open_atomically(path: Path, *, keep: Iterable[Path] = ()) -> Iterator[IO[byt
     part = None
     try:
         handle, part = _new_part(target.parent)
+        _unfinished.add(part)
         with os.fdopen(handle, "wb") as file:
             yield file
             file.flush()
@@ -73,6 +77,15 @@ def open_atomically(path: Path, *, keep: Iterable[Path] = ()) -> Iterator[IO[byt
         if isinstance(error, OSError) and _is_about_the_file(error):
             raise OSError(error.errno, error.strerror or str(error), str(path)) from None
         raise
+    finally:
+        _unfinished.discard(part or target)
+
+
+def discard_unfinished() -> None:
+    """Remove what this process was writing; only for a process that ends here and now."""
+    for part in list(_unfinished):
+        with suppress(OSError):
+            part.unlink(missing_ok=True)
 
 
 def remove_leftovers(folder: Path) -> None:

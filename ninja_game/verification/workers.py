@@ -8,14 +8,16 @@ exactly once, and what comes out does not depend on who did it.
 from __future__ import annotations
 
 import logging
+import os
 import signal
+import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from itertools import islice
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
 from typing import Any, Protocol, TypeVar
 
 from ninja_game.errors import NinjaGameError
@@ -62,7 +64,10 @@ class Workers(Protocol):
         """Replace workers that died."""
 
     def close(self) -> None:
-        """Let the workers go; jobs that have not started are dropped."""
+        """Let the workers go when they have done their jobs; those that have not started are dropped."""
+
+    def kill(self) -> None:
+        """Let the workers go at once."""
 
 
 class Local:
@@ -79,9 +84,10 @@ class Local:
     def _start(self) -> Executor:
         if not self._processes:
             return ThreadPoolExecutor(self._count)
-        # Not fork: a child that inherits the locks of our threads may wait for ever. Ctrl-C goes to all processes of a
-        # terminal; one that it hits between two jobs would keep the pool from ending, so only we listen to it.
-        return ProcessPoolExecutor(self._count, get_context("spawn"), _ignore_interrupts)
+        # Not fork: a child that inherits the locks of our threads may wait for ever. A new interpreter must not import
+        # what lies in the current folder.
+        os.environ["PYTHONSAFEPATH"] = "1"
+        return ProcessPoolExecutor(self._count, get_context("spawn"), _begin_worker)
 
     @property
     def count(self) -> int:
@@ -105,9 +111,28 @@ class Local:
         """Let the workers go."""
         self._executor.shutdown(cancel_futures=True)
 
+    def kill(self) -> None:
+        """End processes at once, and do not wait for threads."""
+        for process in list((getattr(self._executor, "_processes", None) or {}).values()):
+            process.kill()
+        self._executor.shutdown(wait=False, cancel_futures=True)
 
-def _ignore_interrupts() -> None:
+
+def _begin_worker() -> None:
+    """Prepare a worker process.
+
+    Ctrl-C goes to all processes of a terminal; one that it hits between two jobs would keep the pool from ending, so
+    only the parent listens to it. When that is gone, however it ended, the worker ends too.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, name="ninja-game parent", daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 class Cluster:
@@ -155,6 +180,8 @@ class Cluster:
         """Leave the cluster, which goes on."""
         self._client.close()
 
+    kill = close
+
 
 @contextmanager
 def workers(count: int, *, processes: bool = False, cluster: str = "") -> Iterator[Workers]:
@@ -162,8 +189,10 @@ def workers(count: int, *, processes: bool = False, cluster: str = "") -> Iterat
     found: Workers = Cluster(cluster) if cluster else Local(count, processes=processes)
     try:
         yield found
-    finally:
-        found.close()
+    except BaseException:
+        found.kill()
+        raise
+    found.close()
 
 
 def _itself(job: J) -> J:

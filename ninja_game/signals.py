@@ -1,0 +1,62 @@
+"""How a command ends on Ctrl-C and SIGTERM: by an exception, so that it can clean up; by force if that takes too long.
+
+Python handles a signal only between two of its own instructions. Compiled code, and threads that a leaving process
+waits for, can hold that up for long; a thread of ours then ends the process.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import sys
+import threading
+from typing import NoReturn
+
+from ninja_game.files.writing import discard_unfinished
+
+GRACE = 1.2
+"""Seconds that a command has to end by itself after a signal."""
+
+
+class Terminated(BaseException):
+    """SIGTERM has come."""
+
+
+def end_on_signals() -> None:
+    """From now on Ctrl-C and SIGTERM end this process and its workers within two seconds, whatever it is doing.
+
+    For the main thread of a program that is ours alone; a second call does nothing.
+    """
+    if sys.platform == "win32" or signal.getsignal(signal.SIGTERM) is _raise_terminated:
+        return
+    signal.signal(signal.SIGTERM, _raise_terminated)
+    arrivals, announce = os.pipe()
+    os.set_blocking(announce, False)
+    # Written by the handler in C, also while the main thread is in compiled code.
+    signal.set_wakeup_fd(announce, warn_on_full_buffer=False)
+    threading.Thread(target=_end_by_force, args=(arrivals,), name="ninja-game signals", daemon=True).start()
+
+
+def _raise_terminated(*_: object) -> NoReturn:
+    raise Terminated
+
+
+def _end_by_force(arrivals: int) -> None:
+    """Wait for a signal that ends the program, give it time to clean up, then end it."""
+    number = 0
+    while number not in {signal.SIGINT, signal.SIGTERM}:
+        number = os.read(arrivals, 1)[0]
+    threading.Event().wait(GRACE)
+    for child in multiprocessing.active_children():
+        child.kill()
+    discard_unfinished()
+    os.write(2, b"ninja-game: interrupted\n" if number == signal.SIGINT else b"ninja-game: terminated\n")
+    os._exit(128 + number)
+
+
+def leave(code: int) -> NoReturn:
+    """End the process now, without waiting for threads that still compute."""
+    for stream in (sys.stdout, sys.stderr):
+        stream.flush()
+    os._exit(code)
