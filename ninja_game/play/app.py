@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import time
 from pathlib import Path
 
@@ -11,7 +10,6 @@ import pygame
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.resources import data_folder
 from ninja_game.files.user_folder import export_path
-from ninja_game.files.writing import write_atomically
 from ninja_game.play.audio.output import AudioOutput
 from ninja_game.play.audio.player import AudioPlayer
 from ninja_game.play.input.bindings import Bindings
@@ -21,7 +19,7 @@ from ninja_game.play.screen import Screen, ScreenStack
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.play.ui.palette import palette_named
 from ninja_game.play.ui.theme import Theme
-from ninja_game.play.window import Window
+from ninja_game.play.window import Window, save_picture
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import Settings
 from ninja_game.sim.rules import TICK_MS
@@ -229,17 +227,11 @@ class App:
             self.draw()
         try:
             path = export_path(self.player.folder, "screenshot", ".png")
-            self.save_screenshot(path)
+            save_picture(self.surface, path)
         except (OSError, NinjaGameError) as error:
-            self.notify(f"The picture could not be saved: {error}")
+            self.notify(f"The picture could not be saved: {getattr(error, 'strerror', error)}")
         else:
             self.notify(f"Saved: {path}")
-
-    def save_screenshot(self, path: Path) -> None:
-        """Write the picture as it is to a PNG file. Raises OSError, NinjaGameError."""
-        picture = io.BytesIO()
-        pygame.image.save(self.surface, picture, "picture.png")
-        write_atomically(path, picture.getvalue())
 
 
 def build_app(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 
 import pygame
@@ -12,8 +11,9 @@ from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.play.app import App, build_app
-from ninja_game.play.level.context import Course, InOrder, SingleLevel
 from ninja_game.play.screen import Screen
+from ninja_game.play.window import save_picture
+from ninja_game.player.playthrough import FileRun
 from ninja_game.simulation import Body, Simulation
 
 
@@ -52,7 +52,7 @@ def main(
 
 def _save(app: App, path: Path) -> None:
     try:
-        app.save_screenshot(path)
+        save_picture(app.surface, path)
     except OSError as error:
         raise NinjaGameError(f"{path}: the picture cannot be written: {error.strerror}") from None
 
@@ -76,8 +76,8 @@ def first_screen(
     def play(app: App) -> Screen:
         from ninja_game.play.level.screen import LevelScreen
 
-        courses = [partial(_course, app, named, body, practice=practice) for named in levels]
-        return LevelScreen(app, InOrder(courses) if len(courses) > 1 else courses[0]())
+        practice_mode = practice or app.settings.practice
+        return LevelScreen(app, FileRun(app.player, levels, body=body, practice_mode=practice_mode))
 
     return play
 
@@ -106,12 +106,3 @@ def _main_menu(app: App) -> Screen:
     from ninja_game.play.menus.main_menu import MainMenu
 
     return MainMenu(app)
-
-
-def _course(app: App, named: NamedLevel, body: Body, *, practice: bool) -> Course:
-    """A level with the player's records; with another body, or in practice, by itself."""
-    if body != "circle" or practice:
-        return SingleLevel(named.name, named.level, body=body, practice=practice)
-    from ninja_game.play.menus.level_contexts import course_for
-
-    return course_for(app, named)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import io
 import os
 import warnings
+from pathlib import Path
 
 import pygame
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.writing import write_atomically
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.palette import PALETTES
 
@@ -64,6 +67,13 @@ class Window:
             window.size = self._size
             if self._place is not None:
                 window.position = self._place
+
+
+def save_picture(surface: pygame.Surface, path: Path) -> None:
+    """Write a picture as a PNG file. Raises OSError, FileError."""
+    png = io.BytesIO()
+    pygame.image.save(surface, png, "picture.png")
+    write_atomically(path, png.getvalue())
 
 
 def prepare_sdl() -> None:

@@ -2,55 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
-import pytest
-
-from ninja_game.formats.load import load_replays
+from ninja_game.formats.load import load_levels
+from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
-from ninja_game.play.level.context import InOrder, SingleLevel
-from ninja_game.play.level.phase import DEATH_PAUSE, Phase
+from ninja_game.play.level.play import DEATH_PAUSE, Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.player.playthrough import FileRun
 from ninja_game.sim.rules import LIFETIME
-from tests.support.scripted import ScriptedControls, frames, press, release, scripted_app
-
-REPLAY = Path(__file__).parent.parent / "replays" / "01-first-steps.replay.txt"
-
-
-@pytest.fixture(name="recording")
-def recording_of_first_level() -> Recording:
-    return load_replays(REPLAY)[0]
-
-
-@pytest.fixture(name="stage")
-def stage_with_app() -> Iterator[tuple[App, ScriptedControls]]:
-    with scripted_app() as made:
-        yield made
-
-
-def open_level(app: App, recording: Recording, **options: object) -> LevelScreen:
-    course = SingleLevel("level", recording.level, **options)  # type: ignore[arg-type]
-    screen = LevelScreen(app, course)
-    app.push(screen)
-    frames(app)
-    return screen
-
-
-def phase_of(screen: LevelScreen) -> Phase:
-    """The phase, for a type checker that thinks it cannot change."""
-    return screen.phase
-
-
-def play_to_the_end(app: App, controls: ScriptedControls, screen: LevelScreen, recording: Recording) -> None:
-    controls.script = iter(recording.playback(recording.ticks))
-    press("confirm")
-    while screen.phase in {Phase.READY, Phase.PLAY}:
-        frames(app)
-        assert screen.attempt.simulation.tick < 4000
-    controls.script = None
+from tests.support.scripted import (
+    ScriptedControls,
+    frames,
+    open_level,
+    phase_of,
+    play_to_the_end,
+    press,
+    release,
+)
 
 
 def test_a_script_of_the_recording_passes_the_level(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
@@ -74,10 +45,10 @@ def test_passing_makes_a_ghost_for_the_next_try(stage: tuple[App, ScriptedContro
     frames(app)
     assert screen.phase is Phase.READY
     assert screen.attempt.simulation.tick == 0
-    assert len(screen.view.ghosts) == 1
+    assert len(screen.play.view.ghosts) == 1
     press("confirm")
     frames(app, 40)
-    ghost = screen.view.ghosts[0]
+    ghost = screen.play.view.ghosts[0]
     assert ghost.simulation.tick == screen.attempt.simulation.tick == 40
 
 
@@ -153,7 +124,7 @@ def test_death_goes_on_as_a_corpse_then_offers_retry_and_replay(
     screen.attempt.lifetime = 1
     frames(app, 2)
     assert phase_of(screen) is Phase.DEAD
-    assert screen.view.doll is not None
+    assert screen.play.view.doll is not None
     tick = screen.attempt.simulation.tick
     frames(app, DEATH_PAUSE + 2)
     assert screen.attempt.simulation.tick == tick + DEATH_PAUSE + 2
@@ -185,7 +156,7 @@ def test_practice_goes_back_to_a_saved_moment_exactly(
     stage: tuple[App, ScriptedControls], recording: Recording
 ) -> None:
     app, controls = stage
-    screen = open_level(app, recording, practice=True)
+    screen = open_level(app, recording, practice_mode=True)
     controls.script = iter(recording.playback(recording.ticks))
     press("confirm")
     frames(app, 60)
@@ -202,7 +173,7 @@ def test_practice_goes_back_to_a_saved_moment_exactly(
 
 def test_rewind_runs_the_recording_backwards(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
     app, controls = stage
-    screen = open_level(app, recording, practice=True)
+    screen = open_level(app, recording, practice_mode=True)
     controls.script = iter(recording.playback(recording.ticks))
     digests = {}
     press("confirm")
@@ -221,7 +192,7 @@ def test_rewind_runs_the_recording_backwards(stage: tuple[App, ScriptedControls]
 
 def test_slow_motion_and_single_steps(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
     app, _ = stage
-    screen = open_level(app, recording, practice=True)
+    screen = open_level(app, recording, practice_mode=True)
     press("confirm")
     frames(app)
     press("slow")
@@ -241,22 +212,6 @@ def test_tools_do_nothing_outside_practice(stage: tuple[App, ScriptedControls], 
     frames(app, 5)
     assert screen.attempt.simulation.tick == 35
     assert not screen.attempt.assisted
-
-
-def test_a_key_for_both_retry_and_replay_replays_where_it_can(
-    stage: tuple[App, ScriptedControls], recording: Recording
-) -> None:
-    app, controls = stage
-    screen = open_level(app, recording)
-    press("confirm")
-    frames(app, 5)
-    press("retry", "replay")
-    frames(app)
-    assert phase_of(screen) is Phase.READY
-    play_to_the_end(app, controls, screen, recording)
-    press("retry", "replay")
-    frames(app)
-    assert isinstance(app.top, ReplayScreen)
 
 
 def test_the_boss_sees_a_sheet_of_figures(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
@@ -280,15 +235,19 @@ def test_the_boss_sees_a_sheet_of_figures(stage: tuple[App, ScriptedControls], r
     assert not app.running
 
 
-def test_the_levels_of_a_file_follow_each_other(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
+def test_the_levels_of_a_file_follow_each_other(
+    stage: tuple[App, ScriptedControls], recording: Recording, tmp_path: Path
+) -> None:
     app, controls = stage
-    courses = [lambda name=name: SingleLevel(name, recording.level) for name in ("one", "two")]
-    screen = LevelScreen(app, InOrder(courses))
+    file = tmp_path / "two.txt"
+    text = write_level_string(recording.level)
+    file.write_text(f"$one#me#a#{text}#\n$none#me#a#{'0' * 713}|#\n$two#me#a#{text}#\n")
+    screen = LevelScreen(app, FileRun(app.player, load_levels(str(file))))
     app.push(screen)
     frames(app)
     for title in ("two", "one"):
         play_to_the_end(app, controls, screen, recording)
         press("confirm")
         frames(app)
-        assert screen.course.title == title
+        assert screen.context.title == title
         assert phase_of(screen) is Phase.READY

@@ -8,19 +8,18 @@ from random import Random
 import pygame
 import pytest
 
-from ninja_game.errors import NinjaGameError
 from ninja_game.formats.load import load_replays
 from ninja_game.play.replay.export import export_film, film_length
-from ninja_game.play.replay.playback import AFTERMATH, Playback, Take, take_of
-from ninja_game.play.replay.screen import SPEEDS, ReplayScreen
+from ninja_game.play.replay.playback import RecordedRun, recorded_run
+from ninja_game.play.replay.screen import AFTERMATH, SPEEDS, ReplayScreen
 from ninja_game.simulation import Simulation
 from tests.support.scripted import frames, press, scripted_app
 
 REPLAYS = Path(__file__).parent.parent / "replays"
-TAKE = take_of(load_replays(REPLAYS / "08-the-works.replay.txt")[0])
+TAKE = recorded_run(load_replays(REPLAYS / "08-the-works.replay.txt")[0])
 
 
-def straight_digests(take: Take, ticks: int) -> list[str]:
+def straight_digests(take: RecordedRun, ticks: int) -> list[str]:
     run = Simulation(take.level, body=take.body)
     digests = [run.digest()]
     for tick in range(ticks):
@@ -33,9 +32,9 @@ def test_any_tick_sought_is_the_one_of_a_straight_run() -> None:
     with scripted_app((396, 300)) as (app, _):
         screen = ReplayScreen(app, [TAKE])
         app.push(screen)
-        digests = straight_digests(TAKE, screen.playback.length)
+        digests = straight_digests(TAKE, screen.length)
         chance = Random(4)
-        for tick in [0, 1, screen.playback.length, *(chance.randrange(screen.playback.length) for _ in range(40))]:
+        for tick in [0, 1, screen.length, *(chance.randrange(screen.length) for _ in range(40))]:
             screen.seek(tick)
             frames(app, 1, 0)
             assert screen.tick == tick
@@ -75,13 +74,13 @@ def test_it_starts_again_after_the_end() -> None:
         screen = ReplayScreen(app, [TAKE])
         app.push(screen)
         screen.still_ms = 0
-        screen.seek(screen.playback.end + AFTERMATH - 2)
+        screen.seek(screen.end + AFTERMATH - 2)
         frames(app, 3)
         assert screen.tick == 0
 
 
 def test_others_on_the_same_level_run_along() -> None:
-    other = Take("other", TAKE.level, TAKE.inputs[:50])
+    other = RecordedRun("other", TAKE.level, TAKE.inputs[:50])
     with scripted_app((396, 300)) as (app, _):
         screen = ReplayScreen(app, [TAKE, other, other])
         app.push(screen)
@@ -98,20 +97,20 @@ def test_the_mouse_drags_the_bar() -> None:
         pygame.event.post(pygame.Event(pygame.MOUSEBUTTONDOWN, pos=(304, 588), button=1))
         pygame.event.post(pygame.Event(pygame.MOUSEBUTTONUP, pos=(304, 588), button=1))
         frames(app, 1, 0)
-        assert abs(screen.tick - screen.playback.length / 2) <= 2
+        assert abs(screen.tick - screen.length / 2) <= 2
 
 
 def test_a_folder_of_pictures_has_one_a_tick(tmp_path: Path) -> None:
-    short = Take("short", TAKE.level, TAKE.inputs[:5])
+    short = RecordedRun("short", TAKE.level, TAKE.inputs[:5])
     export_film(short, tmp_path / "film")
     names = sorted(path.name for path in (tmp_path / "film").iterdir())
-    assert len(names) == film_length(Playback(short))
+    assert len(names) == film_length(short)
     assert names[0] == "00000.png"
 
 
 def test_a_gif_has_as_many_pictures(tmp_path: Path) -> None:
     image = pytest.importorskip("PIL.Image")
-    short = Take("short", TAKE.level, TAKE.inputs[:5])
+    short = RecordedRun("short", TAKE.level, TAKE.inputs[:5])
     export_film(short, tmp_path / "film.gif")
     with image.open(tmp_path / "film.gif") as film:
         ms = 0
@@ -119,12 +118,4 @@ def test_a_gif_has_as_many_pictures(tmp_path: Path) -> None:
             film.seek(frame)
             ms += film.info["duration"]
         # Pillow joins equal pictures: the time is what counts.
-        assert abs(ms - 25 * film_length(Playback(short))) <= 30
-
-
-def test_a_missing_library_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    import sys
-
-    monkeypatch.setitem(sys.modules, "PIL", None)
-    with pytest.raises(NinjaGameError, match="Pillow"):
-        export_film(TAKE, tmp_path / "film.gif")
+        assert abs(ms - 25 * film_length(short)) <= 30

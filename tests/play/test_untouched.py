@@ -7,14 +7,14 @@ from pathlib import Path
 import pytest
 
 from ninja_game.formats.load import load_replays
-from ninja_game.play.level.context import GhostRun, SingleLevel
-from ninja_game.play.level.phase import Phase
+from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import OVERLAY_ACTIONS
 from ninja_game.play.view.render_context import OffscreenContext
+from ninja_game.player.level_context import GhostRun
 from ninja_game.simulation import Simulation
-from tests.support.scripted import frames, press, release, scripted_app
+from tests.support.scripted import frames, level_run, press, release, scripted_app
 
 REPLAYS = sorted((Path(__file__).parent.parent / "replays").glob("*.replay.txt"))
 AFTER = 60
@@ -34,16 +34,16 @@ def bare_digests(path: Path) -> list[str]:
 
 
 @pytest.mark.parametrize("path", REPLAYS, ids=lambda path: path.name.split(".")[0])
-def test_a_run_with_everything_on_is_the_bare_run(path: Path) -> None:
+def test_a_run_with_everything_on_is_the_bare_run(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     recording = load_replays(path)[0]
     digests = []
     inputs = recording.playback(recording.ticks)
     with scripted_app((396, 300), palette="safe-dark", show_keys=True) as (app, controls):
-        course = SingleLevel("level", recording.level)
-        course.best = 1, inputs[: len(inputs) // 2]
-        screen = LevelScreen(app, course)
+        run = level_run(app, recording.level)
+        monkeypatch.setattr(run, "ghosts", lambda: [GhostRun("half", inputs[: len(inputs) // 2])])
+        screen = LevelScreen(app, run)
         screen.overlays.on = set(OVERLAY_ACTIONS)
-        screen.view.ghosts = [*screen.view.ghosts]
+        screen.play.view.ghosts = [*screen.play.view.ghosts]
         app.push(screen)
         controls.script = iter(b"\0" + inputs)
         press("confirm")
@@ -53,7 +53,7 @@ def test_a_run_with_everything_on_is_the_bare_run(path: Path) -> None:
             frames(app)
             if screen.attempt.simulation.tick % 10 == 0:
                 digests.append(screen.attempt.simulation.digest())
-        assert len(screen.view.ghosts) == 1
+        assert len(screen.play.view.ghosts) == 1
     assert digests == bare_digests(path)
 
 
@@ -61,7 +61,7 @@ def test_rewinding_again_and_again_changes_nothing() -> None:
     recording = load_replays(REPLAYS[-1])[0]
     inputs = recording.playback(recording.ticks)
     with scripted_app((396, 300)) as (app, controls):
-        screen = LevelScreen(app, SingleLevel("level", recording.level, practice=True))
+        screen = LevelScreen(app, level_run(app, recording.level, practice_mode=True))
         app.push(screen)
         press("confirm")
         frames(app, 1, 0)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from ninja_game.player.level_context import Navigation
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.progress import CHEATED, LOCKED, UNLOCKED, Progress
 from ninja_game.player.statistics import SELF
@@ -88,10 +89,10 @@ def test_episode_carries_its_lifetime_and_saves_its_best(tmp_path: Path) -> None
     data = player_data(tmp_path, episode())
     run = EpisodeRun(data, episode())
     for level in range(5):
-        assert run.level == level
+        assert run.position == level
         attempt = played(run.entry.named.level, lifetime=run.lifetime)
         notices = run.passed(attempt)
-        assert run.advance(attempt) == (level < 4)
+        assert run.advance() is (Navigation.NEXT_LEVEL if level < 4 else Navigation.EPISODE_END)
     assert run.score == LIFETIME - 5 * EXIT_TICK
     assert any("Episode best" in notice for notice in notices)
     best = data.records.episode_best(episode().key)
@@ -111,7 +112,7 @@ def test_practised_level_makes_the_whole_run_illegitimate(tmp_path: Path) -> Non
         attempt = played(run.entry.named.level, lifetime=run.lifetime)
         attempt.assisted = level == 0
         run.passed(attempt)
-        run.advance(attempt)
+        run.advance()
     assert data.records.episode_best(episode().key) is None
     assert data.records.level_bests() == {}
     assert data.progress.state(1) == CHEATED

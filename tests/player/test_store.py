@@ -14,9 +14,10 @@ import pytest
 
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.player import store_schema as schema
-from ninja_game.player.playthrough import EpisodeRun, LevelRun, keep_replay
+from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.progress import LOCKED, UNLOCKED
 from ninja_game.player.records import Records
+from ninja_game.player.saving import keep_replay
 from ninja_game.player.scoring import seconds_text
 from ninja_game.player.statistics import KILLERS
 from ninja_game.player.store import Store
@@ -302,7 +303,7 @@ def test_damaged_rows_are_left_out_and_play_goes_on(edit: str, tmp_path: Path) -
     for _ in range(5):
         attempt = played(run.entry.named.level, lifetime=run.lifetime)
         run.passed(attempt)
-        run.advance(attempt)
+        run.advance()
     run.died(played(deadly_level()))
     with suppress(sqlite3.IntegrityError):
         data.store.connection.execute(edit)
@@ -322,7 +323,7 @@ def test_damaged_rows_are_left_out_and_play_goes_on(edit: str, tmp_path: Path) -
     for _ in range(5):
         attempt = played(run.entry.named.level, lifetime=run.lifetime)
         assert not any("Not saved" in notice for notice in run.passed(attempt))
-        run.advance(attempt)
+        run.advance()
     assert again.progress.state(1) == UNLOCKED
 
 

@@ -6,14 +6,22 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pygame
 
+from ninja_game.formats.named_level import NamedLevel
+from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App, build_app
 from ninja_game.play.audio.output import NullAudio
 from ninja_game.play.input.actions import MENU_KEYS
 from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.input.events import InputEvent
+from ninja_game.play.level.play import Phase
+from ninja_game.play.level.screen import LevelScreen
+from ninja_game.player.catalogue import Entry
+from ninja_game.player.playthrough import LevelRun
+from ninja_game.sim.level import Level
 
 PRESS = pygame.USEREVENT + 1
 RELEASE = pygame.USEREVENT + 2
@@ -44,6 +52,11 @@ class ScriptedControls(Bindings):
         return action.capitalize()
 
 
+def level_run(app: App, level: Level, title: str = "level", **options: Any) -> LevelRun:
+    """A level by itself, played by the app's player."""
+    return LevelRun(app.player, Entry(NamedLevel(title, "", "", level, ""), "yours"), **options)
+
+
 def press(*actions: str) -> None:
     pygame.event.post(pygame.Event(PRESS, actions=actions))
 
@@ -56,6 +69,27 @@ def frames(app: App, count: int = 1, ms: int = 25) -> None:
     """Some pictures, each so many ms after the one before."""
     for _ in range(count):
         app.frame(ms)
+
+
+def open_level(app: App, recording: Recording, **options: Any) -> LevelScreen:
+    screen = LevelScreen(app, level_run(app, recording.level, **options))
+    app.push(screen)
+    frames(app)
+    return screen
+
+
+def phase_of(screen: LevelScreen) -> Phase:
+    """The phase, for a type checker that thinks it cannot change."""
+    return screen.phase
+
+
+def play_to_the_end(app: App, controls: ScriptedControls, screen: LevelScreen, recording: Recording) -> None:
+    controls.script = iter(recording.playback(recording.ticks))
+    press("confirm")
+    while screen.phase in {Phase.READY, Phase.PLAY}:
+        frames(app)
+        assert screen.attempt.simulation.tick < 4000
+    controls.script = None
 
 
 @contextmanager

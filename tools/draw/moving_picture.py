@@ -11,12 +11,12 @@ os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 
 from ninja_game.formats.load import load_replays
 from ninja_game.play.replay.export import export_film
-from ninja_game.play.replay.playback import take_of
+from ninja_game.play.replay.playback import recorded_run
 from tools import ROOT
 
 REPLAY = ROOT / "tests" / "replays" / "07-night-shift.replay.txt"
 PICTURE = ROOT / "docs" / "pictures" / "ninja-game.gif"
 
 if __name__ == "__main__":
-    export_film(take_of(load_replays(REPLAY)[0]), PICTURE)
+    export_film(recorded_run(load_replays(REPLAY)[0]), PICTURE)
     print(f"{PICTURE.relative_to(ROOT)}: {PICTURE.stat().st_size / 1000:.0f} kB")

@@ -26,10 +26,12 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 import pygame
 
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.named_level import NamedLevel
 from ninja_game.play.app import build_app
 from ninja_game.play.input.bindings import Bindings
-from ninja_game.play.level.context import SingleLevel
 from ninja_game.play.level.screen import LevelScreen
+from ninja_game.player.catalogue import Entry
+from ninja_game.player.playthrough import LevelRun
 from ninja_game.sim.inputs import JUMP_HELD
 
 LEVEL = parse_level_string("0" * 713 + "|5^300,566!11^500,564,600,564")
@@ -101,7 +103,7 @@ def measure(presses: int, rate: int) -> list[tuple[float, float]]:
     with tempfile.TemporaryDirectory() as home:
         controls = NotingBindings()
         app = build_app(Path(home), size=(792, 600), controls=controls)
-        screen = LevelScreen(app, SingleLevel("latency", LEVEL))
+        screen = LevelScreen(app, LevelRun(app.player, Entry(NamedLevel("latency", "", "", LEVEL, ""), "yours")))
         app.push(screen)
         screen.begin()
         times: list[float] = []

@@ -26,8 +26,8 @@ import pygame
 
 from ninja_game.play.app import App, build_app
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.menus.level_contexts import LevelCourse
 from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.player.playthrough import LevelRun
 from tools import ROOT
 
 SIZE = (1584, 1200)
@@ -64,9 +64,9 @@ def measure(rounds: int) -> dict[str, list[float]]:
                 found.setdefault(f"screen: {entry}", []).append(timed(lambda name=entry: open_entry(app, name)))  # type: ignore[misc]
                 app.pop()
             for level in app.player.catalogue.singles():
-                course = LevelCourse(app.player, level)
+                course = LevelRun(app.player, level)
 
-                def open_level(course: LevelCourse = course) -> None:
+                def open_level(course: LevelRun = course) -> None:
                     app.push(LevelScreen(app, course))
                     app.frame(16)
 

@@ -6,13 +6,14 @@ from random import Random
 
 import pygame
 
-from ninja_game.play.level.context import GhostRun
+from ninja_game.play.replay.playback import Playback
 from ninja_game.play.ui.canvas import Point
 from ninja_game.play.ui.palette import Palette
 from ninja_game.play.view.ninja.ninja_animation import NinjaAnimation
+from ninja_game.player.level_context import GhostRun
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import CELEBRATING, DEAD
-from ninja_game.simulation import Body, SaveState, Simulation
+from ninja_game.simulation import Body, Simulation
 
 
 class Ghost:
@@ -23,7 +24,7 @@ class Ghost:
         self.inputs = run.inputs
         self._colour = run.colour
         self.simulation = Simulation(level, body=body)
-        self._start: SaveState = self.simulation.save()
+        self._playback = Playback(self.simulation, run.inputs, spacing=0)
         self.ninja_animation = NinjaAnimation(self.simulation.world, Random(1))  # noqa: S311 - presentation
         self._before = self._now = self._place()
 
@@ -36,24 +37,20 @@ class Ghost:
         """Whether it has reached its end; it then stays where it is."""
         return self.simulation.world.ninja.state in {DEAD, CELEBRATING}
 
-    def _step(self) -> None:
-        tick = self.simulation.tick
-        self.simulation.step_keys(self.inputs[tick] if tick < len(self.inputs) else 0)
-
     def on_tick(self) -> None:
         """One more tick."""
         self._before = self._now
         if not self.over:
-            self._step()
+            self._playback.step()
             self.ninja_animation.on_tick(self.simulation.world)
             self._now = self._place()
 
     def on_seek(self, tick: int) -> None:
         """Be where the recording is after that many ticks."""
         if tick < self.simulation.tick or self.over:
-            self.simulation.restore(self._start)
+            self._playback.seek(0)
         while self.simulation.tick < tick and not self.over:
-            self._step()
+            self._playback.step()
         self.ninja_animation.reset(self.simulation.world)
         self._before = self._now = self._place()
 

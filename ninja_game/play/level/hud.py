@@ -1,8 +1,9 @@
-"""What is written over a level: time bar, name, messages, notices, keys."""
+"""What is written over a level: time bar, name, messages, keys."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import pygame
 
@@ -16,6 +17,7 @@ _BAR_LEFT, _BAR_MIDDLE = 24.0, 12.0
 _BAR_LONGEST = 700.0
 _BAR_PER_TICK = 1200.0 / LIFETIME
 _WARNING_TICKS = 1800
+_FOOT_WIDTH = 744.0
 
 
 _FILL_SHARE = 0.05
@@ -36,11 +38,40 @@ _KEYS = (
 """Where the keys of left, jump and right are drawn, their bits and their arrows."""
 
 
+@dataclass(frozen=True)
+class HudView:
+    """What is written over a level now.
+
+    ``lifetime``: ticks, for the time bar; ``label``: a word in its place. ``foot``: texts at the left and the right of
+    the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
+    ``message``: title and lines of a panel.
+    """
+
+    lifetime: float
+    label: str
+    foot: tuple[str, str]
+    keys: int | None = None
+    frame_ms: float | None = None
+    message: tuple[str, Sequence[str]] | None = None
+
+
 class Hud:
     """Draws on a theme's canvas. Every method gives the px rectangle that it covered."""
 
     def __init__(self, theme: Theme) -> None:
         self.theme = theme
+
+    def draw(self, surface: pygame.Surface, view: HudView) -> list[pygame.Rect]:
+        """All of it; the px rectangles that it covers."""
+        top = self.label(surface, view.label) if view.label else self.time_bar(surface, view.lifetime)
+        written = [top, self.foot(surface, *view.foot)]
+        if view.frame_ms is not None:
+            written.append(self.frame_time(surface, view.frame_ms))
+        if view.keys is not None:
+            written.append(self.keys(surface, view.keys))
+        if view.message is not None:
+            written.append(self.message(surface, *view.message))
+        return written
 
     def time_bar(self, surface: pygame.Surface, lifetime: float) -> pygame.Rect:
         """The lifetime (ticks) as a bar that grows thick and red as it runs out, and as seconds."""
@@ -64,11 +95,20 @@ class Hud:
         """A word in the time bar's place."""
         return self.theme.text(surface, text, 24, 7, size=10, colour=self.theme.palette.on_tile, bold=True)
 
-    def level_name(self, surface: pygame.Surface, name: str, gold: str) -> pygame.Rect:
-        """Name and gold below the level."""
-        colour = self.theme.palette.on_tile
-        rect = self.theme.text(surface, name, 24, 583, size=9, colour=colour)
-        return rect.union(self.theme.text(surface, gold, 768, 583, size=9, colour=colour, align="right"))
+    def foot(self, surface: pygame.Surface, left: str, right: str) -> pygame.Rect:
+        """A line in the border below the level; where both texts do not fit, the left one is shortened."""
+        return self._border_line(surface, left, right, 583)
+
+    def _border_line(self, surface: pygame.Surface, left: str, right: str, y: float) -> pygame.Rect:
+        theme, colour = self.theme, self.theme.palette.on_tile
+        right = theme.fit(right, _FOOT_WIDTH, 9)
+        room = _FOOT_WIDTH - theme.width(right, 9) - 14
+        rect = theme.text(surface, right, 768, y, size=9, colour=colour, align="right")
+        return rect.union(theme.text(surface, theme.fit(left, room, 9), 24, y, size=9, colour=colour))
+
+    def head(self, surface: pygame.Surface, left: str, right: str) -> pygame.Rect:
+        """A line in the border above the level, like ``foot`` below it."""
+        return self._border_line(surface, left, right, 7)
 
     def frame_time(self, surface: pygame.Surface, ms: float) -> pygame.Rect:
         """What the last turn of the loop took, in the corner."""
@@ -86,26 +126,6 @@ class Hud:
         theme.text(surface, title, 396, y + 11, size=15, align="centre", bold=True)
         for k, line in enumerate(lines):
             theme.text(surface, line, 396, y + 32 + 15 * k, size=9, colour=theme.palette.faint, align="centre")
-        return rect
-
-    def hint(self, surface: pygame.Surface, text: str) -> pygame.Rect:
-        """A line at the lower edge that does not hide the level."""
-        theme = self.theme
-        w = theme.width(text, 9) + 28
-        rect = theme.panel(surface, (792 - w) / 2, 548, w, 19, 4)
-        theme.text(surface, text, 396, 553, size=9, align="centre")
-        return rect
-
-    def notices(self, surface: pygame.Surface, notices: Sequence[str]) -> pygame.Rect:
-        """Up to four lines above the lower left corner: records, unlocks."""
-        rect = pygame.Rect(0, 0, 0, 0)
-        for k, notice in enumerate(notices[-4:]):
-            y = 528 - 24 * k
-            w = max(190.0, self.theme.width(notice, 9) + 30)
-            box = self.theme.panel(surface, 34, y, w, 20, 3)
-            self.theme.canvas.fill_rect(surface, self.theme.palette.good, 38, y + 5, 3, 10, 1)
-            self.theme.text(surface, notice, 47, y + 5.5, size=9)
-            rect = box if not rect.width else rect.union(box)
         return rect
 
     def keys(self, surface: pygame.Surface, held: int, x: float = 366) -> pygame.Rect:

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from ninja_game.play.replay.timeline import Timeline
+from ninja_game.play.replay.playback import Playback
 from ninja_game.player.attempt import Attempt, Moment
 
 SLOW_TICK_MS = 100
 """A tick in slow motion: a quarter of the speed."""
 REWIND_TICKS = 2
 """Ticks back for each tick's time that the rewind key is held."""
-_SPACING, _MOST = 10, 480
-"""A save-state every quarter of a second, for two minutes."""
+_SPACING = 10
+"""Ticks between save-states, at first."""
 
 
-class Practice:
+class PracticeTools:
     """The tools of one level screen. ``attempt``: what they act on."""
 
     def __init__(self, attempt: Attempt) -> None:
@@ -26,12 +26,12 @@ class Practice:
 
     def restarted(self) -> None:
         """The attempt began anew; a quick-save stays good."""
-        self.timeline = Timeline(self.attempt.simulation, spacing=_SPACING, most=_MOST)
-        self.rewinding = False
+        self.playback = Playback(self.attempt.simulation, self.attempt.inputs, spacing=_SPACING)
+        self.rewinding = self.stepping = False
 
     def on_tick(self) -> None:
         """Call it after every tick."""
-        self.timeline.note()
+        self.playback.note()
 
     def quick_save(self) -> None:
         """Keep this moment."""
@@ -42,13 +42,13 @@ class Practice:
         if self.saved is None:
             return False
         self.attempt.restore(self.saved)
-        self.timeline.forget_after(self.attempt.simulation.tick)
+        self.playback.forget_after(self.attempt.simulation.tick)
         return True
 
     def rewind(self, ticks: int) -> None:
         """Go back in time."""
         attempt = self.attempt
         target = max(0, attempt.simulation.tick - ticks)
-        self.timeline.seek(target, attempt.inputs)
-        self.timeline.forget_after(target)
+        self.playback.seek(target)
+        self.playback.forget_after(target)
         attempt.rewound()

@@ -1,35 +1,235 @@
-"""A level on the screen: its play, the keys, and what is written over it."""
+"""A level on the screen: what keys do in each phase, where they lead, and the picture."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
 import pygame
 
+from ninja_game.errors import NinjaGameError
 from ninja_game.play.input.events import InputEvent
-from ninja_game.play.level.hud_text import write_over
-from ninja_game.play.level.keys import act, use_tools
-from ninja_game.play.level.phase import Phase
-from ninja_game.play.level.play import LevelPlay
+from ninja_game.play.level.hud import Hud
+from ninja_game.play.level.hud_text import hud_view
+from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
+from ninja_game.play.menus.episode_passed import EpisodePassed
+from ninja_game.play.menus.pause import PausePanel
+from ninja_game.play.replay.playback import RecordedRun
+from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.play.screen import Screen
+from ninja_game.play.view.overlays import Overlays
+from ninja_game.player.attempt import Attempt
+from ninja_game.player.level_context import LevelContext, Navigation
+from ninja_game.player.playthrough import EpisodeRun
+from ninja_game.player.saving import keep_replay
+from ninja_game.sim.inputs import JUMP_HELD
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
 
 
-class LevelScreen(LevelPlay):
-    """Plays the level of a course."""
+class LevelScreen(Screen):
+    """Plays the level of a context. ``play``: what happens in it."""
+
+    def __init__(self, app: App, context: LevelContext) -> None:
+        super().__init__(app)
+        self.context = context
+        self.overlays = Overlays()
+        self._start_level()
+
+    def _start_level(self) -> None:
+        """The context's present level."""
+        self.app.audio_output.quiet()
+        self.play = LevelPlay(self.app, self.context)
+        self.play.view.overlays = self.overlays
+
+    @property
+    def phase(self) -> Phase:
+        """Where in its life the level is."""
+        return self.play.phase
+
+    @property
+    def attempt(self) -> Attempt:
+        """The present try."""
+        return self.play.attempt
+
+    def enter(self) -> None:
+        """Uncovered: the clock starts afresh, and text input is off, so that keys are keys."""
+        self.play.clock.reset()
+        pygame.key.stop_text_input()
+
+    def leave(self) -> None:
+        """No sound from a covered level."""
+        self.app.audio_output.quiet()
+
+    # --- what keys and the pause panel do ---
+
+    def begin(self) -> None:
+        """Start to play."""
+        self.play.begin()
+
+    def pause(self) -> None:
+        """Stop time, and offer what can be done."""
+        self.play.pause()
+        self.app.push(PausePanel(self.app, self))
+
+    def resume(self) -> None:
+        """Go on after a pause."""
+        self.play.resume()
+
+    def back(self) -> None:
+        """Out of a level that is not being played; where that would end the program, the pause panel comes first."""
+        if len(self.app.stack) > 1:
+            self.quit()
+        else:
+            self.pause()
+
+    def retry(self, *, ignored: int = 0) -> None:
+        """Back to the level's start, at once; a level file that was changed meanwhile is read again."""
+        self.app.audio_output.quiet()
+        self.context.gave_up(self.attempt)
+        try:
+            if self.context.restart():
+                self._start_level()
+                self.app.notify("The level's file has changed: this is the new level")
+                return
+        except (NinjaGameError, OSError) as error:
+            self.app.notify(f"The changed level cannot be played: {error}")
+        self.play.retry(ignored=ignored)
+
+    def retry_by_jump(self) -> None:
+        """The jump key retries too, once the message has come; it begins to count when it is pressed again."""
+        if self.play.after_end > DEATH_PAUSE:
+            self.retry(ignored=JUMP_HELD)
+
+    def go_on(self) -> None:
+        """From a level that is passed or left out to what comes next."""
+        where = self.context.advance()
+        if where is Navigation.SAME_LEVEL:
+            self.retry()
+        elif where is Navigation.NEXT_LEVEL:
+            self._start_level()
+        else:
+            self._leave_to(where)
+
+    def skip(self) -> None:
+        """In practice a level may be left out."""
+        if self.context.practice_mode:
+            self.go_on()
+            self.app.notify("    ".join(self.context.notices))
+
+    def quit(self) -> None:
+        """Leave the level."""
+        self.context.gave_up(self.attempt)
+        self._leave_to(self.context.way_out)
+
+    def _leave_to(self, where: Navigation) -> None:
+        app = self.app
+        if where is Navigation.EPISODE_END and isinstance(self.context, EpisodeRun):
+            app.replace(EpisodePassed(app, self.context, lambda run: app.replace(LevelScreen(app, run))))
+        else:
+            app.pop()
+
+    def give_up(self) -> None:
+        """The suicide key."""
+        self.play.give_up()
+
+    def run_on(self) -> None:
+        """In practice, after single steps: let time go on."""
+        if self.play.tools.stepping:
+            self.play.hold()
+
+    def watch_replay(self) -> None:
+        """The attempt again, from its inputs."""
+        if self.play.may_watch:
+            context = self.context
+            run = RecordedRun(context.title, context.level, bytes(self.attempt.inputs), context.body)
+            self.app.push(ReplayScreen(self.app, [run]))
+
+    def keep_replay(self) -> None:
+        """Put this run among the player's replays, whatever it is worth."""
+        player = self.app.player
+        self.app.notify(keep_replay(player, self.attempt.replay(self.context.title, player.settings.name)))
+
+    # --- events ---
 
     def handle(self, event: InputEvent) -> None:
         """Keys and clicks, by phase."""
-        if event.raw.type == pygame.WINDOWFOCUSLOST:
+        if event.raw.type == pygame.WINDOWFOCUSLOST and self.phase is Phase.PLAY:
             self.pause()
-        actions = event.pressed
-        use_tools(self, actions, event.released)
-        if event.raw.type == pygame.MOUSEBUTTONDOWN and event.raw.button == 1 and self.phase is not Phase.PLAY:
-            actions = (*actions, "confirm")
-        act(self, actions)
+        if self.context.practice_mode and self.phase in {Phase.PLAY, Phase.DEAD, Phase.PASSED}:
+            self._dispatch_practice(event)
+        clicked = event.raw.type == pygame.MOUSEBUTTONDOWN and event.raw.button == 1 and self.phase is not Phase.PLAY
+        self._dispatch_action((*event.pressed, "confirm") if clicked else event.pressed)
+
+    def _dispatch_action(self, pressed: tuple[str, ...]) -> None:
+        """Do the first thing that the pressed actions mean in this phase."""
+        for action in pressed:
+            deed = ACTIONS_BY_PHASE[self.phase].get(action)
+            if action == "ghost":
+                self.app.change_settings(show_ghost=not self.app.settings.show_ghost)
+            elif self.overlays.toggle(action):
+                self.redraw = True
+            elif deed is not None:
+                deed(self)
+            else:
+                continue
+            return
+
+    def _dispatch_practice(self, event: InputEvent) -> None:
+        """What keys mean for the tools: some act at once, some while they are held."""
+        if "quick_save" in event.pressed:
+            self.play.tools.quick_save()
+            self.app.notify(f"Saved: {self.app.controls.name('quick_load')} comes back to this moment")
+        elif "quick_load" in event.pressed and not self.play.quick_load():
+            self.app.notify(f"Nothing saved yet: {self.app.controls.name('quick_save')} saves this moment")
+        elif "step" in event.pressed:
+            self.play.step()
+        for held in ("rewind", "slow"):
+            if held in event.pressed or held in event.released:
+                down = held in event.pressed
+                self.play.hold(**({"rewinding": down} if held == "rewind" else {"slow": down}))
+
+    # --- time and picture ---
+
+    def update(self, real_ms: int) -> None:
+        """Let the world go on, if it does."""
+        self.play.update(real_ms)
+        self.redraw = self.redraw or self.play.changed
+        self.play.changed = False
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
         """The world, and what is written over it."""
-        running = self.phase is not Phase.PAUSED and not self.practice.stepping and not self.practice.rewinding
-        fraction = self.clock.fraction if running and self.phase is not Phase.READY else 1.0
-        changed = self.view.draw(surface, fraction, whole=self.redraw)
-        written = write_over(self, surface)
+        view = self.play.view
+        changed = view.draw(surface, self.play.fraction, whole=self.redraw)
+        written = Hud(self.app.theme).draw(surface, hud_view(self.play))
         for rect in written:
-            self.view.also_covered(rect)
+            view.also_covered(rect)
         return None if changed is None else changed + written
+
+
+Deeds = dict[str, Callable[[LevelScreen], None]]
+
+_END: Deeds = {
+    "retry": LevelScreen.retry, "replay": LevelScreen.watch_replay, "export": LevelScreen.keep_replay,
+    "back": LevelScreen.back, "quit": LevelScreen.quit,
+}  # fmt: skip
+"""What dead and passed have in common."""
+
+ACTIONS_BY_PHASE: dict[Phase, Deeds] = {
+    Phase.READY: {
+        "confirm": LevelScreen.begin, "retry": LevelScreen.retry, "back": LevelScreen.back, "quit": LevelScreen.quit,
+        "skip": LevelScreen.skip,
+    },
+    Phase.PLAY: {
+        "pause": LevelScreen.pause, "back": LevelScreen.pause, "retry": LevelScreen.retry,
+        "suicide": LevelScreen.give_up, "skip": LevelScreen.skip,
+        **dict.fromkeys(("confirm", "left", "right", "jump"), LevelScreen.run_on),
+    },
+    Phase.PAUSED: {},
+    Phase.DEAD: {
+        "confirm": LevelScreen.retry, "jump": LevelScreen.retry_by_jump, "skip": LevelScreen.skip, **_END,
+    },
+    Phase.PASSED: {"confirm": LevelScreen.go_on, **_END},
+}  # fmt: skip
+"""What each action does in each phase; the other actions do nothing there."""

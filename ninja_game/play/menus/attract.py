@@ -13,6 +13,7 @@ from ninja_game.files.resources import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.play.level.run_clock import RunClock
+from ninja_game.play.replay.playback import Playback
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.simulation import Simulation
 
@@ -32,7 +33,7 @@ class Attract:
         self._clock = RunClock()
         self._chance = Random(seed)  # noqa: S311 - the order is no secret
         self._order = self._shuffled()
-        self._inputs = b""
+        self._playback: Playback | None = None
         self._until = 0
         self.view: LevelView | None = None
         self.name = ""
@@ -55,8 +56,8 @@ class Attract:
                 simulation = Simulation(recording.level)
             except (NinjaGameError, OSError):
                 continue
-            self._inputs = recording.playback(recording.ticks)
-            self._until = len(self._inputs) + REST_TICKS
+            self._playback = Playback(simulation, recording.playback(recording.ticks), spacing=0)
+            self._until = len(self._playback.inputs) + REST_TICKS
             self.view = LevelView(self.app, simulation, chance=self.shown, audible=False)
             self.name = recording.name
             self.shown += 1
@@ -64,19 +65,18 @@ class Attract:
 
     def update(self, real_ms: int) -> None:
         """Let time pass. With reduced motion the picture stands still."""
-        if self.view is None:
+        playback = self._playback
+        if playback is None or self.view is None:
             self._begin_next()
             return
         if self.app.settings.reduced_motion:
             return
-        simulation = self.view.simulation
         for _ in range(self._clock.ticks_due(real_ms)):
-            tick = simulation.tick
-            if tick >= self._until:
+            if playback.tick >= self._until:
                 self._begin_next()
                 return
-            if tick < len(self._inputs) or simulation.outcome != "running":
-                simulation.step_keys(self._inputs[tick] if tick < len(self._inputs) else 0)
+            if playback.tick < len(playback.inputs) or playback.simulation.outcome != "running":
+                playback.step()
                 self.view.on_tick()
             else:
                 self._until = 0

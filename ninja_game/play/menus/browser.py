@@ -14,7 +14,6 @@ from ninja_game.files.writing import write_atomically
 from ninja_game.formats.load import load_levels
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.menus.level_contexts import LevelCourse
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.play.menus.watch_replay import watch
 from ninja_game.play.ui.list_view import ListView
@@ -23,6 +22,7 @@ from ninja_game.play.ui.text_layout import counted, unreadable
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button, Choice, Widget
 from ninja_game.player.catalogue import Entry
+from ninja_game.player.playthrough import LevelRun
 from ninja_game.player.records import SavedReplay
 from ninja_game.player.scoring import seconds_text
 
@@ -144,9 +144,9 @@ class Browser(ThumbnailScreen):
     def _play(self, index: int, *, practice: bool = False) -> None:
         if index >= len(self.shown):
             return
-        course = LevelCourse(self.player, self.shown[index], practice=practice or self.player.settings.practice)
+        run = LevelRun(self.player, self.shown[index], practice_mode=practice or self.player.settings.practice)
         try:
-            screen = LevelScreen(self.app, course)
+            screen = LevelScreen(self.app, run)
         except LevelError as error:
             self.message = error.what
             return

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.menus.level_contexts import LevelCourse, episode_course
 from ninja_game.play.menus.settings.screen import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.play.ui.list_view import BAR, ListView
@@ -16,6 +15,7 @@ from ninja_game.play.ui.text_layout import counted
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Choice, Widget
 from ninja_game.player.catalogue import Episode
+from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.progress import CHEATED, EPISODES_PER_COLUMN, LOCKED
 from ninja_game.player.scoring import seconds_text
 
@@ -133,13 +133,14 @@ class EpisodeGrid(ThumbnailScreen):
 
     def _play(self, _index: int) -> None:
         if self.episode is not None and self._state(self.number) != LOCKED:
-            self.app.push(LevelScreen(self.app, episode_course(self.app, self.player, self.episode)))
+            practice_mode = self.player.settings.practice
+            self.app.push(LevelScreen(self.app, EpisodeRun(self.player, self.episode, practice_mode=practice_mode)))
 
     def _trial(self, index: int) -> None:
         if self.episode is not None:
             entry = self.episode.levels[index]
-            course = LevelCourse(self.player, entry, practice=self.player.settings.practice)
-            self.app.push(LevelScreen(self.app, course))
+            run = LevelRun(self.player, entry, practice_mode=self.player.settings.practice)
+            self.app.push(LevelScreen(self.app, run))
 
     # --- picture ---
 

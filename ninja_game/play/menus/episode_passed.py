@@ -7,12 +7,10 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.level.context import Course
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.play.ui.canvas import WIDTH
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Episode
-from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import EpisodeRun
 from ninja_game.player.scoring import seconds_text
 
@@ -21,18 +19,14 @@ if TYPE_CHECKING:
 
 PICTURE = 132
 
-CourseOf = Callable[["App", PlayerData, Episode], Course]
-"""What makes the course of an episode."""
-
 
 class EpisodePassed(ThumbnailScreen):
-    """Shown after an episode's last level. Space goes on to the next episode."""
+    """Shown after an episode's last level. Space goes on to the next episode, which ``play`` begins."""
 
-    def __init__(self, app: App, run: EpisodeRun, notices: Sequence[str], course_of: CourseOf) -> None:
+    def __init__(self, app: App, run: EpisodeRun, play: Callable[[EpisodeRun], object]) -> None:
         super().__init__(app)
         self.run = run
-        self.course_of = course_of
-        self.notices = list(notices)
+        self._play = play
         self.title = f"Episode {run.episode.number} passed"
 
     @property
@@ -53,10 +47,9 @@ class EpisodePassed(ThumbnailScreen):
 
     def go_on(self) -> None:
         """The next episode."""
-        from ninja_game.play.level.screen import LevelScreen
-
         if self.next_episode is not None:
-            self.app.replace(LevelScreen(self.app, self.course_of(self.app, self.player, self.next_episode)))
+            practice_mode = self.player.settings.practice
+            self._play(EpisodeRun(self.player, self.next_episode, practice_mode=practice_mode))
 
     def watch(self) -> None:
         """The replays of the episode's best run."""
@@ -82,7 +75,7 @@ class EpisodePassed(ThumbnailScreen):
             score = f"best {seconds_text(best.score)}" if best else ""
             theme.text(surface, score, x + PICTURE / 2, 247, size=10, colour=palette.faint, align="centre")
         theme.text(surface, seconds_text(self.run.score), WIDTH / 2, 290, size=44, align="centre", bold=True)
-        what = "practice" if self.run.practice else "seconds left on the clock"
+        what = "practice" if self.run.practice_mode else "seconds left on the clock"
         theme.text(surface, what, WIDTH / 2, 340, size=11, colour=palette.faint, align="centre")
-        for line, notice in enumerate(self.notices[-4:]):
+        for line, notice in enumerate(self.run.notices[-4:]):
             theme.text(surface, notice, WIDTH / 2, 364 + 17 * line, size=12, colour=palette.good, align="centre")

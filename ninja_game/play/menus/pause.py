@@ -12,13 +12,13 @@ from ninja_game.play.menus.settings.screen import SettingsScreen
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
-    from ninja_game.play.level.play import LevelPlay
+    from ninja_game.play.level.screen import LevelScreen
 
 
 class PausePanel(Panel):
     """The game waits. Space, the pause key or Esc go on."""
 
-    def __init__(self, app: App, playing: LevelPlay) -> None:
+    def __init__(self, app: App, playing: LevelScreen) -> None:
         super().__init__(app, "Paused")
         self.playing = playing
 

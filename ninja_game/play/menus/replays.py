@@ -23,8 +23,8 @@ from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_layout import unreadable
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Widget
-from ninja_game.player.playthrough import forget_replay
 from ninja_game.player.records import SavedReplay
+from ninja_game.player.saving import forget_replay
 from ninja_game.player.scoring import level_score, seconds_text
 
 if TYPE_CHECKING:

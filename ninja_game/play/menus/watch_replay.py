@@ -1,48 +1,40 @@
-"""Open the replay viewer on what the records have."""
+"""Open the replay viewer on what the records or a file have."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
-from ninja_game.simulation import Body
+from ninja_game.play.replay.playback import RecordedRun
+from ninja_game.play.replay.screen import ReplayScreen
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
-    from ninja_game.play.replay.playback import Take
 
 
-def watch(app: App, replays: Iterable[Replay | None], title: str = "") -> bool:
-    """Watch replays one after another; whether there were any. Those that have gone are left out."""
-    from ninja_game.play.replay.playback import Take
-
-    takes = [
-        Take(title or replay.name or "Replay", replay.level, replay.playback(replay.ticks), _body(replay))
+def watch(app: App, replays: Iterable[Replay | None]) -> bool:
+    """Watch replays of the records one after another; whether there were any. Those that have gone are left out."""
+    runs = [
+        RecordedRun(
+            replay.name or "Replay",
+            replay.level,
+            replay.playback(replay.ticks),
+            "box" if replay.body == "box" else "circle",
+        )
         for replay in replays
         if replay is not None and replay.level is not None
     ]
-    if takes:
-        _open(app, takes)
-    return bool(takes)
-
-
-def _body(replay: Replay) -> Body:
-    return "box" if replay.body == "box" else "circle"
+    if runs:
+        app.push(ReplayScreen(app, runs))
+    return bool(runs)
 
 
 def watch_recording(app: App, recording: Recording) -> None:
-    """Watch a recording from a file."""
-    _open(app, [recording])
-
-
-def _open(app: App, takes: Sequence[Take | Recording]) -> None:
-    """Open the viewer; a notice says why a level cannot be shown."""
-    from ninja_game.play.replay.screen import ReplayScreen
-
+    """Watch a recording from a file; a notice says why where its level cannot be played."""
     try:
-        app.push(ReplayScreen(app, takes))
+        app.push(ReplayScreen(app, [recording]))
     except LevelError as error:
-        app.notify(error.what)
+        app.notify(f"{recording.name or 'The replay'} cannot be watched: {error.what}")

@@ -1,114 +1,124 @@
-"""Films of recordings: a GIF (with Pillow), a folder of PNG pictures, or a video (with imageio), one picture a tick.
-
-All of them are optional; what can be made depends on what is installed.
-"""
+"""Films of recordings: a GIF, or a folder of PNG pictures."""
 
 from __future__ import annotations
 
+import io
 import threading
 from collections.abc import Callable, Iterator
-from importlib.util import find_spec
+from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pygame
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.shown_text import file_stem
+from ninja_game.files.user_folder import export_path
+from ninja_game.files.writing import write_atomically
 from ninja_game.play.level.hud import Hud
-from ninja_game.play.replay.playback import Playback, Take
+from ninja_game.play.replay.playback import Playback, RecordedRun
 from ninja_game.play.ui.palette import PALETTES, ROLES, Palette, mixed
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.render_context import OffscreenContext
 from ninja_game.player.settings import Settings
 from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.simulation import Simulation
 
-if TYPE_CHECKING:
-    from ninja_game.player.player_data import PlayerData
-
-GIF_SIZE = (528, 400)
-VIDEO_SIZE = (1584, 1200)
+FILM_SIZE = (528, 400)
 _TAIL = TICKS_PER_SECOND
 """Ticks after the end that a film shows."""
+_SHORTEST_MS = 20
+"""Players of GIFs show no picture for a shorter time."""
 _LONG_FILM = 600
-"""Pictures beyond which a GIF leaves every second one out."""
+"""Ticks beyond which a film leaves every second one out."""
+
+Report = Callable[[int], bool]
+"""Told how many ticks are done; False stops the film."""
 
 
-def film_pictures(take: Take, size: tuple[int, int], settings: Settings | None = None) -> Iterator[pygame.Surface]:
-    """One picture a tick, always the same surface; the first shows the start."""
-    sheet = OffscreenContext(size, settings)
-    playback = Playback(take)
-    view = LevelView(sheet, playback.simulation)
+class _StoppedError(Exception):
+    """The film is not wanted any more."""
+
+
+def film_pictures(
+    run: RecordedRun, size: tuple[int, int] = FILM_SIZE, settings: Settings | None = None
+) -> Iterator[pygame.Surface]:
+    """One picture a tick, always the same surface; the first shows the start. Raises LevelError."""
+    context = OffscreenContext(size, settings)
+    length = film_length(run)
+    playback = Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0)
+    view = LevelView(context, playback.simulation)
     surface = pygame.Surface(size)
-    hud = Hud(sheet.theme)
-    for tick in range(film_length(playback)):
+    hud = Hud(context.theme)
+    for tick in range(length):
         if tick:
             playback.step()
             view.on_tick()
         view.draw(surface, 1.0, whole=tick == 0)
-        view.also_covered(hud.label(surface, take.title))
+        view.also_covered(hud.label(surface, run.title))
         yield surface
 
 
-def film_length(playback: Playback) -> int:
-    """How many pictures a film of a take has."""
-    return playback.end + 1 + _TAIL
+def film_length(run: RecordedRun) -> int:
+    """How many ticks a film of a run shows, its start included. Raises LevelError for a level that cannot be played."""
+    return Playback(Simulation(run.level, body=run.body), run.inputs, spacing=0).find_end() + 1 + _TAIL
 
 
-def best_form() -> str:
-    """The suffix of the best film that can be made here: ".mp4", ".gif" or "" (a folder of pictures)."""
-    if find_spec("imageio") and (find_spec("imageio_ffmpeg") or find_spec("av")):
-        return ".mp4"
-    return ".gif" if find_spec("PIL") else ""
+def export_film(
+    run: RecordedRun, path: Path, *, size: tuple[int, int] = FILM_SIZE, speed: float = 1.0,
+    settings: Settings | None = None, report: Report = lambda _: True,
+) -> bool:  # fmt: skip
+    """Write a film to ``path``: a GIF, or a folder of PNG pictures, one a tick, for a path without suffix.
 
-
-Report = Callable[[int], bool]
-"""Told how many pictures are done; False stops the film."""
-
-
-def export_film(take: Take, path: Path, *, settings: Settings | None = None, report: Report = lambda _: True) -> Path:
-    """Write a film to ``path``: .gif, .mp4 (and other videos), or a folder of PNG pictures for a path without suffix.
-
-    Raises NinjaGameError if the library for that form is not installed.
+    ``size``: px. ``speed``: 1 is that of the game. Gives False, and leaves no GIF, where ``report`` stopped it.
+    Raises NinjaGameError for another suffix, OSError.
     """
-    if path.suffix == ".gif":
-        _write_gif(take, path, settings, report)
-    elif path.suffix:
-        _write_video(take, path, settings, report)
-    else:
-        path.mkdir(parents=True, exist_ok=True)
-        for number, picture in enumerate(film_pictures(take, GIF_SIZE, settings)):
-            pygame.image.save(picture, str(path / f"{number:05d}.png"))
+
+    def pictures() -> Iterator[pygame.Surface]:
+        for number, picture in enumerate(film_pictures(run, size, settings)):
             if not report(number):
-                break
-    return path
+                raise _StoppedError
+            yield picture
 
-
-def _write_gif(take: Take, path: Path, settings: Settings | None, report: Report) -> None:
     try:
-        from PIL import Image
-    except ImportError:
-        raise NinjaGameError("GIFs need Pillow: pip install 'ninja-game[film]'") from None
+        if path.suffix == ".gif":
+            _write_gif(pictures(), film_length(run), path, size, speed, PALETTES[(settings or Settings()).palette])
+        elif path.suffix:
+            raise NinjaGameError(f"{path}: a film is a .gif, or a folder of pictures (a path without suffix)")
+        else:
+            path.mkdir(parents=True, exist_ok=True)
+            for number, picture in enumerate(pictures()):
+                pygame.image.save(picture, str(path / f"{number:05d}.png"))
+    except _StoppedError:
+        return False
+    return True
 
+
+def _write_gif(
+    pictures: Iterator[pygame.Surface], length: int, path: Path, size: tuple[int, int], speed: float, palette: Palette
+) -> None:
+    from PIL import Image
+
+    tick_ms = 1000 / TICKS_PER_SECOND / speed
+    every = max(2 if length > _LONG_FILM else 1, round(_SHORTEST_MS / tick_ms + 0.49))
+    # A GIF counts hundredths of a second: what one picture lacks, the next one gets.
+    ends = [round(number * every * tick_ms / 10) for number in range(-(-length // every) + 1)]
+    durations = [10 * (end - start) for start, end in pairwise(ends)]
     colours = Image.new("P", (1, 1))
-    colours.putpalette(film_colours(PALETTES[(settings or Settings()).palette]))
-    # Pillow holds a whole film in memory: a long one has a picture every second tick.
-    every = 2 if film_length(Playback(take)) > _LONG_FILM else 1
+    colours.putpalette(film_colours(palette))
 
     def images() -> Iterator[Any]:
-        for number, picture in enumerate(film_pictures(take, GIF_SIZE, settings)):
-            if not report(number):
-                return
+        for number, picture in enumerate(pictures):
             if number % every == 0:
-                image = Image.frombytes("RGB", GIF_SIZE, pygame.image.tobytes(picture, "RGB"))
+                image = Image.frombytes("RGB", size, pygame.image.tobytes(picture, "RGB"))
                 yield image.quantize(palette=colours, dither=Image.Dither.NONE)
 
     frames = images()
     first = next(frames)
-    rest = list(frames)
-    # A GIF counts hundredths of a second: two single ticks share the half hundredth.
-    durations = [50 if every == 2 else 20 if number % 2 else 30 for number in range(len(rest) + 1)]
-    first.save(path, save_all=True, append_images=rest, duration=durations, loop=0, optimize=False)
+    film = io.BytesIO()
+    first.save(
+        film, "GIF", save_all=True, append_images=frames, duration=durations, loop=0, optimize=False
+    )  # fmt: skip
+    write_atomically(path, film.getvalue())
 
 
 def film_colours(palette: Palette) -> list[int]:
@@ -126,28 +136,16 @@ def film_colours(palette: Palette) -> list[int]:
     return [channel for colour in found[:256] for channel in colour[:3]]
 
 
-def _write_video(take: Take, path: Path, settings: Settings | None, report: Report) -> None:
-    try:
-        import imageio.v2 as imageio
-    except ImportError:
-        raise NinjaGameError("videos need imageio: pip install 'imageio[ffmpeg]'") from None
-    # Its stubs know only the readers.
-    open_writer: Any = imageio.get_writer
-    with open_writer(path, fps=TICKS_PER_SECOND, macro_block_size=1) as writer:
-        for number, picture in enumerate(film_pictures(take, VIDEO_SIZE, settings)):
-            writer.append_data(pygame.surfarray.array3d(picture).swapaxes(0, 1))
-            if not report(number):
-                break
-
-
 class ExportJob:
-    """A film made in the background. ``done`` and then ``result``, a sentence for the player."""
+    """A film made in the background. ``done`` and then ``result``, a sentence for the player.
 
-    def __init__(self, take: Take, settings: Settings, player: PlayerData | None) -> None:
-        self._take = take
+    ``folder``: the player's.
+    """
+
+    def __init__(self, run: RecordedRun, settings: Settings, folder: Path) -> None:
+        self._run = run
         self._settings = settings
-        folder = player.replay_folder if player else Path.cwd()
-        self.path = _free_path(folder, take.title)
+        self._folder = folder
         self._count = 1
         self._made = 0
         self._wanted = True
@@ -175,20 +173,12 @@ class ExportJob:
 
     def _make(self) -> None:
         try:
-            self._count = film_length(Playback(self._take))
-            self.path.parent.mkdir(parents=True, exist_ok=True)
-            export_film(self._take, self.path, settings=self._settings, report=self._report)
-            self.result = f"Saved as {self.path}"
-        except (NinjaGameError, OSError) as error:
+            self._count = film_length(self._run)
+            path = export_path(self._folder, self._run.title, ".gif")
+            if export_film(self._run, path, settings=self._settings, report=self._report):
+                self.result = f"Saved: {path}"
+        except OSError as error:
+            self.result = f"The film could not be saved: {error.strerror}"
+        except NinjaGameError as error:
             self.result = f"No film: {error}"
         self.done = True
-
-
-def _free_path(folder: Path, title: str) -> Path:
-    """A path for a film that is not taken."""
-    stem = file_stem(title, "replay")
-    suffix = best_form()
-    number = 1
-    while (folder / f"{stem}-{number}{suffix}").exists():
-        number += 1
-    return folder / f"{stem}-{number}{suffix}"

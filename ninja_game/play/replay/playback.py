@@ -1,70 +1,98 @@
-"""A recording to be watched, and the run that comes of it."""
+"""Recorded inputs played on a level: tick by tick, or to any of their moments."""
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from dataclasses import dataclass
 
 from ninja_game.formats.recording import Recording
-from ninja_game.play.replay.timeline import Timeline
 from ninja_game.sim.level import Level
-from ninja_game.sim.rules import LIFETIME
-from ninja_game.simulation import Body, Simulation
+from ninja_game.simulation import Body, SaveState, Simulation
 
-_SPACING = 60
-"""A save-state every so many ticks: seeking never runs more than these."""
-AFTERMATH = 130
-"""Ticks that are shown after the end (game.md §2)."""
+SPACING = 60
+"""A save-state every so many ticks, at first."""
+MOST_STATES = 300
+"""With more save-states than this every second one is dropped, so that a run of any length fits into the memory."""
 
 
 @dataclass(frozen=True)
-class Take:
-    """Inputs (one byte a tick) on a level. ``lifetime``: ticks at its start."""
+class RecordedRun:
+    """Inputs (one byte a tick) on a level."""
 
     title: str
     level: Level
     inputs: bytes
     body: Body = "circle"
-    lifetime: int = LIFETIME
 
 
-def take_of(recording: Recording) -> Take:
-    """A recording of any format as a take."""
+def recorded_run(recording: Recording) -> RecordedRun:
+    """A recording of any format, with the title under which it is shown."""
     body: Body = "box" if recording.replay and recording.replay.body == "box" else "circle"
     title = recording.name or "replay"
     if recording.author:
         title += f" - {recording.author}"
-    return Take(title, recording.level, recording.playback(recording.ticks), body)
+    return RecordedRun(title, recording.level, recording.playback(recording.ticks), body)
 
 
 class Playback:
-    """A take being played: run once to its end, then any of its moments is near.
+    """Plays inputs on a simulation; in ticks beyond them no key is down.
 
-    ``end``: the tick of the exit contact or death, or the last one of the recording. ``length``: ticks to show.
+    ``inputs`` may grow while it plays. ``spacing``: ticks between the save-states that make seeking quick; 0: only the
+    start is kept.
     """
 
-    def __init__(self, take: Take) -> None:
-        self.take = take
-        self.simulation = Simulation(take.level, body=take.body)
-        self.timeline = Timeline(self.simulation, spacing=_SPACING)
-        run = self.simulation
-        while run.outcome == "running" and run.tick <= len(take.inputs):
-            self.step()
-        self.outcome = run.outcome
-        self.end = max(0, run.tick - 1) if run.outcome != "running" else len(take.inputs)
-        self.length = self.end + AFTERMATH
-        self.timeline.seek(0, take.inputs)
+    def __init__(self, simulation: Simulation, inputs: bytes | bytearray, *, spacing: int = SPACING) -> None:
+        self.simulation = simulation
+        self.inputs = inputs
+        self._spacing = spacing
+        self._ticks = [simulation.tick]
+        self._states: list[SaveState] = [simulation.save()]
+
+    @property
+    def tick(self) -> int:
+        """How many ticks have been played."""
+        return self.simulation.tick
+
+    def keys_at(self, tick: int) -> int:
+        """The keys of a tick."""
+        return self.inputs[tick] if 0 <= tick < len(self.inputs) else 0
 
     def step(self) -> None:
         """One tick."""
-        tick = self.simulation.tick
-        self.simulation.step_keys(self.input_at(tick))
-        self.timeline.note()
+        self.simulation.step_keys(self.keys_at(self.simulation.tick))
+        self.note()
 
-    def input_at(self, tick: int) -> int:
-        """The input of a tick."""
-        inputs = self.take.inputs
-        return inputs[tick] if 0 <= tick < len(inputs) else 0
+    def note(self) -> None:
+        """Keep this moment if it is due: for ticks that were not played by ``step``."""
+        tick = self.simulation.tick
+        if not self._spacing or tick % self._spacing:
+            return
+        at = bisect_right(self._ticks, tick)
+        if at and self._ticks[at - 1] == tick:
+            return
+        self._ticks.insert(at, tick)
+        self._states.insert(at, self.simulation.save())
+        if len(self._ticks) > MOST_STATES:
+            self._spacing *= 2
+            del self._ticks[1::2], self._states[1::2]
+
+    def forget_after(self, tick: int) -> None:
+        """Drop the moments after a tick: from there the run goes another way."""
+        keep = max(1, bisect_right(self._ticks, tick))
+        del self._ticks[keep:], self._states[keep:]
 
     def seek(self, tick: int) -> None:
         """Go to the moment after so many ticks."""
-        self.timeline.seek(min(max(0, tick), self.length), self.take.inputs)
+        run = self.simulation
+        at = max(0, bisect_right(self._ticks, tick) - 1)
+        if not self._ticks[at] <= run.tick <= tick:
+            run.restore(self._states[at])
+        while run.tick < tick:
+            self.step()
+
+    def find_end(self) -> int:
+        """The tick of the exit contact or death, or the last one of the inputs. Plays to it from the present moment."""
+        run = self.simulation
+        while run.outcome == "running" and run.tick <= len(self.inputs):
+            self.step()
+        return max(0, run.tick - 1) if run.outcome != "running" else len(self.inputs)

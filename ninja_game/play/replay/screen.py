@@ -8,25 +8,27 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.formats.recording import Recording
-from ninja_game.play.audio.output import AudioOutput, NullAudio
 from ninja_game.play.input.events import InputEvent
-from ninja_game.play.level.context import GhostRun
 from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.level.run_clock import RunClock
 from ninja_game.play.replay.export import ExportJob
-from ninja_game.play.replay.playback import Playback, Take, take_of
+from ninja_game.play.replay.playback import Playback, RecordedRun, recorded_run
 from ninja_game.play.replay.seek_bar import ReplayBar
 from ninja_game.play.screen import Screen
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays
+from ninja_game.player.level_context import GhostRun
 from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.simulation import Simulation
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 _NORMAL = SPEEDS.index(1.0)
+AFTERMATH = 130
+"""Ticks that are shown after the end (game.md §2)."""
 _WARM = 12
 """Ticks that are run with their animations before the moment sought, so that it looks as if played."""
 _STILL_MS = 500
@@ -34,11 +36,15 @@ _STILL_MS = 500
 
 
 class ReplayScreen(Screen):
-    """Shows a recording. Others on the same level run along as ghosts."""
+    """Shows a recording. Others on the same level run along as ghosts. Raises LevelError for one that cannot be played.
 
-    def __init__(self, app: App, takes: Sequence[Take | Recording]) -> None:
+    ``end``: the tick of the exit contact or death, or the last one of the recording; ``outcome``: what it brought.
+    ``length``: ticks to show.
+    """
+
+    def __init__(self, app: App, runs: Sequence[RecordedRun | Recording]) -> None:
         super().__init__(app)
-        self.takes = [take if isinstance(take, Take) else take_of(take) for take in takes]
+        self.runs = [run if isinstance(run, RecordedRun) else recorded_run(run) for run in runs]
         self.clock = RunClock()
         self.overlays = Overlays()
         self.bar = ReplayBar()
@@ -46,20 +52,23 @@ class ReplayScreen(Screen):
         self.show(0)
 
     def show(self, index: int) -> None:
-        """Watch one of the takes, from its start."""
-        self.index = index % len(self.takes)
-        take = self.takes[self.index]
-        self.playback = Playback(take)
+        """Watch one of the runs, from its start."""
+        self.index = index % len(self.runs)
+        self.run = run = self.runs[self.index]
+        self.playback = Playback(Simulation(run.level, body=run.body), run.inputs)
+        self.end = self.playback.find_end()
+        self.outcome = self.playback.simulation.outcome
+        self.length = self.end + AFTERMATH
+        self.playback.seek(0)
         self.view = LevelView(self.app, self.playback.simulation)
         self.view.overlays = self.overlays
-        others = [other for other in self.takes if other is not take and other.level == take.level]
+        others = [other for other in self.runs if other is not run and other.level == run.level]
         self.view.ghosts = [
             Ghost(GhostRun(other.title, other.inputs), other.level, other.body) for other in others[:8]
         ]  # fmt: skip
         self.paused = False
         self.still_ms = _STILL_MS
         self.export: ExportJob | None = None
-        self.notice = ""
         self.redraw = True
 
     def enter(self) -> None:
@@ -83,25 +92,27 @@ class ReplayScreen(Screen):
     def seek(self, tick: int) -> None:
         """Show the moment after so many ticks, exactly; the corpse and particles are those of the last moments."""
         playback = self.playback
-        tick = min(max(0, tick), playback.length)
+        tick = min(max(0, tick), self.length)
         start = max(0, tick - _WARM)
-        if playback.outcome == "dead" and start > playback.end:
+        if self.outcome == "dead" and start > self.end:
             # A corpse lies where it fell: its fall is run again.
-            start = playback.end
+            start = self.end
         playback.seek(start)
         self.view.on_seek()
-        ear, self.app.audio_output = self.app.audio_output, _SILENCE
-        while self.tick < tick:
-            playback.step()
-            self.view.on_tick()
-        self.app.audio_output = ear
+        self.view.audible = False
+        try:
+            while self.tick < tick:
+                playback.step()
+                self.view.on_tick()
+        finally:
+            self.view.audible = True
         self.clock.reset()
         self.redraw = True
 
     def _play_tick(self) -> None:
         self.playback.step()
         self.view.on_tick()
-        if self.tick >= self.playback.length:
+        if self.tick >= self.length:
             self.seek(0)
             self.still_ms = _STILL_MS
             self.app.audio_output.quiet()
@@ -109,7 +120,7 @@ class ReplayScreen(Screen):
     def update(self, real_ms: int) -> None:
         """Play on."""
         if self.export and self.export.done:
-            self.notice = self.export.result
+            self.app.notify(self.export.result)
             self.export = None
         if self.paused or self.bar.dragging:
             return
@@ -125,9 +136,12 @@ class ReplayScreen(Screen):
 
     def handle(self, event: InputEvent) -> None:
         """Keys, and the mouse on the bar."""
-        target = self.bar.handle(event.raw, self.app.canvas, self.playback.length)
+        target = self.bar.handle(event.raw, self.app.canvas, self.length)
         if target is not None:
             self.seek(target)
+        if event.menu in {"first", "last"}:
+            self.seek(0 if event.menu == "first" else self.end)
+            return
         for action in event.pressed:
             if self._act(action):
                 break
@@ -174,9 +188,8 @@ class ReplayScreen(Screen):
     def start_export(self) -> None:
         """Make a film of this take beside the player's replays."""
         if self.export is None:
-            self.export = ExportJob(self.playback.take, self.app.settings, self.app.player)
+            self.export = ExportJob(self.run, self.app.settings, self.app.player.folder)
             self.export.start()
-            self.notice = ""
 
     # --- picture ---
 
@@ -184,17 +197,14 @@ class ReplayScreen(Screen):
         """The world, the bar, the keys pressed."""
         still = self.paused or self.bar.dragging or self.still_ms > 0
         changed = self.view.draw(surface, 1.0 if still else self.clock.fraction, whole=self.redraw)
-        hud = Hud(self.app.theme)
-        playback = self.playback
+        theme, bar = self.app.theme, self.bar
+        hud = Hud(theme)
         written = [
-            self.bar.draw(surface, self.app.theme, self.tick, playback.end, playback.length),
-            self.bar.write(surface, self.app.theme, self.tick, playback.end, f"x {SPEEDS[self.speed]:g}"),
-            hud.label(surface, playback.take.title),
-            hud.keys(surface, playback.input_at(self.tick - 1), 604),
+            bar.draw(surface, theme, self.tick, self.end, self.length, self.outcome),
+            bar.write(surface, theme, self.tick, self.end, f"x {SPEEDS[self.speed]:g}"),
+            hud.head(surface, self.run.title, self._hint()),
+            hud.keys(surface, self.playback.keys_at(self.tick - 1), 604),
         ]
-        hint = self._hint()
-        if hint:
-            written.append(hud.hint(surface, hint))
         for rect in written:
             self.view.also_covered(rect)
         return None if changed is None else changed + written
@@ -202,8 +212,6 @@ class ReplayScreen(Screen):
     def _hint(self) -> str:
         if self.export:
             return f"Making a film: {self.export.percent} %"
-        if self.notice:
-            return self.notice
         if not self.paused:
             return ""
         key = self.app.controls.name
@@ -211,6 +219,3 @@ class ReplayScreen(Screen):
             f"{key('frame_back')} {key('frame_forward')}: tick by tick    {key('left')} {key('right')}: a second    "
             f"{key('slower')} {key('faster')}: speed    {key('export')}: film    {key('back')}: leave"
         )
-
-
-_SILENCE: AudioOutput = NullAudio()

@@ -32,20 +32,21 @@ class ReplayBar:
         return round(min(1.0, max(0.0, share)) * length)
 
     @staticmethod
-    def draw(surface: pygame.Surface, theme: Theme, tick: int, end: int, length: int) -> pygame.Rect:
-        """The bar with a mark at the recording's end; its px rectangle."""
+    def draw(surface: pygame.Surface, theme: Theme, tick: int, end: int, length: int, outcome: str) -> pygame.Rect:
+        """The bar with a mark at the end, coloured by the outcome; its px rectangle."""
         palette, canvas = theme.palette, theme.canvas
         trough = mixed(palette.tile, palette.outline, 0.35)
         rect = canvas.fill_rect(surface, trough, _LEFT, _Y - 2, _WIDTH, 4, 2)
         at = _LEFT + _WIDTH * min(1.0, tick / max(1, length))
         canvas.fill_rect(surface, palette.on_tile, _LEFT, _Y - 2, at - _LEFT, 4, 2)
         mark = _LEFT + _WIDTH * end / max(1, length)
-        canvas.fill_rect(surface, palette.accent, mark - 1, _Y - 5, 2, 10)
+        colour = {"exit": palette.good, "dead": palette.bad}.get(outcome, palette.accent)
+        canvas.fill_rect(surface, colour, mark - 1, _Y - 5, 2, 10)
         knob = canvas.circle(surface, palette.on_tile, (at, _Y), 5)
         return rect.union(knob).inflate(canvas.px(10), canvas.px(10))
 
     @staticmethod
     def write(surface: pygame.Surface, theme: Theme, tick: int, end: int, speed: str) -> pygame.Rect:
         """Tick and speed as text."""
-        text = f"{tick} / {end}   {speed}"
+        text = f"{min(tick, end)} / {end}   {speed}"
         return theme.text(surface, text, 768, 583, size=9, colour=theme.palette.on_tile, align="right")

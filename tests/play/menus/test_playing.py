@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ninja_game.play.level.phase import Phase
+from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episode_grid import EpisodeGrid
@@ -22,12 +22,12 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
     for number in range(1, 6):
         level = driver.top()
         assert isinstance(level, LevelScreen)
-        assert level.course.title.startswith(f"Episode 0 Level {number - 1}")
-        assert level.course.lesson == (number == 1)
+        assert level.context.title.startswith(f"Episode 0 Level {number - 1}")
+        assert level.context.show_tutorial == (number == 1)
         level.begin()
         driver.play_replay(number)
         assert level.phase is Phase.PASSED
-        assert "saved" in " ".join(level.notices)
+        assert "saved" in " ".join(level.play.notices)
         driver.press("space")
     passed = driver.top()
     assert isinstance(passed, EpisodePassed)
@@ -41,7 +41,7 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
     driver.press("escape", "up", "return")
     following = driver.top()
     assert isinstance(following, LevelScreen)
-    assert following.course.title.startswith("Episode 1 Level 0")
+    assert following.context.title.startswith("Episode 1 Level 0")
     driver.press("q")
     assert isinstance(driver.top(), EpisodeGrid)
 
@@ -52,7 +52,7 @@ def test_best_run_of_a_level_runs_along_the_next_time(driver: MenuDriver, tmp_pa
     driver.press("return")
     level = driver.top()
     assert isinstance(level, LevelScreen)
-    assert not level.view.ghosts
+    assert not level.play.view.ghosts
     level.begin()
     driver.play_replay(1)
     assert level.phase is Phase.PASSED
@@ -64,7 +64,7 @@ def test_best_run_of_a_level_runs_along_the_next_time(driver: MenuDriver, tmp_pa
     again.press("return")
     level = again.top()
     assert isinstance(level, LevelScreen)
-    assert [ghost.inputs for ghost in level.view.ghosts]
+    assert [ghost.inputs for ghost in level.play.view.ghosts]
     assert isinstance(browser, Browser)
     again.press("q", "escape")
     assert isinstance(again.open("Records"), RecordsScreen)

@@ -10,7 +10,7 @@ import pytest
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.text import Replay, write_replay
-from ninja_game.play.level.phase import Phase
+from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episode_grid import EpisodeGrid

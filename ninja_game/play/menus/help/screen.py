@@ -12,6 +12,7 @@ from ninja_game.play.input.bindings import MOVES
 from ninja_game.play.level.run_clock import RunClock
 from ninja_game.play.menus.help.pages import Page, read_pages
 from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.replay.playback import Playback
 from ninja_game.play.ui.canvas import HEIGHT, Canvas
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_layout import wrapped
@@ -145,18 +146,19 @@ class Demonstration:
 
     def _begin(self) -> None:
         self.simulation = Simulation(self.page.level)
+        self.playback = Playback(self.simulation, self.page.inputs, spacing=0)
         self.view = LevelView(self.app, self.simulation, audible=False)
         self._whole = True
 
     def update(self, real_ms: int) -> None:
         """Let time pass."""
         for _ in range(self.clock.ticks_due(real_ms)):
-            tick = self.simulation.tick
+            tick = self.playback.tick
             if tick >= len(self.page.inputs) + REST_TICKS:
                 self._begin()
                 return
-            self.keys = self.page.inputs[tick] if tick < len(self.page.inputs) else 0
-            self.simulation.step_keys(self.keys)
+            self.keys = self.playback.keys_at(tick)
+            self.playback.step()
             self.view.on_tick()
 
     def draw(self, surface: pygame.Surface) -> pygame.Rect:

@@ -1,0 +1,74 @@
+"""Saving what was played, and the notices about it.
+
+A disk that is full or locked never ends the game: then the notice says so, and saving is tried again.
+"""
+
+from __future__ import annotations
+
+from ninja_game.formats.replay.text import Replay
+from ninja_game.player.attempt import Attempt
+from ninja_game.player.catalogue import Entry
+from ninja_game.player.player_data import PlayerData
+from ninja_game.player.scoring import level_score, seconds_text
+from ninja_game.player.store import Work
+
+SAVED = ": saved"
+NEW_BEST = "Personal best {}" + SAVED
+FIRST_PASS = "First time through, {}" + SAVED
+EPISODE_BEST = "Episode best {}" + SAVED
+REPLAY_KEPT = "Replay" + SAVED
+NOT_SAVED = "Not saved yet: {}"
+
+
+def keep_replay(data: PlayerData, replay: Replay) -> str:
+    """Put a replay among the player's, whatever it is worth; a notice about it."""
+
+    def work() -> list[str]:
+        data.records.keep_replay(replay)
+        return [REPLAY_KEPT]
+
+    return told(data, work)[0]
+
+
+def forget_replay(data: PlayerData, number: int) -> str:
+    """Remove a replay of the records; why it is still there, or ''."""
+
+    def work() -> list[str]:
+        return [] if data.records.forget_replay(number) else ["A personal best needs this replay; it stays"]
+
+    return "".join(told(data, work)[-1:])
+
+
+def told(data: PlayerData, work: Work) -> list[str]:
+    """Save ``work``; its notices, none of which says "saved" about what is not on the disk."""
+    notices, problem = data.store.save(work)
+    if not problem:
+        return list(notices)
+    return [*(notice.removesuffix(SAVED) for notice in notices), NOT_SAVED.format(problem)]
+
+
+def replay_of(data: PlayerData, entry: Entry, attempt: Attempt) -> Replay:
+    """An attempt as the player's replay."""
+    return attempt.replay(entry.title, data.settings.name)
+
+
+def save_best(data: PlayerData, replay: Replay) -> list[str]:
+    """Save a level's best; the notice for the player."""
+    first = data.records.level_best(replay.level_digest, replay.body) is None
+    if not data.records.level_passed(replay):
+        return []
+    return [(FIRST_PASS if first else NEW_BEST).format(seconds_text(level_score(replay.gold, replay.final_tick)))]
+
+
+def count_of(
+    data: PlayerData, entry: Entry, attempt: Attempt, *, killer: str | None = None, passed: bool = False
+) -> Work:
+    """What counts an attempt as it is now: passed, killed, or given up."""
+    level, gold = entry.digest, attempt.gold
+    ticks = attempt.simulation.tick if attempt.outcome == "running" else max(attempt.ended_tick, 0)
+
+    def work() -> list[str]:
+        data.statistics.attempt_ended(level, killer=killer, passed=passed, ticks=ticks, gold=gold)
+        return []
+
+    return work

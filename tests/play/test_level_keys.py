@@ -1,0 +1,181 @@
+"""Keys in a level: retrying, stepping, leaving; what is told, and where."""
+
+from __future__ import annotations
+
+import sqlite3
+from pathlib import Path
+
+import pygame
+import pytest
+
+from ninja_game.formats.load import load_levels
+from ninja_game.formats.recording import Recording
+from ninja_game.play.app import App
+from ninja_game.play.input.actions import ACTIONS
+from ninja_game.play.level.hud_text import hud_view
+from ninja_game.play.level.play import DEATH_PAUSE, Phase
+from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menus.pause import PausePanel
+from ninja_game.play.screen import Screen
+from ninja_game.player.playthrough import EpisodeRun, FileRun
+from tests.support.scripted import (
+    ScriptedControls,
+    frames,
+    open_level,
+    phase_of,
+    play_to_the_end,
+    press,
+)
+
+LONG = "0" * 713 + "|5^100,566!11^400,564,300,564"
+
+
+def test_retry_key_retries_after_a_death_and_never_watches(
+    stage: tuple[App, ScriptedControls], recording: Recording
+) -> None:
+    app, _ = stage
+    screen = open_level(app, recording)
+    press("confirm")
+    frames(app, 5)
+    screen.attempt.lifetime = 1
+    frames(app, DEATH_PAUSE + 5)
+    assert phase_of(screen) is Phase.DEAD
+    press("retry")
+    frames(app)
+    assert app.top is screen
+    assert phase_of(screen) is Phase.READY
+
+
+def test_default_keys_of_retry_and_replay_differ() -> None:
+    assert not set(ACTIONS["retry"].keys) & set(ACTIONS["replay"].keys)
+
+
+def test_jump_retries_after_the_death_message_and_begins_when_pressed_anew(
+    stage: tuple[App, ScriptedControls], recording: Recording
+) -> None:
+    app, controls = stage
+    screen = open_level(app, recording)
+    press("confirm")
+    frames(app, 5)
+    screen.attempt.lifetime = 1
+    frames(app, 5)
+    press("jump")
+    frames(app)
+    assert phase_of(screen) is Phase.DEAD, "a jump that came too late does not cut the death short"
+    frames(app, DEATH_PAUSE)
+    controls.held_bits = 4
+    press("jump")
+    frames(app, 5)
+    assert phase_of(screen) is Phase.READY
+    controls.held_bits = 0
+    frames(app)
+    controls.held_bits = 4
+    frames(app)
+    assert phase_of(screen) is Phase.PLAY
+
+
+@pytest.mark.parametrize("action", ["confirm", "right"])
+def test_time_goes_on_after_single_steps(
+    stage: tuple[App, ScriptedControls], recording: Recording, action: str
+) -> None:
+    app, _ = stage
+    screen = open_level(app, recording, practice_mode=True)
+    press("confirm")
+    frames(app)
+    press("step")
+    frames(app, 5)
+    tick = screen.attempt.simulation.tick
+    assert "go on" in hud_view(screen.play).foot[1]
+    press(action)
+    frames(app, 5)
+    assert screen.attempt.simulation.tick > tick
+
+
+def test_escape_before_the_first_move_does_not_end_the_game(
+    stage: tuple[App, ScriptedControls], recording: Recording
+) -> None:
+    app, _ = stage
+    screen = open_level(app, recording)
+    press("back")
+    frames(app)
+    panel: Screen = app.top
+    assert isinstance(panel, PausePanel)
+    press("back")
+    frames(app)
+    assert len(app.stack) == 1
+    assert phase_of(screen) is Phase.READY
+
+
+def test_changed_level_file_is_read_again_on_retry(
+    stage: tuple[App, ScriptedControls], recording: Recording, tmp_path: Path
+) -> None:
+    app, _ = stage
+    file = tmp_path / "mine.txt"
+    file.write_text(LONG)
+    screen = LevelScreen(app, FileRun(app.player, load_levels(str(file))))
+    app.push(screen)
+    file.write_text(LONG.replace("400,564", "500,564"))
+    press("retry")
+    frames(app)
+    assert screen.attempt.simulation.level == screen.context.level == load_levels(str(file))[0].level
+    assert "changed" in app.notice
+    file.write_text("broken")
+    press("retry")
+    frames(app)
+    assert "cannot be played" in app.notice
+    assert phase_of(screen) is Phase.READY
+    press("retry")
+    frames(app)
+
+
+def test_locked_records_are_a_notice(
+    stage: tuple[App, ScriptedControls], recording: Recording, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    app, controls = stage
+    screen = open_level(app, recording)
+    play_to_the_end(app, controls, screen, recording)
+
+    def locked(*_: object) -> None:
+        raise sqlite3.OperationalError("database is locked")
+
+    monkeypatch.setattr(app.player.records, "keep_replay", locked)
+    press("export")
+    frames(app)
+    assert "Not saved yet" in app.notice
+
+
+def test_skipping_with_locked_records_goes_on_with_a_notice(
+    stage: tuple[App, ScriptedControls], recording: Recording, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    app, _ = stage
+    run = EpisodeRun(app.player, app.player.catalogue.episodes[0], practice_mode=True)
+    app.push(LevelScreen(app, run))
+
+    def locked(*_: object, **__: object) -> None:
+        raise sqlite3.OperationalError("database is locked")
+
+    monkeypatch.setattr(app.player.progress, "level_passed", locked)
+    press("skip")
+    frames(app)
+    assert run.position == 1
+    assert "Not saved yet" in app.notice
+
+
+def test_nothing_is_written_over_the_level_but_the_passed_panel(
+    stage: tuple[App, ScriptedControls], recording: Recording
+) -> None:
+    """Hints of practice, of stepping and of death lie in the border, y >= 576 px."""
+    app, _ = stage
+    screen = open_level(app, recording, practice_mode=True)
+    for actions in (("confirm",), ("quick_save",), ("step",), ("suicide",), ()):
+        if actions:
+            press(*actions)
+        frames(app, 60)
+        with_hud = app.surface.copy()
+        view = screen.play.view
+        view.draw(app.surface, screen.play.fraction, whole=True)
+        changed = pygame.mask.from_threshold(app.surface, (0, 0, 0), (1, 1, 1, 255), with_hud)
+        changed.invert()
+        assert changed.count()
+        assert all(rect.top >= 576 or rect.bottom <= 24 for rect in changed.get_bounding_rects())
+        screen.redraw = True
