@@ -47,39 +47,33 @@ def program(name: str) -> str:
     return str(VENV / ("Scripts" if os.name == "nt" else "bin") / (f"{name}.exe" if os.name == "nt" else name))
 
 
-def run(*words: str, cwd: Path | None = ROOT) -> int:
-    """Exit code of a command; its output goes where ours goes."""
+def run(*words: str) -> int:
+    """Exit code of a command in the project's folder. An interrupt reaches the command too, and it ends as it does."""
+    process = subprocess.Popen(words, cwd=ROOT)
+    while True:
+        try:
+            code = process.wait()
+        except KeyboardInterrupt:
+            continue
+        return code if code >= 0 else 128 - code
+
+
+def become(*words: str) -> int:
+    """Run the environment's Python in the place of this process, so that signals and exit codes are its own."""
     sys.stdout.flush()
-    return subprocess.run(words, cwd=cwd, check=False).returncode
-
-
-def python(*words: str, cwd: Path | None = None) -> int:
-    """Exit code of the environment's Python, started in the folder the user is in."""
-    return run(program("python"), *words, cwd=cwd)
-
-
-# --- the environment --------------------------------------------------------------------------------------------------
+    if os.name != "nt":
+        os.execv(program("python"), [program("python"), *words])
+    return subprocess.run([program("python"), *words], check=False).returncode
 
 
 def make_environment() -> None:
     """A `.venv` with pip; a half-made one, or one whose Python has gone, is made anew."""
-    try:
-        command = [program("python"), "-m", "pip", "--version"]
-        if subprocess.run(command, capture_output=True, check=False).returncode == 0:
-            return
-    except OSError:
-        pass
-    try:
-        import ensurepip  # noqa: F401
-        import venv
-    except ImportError as missing:
-        sys.exit(
-            f"tools/dev.py: this Python comes without its module {missing.name!r}, which makes virtual environments.\n"
-            f"  Debian, Ubuntu: sudo apt-get install python{sys.version_info.major}.{sys.version_info.minor}-venv\n"
-            "  or run this script with a Python from python.org, Homebrew, pyenv or uv."
-        )
+    works = [program("python"), "-m", "pip", "--version"]
+    if Path(works[0]).exists() and subprocess.run(works, capture_output=True, check=False).returncode == 0:
+        return
     print(f"Making {VENV} with Python {sys.version.split()[0]} ...", flush=True)
-    venv.EnvBuilder(with_pip=True, clear=True, symlinks=os.name != "nt").create(VENV)
+    if run(sys.executable, "-m", "venv", "--clear", str(VENV)):
+        sys.exit("tools/dev.py: there is no environment without Python's modules venv and ensurepip; see above.")
 
 
 def install(names: Sequence[str]) -> None:
@@ -102,7 +96,9 @@ def install(names: Sequence[str]) -> None:
 def uv_sync(names: Sequence[str]) -> bool:
     """Whether uv could install exactly the versions and files of uv.lock."""
     uv = program("uv")
-    if not Path(uv).exists() and python("-m", "pip", "install", "--quiet", "--disable-pip-version-check", "uv"):
+    if not Path(uv).exists() and run(
+        program("python"), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "uv"
+    ):
         return False
     os.environ["UV_PROJECT_ENVIRONMENT"] = str(VENV)
     words = [uv, "sync", "--quiet", "--locked", "--inexact", "--python", program("python"), "--no-default-groups"]
@@ -121,11 +117,7 @@ def pip_install(names: Sequence[str]) -> bool:
         constraints = Path(folder) / "constraints.txt"
         constraints.write_text("\n".join(exact) + "\n", "utf-8")
         words = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--constraint", str(constraints)]
-        words += ["--editable", f"{ROOT}[{','.join(extras)}]"]
-        return python(*words, *tools) == 0
-
-
-# --- the commands -----------------------------------------------------------------------------------------------------
+        return run(program("python"), *words, "--editable", f"{ROOT}[{','.join(extras)}]", *tools) == 0
 
 
 def lint(*fix: str) -> int:
@@ -141,9 +133,10 @@ def test(rest: Sequence[str]) -> int:
     """`lint`, then the tests on up to four cores; or pytest alone, with ``rest``."""
     install(DEVELOPMENT)
     if rest:
-        return python("-m", "pytest", *rest, cwd=ROOT)
+        return run(program("python"), "-m", "pytest", *rest)
     unclean = lint()
-    failed = python("-m", "pytest", "-n", str(min(4, os.cpu_count() or 1)), "--dist", "worksteal", cwd=ROOT)
+    jobs = str(min(4, os.cpu_count() or 1))
+    failed = run(program("python"), "-m", "pytest", "-n", jobs, "--dist", "worksteal")
     if unclean:
         print("tools/dev.py: `lint` failed, its messages stand above the tests.", file=sys.stderr)
     return failed or unclean
@@ -152,7 +145,7 @@ def test(rest: Sequence[str]) -> int:
 def tool(name: str, *rest: str) -> int:
     """A script of tools/."""
     install(DEVELOPMENT)
-    return python("-m", f"tools.{name}", *rest)
+    return become("-m", f"tools.{name}", *rest)
 
 
 def clean() -> int:
@@ -170,10 +163,10 @@ def main(words: Sequence[str]) -> int:
     match list(words):
         case ["play", *rest]:
             install(PLAY)
-            return python("-m", "ninja_game", "play", *rest)
+            return become("-m", "ninja_game", "play", *rest)
         case ["run", *rest]:
             install(EXTRAS)
-            return python("-m", "ninja_game", *rest)
+            return become("-m", "ninja_game", *rest)
         case ["test", *rest]:
             return test(rest)
         case ["lint"] | ["lint", "--fix"]:
@@ -183,7 +176,8 @@ def main(words: Sequence[str]) -> int:
         case ["change-rules", *rest]:
             return tool("change_rules", *rest)
         case ["docs"]:
-            return max(map(tool, DRAWINGS))
+            install(DEVELOPMENT)
+            return max(run(program("python"), "-m", f"tools.{name}") for name in DRAWINGS)
         case ["tool", name, *rest]:
             return tool(name, *rest)
         case ["clean"]:

@@ -31,6 +31,8 @@ def installed(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, ...]]:
     asked: list[tuple[str, ...]] = []
     monkeypatch.setattr(dev, "install", asked.append)
     monkeypatch.setattr(dev, "program", lambda name: sys.executable if name == "python" else name)
+    # Otherwise the tests' own process would become the command.
+    monkeypatch.setattr(dev, "become", lambda *words: subprocess.run([sys.executable, *words], check=False).returncode)
     return asked
 
 
@@ -93,7 +95,7 @@ def test_pip_installs_the_locked_versions_where_uv_cannot_be_had(
 ) -> None:
     asked: list[str] = []
 
-    def python(*words: str) -> int:
+    def run(*words: str) -> int:
         path = Path(words[words.index("--constraint") + 1])
         asked.extend([*words[words.index("--editable") + 1 :], *path.read_text("utf-8").split()])
         return 0
@@ -101,7 +103,7 @@ def test_pip_installs_the_locked_versions_where_uv_cannot_be_had(
     monkeypatch.setattr(dev, "STAMP", tmp_path / "stamp")
     monkeypatch.setattr(dev, "make_environment", lambda: None)
     monkeypatch.setattr(dev, "uv_sync", lambda _names: False)
-    monkeypatch.setattr(dev, "python", python)
+    monkeypatch.setattr(dev, "run", run)
     dev.install(dev.DEVELOPMENT)
     assert asked[0] == f"{dev.ROOT}[cluster,fast,film,plots]"
     lock = (ROOT / "uv.lock").read_text("utf-8")
@@ -123,3 +125,11 @@ def test_old_pythons_are_told_what_is_needed() -> None:
     source = (ROOT / "tools" / "dev.py").read_text("utf-8")
     # The check stands before anything that a Python of those days could trip over when it runs.
     assert source.index("sys.version_info < (3, 11)") < source.index("\nimport hashlib")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no process takes another's place there")
+def test_signals_and_exit_codes_are_those_of_the_command() -> None:
+    program = "import sys; from tools import dev; dev.program = lambda _: sys.executable; dev.become('-c', CODE)"
+    for code, expected in (("import sys; sys.exit(3)", 3), ("import os; os.kill(os.getpid(), 15)", -15)):
+        done = subprocess.run([sys.executable, "-c", program.replace("CODE", repr(code))], cwd=ROOT, check=False)
+        assert done.returncode == expected
