@@ -14,7 +14,7 @@ import numpy as np
 
 from benchmarks import arena, normal_grid
 from benchmarks.charts import Chart, seconds_per
-from ninja_game.compile_cache import kernels
+from ninja_game.compile_cache import compiled
 
 NUMBERS = (10, 30, 100, 300, 1000, 3000, 10_000)
 QUERIES = 16_384
@@ -42,29 +42,30 @@ class Arena:
         self.nexts, self.prevs, self.cells, self.low, self.high, self.stamps = np.zeros((6, count + 1), np.int64)
         self.entry_nexts, self.entry_prevs = np.zeros((2, 4 * (count + 1)), np.int64)
         self.found = np.zeros((0, 2), np.int64)
-        call = kernels()
-        call["loose_build"](self.columns, self.x, self.y, self.heads, self.nexts, self.prevs, self.cells)
+        compiled(arena.loose_build)(self.columns, self.x, self.y, self.heads, self.nexts, self.prevs, self.cells)
         box = self.entries, self.entry_nexts, self.entry_prevs, self.low, self.high
-        call["normal_build"](self.columns, self.x, self.y, *box)
+        compiled(normal_grid.normal_build)(self.columns, self.x, self.y, *box)
         loose = self.columns, self.x, self.y, self.heads, self.nexts
         motion = self.columns, self.x, self.y, self.dx, self.dy
         self.calls: dict[str, Any] = {
-            "loose": partial(call["loose_queries"], *loose, self.qx, self.qy),
-            "jumps": partial(call["loose_queries"], *loose, self.jump_x, self.jump_y),
+            "loose": partial(compiled(arena.loose_queries), *loose, self.qx, self.qy),
+            "jumps": partial(compiled(arena.loose_queries), *loose, self.jump_x, self.jump_y),
             "normal": partial(
-                call["normal_queries"], self.columns, self.x, self.y, self.entries, self.entry_nexts, self.stamps,
-                self.qx, self.qy,
+                compiled(normal_grid.normal_queries), self.columns, self.x, self.y, self.entries, self.entry_nexts,
+                self.stamps, self.qx, self.qy,
             ),
-            "brute": partial(call["brute_queries"], self.x, self.y, self.qx, self.qy),
-            "five": partial(call["five_cell_pairs"], *loose, self.cells, self.found),
-            "n^2": partial(call["brute_pairs"], self.x, self.y, self.found),
-            "move loose": partial(call["loose_move"], *motion, self.heads, self.nexts, self.prevs, self.cells, 2),
-            "move normal": partial(call["normal_move"], *motion, *box, 2),
+            "brute": partial(compiled(arena.brute_queries), self.x, self.y, self.qx, self.qy),
+            "five": partial(compiled(arena.five_cell_pairs), *loose, self.cells, self.found),
+            "n^2": partial(compiled(arena.brute_pairs), self.x, self.y, self.found),
+            "move loose": partial(
+                compiled(arena.loose_move), *motion, self.heads, self.nexts, self.prevs, self.cells, 2
+            ),
+            "move normal": partial(compiled(normal_grid.normal_move), *motion, *box, 2),
         }  # fmt: skip
         half = count // 2 + 1
         for name, filed in (("filed", 1), ("reading", 0)):
             self.calls[name] = partial(
-                call["bullets"], *loose, self.prevs, self.cells, self.dx * 10, self.dy * 10, half, filed, 2
+                compiled(arena.bullets), *loose, self.prevs, self.cells, self.dx * 10, self.dy * 10, half, filed, 2
             )
         assert self.calls["loose"]() == self.calls["normal"]() == self.calls["brute"](), "the grids disagree"
         assert self.calls["five"]() == self.calls["n^2"](), "the grids disagree on pairs"
@@ -167,7 +168,3 @@ def c_pairs(library: Any, here: Arena) -> Any:
     )  # fmt: skip
     assert library.five_cell_pairs(*words) == here.calls["five"](), "C disagrees"
     return partial(library.five_cell_pairs, *words)
-
-
-ENTRY_POINTS = arena, normal_grid
-"""Modules whose functions must be registered before the kernels are asked for."""

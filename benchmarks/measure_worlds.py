@@ -16,11 +16,12 @@ from benchmarks import game_kernels
 from benchmarks.charts import Chart, seconds_per
 from ninja_game.batch.batch import Batch
 from ninja_game.batch.thread_pool import cores
-from ninja_game.compile_cache import kernels
+from ninja_game.compile_cache import compiled
 from ninja_game.formats.recording import Recording
 from ninja_game.sim.kinds import GOLD, MINE, NINJA
 from ninja_game.sim.level import TILES, Level, ObjectSpec
-from ninja_game.sim.memory.compiled import load_compiled
+from ninja_game.sim.memory.compiled import load_worlds
+from ninja_game.sim.memory.kernels import race_world
 from ninja_game.sim.memory.layout import used_bytes
 from ninja_game.simulation import Simulation
 
@@ -30,8 +31,6 @@ PLACES = 8
 PASSES = 3
 TICKS = 64
 NUMBERS = (10, 30, 100, 300, 1000, 3000, 10_000)
-ENTRY_POINTS = game_kernels
-"""Its functions must be registered before the kernels are asked for."""
 
 
 def crowd(recordings: Sequence[Recording], count: int, threads: int) -> tuple[Batch, NDArray[np.uint8]]:
@@ -101,15 +100,17 @@ def scattered(count: int) -> Level:
 def objects() -> Chart:
     """The ninja's query in the game's own grid against the objects in the level."""
     chart = Chart("ninja-query-against-objects", "The ninja's object query", "objects in the level", "ns a query")
-    ways = {"nine cells": ("query_nine_cells", 1000), "every object": ("query_every_thing", 10)}
+    ways = {"nine cells": (game_kernels.query_nine_cells, 1000), "every object": (game_kernels.query_every_thing, 10)}
     # Some addresses suit the processor's caches better than others, and a shared processor is slower for seconds at a
     # time: the best of several places in memory and of several passes.
-    worlds = {count: [load_compiled(kernels(), scattered(count), False)[1] for _ in range(PLACES)] for count in NUMBERS}
+    worlds = {
+        count: [load_worlds(compiled, [scattered(count)], box=False)[1] for _ in range(PLACES)] for count in NUMBERS
+    }
     best: dict[tuple[int, str], float] = {}
     for number in range(PLACES * PASSES):
         for count in NUMBERS:
             for series, (name, rounds) in ways.items():
-                call = partial(kernels()[name], worlds[count][number % PLACES], rounds)
+                call = partial(compiled(name), worlds[count][number % PLACES], rounds)
                 seconds = seconds_per(call, rounds=1) / rounds
                 best[count, series] = min(seconds, best.get((count, series), seconds))
     for (count, series), seconds in best.items():
@@ -120,10 +121,10 @@ def objects() -> Chart:
 def whole_ticks() -> Chart:
     """A whole tick against the objects in the level, that rest as gold and mines do; the cost of a save-state."""
     chart = Chart("tick-against-objects", "A tick and a save-state", "objects in the level", "ns")
-    call = kernels()["race_world"]
+    call = compiled(race_world)
     keys = np.zeros(400, np.uint8)
     for count in NUMBERS:
-        levels, world = load_compiled(kernels(), scattered(count), False)
+        levels, world = load_worlds(compiled, [scattered(count)], box=False)
         chart.add("tick", count, seconds_per(partial(call, levels, world, 0, keys)) / len(keys) * 1e9)
         run = Simulation(scattered(count), memory="compiled")
         state = run.save()
@@ -135,24 +136,24 @@ def whole_ticks() -> Chart:
 def rays() -> Chart:
     """A ray against its length: along its cells, and through all cells of the box around it."""
     chart = Chart("ray-against-length", "A ray at 35 degrees that ends at a wall", "cells crossed", "ns a ray")
-    call = kernels()
     dx, dy = 0.8191520442889918, 0.573576436351046
     for wall in (3, 4, 6, 8, 12, 16, 22, 30):
         tiles = tuple(1 if number // 23 + 1 >= wall else 0 for number in range(TILES))
-        level, world = load_compiled(call, Level(tiles, (ObjectSpec(NINJA, (36.0, 36.0)),)), False)
+        level, world = load_worlds(compiled, [Level(tiles, (ObjectSpec(NINJA, (36.0, 36.0)),))], box=False)
         x, y = 36.5, 37.0
         length = (wall * 24.0 - x) / dx + 1.0
         crossed = int((x + dx * length) / 24) - 1 + int((y + dy * length) / 24) - 1
         same = [
-            call["cast_along_cells"](level, world, x, y, dx, dy, 1),
-            call["cast_through_box"](level, world, x, y, dx, dy, length, 1),
+            compiled(game_kernels.cast_along_cells)(level, world, x, y, dx, dy, 1),
+            compiled(game_kernels.cast_through_box)(level, world, x, y, dx, dy, length, 1),
         ]
         assert abs(same[0] - same[1]) < 1e-6, f"the rays disagree: {same}"
         ray = level, world, x, y, dx, dy
-        chart.add("along its cells", crossed, seconds_per(partial(call["cast_along_cells"], *ray, 100)) * 1e7)
+        along = partial(compiled(game_kernels.cast_along_cells), *ray, 100)
+        chart.add("along its cells", crossed, seconds_per(along) * 1e7)
         chart.add(
             "through its box", crossed,
-            seconds_per(partial(call["cast_through_box"], *ray, length, 100)) * 1e7,
+            seconds_per(partial(compiled(game_kernels.cast_through_box), *ray, length, 100)) * 1e7,
         )  # fmt: skip
     return chart
 

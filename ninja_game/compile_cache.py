@@ -1,132 +1,186 @@
-"""Compiled kernels, once per process, with their machine code kept in the user's cache folder.
+"""Which memory to use, and compiled kernels, once per process, with their machine code kept in the user's cache folder.
 
-Numba's own cache notices a change only in the file of an entry point, so the folder is named after a digest of all
-sources with compiled functions. Numba reads that name when it is first imported.
+A kernel's file is named after a digest of all the code and constants that went into it (``code_digest``), wherever it
+lies: an edit of any rule is another file. Numba's own cache looks at the file of the entry point alone, and falls back
+to folders beside the sources, so it is not used.
 """
 
 from __future__ import annotations
 
-import hashlib
 import os
-import re
-import shutil
+import pickle
 import sys
+from collections.abc import Callable
 from functools import cache
+from hashlib import sha256
 from importlib.util import find_spec
 from pathlib import Path
 from threading import Lock
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, TypeVar
+from uuid import uuid4
 
-from ninja_game.errors import NinjaGameError
-from ninja_game.sim.memory.declare import REGISTERED
+from ninja_game.errors import ArgumentError, NinjaGameError
+from ninja_game.sim.level import Level
+from ninja_game.sim.memory.interface import Memory, MemoryName
+from ninja_game.sim.memory.plain import PlainMemory
 
 if TYPE_CHECKING:
-    from ninja_game.sim.memory.compiled import Compiler, Kernels
+    from ninja_game.sim.memory.compiler import Compiler
 
-Memory = Literal["plain", "compiled"]
+R = TypeVar("R")
 
 _LOCK = Lock()
 """One thread at a time imports Numba and makes twins."""
-_TABLES: dict[int, Kernels] = {}
-"""The kernels by how many functions were registered when they were made."""
+_KERNELS: dict[Callable[..., Any], Any] = {}
 
-KEPT_VERSIONS = 5
-"""How many versions of the sources keep their compiled code."""
+KEPT_FILES = 200
+"""How many compiled kernels stay in the cache folder: the newest, some ten versions of all."""
 
-_REGISTERS = re.compile(rb"^@(fast|entry_point)$", re.MULTILINE)
-_IMPORTS = re.compile(rb"ninja_game\.(?:batch|solver)\.(\w+)")
+before_compiling: list[Callable[[], None]] = []
+"""What is called once, before the first kernel that has to be compiled: it takes a while."""
 
 
 class MemoryUnavailableError(NinjaGameError):
-    """The compiled memory was asked for, but Numba is not installed."""
+    """The compiled memory was asked for, but Numba is not installed, or its compiler is switched off."""
 
 
 def compiled_available() -> bool:
-    """Is Numba installed? Without it everything works on the plain memory."""
-    return find_spec("numba") is not None
+    """Is Numba installed, with its compiler on? Without it everything works on the plain memory."""
+    return find_spec("numba") is not None and os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
 
 
-def choose_memory(memory: str) -> Memory:
+def choose_memory(memory: str) -> MemoryName:
     """Turn "plain", "compiled" or "auto" (compiled where it is available) into one of the two.
 
-    Raises MemoryUnavailableError for "compiled" without Numba, ValueError for another word.
+    Raises MemoryUnavailableError for "compiled" without Numba, ArgumentError for another word.
     """
     if memory == "auto":
         return "compiled" if compiled_available() else "plain"
     if memory == "compiled":
         if not compiled_available():
             raise MemoryUnavailableError(
-                "the compiled memory needs Numba; install the extra 'fast' (pip install 'ninja-game[fast]') "
-                "or use the plain memory"
+                "the compiled memory needs Numba; install the extra 'fast' (pip install 'ninja-game[fast]'), "
+                "unset NUMBA_DISABLE_JIT, or use the plain memory"
             )
         return "compiled"
     if memory == "plain":
         return "plain"
-    raise ValueError(f"memory is {memory!r}; expected 'plain', 'compiled' or 'auto'")
+    raise ArgumentError(f"memory is {memory!r}; expected 'plain', 'compiled' or 'auto'")
 
 
-def compiled_sources() -> list[Path]:
-    """Every source file that goes into the machine code, so that an edit elsewhere compiles nothing anew.
+def open_memory(memory: str, level: Level, *, box: bool) -> Memory:
+    """A new world in a level, in the memory of that name (as ``choose_memory`` takes it).
 
-    All of ``sim``; of ``batch`` and ``solver`` the files that register functions, and what those import from there.
+    Raises LevelError for a level that cannot be played, and what ``choose_memory`` raises.
     """
-    package = Path(__file__).parent
-    paths = {path.stem: path for folder in ("batch", "solver") for path in (package / folder).glob("*.py")}
-    texts = {name: path.read_bytes() for name, path in paths.items()}
-    found = {name for name, text in texts.items() if _REGISTERS.search(text)}
-    waiting = list(found)
-    while waiting:
-        imported = {name.decode() for name in _IMPORTS.findall(texts[waiting.pop()])}
-        new = imported & texts.keys() - found
-        found |= new
-        waiting += new
-    return sorted((package / "sim").rglob("*.py")) + [paths[name] for name in sorted(found)]
+    if choose_memory(memory) == "plain":
+        return PlainMemory(level, box=box)
+    from ninja_game.sim.memory.compiled import CompiledMemory
+
+    return CompiledMemory(compiled, level, box=box)
 
 
-def source_digest() -> str:
-    """A short digest of every source file with compiled functions and of the Python that compiles them."""
-    digest = hashlib.sha256(sys.version.encode())
-    package = Path(__file__).parent
-    for path in compiled_sources():
-        digest.update(path.relative_to(package).as_posix().encode() + path.read_bytes())
-    return digest.hexdigest()[:16]
+def compiled(entry: Callable[..., R]) -> Callable[..., R]:
+    """The compiled twin of an entry point, which takes the same arguments; any thread may ask.
 
-
-def forget_old_code(folder: Path) -> None:
-    """Remove what older sources left behind, but for the newest few; what cannot be removed stays."""
-    try:
-        kept = sorted(folder.iterdir(), key=lambda path: path.stat().st_mtime, reverse=True)[:KEPT_VERSIONS]
-        for path in set(folder.iterdir()) - set(kept):
-            shutil.rmtree(path, ignore_errors=True)
-    except OSError:
-        return
-
-
-def kernels() -> Kernels:
-    """Compiled entry points of all modules imported so far, by name; any thread may ask.
-
-    Raises MemoryUnavailableError without Numba.
+    Raises MemoryUnavailableError without Numba, TypeError for a function that is no entry point.
     """
-    known = _TABLES.get(len(REGISTERED))
-    if known is None:
+    kernel: Callable[..., R] | None = _KERNELS.get(entry)
+    if kernel is None:
         with _LOCK:
-            known = _TABLES[len(REGISTERED)] = _compiler().kernels()
-    return known
+            kernel = _KERNELS[entry] = _compiler()(entry)
+    return kernel
 
 
 @cache
 def _compiler() -> Compiler:
-    """The compiler of this process; tells Numba where its cache is, also where something has imported Numba before."""
+    """The compiler of this process. NINJA_GAME_CHECKED=1 makes kernels that refuse indices out of range."""
     choose_memory("compiled")
-    if "NUMBA_CACHE_DIR" not in os.environ:
-        from platformdirs import user_cache_path
+    from ninja_game.sim.memory.compiler import Compiler
 
-        folder = user_cache_path("ninja-game") / "compiled"
-        os.environ["NUMBA_CACHE_DIR"] = str(folder / source_digest())
-        if "numba" in sys.modules:
-            # Numba has read the environment already: it would keep code beside the sources, and run old rules.
-            sys.modules["numba"].config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]
-        forget_old_code(folder)
-    from ninja_game.sim.memory.compiled import Compiler
+    return Compiler(checked=os.environ.get("NINJA_GAME_CHECKED") == "1", keep=_keep)
 
-    return Compiler()
+
+def _keep(dispatcher: Any, digest: str) -> None:
+    """Let a kernel's machine code be read from the cache folder, and written there."""
+    dispatcher._cache = KernelCache(cache_folder(), f"{dispatcher.py_func.__name__}-{digest[:32]}")  # noqa: SLF001
+
+
+@cache
+def cache_folder() -> Path:
+    """Where machine code is kept: in NUMBA_CACHE_DIR, or else in the user's cache folder."""
+    chosen = os.environ.get("NUMBA_CACHE_DIR")
+    if chosen:
+        return Path(chosen)
+    from platformdirs import user_cache_path
+
+    return user_cache_path("ninja-game") / "compiled"
+
+
+def forget_old_code(folder: Path) -> None:
+    """Remove all but the newest files of a cache folder; what cannot be removed stays."""
+    try:
+        files = sorted(folder.glob("*.code"), key=lambda path: path.stat().st_mtime, reverse=True)
+        for path in files[KEPT_FILES:]:
+            path.unlink()
+    except OSError:
+        return
+
+
+class KernelCache:
+    """The machine code of one kernel in files, one for each signature and processor; what Numba asks of a cache.
+
+    A file holds the digest of what follows, then the code. What cannot be read is compiled; where nothing can be
+    written, that is said once and everything works without a cache.
+    """
+
+    def __init__(self, folder: Path, name: str) -> None:
+        self.folder = folder
+        self.name = name
+        self.cache_path = str(folder)
+
+    def _file(self, signature: Any, codegen: Any) -> Path:
+        about = sha256(f"{signature} {codegen.magic_tuple()}".encode()).hexdigest()
+        return self.folder / f"{self.name}-{about[:16]}.code"
+
+    def load_overload(self, signature: Any, context: Any) -> Any:
+        """The kernel for these types, None if it is not there or damaged."""
+        from numba.core.compiler import CompileResult
+
+        rebuild: Any = CompileResult._rebuild  # noqa: SLF001 - as Numba's own caches do
+        context.refresh()
+        path = self._file(signature, context.codegen())
+        try:
+            data = path.read_bytes()
+            if sha256(data[32:]).digest() == data[:32]:
+                return rebuild(context, *pickle.loads(data[32:]))  # noqa: S301 - our own file
+        except Exception:  # noqa: BLE001, S110 - whatever a damaged file leads to: it is compiled and written anew
+            pass
+        while before_compiling:
+            before_compiling.pop()()
+        return None
+
+    def save_overload(self, signature: Any, result: Any) -> None:
+        """Write a kernel, whole or not at all."""
+        from numba.core.serialize import dumps
+
+        pack: Any = dumps
+        code = pack(result._reduce())  # noqa: SLF001 - as Numba's own caches do
+        path = self._file(signature, result.codegen)
+        part = path.with_suffix(f".{uuid4().hex[:16]}")
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            part.write_bytes(sha256(code).digest() + code)
+            part.replace(path)
+            forget_old_code(self.folder)
+        except OSError as error:
+            _say_once(f"compiled code cannot be kept in {self.folder}: {error.strerror or error}")
+            try:
+                part.unlink(missing_ok=True)
+            except OSError:
+                return
+
+
+@cache
+def _say_once(message: str) -> None:
+    sys.stderr.write(f"ninja-game: {message}; it works, but compiles again in the next process\n")

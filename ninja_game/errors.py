@@ -13,6 +13,10 @@ class NinjaGameError(Exception):
     """The root of all errors that this package raises on purpose."""
 
 
+class ArgumentError(NinjaGameError, ValueError):
+    """An argument of the public API that is none of those it takes; says which are."""
+
+
 @dataclass(eq=False)
 class FormatError(NinjaGameError):
     """Text that cannot be read: where, what was found, what was expected, how to mend it.

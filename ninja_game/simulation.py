@@ -18,20 +18,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from ninja_game.compile_cache import choose_memory, kernels
+from ninja_game.compile_cache import open_memory
+from ninja_game.errors import ArgumentError
 from ninja_game.sim.digest import differences, replay_digest, world_digest
 from ninja_game.sim.events import EVENT_NAMES
-from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, pressed
-from ninja_game.sim.kinds import KIND_NAMES
+from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, KEY_LEFT, KEY_RIGHT, pressed
+from ninja_game.sim.kinds import KIND_OF
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.plain import load_plain, restore_plain, save_plain
+from ninja_game.sim.memory.interface import MemoryName
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.states import OUTCOME_NAMES, STATE_NAMES
-from ninja_game.sim.traces import is_traced, place_of, status_of
-from ninja_game.sim.world import step
 
 Body = Literal["circle", "box"]
 BODIES: tuple[Body, ...] = ("circle", "box")
@@ -43,8 +42,8 @@ class NinjaView:
 
     x: float
     y: float
-    px: float
-    py: float
+    prev_x: float
+    prev_y: float
     state: str
     in_air: bool
     near_wall: bool
@@ -52,12 +51,12 @@ class NinjaView:
     @property
     def vx(self) -> float:
         """Horizontal velocity, px/tick."""
-        return self.x - self.px
+        return self.x - self.prev_x
 
     @property
     def vy(self) -> float:
         """Vertical velocity, px/tick, positive downwards."""
-        return self.y - self.py
+        return self.y - self.prev_y
 
 
 @dataclass(frozen=True)
@@ -83,15 +82,20 @@ class EventView:
     object_id: int | None
 
 
+@dataclass(frozen=True)
 class SaveState:
-    """A moment of a run, from ``Simulation.save``: only good for runs of the same level, body and memory."""
+    """A moment of a run, from ``Simulation.save``: only good for runs of an equal level, body and memory."""
 
-    __slots__ = ("data", "inputs", "owner")
+    level: Level = field(repr=False)
+    body: Body
+    memory: MemoryName
+    inputs: bytes = field(repr=False)
+    data: Any = field(repr=False, compare=False)
 
-    def __init__(self, owner: tuple[Any, ...], data: Any, inputs: bytes) -> None:
-        self.owner = owner
-        self.data = data
-        self.inputs = inputs
+    @property
+    def tick(self) -> int:
+        """Ticks run so far."""
+        return len(self.inputs)
 
 
 class Simulation:
@@ -99,124 +103,120 @@ class Simulation:
 
     ``level``: what to play. ``body``: "circle" (the classic rules, radius 10 px) or "box" (an AABB of 20 x 20 px).
     ``memory``: "plain" (starts at once, can be looked into), "compiled" (Numba; fast for many ticks) or "auto". The two
-    give the same bits. Raises LevelError for a level without a ninja or with too many objects.
+    give the same bits. Raises LevelError for a level that cannot be played, ArgumentError for another body or memory,
+    MemoryUnavailableError for "compiled" without Numba.
     """
 
     def __init__(self, level: Level, *, body: Body = "circle", memory: str = "plain") -> None:
-        if body not in BODIES:
-            raise ValueError(f"body is {body!r}; expected 'circle' or 'box'")
         self.level = level
         self.body = body
-        self.memory = choose_memory(memory)
-        self._level: TileMap
-        self._world: World
-        self.reset()
-
-    def reset(self) -> None:
-        """Start afresh from the loaded level, as at first."""
+        self._memory = open_memory(memory, level, box=is_box(body))
         self._inputs = bytearray()
-        if self.memory == "plain":
-            self._level, self._world = load_plain(self.level, self.body == "box")
-            return
-        from ninja_game.sim.memory.compiled import load_compiled
-        from ninja_game.sim.memory.layout import state_view
 
-        self._kernels = kernels()
-        self._levels, self._worlds = load_compiled(self._kernels, self.level, self.body == "box")
-        self._state = state_view(self._worlds, 0)
+    @property
+    def memory(self) -> MemoryName:
+        """Which memory it is."""
+        return self._memory.name
 
     @property
     def world(self) -> World:
         """The whole state as plain objects; of the plain memory the world itself, of the compiled one a copy."""
-        if self.memory == "plain":
-            return self._world
-        from ninja_game.sim.memory.layout import plain_copy
-
-        return plain_copy(self._worlds, 0)
+        return self._memory.world()
 
     @property
-    def static(self) -> TileMap:
-        """The level as the rules see it: tile ids by grid index. Plain memory only."""
-        return self._level
+    def tiles(self) -> TileMap:
+        """The level as the rules see it: tile ids by grid index."""
+        return self._memory.tiles
 
     # --- time ---
 
+    def reset(self) -> None:
+        """Start afresh from the loaded level, as at first."""
+        self._inputs.clear()
+        self._memory.load()
+
     def step(self, *, left: bool = False, right: bool = False, jump: bool = False) -> None:
         """Advance one tick with these keys down. The jump triggers in the first sampled tick in which it is down."""
-        held = self._world.ninja.jump_held if self.memory == "plain" else self._worlds["ninja"]["jump_held"][0]
-        self.step_keys(pressed(left * KEY_LEFT + right * KEY_RIGHT + jump * JUMP_HELD, held))
+        down = (KEY_LEFT if left else 0) + (KEY_RIGHT if right else 0) + (JUMP_HELD if jump else 0)
+        self.step_keys(pressed(down, self._memory.jump_held) if jump else down)
 
     def step_keys(self, keys: int) -> None:
-        """Advance one tick with these keys, a sum of ``Input`` flags."""
+        """Advance one tick with these keys, a sum of ``Input`` flags. Raises ArgumentError for anything else."""
+        if not 0 <= keys <= ALL_KEYS:
+            raise ArgumentError(f"keys are {keys!r}; expected a sum of Input flags, 0 to {ALL_KEYS}")
+        self._memory.step(keys)
         self._inputs.append(keys)
-        if self.memory == "plain":
-            step(self._level, self._world, keys)
-        else:
-            self._kernels["step_world"](self._levels, self._worlds, 0, keys)
+
+    def kill(self, cause: int, dx: float, dy: float) -> None:
+        """Kill the ninja where it is, as the game does when its time is over or the player gives up.
+
+        ``cause``: a kill type of sim/states.py; (dx, dy): its corpse's impulse, px/tick. It is part of no recording.
+        """
+        self._memory.kill(cause, dx, dy)
 
     # --- looking ---
 
     @property
     def tick(self) -> int:
         """Ticks run so far."""
-        return self._world.tick if self.memory == "plain" else int(self._worlds["tick"][0])
+        return self._memory.tick
 
     @property
     def outcome(self) -> str:
         """What came first: "exit" or "dead"; "running" while neither has."""
-        number = self._world.outcome if self.memory == "plain" else int(self._worlds["outcome"][0])
-        return OUTCOME_NAMES[number]
+        return OUTCOME_NAMES[self._memory.outcome]
 
     @property
     def gold(self) -> int:
         """Pieces of gold collected."""
-        return self._world.gold if self.memory == "plain" else int(self._worlds["gold"][0])
+        return self._memory.gold
 
     @property
     def ninja(self) -> NinjaView:
         """The ninja."""
-        n = self.world.ninja
+        n = self._memory.ninja()
         return NinjaView(n.x, n.y, n.prev_x, n.prev_y, STATE_NAMES[n.state], bool(n.in_air), bool(n.near_wall))
 
     @property
     def objects(self) -> list[ObjectView]:
         """All objects but ninjas and inert ones, in id order."""
-        w = self.world
-        return [
-            ObjectView(w.objects[slot].id, KIND_NAMES[w.objects[slot].kind], *place_of(w, slot), status_of(w, slot))
-            for slot in range(1, w.id_count + 1)
-            if is_traced(w, slot)
-        ]
+        seen = (self._seen(id_) for id_ in range(self._memory.id_count))
+        return [o for o in seen if o]
+
+    def object(self, id_: int) -> ObjectView:
+        """One object by its id. Raises ArgumentError for an id that no object has, of a ninja or an inert object."""
+        seen = self._seen(id_) if 0 <= id_ < self._memory.id_count else None
+        if seen is None:
+            raise ArgumentError(f"there is no object {id_!r}; ids are those of the list 'objects'")
+        return seen
+
+    def _seen(self, id_: int) -> ObjectView | None:
+        """The object of an id; None for a ninja or an inert object."""
+        kind, x, y, status = self._memory.observe(id_ + 1)
+        return ObjectView(id_, KIND_OF[kind].name, x, y, status) if KIND_OF[kind].traced else None
 
     @property
     def events(self) -> list[EventView]:
         """What happened in the last tick, in order."""
-        w = self.world
+        ids = self._memory.id_count
         return [
-            EventView(EVENT_NAMES[e.kind], e.x, e.y, e.dx, e.dy, e.slot - 1 if 0 < e.slot <= w.id_count else None)
-            for e in w.events[: w.event_count]
+            EventView(EVENT_NAMES[e.kind], e.x, e.y, e.dx, e.dy, e.slot - 1 if 0 < e.slot <= ids else None)
+            for e in self._memory.events()
         ]
 
     # --- save-states and digests ---
 
     def save(self) -> SaveState:
         """This moment, to come back to. The state is never changed by later steps."""
-        data = save_plain(self._world) if self.memory == "plain" else self._state.copy()
-        return SaveState(self._owner(), data, bytes(self._inputs))
+        return SaveState(self.level, self.body, self.memory, bytes(self._inputs), self._memory.save())
 
     def restore(self, state: SaveState) -> None:
-        """Go back to a saved moment. Raises ValueError for a state of another level, body or memory."""
-        if state.owner != self._owner():
-            raise ValueError("this save-state is of another level, body or memory")
+        """Go back to a saved moment. Raises ArgumentError for a state of another level, body or memory."""
+        same_level = state.level is self.level or state.level == self.level
+        if not same_level or (state.body, state.memory) != (self.body, self.memory):
+            raise ArgumentError("this save-state is of another level, body or memory")
         self._inputs = bytearray(state.inputs)
-        if self.memory == "plain":
-            restore_plain(self._world, state.data)
-        else:
-            self._state[:] = state.data
-            self._worlds["event_count"][0] = 0
-
-    def _owner(self) -> tuple[Any, ...]:
-        return id(self.level), self.body, self.memory
+        self._memory.restore(state.data)
 
     def digest(self) -> str:
         """Sha256 (hex) of the whole state in canonical form: the same for both memories, not for other versions."""
@@ -234,3 +234,10 @@ class Simulation:
     def first_difference(self, other: Simulation) -> tuple[str, Any, Any] | None:
         """The first field in which two runs' states differ: (name, value here, value there); None if they are equal."""
         return next(differences(self.world, other.world), None)
+
+
+def is_box(body: str) -> bool:
+    """Whether a body is the box. Raises ArgumentError for one that there is not."""
+    if body not in BODIES:
+        raise ArgumentError(f"body is {body!r}; expected 'circle' or 'box'")
+    return body == "box"

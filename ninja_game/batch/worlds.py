@@ -13,14 +13,15 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.batch import kernels as _entry_points  # noqa: F401 - registers the entry point run_worlds
+from ninja_game.batch.kernels import run_worlds
 from ninja_game.batch.thread_pool import thread_pool
-from ninja_game.compile_cache import kernels
+from ninja_game.compile_cache import compiled
 from ninja_game.sim.kinds import KINDS
 from ninja_game.sim.level import Level
-from ninja_game.sim.loader import grid_tiles, record_table
+from ninja_game.sim.loader import record_table
+from ninja_game.sim.memory.compiled import SLICE, load_worlds
 from ninja_game.sim.memory.declare import fields_of
-from ninja_game.sim.memory.layout import OBJECT, OBJECTS_START, STATE_START, TILE_MAP, Records, new_worlds, plain_copy
+from ninja_game.sim.memory.layout import OBJECT, OBJECTS_START, STATE_START, Records, new_worlds, plain_copy
 from ninja_game.sim.memory.plain import WORLD_SCALARS, load_plain, restore_plain, save_plain
 from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.world import step
@@ -50,12 +51,12 @@ class Worlds(Protocol):
         """One world as plain objects, for looking at it."""
 
 
-def block_of(count: int, tables: Sequence[int]) -> Records:
-    """Zeroed records for worlds with room for the largest of these numbers of slots; two at least.
+def block_of(count: int, slots: int) -> Records:
+    """Zeroed records for worlds with room for so many slots; two worlds at least.
 
     An array of one counts as contiguous, which is another type and another compile.
     """
-    return new_worlds(max(count, 2), max(tables))
+    return new_worlds(max(count, 2), slots)
 
 
 def bytes_of(records: Records) -> NDArray[np.uint8]:
@@ -67,26 +68,12 @@ class CompiledWorlds:
     """Worlds of the compiled memory. Every level is loaded once; a fresh world is a copy of bytes."""
 
     def __init__(self, levels: Sequence[Level], count: int, box: bool) -> None:
-        tables = [record_table(level) for level in levels]
-        slots = [table.slots for table in tables]
-        self._kernels = kernels()
-        self._levels = np.zeros(len(levels), TILE_MAP)
-        self._fresh = block_of(len(levels), slots)
-        for number, (level, table) in enumerate(zip(levels, tables, strict=True)):
-            here = slice(number, number + 1)
-            self._levels[number]["tiles"] = grid_tiles(level)
-            self._kernels["load_world"](
-                self._levels[here],
-                self._fresh[here],
-                0,
-                np.array(table.kinds, np.int64),
-                np.array(table.counts, np.int64),
-                np.array(table.values, np.float64).reshape(-1, 9),
-                int(box),
-            )
+        self._levels, self._fresh = load_worlds(compiled, levels, box=box)
+        slots = int(self._fresh["slots_used"].max())
         self._block = block_of(count, slots)
         self.records = self._block[:count]
         self._bytes, self._fresh_bytes = bytes_of(self._block), bytes_of(self._fresh)
+        self._ticks_at_once = max(1, 8 * SLICE // (slots * count))
 
     def load(self, worlds: Numbers, levels: Numbers) -> None:
         """Start worlds afresh, each in the level of that number."""
@@ -94,12 +81,16 @@ class CompiledWorlds:
 
     def run(self, inputs: NDArray[np.uint8], level_of: Numbers, stop: bool, threads: int) -> int:
         """Run all worlds for all rows of ``inputs``, on all threads."""
-        entry = self._kernels["run_worlds"]
+        kernel = compiled(run_worlds)
+        ticks = 0
+        for begin in range(0, len(inputs), self._ticks_at_once):
+            rows = inputs[begin : begin + self._ticks_at_once]
 
-        def work(first: int, last: int) -> int:
-            return int(entry(self._levels, level_of, self._block, inputs, first, last, int(stop)))
+            def work(first: int, last: int, rows: NDArray[np.uint8] = rows) -> int:
+                return kernel(self._levels, level_of, self._block, rows, first, last, int(stop))
 
-        return thread_pool(threads).share(work, len(self.records), len(inputs))
+            ticks += thread_pool(threads).share(work, len(self.records), len(rows))
+        return ticks
 
     def save(self, worlds: Numbers) -> NDArray[np.uint8]:
         """The states of worlds as a matrix of bytes."""
@@ -133,7 +124,7 @@ class PlainWorlds:
         self._box = box
         self._states = [load_plain(levels[0], box) for _ in range(count)]
         self._playing = [0] * count
-        block = block_of(count, [record_table(level).slots for level in levels])
+        block = block_of(count, max(record_table(level).slots for level in levels))
         self.records = block[:count]
         self._shown = bytes_of(block)
 

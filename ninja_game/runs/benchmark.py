@@ -15,12 +15,13 @@ from typing import Any
 
 import numpy as np
 
-from ninja_game.compile_cache import compiled_available, kernels
+from ninja_game.compile_cache import compiled, compiled_available
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.recording_reader import body_of
 from ninja_game.runs.trace import trace_digests, trace_recording
 from ninja_game.sim.level import Level
+from ninja_game.sim.memory.kernels import race_world
 from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.world import step
 from ninja_game.simulation import Simulation
@@ -48,7 +49,7 @@ def run_benchmark(recordings: Sequence[Recording], *, compile_time: bool = True)
     ``start_*_s``: from a new process's first import to its first tick. ``compile_s``: that with nothing compiled.
     """
     level = sorted((recording.level for recording in recordings), key=_objects)[len(recordings) // 2]
-    compiled = compiled_available()
+    numba = compiled_available()
     return {
         "python": platform.python_version(),
         "machine": f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores",
@@ -56,13 +57,13 @@ def run_benchmark(recordings: Sequence[Recording], *, compile_time: bool = True)
         "corpus": corpus_digest(recordings),
         "signature": signature(recordings),
         "plain_ticks_per_s": plain_speed(recordings),
-        "compiled_ticks_per_s": compiled_speed(recordings) if compiled else None,
+        "compiled_ticks_per_s": compiled_speed(recordings) if numba else None,
         "objects": _objects(level),
         **_plain_costs(level),
-        **(_compiled_costs(level) if compiled else dict.fromkeys(COMPILED_COSTS)),
+        **(_compiled_costs(level) if numba else dict.fromkeys(COMPILED_COSTS)),
         "start_plain_s": _first_tick("plain"),
-        "start_compiled_s": min(_first_tick("compiled") for _ in range(2)) if compiled else None,
-        "compile_s": _compile_time() if compiled and compile_time else None,
+        "start_compiled_s": min(_first_tick("compiled") for _ in range(2)) if numba else None,
+        "compile_s": _compile_time() if numba and compile_time else None,
     }
 
 
@@ -102,16 +103,16 @@ def plain_speed(recordings: Sequence[Recording]) -> float:
 
 def compiled_speed(recordings: Sequence[Recording]) -> float:
     """Ticks a second on the compiled memory, one thread. Compilation is not counted."""
-    from ninja_game.sim.memory.compiled import load_compiled
+    from ninja_game.sim.memory.compiled import load_worlds
 
     def race(recording: Recording) -> tuple[int, float]:
-        levels, worlds = load_compiled(kernels(), recording.level, body_of(recording) == "box")
+        levels, worlds = load_worlds(compiled, [recording.level], box=body_of(recording) == "box")
         inputs = np.frombuffer(recording.playback(recording.ticks), np.uint8)
         start = time.perf_counter()
         ticks = kernel(levels, worlds, 0, inputs)
         return ticks, time.perf_counter() - start
 
-    kernel = kernels()["race_world"]
+    kernel = compiled(race_world)
     race(recordings[0])
     return _speed(race, recordings)
 

@@ -10,29 +10,25 @@
 from __future__ import annotations
 
 import hashlib
-import struct
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.compile_cache import choose_memory, kernels
+from ninja_game.compile_cache import open_memory
+from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.replay.text import WAYPOINT_TICKS, Replay, Waypoint
-from ninja_game.sim.arithmetic import clean
 from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.events import EVENT_NAMES
+from ninja_game.sim.inputs import check_inputs
 from ninja_game.sim.kinds import KIND_NAMES, KIND_OF
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.plain import load_plain
-from ninja_game.sim.memory.schema import World
+from ninja_game.sim.memory.interface import TraceRecord
+from ninja_game.sim.memory.schema import MAX_EVENTS
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import OUTCOME_NAMES, STATE_NAMES
-from ninja_game.sim.traces import is_traced, place_of, status_of
-from ninja_game.sim.world import step
-from ninja_game.simulation import Body
+from ninja_game.simulation import Body, is_box
 
 NINJA_RECORD = np.dtype(
     [("x", "<f8"), ("y", "<f8"), ("prev_x", "<f8"), ("prev_y", "<f8"), ("s", "<i4"), ("gold", "<i4")]
@@ -41,6 +37,10 @@ NINJA_RECORD = np.dtype(
 
 OBJECT_RECORD = np.dtype([("x", "<f8"), ("y", "<f8"), ("s", "<i4")])
 """An object after a tick: position (px) and status number, both by kind."""
+
+
+MAX_TICKS = 10_000_000
+"""Longest run, almost three days of the game: what it records stays below 1 GB."""
 
 
 @dataclass(frozen=True)
@@ -54,9 +54,19 @@ class RunResult:
 
     outcome: str
     gold: int
-    positions: NDArray[np.float64]
-    states: NDArray[np.uint8]
+    positions: NDArray[np.float64] = field(repr=False)
+    states: NDArray[np.uint8] = field(repr=False)
     digest: str = ""
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the runs are the same in every bit."""
+        return isinstance(other, RunResult) and self._key() == other._key()
+
+    def __hash__(self) -> int:
+        return hash(self._key())
+
+    def _key(self) -> tuple[object, ...]:
+        return self.outcome, self.gold, self.xy_sha256, self.states.tobytes(), self.digest
 
     @property
     def ticks(self) -> int:
@@ -84,37 +94,25 @@ def run_level(
 ) -> RunResult:
     """Run a level with one input a tick until the first exit contact or death, or to the end of ``inputs``.
 
-    ``inputs``: one byte a tick, the sum of its ``Input`` flags (``Recording.playback`` gives them).
-    ``digest``: tell the digest at the end too, as replays have it. Raises LevelError for a level that cannot be played.
+    ``inputs``: one byte a tick, the sum of its ``Input`` flags (``Recording.playback`` gives them). ``memory``: as of
+    ``Simulation``. ``digest``: tell the digest at the end too, as replays have it.
+
+    Raises LevelError for a level that cannot be played, DemoError for inputs that there are not, ArgumentError for more
+    than ten million ticks and for another body or memory.
     """
-    if choose_memory(memory) == "compiled":
-        return _run_compiled(level, inputs, body, digest=digest)
-    static, w = load_plain(level, body == "box")
-    n = w.ninja
-    places: list[float] = []
-    states = bytearray()
-    for keys in inputs:
-        step(static, w, keys)
-        places += (clean(n.x), clean(n.y))
-        states.append(n.state)
-        if w.outcome:
-            break
-    positions = np.array(places, np.float64).reshape(-1, 2)
-    end = replay_digest(w) if digest else ""
-    return RunResult(OUTCOME_NAMES[w.outcome], w.gold, positions, np.frombuffer(bytes(states), np.uint8), end)
+    _check(inputs)
+    world = open_memory(memory, level, box=is_box(body))
+    run = world.run(inputs)
+    positions = np.frombuffer(run.places, np.float64).reshape(-1, 2)
+    end = replay_digest(world.world()) if digest else ""
+    return RunResult(OUTCOME_NAMES[world.outcome], world.gold, positions, np.frombuffer(run.states, np.uint8), end)
 
 
-def _run_compiled(level: Level, inputs: bytes, body: Body, *, digest: bool) -> RunResult:
-    from ninja_game.sim.memory.compiled import load_compiled
-    from ninja_game.sim.memory.layout import plain_copy
-
-    levels, worlds = load_compiled(kernels(), level, body == "box")
-    positions = np.empty((len(inputs), 2))
-    states = np.empty(len(inputs), np.uint8)
-    ticks = kernels()["run_world"](levels, worlds, 0, np.frombuffer(inputs, np.uint8), positions, states)
-    outcome, gold = OUTCOME_NAMES[int(worlds["outcome"][0])], int(worlds["gold"][0])
-    end = replay_digest(plain_copy(worlds, 0)) if digest else ""
-    return RunResult(outcome, gold, positions[:ticks], states[:ticks], end)
+def _check(inputs: bytes) -> None:
+    """Raise DemoError or ArgumentError for inputs that cannot be run."""
+    if len(inputs) > MAX_TICKS:
+        raise ArgumentError(f"the run is too long: {len(inputs)} ticks; expected at most {MAX_TICKS}")
+    check_inputs(inputs)
 
 
 def record_replay(
@@ -129,25 +127,22 @@ def record_replay(
     """A replay of ours, with its level in it: what comes of these inputs in that many ticks (None: as many as inputs).
 
     Ends with the first exit contact or death. Always runs on the plain memory, so that what it claims is what anybody
-    can check. Raises LevelError for a level that cannot be played, ValueError for a run without ticks.
+    can check. Raises LevelError for a level that cannot be played, ArgumentError for a run without ticks.
     """
     played = inputs.ljust(ticks, b"\0")[:ticks] if ticks is not None else inputs
     if not played:
-        raise ValueError("a replay has at least one tick")
-    static, w = load_plain(level, body == "box")
-    waypoints = []
-    for tick, keys in enumerate(played):
-        step(static, w, keys)
-        if tick % WAYPOINT_TICKS == WAYPOINT_TICKS - 1:
-            waypoints.append(Waypoint(tick, clean(w.ninja.x), clean(w.ninja.y), STATE_NAMES[w.ninja.state]))
-        if w.outcome:
-            break
+        raise ArgumentError("a replay has at least one tick")
+    run = run_level(level, played, body=body, memory="plain", digest=True)
+    waypoints = [
+        Waypoint(tick, float(run.positions[tick, 0]), float(run.positions[tick, 1]), STATE_NAMES[run.states[tick]])
+        for tick in range(WAYPOINT_TICKS - 1, run.ticks, WAYPOINT_TICKS)
+    ]
     return Replay(
-        inputs=inputs[: w.tick],
-        final_tick=w.tick - 1,
-        outcome=OUTCOME_NAMES[w.outcome],
-        gold=w.gold,
-        digest=replay_digest(w),
+        inputs=inputs[: run.ticks],
+        final_tick=run.ticks - 1,
+        outcome=run.outcome,
+        gold=run.gold,
+        digest=run.digest,
         name=name,
         author=author,
         body=body,
@@ -162,14 +157,24 @@ class RunTrace:
     """Everything a run shows: ``ninja`` NINJA_RECORD (ticks,), ``objects`` OBJECT_RECORD (ticks, objects).
 
     ``ids`` and ``kinds`` name the columns of ``objects``, ids ascending; ninjas and inert objects are not among them.
-    ``events``: per tick, names with blanks between (plain memory only, where asked for).
+    ``events``: per tick, names with blanks between, where asked for.
     """
 
-    ninja: NDArray[np.void]
-    objects: NDArray[np.void]
+    ninja: NDArray[np.void] = field(repr=False)
+    objects: NDArray[np.void] = field(repr=False)
     ids: tuple[int, ...]
     kinds: tuple[str, ...]
-    events: tuple[str, ...] = ()
+    events: tuple[str, ...] = field(default=(), repr=False)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the traces are the same in every bit."""
+        return isinstance(other, RunTrace) and self._key() == other._key()
+
+    def __hash__(self) -> int:
+        return hash(self._key())
+
+    def _key(self) -> tuple[object, ...]:
+        return self.ninja.tobytes(), self.objects.tobytes(), self.ids, self.kinds, self.events
 
 
 def trace_level(
@@ -183,48 +188,39 @@ def trace_level(
 ) -> RunTrace:
     """Run all of ``inputs``, whatever happens, and record ninja and objects after each tick (canonical numbers).
 
-    ``with_objects``: record objects too. ``events``: record their names too; this runs on the plain memory.
+    ``with_objects``: record objects too. ``events``: record the names of what happens. Raises what ``run_level`` does.
     """
-    if not events and choose_memory(memory) == "compiled":
-        return _trace_compiled(level, inputs, body, with_objects)
-    static, w = load_plain(level, body == "box")
-    slots = traced_slots(w) if with_objects else []
-    n = w.ninja
-    ninja = bytearray()
-    objects = bytearray()
-    names: list[str] = []
-    pack_ninja, pack_thing = struct.Struct("<4d2i").pack, struct.Struct("<2di").pack
-    for keys in inputs:
-        step(static, w, keys)
-        ninja += pack_ninja(clean(n.x), clean(n.y), clean(n.prev_x), clean(n.prev_y), n.state, w.gold)
-        for slot in slots:
-            x, y = place_of(w, slot)
-            objects += pack_thing(clean(x), clean(y), status_of(w, slot))
-        if events:
-            names.append(" ".join(EVENT_NAMES[event.kind] for event in w.events[: w.event_count]))
-    rows = np.frombuffer(bytes(objects), OBJECT_RECORD).reshape(len(inputs), len(slots))
-    return RunTrace(np.frombuffer(bytes(ninja), NINJA_RECORD), rows, *_columns(w, slots), tuple(names))
+    _check(inputs)
+    world = open_memory(memory, level, box=is_box(body))
+    kinds = [world.observe(id_ + 1)[0] for id_ in range(world.id_count)] if with_objects else []
+    ids = tuple(id_ for id_, kind in enumerate(kinds) if KIND_OF[kind].traced)
+    record = world.trace(inputs, [id_ + 1 for id_ in ids], events=events)
+    names = tuple(KIND_NAMES[kinds[id_]] for id_ in ids)
+    return RunTrace(_ninja_rows(record), _object_rows(record, len(ids)), ids, names, _event_names(record))
 
 
-def _trace_compiled(level: Level, inputs: bytes, body: Body, with_objects: bool) -> RunTrace:
-    from ninja_game.sim.memory.compiled import load_compiled
-
-    trace: Callable[..., Any] = kernels()["trace_world"]
-    levels, worlds = load_compiled(kernels(), level, body == "box")
-    kinds = worlds[0]["objects"]["kind"][: worlds[0]["id_count"] + 1].tolist()
-    slots = [slot for slot, kind in enumerate(kinds) if slot and KIND_OF[kind].traced] if with_objects else []
-    ninja = np.empty(len(inputs), NINJA_RECORD)
-    objects = np.empty((len(inputs), len(slots)), OBJECT_RECORD)
-    trace(levels, worlds, 0, np.frombuffer(inputs, np.uint8), np.array(slots, np.int64), ninja, objects)
-    names = tuple(KIND_NAMES[kinds[slot]] for slot in slots)
-    return RunTrace(ninja, objects, tuple(slot - 1 for slot in slots), names)
+def _ninja_rows(record: TraceRecord) -> NDArray[np.void]:
+    """The ninja of each tick as NINJA_RECORD."""
+    places = np.frombuffer(record.ninja, np.float64).reshape(-1, 4)
+    numbers = np.frombuffer(record.numbers, np.int32).reshape(-1, 2)
+    rows = np.empty(len(places), NINJA_RECORD)
+    for column, name in enumerate(("x", "y", "prev_x", "prev_y")):
+        rows[name] = places[:, column]
+    rows["s"], rows["gold"] = numbers.T
+    return rows
 
 
-def traced_slots(w: World) -> list[int]:
-    """The slots of all objects that traces show, in id order."""
-    return [slot for slot in range(1, w.id_count + 1) if is_traced(w, slot)]
+def _object_rows(record: TraceRecord, count: int) -> NDArray[np.void]:
+    """The objects of each tick as OBJECT_RECORD."""
+    shape = len(record.numbers) // 2, count
+    places = np.frombuffer(record.places, np.float64).reshape(*shape, 2)
+    rows = np.empty(shape, OBJECT_RECORD)
+    rows["x"], rows["y"] = places[..., 0], places[..., 1]
+    rows["s"] = np.frombuffer(record.statuses, np.int32).reshape(shape)
+    return rows
 
 
-def _columns(w: World, slots: list[int]) -> tuple[tuple[int, ...], tuple[str, ...]]:
-    """Ids and kinds of the objects in these slots."""
-    return tuple(w.objects[slot].id for slot in slots), tuple(KIND_NAMES[w.objects[slot].kind] for slot in slots)
+def _event_names(record: TraceRecord) -> tuple[str, ...]:
+    """The names of each tick's events, with blanks between."""
+    ticks = np.frombuffer(record.events, np.uint8).reshape(-1, MAX_EVENTS)
+    return tuple(" ".join(EVENT_NAMES[number - 1] for number in tick[tick > 0].tolist()) for tick in ticks)

@@ -25,6 +25,7 @@ KEY_LEFT, KEY_RIGHT, JUMP_HELD, JUMP_PRESSED = (int(key) for key in Input)
 
 ALL_KEYS = KEY_LEFT + KEY_RIGHT + JUMP_HELD + JUMP_PRESSED
 KEYS_DOWN = KEY_LEFT + KEY_RIGHT + JUMP_HELD
+_VALID = bytes(range(ALL_KEYS + 1))
 
 
 @fast
@@ -90,6 +91,7 @@ def fitted_demo(inputs: bytes, length: float) -> Demo:
 
 def check_inputs(inputs: bytes) -> None:
     """Raise DemoError for a tick with other bits than those of ``Input``."""
-    for tick, keys in enumerate(inputs):
-        if keys > ALL_KEYS:
-            raise DemoError(f"tick {tick} has keys that there are not", found=str(keys), expected="0 to 15")
+    wrong = inputs.translate(None, _VALID)
+    if wrong:
+        tick = inputs.index(wrong[:1])
+        raise DemoError(f"tick {tick} has keys that there are not", found=str(wrong[0]), expected=f"0 to {ALL_KEYS}")

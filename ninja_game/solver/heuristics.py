@@ -6,12 +6,12 @@ has a distance field of its own, made when the search first reaches it.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from ninja_game.compile_cache import compiled
 from ninja_game.sim import kinds
-from ninja_game.sim.memory.compiled import Kernels
 from ninja_game.sim.memory.layout import Records
 from ninja_game.sim.rules import STRIDE
 from ninja_game.sim.states import AUTOMATIC, LOCKED
@@ -25,7 +25,9 @@ from ninja_game.solver.distance_field import (
     UNREACHED,
     Costs,
     Field,
+    free_points,
     point_at,
+    spread,
     widened,
 )
 
@@ -50,12 +52,11 @@ class Switchable(NamedTuple):
 class Goals:
     """Distance fields of one level, by stage."""
 
-    def __init__(self, kernels: Kernels, levels: Records, worlds: Records) -> None:
-        self._spread: Any = kernels["spread"]
+    def __init__(self, levels: Records, worlds: Records) -> None:
         used = int(worlds["slots_used"][0])
         objects = worlds["objects"][0][:used]
         self.costs = np.zeros(POINTS, np.float32)
-        kernels["free_points"](levels, self.costs)
+        compiled(free_points)(levels, self.costs)
         self.blocked = np.zeros(POINTS, np.uint8)
         self._queue = np.zeros(POINTS + 1, np.int32)
         self._waiting = np.zeros(POINTS, np.uint8)
@@ -123,7 +124,7 @@ class Goals:
             ]
             free = [point for point in near if costs[point] > 0.0] or near
             field[free] = np.minimum(field[free], np.float32(value))
-        self._spread(costs, self.blocked, field, self._queue, self._waiting)
+        compiled(spread)(costs, self.blocked, field, self._queue, self._waiting)
         return field
 
     def _closed(self, stage: int, door_cost: float) -> Costs:

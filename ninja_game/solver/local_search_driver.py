@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
+from ninja_game.compile_cache import compiled
 from ninja_game.sim.inputs import press_jumps
-from ninja_game.sim.memory.compiled import Kernels
 from ninja_game.solver.local_search import (
     BEST_ROW,
     BEST_SCORE,
@@ -22,6 +23,8 @@ from ninja_game.solver.local_search import (
     SINCE_BEST,
     TEMPERATURE,
     TRIALS,
+    climb,
+    retrace,
 )
 from ninja_game.solver.search_memory import Start
 
@@ -32,8 +35,7 @@ ROOM = 64
 class Climb:
     """Improves a run by random edits. ``inputs`` must reach the exit; ``gold``: pieces that every run must collect."""
 
-    def __init__(self, kernels: Kernels, start: Start, inputs: bytes, *, gold: int, seed: int) -> None:
-        self._kernels = kernels
+    def __init__(self, start: Start, inputs: bytes, *, gold: int, seed: int) -> None:
         self.start = start
         room = len(inputs) + ROOM
         self.keys = np.zeros((3, room), np.uint8)
@@ -53,7 +55,7 @@ class Climb:
         """Make the best run the current one. Raises ValueError if it does not reach the exit."""
         self.keys[CURRENT_ROW] = self.keys[BEST_ROW]
         limit = int(self.counters[SHORTEST])
-        if not self._call("retrace", 0, limit):
+        if not self._call(retrace, 0, limit):
             raise ValueError("the run does not reach the exit with triggers only where the jump key goes down")
         self.scores[CURRENT_SCORE] = self.scores[BEST_SCORE]
         self.counters[CURRENT_TICKS] = limit
@@ -62,12 +64,12 @@ class Climb:
     def run(self, budget: int, *, temperature: float) -> None:
         """Try edits for about ``budget`` ticks. ``temperature``: ticks by which a kept run may be longer, at most."""
         self.scores[TEMPERATURE] = temperature
-        self._call("climb", self.counters, self.scores, budget)
+        self._call(climb, self.counters, self.scores, budget)
 
-    def _call(self, name: str, *more: Any) -> Any:
+    def _call(self, entry: Callable[..., Any], *more: Any) -> Any:
         start = self.start
         words = (start.base, start.work_words)
-        return self._kernels[name](
+        return compiled(entry)(
             start.levels, start.worlds, words, self.keys, self.path, self.checkpoints, *more
         )  # fmt: skip
 

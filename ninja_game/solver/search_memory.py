@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.compile_cache import compiled
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.compiled import Kernels, load_compiled
+from ninja_game.sim.memory.compiled import load_worlds
 from ninja_game.sim.memory.layout import STATE_START, Records, new_worlds, used_bytes
 from ninja_game.solver.distance_field import POINTS
 
@@ -61,8 +62,8 @@ PARAMETERS = 16
 class Start:
     """A level at tick 0 and two more worlds to work in; views of their states as words."""
 
-    def __init__(self, kernels: Kernels, level: Level, *, box: bool) -> None:
-        self.levels, first = load_compiled(kernels, level, box)
+    def __init__(self, level: Level, *, box: bool) -> None:
+        self.levels, first = load_worlds(compiled, [level], box=box)
         used = int(first["slots_used"][0])
         self.size = (used_bytes(used) - STATE_START) // 8
         self.base = _words(first, 0, self.size).copy()

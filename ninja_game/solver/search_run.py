@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from ninja_game.sim.memory.compiled import Kernels
+from ninja_game.compile_cache import compiled
 from ninja_game.solver.heuristics import Goals
 from ninja_game.solver.macro_actions import action_inputs
+from ninja_game.solver.search import begin, expand
 from ninja_game.solver.search_memory import (
     BEST_NODE,
     BEST_TICKS,
@@ -38,6 +40,7 @@ from ninja_game.solver.search_memory import (
     SearchMemory,
     Start,
 )
+from ninja_game.solver.value_backup import settle_values
 
 MORE, EXHAUSTED, NO_ROOM = 0, 1, 2
 """How a slice of a search ended."""
@@ -67,9 +70,7 @@ class Resolution:
 class Search:
     """A best-first search from the start of a level, in memory that can be used again and again."""
 
-    def __init__(self, kernels: Kernels, start: Start, goals: Goals, memory: SearchMemory, gold: int) -> None:
-        self._expand: Any = kernels["expand"]
-        self._kernels = kernels
+    def __init__(self, start: Start, goals: Goals, memory: SearchMemory, gold: int) -> None:
         self.start = start
         self.goals = goals
         self.memory = memory
@@ -84,7 +85,7 @@ class Search:
         """
         memory = self.memory
         if guided:
-            memory.keep_as_guide(self._kernels["settle_values"])
+            memory.keep_as_guide(compiled(settle_values))
         memory.clear()
         counters, parameters = memory.counters, memory.parameters
         random = np.random.default_rng([seed, 6])
@@ -99,7 +100,7 @@ class Search:
         counters[GOLD_NEEDED] = self.gold
         counters[BEST_TICKS] = bound
         counters[RANDOM] = int(random.integers(1, 1 << 62))
-        self._call("begin", 0)
+        self._call(begin, 0)
         self._fill_fields()
 
     def run(self, budget: int) -> int:
@@ -110,15 +111,15 @@ class Search:
             left = int(end - counters[TICKS])
             if left <= 0:
                 return MORE
-            ended = int(self._call("expand", left))
+            ended = int(self._call(expand, left))
             if counters[NEW_STAGES]:
                 self._fill_fields()
             elif ended != MORE:
                 return ended
 
-    def _call(self, name: str, budget: int) -> Any:
+    def _call(self, entry: Callable[..., Any], budget: int) -> Any:
         memory, start, goals = self.memory, self.start, self.goals
-        return self._kernels[name](
+        return compiled(entry)(
             (start.levels, start.worlds, (start.base, start.node_words, start.work_words)),
             (memory.nodes, memory.table, memory.links, (memory.chunk_next, memory.chunk_index, memory.chunk_value),
              memory.buckets, memory.counters, memory.parameters),

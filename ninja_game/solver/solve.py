@@ -10,13 +10,8 @@ from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from dataclasses import replace
 from functools import cache
 
-from ninja_game.compile_cache import kernels
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.inputs import press_jumps
-from ninja_game.sim.memory.compiled import Kernels
-from ninja_game.solver import local_search as _climb  # noqa: F401 - registers its entry points
-from ninja_game.solver import search as _search  # noqa: F401
-from ninja_game.solver import value_backup as _cost_to_go  # noqa: F401
 from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, verified_run
 from ninja_game.solver.heuristics import Goals
 from ninja_game.solver.local_search_driver import Climb
@@ -25,7 +20,7 @@ from ninja_game.solver.search_memory import SearchMemory, Start
 from ninja_game.solver.search_run import MORE, Resolution, Search
 from ninja_game.solver.task import Progress, Report, Shared, Task
 
-__all__ = ["Progress", "Task", "compiled_kernels", "solve"]
+__all__ = ["Progress", "Task", "compile_solver", "solve"]
 
 SLICE = 1_000_000
 """Ticks between two looks at the clock."""
@@ -34,15 +29,14 @@ SLICE = 1_000_000
 class _Job:
     """One thread's work."""
 
-    def __init__(self, compiled: Kernels, shared: Shared, number: int) -> None:
+    def __init__(self, shared: Shared, number: int) -> None:
         task = shared.task
-        self.kernels = compiled
         self.shared = shared
         self.number = number
         self.seed = task.seed * 1000 + number
         self.work = 0.0
         self.shares = Shares()
-        self.start = Start(compiled, task.level, box=task.body == "box")
+        self.start = Start(task.level, box=task.body == "box")
         self._search: Search | None = None
         self._turn = 2 * number
         self._climbs = 0
@@ -72,9 +66,9 @@ class _Job:
         if self._search is None:
             task = self.shared.task
             nodes = int(min(1_500_000, max(100_000, task.work_planned / 40)))
-            goals = Goals(self.kernels, self.start.levels, self.start.worlds)
+            goals = Goals(self.start.levels, self.start.worlds)
             memory = SearchMemory(nodes, nodes)
-            self._search = Search(self.kernels, self.start, goals, memory, task.gold_wanted)
+            self._search = Search(self.start, goals, memory, task.gold_wanted)
         return self._search
 
     def _find(self) -> None:
@@ -119,7 +113,7 @@ class _Job:
     def _climb(self, inputs: bytes, ticks: int) -> None:
         self._climbs += 1
         gold = self.shared.task.gold_wanted
-        climb = Climb(self.kernels, self.start, inputs, gold=gold, seed=self.seed + 7919 * self._climbs)
+        climb = Climb(self.start, inputs, gold=gold, seed=self.seed + 7919 * self._climbs)
         for temperature in COOLING:
             until = climb.played + ticks // len(COOLING)
             while climb.played < until and not self._over:
@@ -136,15 +130,13 @@ _SMALL = "0" * 713 + "|5^100,566!11^160,564,130,564"
 
 
 @cache
-def compiled_kernels() -> Kernels:
-    """All kernels, compiled: a small level is solved first, so that no clock runs while Numba works.
+def compile_solver() -> None:
+    """Compile all kernels: a small level is solved first, so that no clock runs while Numba works.
 
     Raises MemoryUnavailableError without Numba.
     """
-    compiled = kernels()
     task = Task(parse_level_string(_SMALL), work=30_000)
-    _Job(compiled, Shared(task, None), 0).run()
-    return compiled
+    _Job(Shared(task, None), 0).run()
 
 
 def solve(
@@ -157,11 +149,11 @@ def solve(
     Raises LevelError for a level that cannot be played, MemoryUnavailableError without Numba, UnverifiedRunError for a
     first run that does not reach the exit.
     """
-    compiled = compiled_kernels()
+    compile_solver()
     shared = Shared(task, report, on_better=on_better)
     if task.first:
         shared.offer(_with_plain_triggers(task))
-    jobs = [_Job(compiled, shared, number) for number in range(task.jobs)]
+    jobs = [_Job(shared, number) for number in range(task.jobs)]
     if len(jobs) == 1:
         jobs[0].run()
         return shared.best

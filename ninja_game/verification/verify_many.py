@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import IO, Any, TypeAlias
 
 from ninja_game.batch.thread_pool import cores
-from ninja_game.compile_cache import choose_memory, kernels
+from ninja_game.compile_cache import choose_memory
 from ninja_game.files.resources import bundled_levels
 from ninja_game.formats.load import NamedLevel, load_levels
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
@@ -109,8 +109,6 @@ def _verify_all(
             yield from _record_results(zip([first], [_verify(memory, level, first)], strict=True), log)
             return
         pool: Workers = stack.enter_context(workers(jobs or cores(), processes=processes, cluster=cluster))
-        if not processes and not cluster and choose_memory(memory) == "compiled":
-            kernels()  # once, before several threads ask for it
         all_jobs = _chain(first, second, batches)
         try:
             if cluster:

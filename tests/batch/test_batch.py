@@ -10,8 +10,9 @@ import pytest
 
 from ninja_game import Level, Simulation, parse_level
 from ninja_game.batch.batch import Batch
+from ninja_game.batch.kernels import run_worlds
 from ninja_game.batch.thread_pool import ThreadPool
-from ninja_game.compile_cache import MemoryUnavailableError, compiled_available, compiled_sources, kernels
+from ninja_game.compile_cache import MemoryUnavailableError, compiled, compiled_available
 from ninja_game.sim.kinds import DRONE, EXIT, MINE
 from ninja_game.sim.memory.layout import OBJECT
 from ninja_game.sim.states import OUTCOME_NAMES
@@ -70,7 +71,7 @@ def test_the_number_of_threads_changes_nothing() -> None:
 def test_batches_of_all_sizes_share_one_compiled_function() -> None:
     for count in (1, 2, 5):
         Batch(LEVELS, count, memory="compiled").step([0] * count)
-    entry: Any = kernels()["run_worlds"]
+    entry: Any = compiled(run_worlds)
     assert len(entry.signatures) == 1
 
 
@@ -213,12 +214,6 @@ def test_a_crew_does_every_item_once_and_raises_what_fails() -> None:
     with pytest.raises(LookupError):
         pool.share(fail, 100)
     assert pool.share(work, 24) == 24
-
-
-def test_only_sources_of_compiled_functions_count_for_the_cache() -> None:
-    names = {path.name for path in compiled_sources() if path.parent.name == "batch"}
-    assert "kernels.py" in names
-    assert not names & {"batch.py", "thread_pool.py", "worlds.py"}
 
 
 def test_an_empty_choice_of_levels_is_refused() -> None:

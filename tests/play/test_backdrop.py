@@ -22,7 +22,7 @@ CANVAS = Canvas((396, 300))
 
 
 def painted(run: Simulation, animation: ObjectAnimation, book: SpriteBook) -> Backdrop:
-    backdrop = Backdrop(CANVAS, CLASSIC, book, run.static)
+    backdrop = Backdrop(CANVAS, CLASSIC, book, run.tiles)
     backdrop.reset(run.world, animation)
     return backdrop
 

@@ -25,7 +25,7 @@ def drop(run: Simulation, ticks: int, *, kind: int = BULLET, seed: int = 3, push
     doll = Ragdoll(at, at, (1.0, -1.0), 1, Random(seed), lambda *_: None)
     doll.shove(kind, (push, -3.0), 296, 300)
     for _ in range(ticks):
-        doll.step(run.static, run.world)
+        doll.step(run.tiles, run.world)
     return doll
 
 
@@ -53,7 +53,7 @@ def test_it_stays_out_of_every_shape() -> None:
             for particle in doll.particles:
                 assert 24 <= particle.x <= 768
                 assert 24 <= particle.y <= 576
-                assert not solid_at(run.static, particle.x, particle.y), (tile, push)
+                assert not solid_at(run.tiles, particle.x, particle.y), (tile, push)
 
 
 def test_explosions_take_it_apart() -> None:

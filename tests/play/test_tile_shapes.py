@@ -32,7 +32,7 @@ def test_a_shape_covers_what_is_solid(tile: int) -> None:
         for column in range(size):
             x, y = 24 + (column + 0.5) / 2, 24 + (row + 0.5) / 2
             near = [
-                solid_at(run.static, x + dx, y + dy)
+                solid_at(run.tiles, x + dx, y + dy)
                 for dx in (-0.7, 0, 0.7)
                 for dy in (-0.7, 0, 0.7)
                 if 24 <= x + dx < 48 and 24 <= y + dy < 48
@@ -45,7 +45,7 @@ def test_a_shape_covers_what_is_solid(tile: int) -> None:
 def test_no_seams_between_full_tiles(size: tuple[int, int]) -> None:
     canvas = Canvas(size)
     run = Simulation(Level((1,) * 713, (ObjectSpec(5, (400.0, 300.0)),)))
-    backdrop = Backdrop(canvas, CLASSIC, SpriteBook(canvas.scale, CLASSIC), run.static)
+    backdrop = Backdrop(canvas, CLASSIC, SpriteBook(canvas.scale, CLASSIC), run.tiles)
     mask = pygame.mask.from_surface(backdrop.tiles, 254)
     assert mask.count() == canvas.size[0] * canvas.size[1]
 
@@ -59,7 +59,7 @@ def test_slopes_meet_their_neighbours_without_seams() -> None:
             columns[column][10], columns[column][11] = (18, 22)[column % 2] if column % 3 else 2, 1
         tiles = tuple(tile for column in columns for tile in column)
         run = Simulation(Level(tiles, (ObjectSpec(5, (400.0, 100.0)),)))
-        backdrop = Backdrop(canvas, CLASSIC, SpriteBook(canvas.scale, CLASSIC), run.static)
+        backdrop = Backdrop(canvas, CLASSIC, SpriteBook(canvas.scale, CLASSIC), run.tiles)
         _, border = canvas.point(0, 24 * 12)
         left, right = canvas.point(24, 0)[0], canvas.point(768, 0)[0]
         for x in range(left, right):
@@ -77,7 +77,7 @@ def test_slope_over_many_cells_is_one_straight_line(size: tuple[int, int]) -> No
         columns[k][k + 2 :] = [1] * (21 - k)
     tiles = tuple(tile for column in columns for tile in column)
     run = Simulation(Level(tiles, (ObjectSpec(5, (700.0, 100.0)),)))
-    backdrop = Backdrop(canvas, CLASSIC, SpriteBook(canvas.scale, CLASSIC), run.static)
+    backdrop = Backdrop(canvas, CLASSIC, SpriteBook(canvas.scale, CLASSIC), run.tiles)
     off = []
     for x in range(round(25 * canvas.scale), round(500 * canvas.scale)):
         column = [backdrop.tiles.get_at((x, y)).a / 255 for y in range(round(26 * canvas.scale), canvas.size[1])]

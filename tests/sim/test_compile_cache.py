@@ -1,4 +1,4 @@
-"""The cache of compiled code: one folder for each version of the sources, and only the newest few are kept."""
+"""The cache of compiled code: it can never run old rules, and whatever is wrong with it, everything works."""
 
 from __future__ import annotations
 
@@ -10,52 +10,102 @@ from pathlib import Path
 import pytest
 
 from ninja_game import compile_cache
-from ninja_game.compile_cache import (
-    KEPT_VERSIONS,
-    MemoryUnavailableError,
-    choose_memory,
-    forget_old_code,
-    source_digest,
-)
+from ninja_game.compile_cache import KEPT_FILES, MemoryUnavailableError, choose_memory, forget_old_code
+from ninja_game.errors import ArgumentError
+from ninja_game.sim.memory.kernels import step_world
+from ninja_game.sim.ninja import tick
+
+needs_numba = pytest.mark.skipif(not compile_cache.compiled_available(), reason="Numba is not installed")
+
+# Compiles one small kernel, so that it takes a second, and says whether it was compiled.
+PROGRAM = """
+from ninja_game import compile_cache
+from ninja_game.sim.memory.compiled import load_worlds
+from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.memory.schema import World
+import numpy as np
+FACTOR = {factor}
+@entry_point
+def scaled(numbers: World, count: int) -> int:
+    return numbers[0] * FACTOR + count
+compile_cache.before_compiling.append(lambda: print("compiles"))
+print(compile_cache.compiled(scaled)(np.array([3]), 1))
+"""
 
 
-def test_only_the_newest_versions_are_kept(tmp_path: Path) -> None:
-    for age in range(KEPT_VERSIONS + 3):
-        (tmp_path / f"v{age}").mkdir()
-        (tmp_path / f"v{age}" / "code.nbc").touch()
-        os.utime(tmp_path / f"v{age}", (1_000_000 - age, 1_000_000 - age))
+def run(folder: Path, factor: int = 2, **more: str) -> tuple[str, str]:
+    """What the program says on stdout and stderr, with its cache in a folder."""
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder), **more}
+    command = [sys.executable, "-c", PROGRAM.format(factor=factor)]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    return done.stdout, done.stderr
+
+
+@needs_numba
+def test_compiled_code_is_kept_until_a_constant_changes(tmp_path: Path) -> None:
+    assert run(tmp_path) == ("compiles\n7\n", "")
+    assert run(tmp_path) == ("7\n", "")
+    assert run(tmp_path, factor=5) == ("compiles\n16\n", "")
+
+
+@needs_numba
+@pytest.mark.parametrize("damage", ["empty", "truncated", "changed", "garbage"])
+def test_damaged_code_is_compiled_anew_without_a_word(damage: str, tmp_path: Path) -> None:
+    run(tmp_path)
+    (file,) = tmp_path.iterdir()
+    code = file.read_bytes()
+    changed = code[:2000] + bytes([code[2000] ^ 1]) + code[2001:]
+    file.write_bytes({"empty": b"", "truncated": code[:-9], "changed": changed, "garbage": b"junk" * 99}[damage])
+    assert run(tmp_path) == ("compiles\n7\n", "")
+    assert run(tmp_path) == ("7\n", "")
+
+
+@needs_numba
+def test_where_nothing_can_be_written_it_works_and_says_so_once(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    out, errors = run(tmp_path / "file" / "cache")
+    assert out == "compiles\n7\n"
+    assert errors.count("compiled code cannot be kept in") == len(errors.splitlines()) == 1
+    assert not list(Path(compile_cache.__file__).parent.rglob("*.nbi"))
+
+
+@needs_numba
+def test_numba_switched_off_is_numba_missing(tmp_path: Path) -> None:
+    out, errors = run(tmp_path, NUMBA_DISABLE_JIT="1")
+    assert (out, "MemoryUnavailableError" in errors) == ("", True)
+
+
+@needs_numba
+def test_the_digest_follows_every_rule_and_constant_that_a_kernel_reaches(monkeypatch: pytest.MonkeyPatch) -> None:
+    from ninja_game.sim.memory.compiler import code_digest
+
+    before = code_digest(step_world, "")
+    assert code_digest(step_world, "") == before
+    assert code_digest(step_world, "another compiler") != before
+    monkeypatch.setattr(tick, "FATAL_IMPACT", 99.0)
+    assert code_digest(step_world, "") != before
+
+
+def test_only_the_newest_files_are_kept(tmp_path: Path) -> None:
+    for age in range(KEPT_FILES + 3):
+        (tmp_path / f"v{age}.code").touch()
+        os.utime(tmp_path / f"v{age}.code", (1_000_000 - age, 1_000_000 - age))
     forget_old_code(tmp_path)
-    assert sorted(path.name for path in tmp_path.iterdir()) == [f"v{age}" for age in range(KEPT_VERSIONS)]
-
-
-def test_a_missing_folder_is_no_error(tmp_path: Path) -> None:
+    assert {path.name for path in tmp_path.iterdir()} == {f"v{age}.code" for age in range(KEPT_FILES)}
     forget_old_code(tmp_path / "nothing")
 
 
-def test_the_digest_follows_the_sources(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    for folder in ("sim", "batch", "solver"):
-        (tmp_path / folder).mkdir()
-    monkeypatch.setattr(compile_cache, "__file__", str(tmp_path / "compile_cache.py"))
-    before = source_digest()
-    (tmp_path / "batch" / "no_rule.py").write_text("x = 1\n", encoding="utf-8")
-    assert source_digest() == before
-    (tmp_path / "sim" / "rule.py").write_text("x = 1\n", encoding="utf-8")
-    assert source_digest() != before
-
-
-@pytest.mark.skipif(not compile_cache.compiled_available(), reason="Numba is not installed")
+@needs_numba
 @pytest.mark.parametrize("first", ["", "import numba; "])
 def test_threads_may_ask_for_kernels_at_once_whoever_imported_numba(first: str) -> None:
     program = (
         f"{first}from concurrent.futures import ThreadPoolExecutor as Pool\n"
-        "from ninja_game.compile_cache import kernels\n"
-        "with Pool(8) as pool: tables = list(pool.map(lambda _: kernels(), range(8)))\n"
-        "import numba, os\n"
-        "assert numba.config.CACHE_DIR == os.environ['NUMBA_CACHE_DIR'], numba.config.CACHE_DIR\n"
-        "print(len({id(table['run_world']) for table in tables}))\n"
+        "from ninja_game.compile_cache import compiled\n"
+        "from ninja_game.sim.memory.kernels import run_world\n"
+        "with Pool(8) as pool: twins = list(pool.map(lambda _: compiled(run_world), range(8)))\n"
+        "print(len({id(twin) for twin in twins}))\n"
     )
-    environment = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
-    done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
     assert (done.stdout, done.stderr) == ("1\n", "")
 
 
@@ -64,3 +114,5 @@ def test_without_numba_auto_is_plain_and_compiled_says_what_to_install(monkeypat
     assert choose_memory("auto") == "plain"
     with pytest.raises(MemoryUnavailableError, match="fast"):
         choose_memory("compiled")
+    with pytest.raises(ArgumentError, match="expected 'plain'"):
+        choose_memory("fast")

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from itertools import combinations
 
-import numpy as np
 import pytest
 
 from ninja_game.compile_cache import compiled_available
-from ninja_game.sim.memory.compiled import Compiler, load_compiled
-from ninja_game.sim.memory.declare import ENTRY_POINTS, REGISTERED, f8, fields_of, part
+from ninja_game.sim.memory.compiled import CompiledMemory
+from ninja_game.sim.memory.compiler import Compiler
+from ninja_game.sim.memory.declare import ENTRY_POINTS, REGISTERED, entry_point, f8, fields_of, part
 from ninja_game.sim.memory.layout import (
     OBJECT,
     STATE_START,
@@ -80,18 +80,24 @@ def test_a_median_level_fits_in_64_kib() -> None:
 
 @needs_numba
 def test_no_index_is_ever_out_of_range() -> None:
-    kernels = Compiler(boundscheck=True).kernels()
+    checked = Compiler(checked=True)
     for seed in range(60):
-        levels, worlds = load_compiled(kernels, crowded_level(seed), seed % 2 == 1)
-        slots = np.arange(1, int(worlds["id_count"][0]) + 1)
-        inputs = np.frombuffer(crowded_inputs(seed, 150), np.uint8)
-        objects = np.empty((150, len(slots)), [("x", "<f8"), ("y", "<f8"), ("s", "<i4")])
-        ninja = np.empty(
-            150, [(name, "<f8") for name in ("x", "y", "prev_x", "prev_y")] + [("s", "<i4"), ("gold", "<i4")]
-        )
-        kernels["trace_world"](levels, worlds, 0, inputs, slots, ninja, objects)
+        memory = CompiledMemory(checked, crowded_level(seed), box=seed % 2 == 1)
+        memory.trace(crowded_inputs(seed, 150), range(1, memory.id_count + 1), events=True)
 
 
-def test_entry_points_are_registered_rules() -> None:
-    assert set(ENTRY_POINTS) <= set(REGISTERED)
-    assert len({entry.__name__ for entry in ENTRY_POINTS}) == len(ENTRY_POINTS)
+@needs_numba
+def test_checked_kernels_refuse_an_index_out_of_range() -> None:
+    memory = CompiledMemory(Compiler(checked=True), crowded_level(0), box=False)
+    with pytest.raises(IndexError):
+        memory.observe(CAPACITY)
+
+
+def test_entry_points_are_registered_rules_with_names_of_their_own() -> None:
+    assert set(ENTRY_POINTS) <= REGISTERED
+
+    def step_world() -> None:
+        """Another function of a known name."""
+
+    with pytest.raises(TypeError, match="another entry point of the name step_world"):
+        entry_point(step_world)

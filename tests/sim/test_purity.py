@@ -14,6 +14,8 @@ MEMORIES = {
     "declare.py",
     "layout.py",
     "compiled.py",
+    "compiler.py",
+    "interface.py",
     "plain.py",
     "digest.py",
     "loader.py",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ninja_game.compile_cache import compiled_available, kernels
+from ninja_game.compile_cache import compiled_available
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.level import Level
 
@@ -27,8 +27,8 @@ CORRIDOR = ("0" * 10 + "1" * 12 + "0") * 10 + "0" * 23 * 21
 def goals_of(text: str) -> Goals:
     """The distance fields of a level."""
     level: Level = parse_level_string(text)
-    start = Start(kernels(), level, box=False)
-    return Goals(kernels(), start.levels, start.worlds)
+    start = Start(level, box=False)
+    return Goals(start.levels, start.worlds)
 
 
 @pytest.mark.parametrize(

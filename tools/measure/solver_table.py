@@ -23,7 +23,7 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.solver.certificate import VerifiedRun
-from ninja_game.solver.solve import Task, compiled_kernels, solve
+from ninja_game.solver.solve import Task, compile_solver, solve
 from tools import ROOT
 
 EPISODES = ("00", "10", "20", "30", "40", "50", "60", "70", "80", "90")
@@ -63,7 +63,7 @@ def people(source: str) -> dict[str, int]:
 
 def solve_all(arguments: argparse.Namespace) -> None:
     """Solve what is not in the file yet."""
-    compiled_kernels()
+    compile_solver()
     done = {row["level"] for row in rows(arguments.file)}
     for name, task in tasks(arguments):
         if name in done or (arguments.only and name not in arguments.only.split(",")):

@@ -72,7 +72,7 @@ class LevelView:
         self._follow_options()
         self.object_animation.on_tick(world)
         self.ninja_animation.on_tick(world)
-        self.effects.on_tick(self.simulation.static, world)
+        self.effects.on_tick(self.simulation.tiles, world)
         self._follow_death(world)
         for ghost in self.ghosts:
             ghost.on_tick()
@@ -83,7 +83,7 @@ class LevelView:
         """Take note of a death between two ticks: out of time, or by the player's own hand."""
         world = self.simulation.world
         self.ninja_animation.on_tick(world)
-        self.effects.on_tick(self.simulation.static, world)
+        self.effects.on_tick(self.simulation.tiles, world)
         self._follow_death(world)
         if self.audible:
             self.app.audio_output.play_events(world)
@@ -115,7 +115,7 @@ class LevelView:
         if self.doll is None:
             self._fall_down(world)
         if self.doll is not None:
-            self.doll.step(self.simulation.static, world)
+            self.doll.step(self.simulation.tiles, world)
 
     def _fall_down(self, world: World) -> None:
         n = world.ninja
@@ -146,7 +146,7 @@ class LevelView:
         palette = self.app.theme.palette
         book = SpriteBook(self.canvas.scale, palette)
         self.target = DrawTarget(self.canvas, palette, book)
-        self._backdrop = Backdrop(self.canvas, palette, book, self.simulation.static)
+        self._backdrop = Backdrop(self.canvas, palette, book, self.simulation.tiles)
         self._backdrop.reset(self.simulation.world, self.object_animation)
         self._look = self._wanted_look()
         self._whole = True

@@ -133,7 +133,7 @@ def touched_cells(x: float, y: float, cell: int) -> list[int]:
 
 def _draw_rays(target: DrawTarget, simulation: Simulation) -> None:
     """From everything that looks for the ninja: to it where it is seen, to the tile in the way where not."""
-    world, level = simulation.world, simulation.static
+    world, level = simulation.world, simulation.tiles
     n = world.ninja
     for slot in range(1, world.id_count + 1):
         o = world.objects[slot]

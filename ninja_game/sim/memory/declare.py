@@ -4,7 +4,7 @@ The state of the world is described once, by annotated classes (``schema.py``). 
 *plain* memory: a Python class with slots, every field zero at first. ``layout.py`` turns the same class into the
 *compiled* memory: a NumPy record. The rules are ordinary functions that never know which of the two they hold.
 
-``@fast`` only registers a rule. ``compiled.py`` makes a compiled twin of everything registered; plain play imports
+``@fast`` only registers a rule. ``compiler.py`` makes compiled twins of what is registered; plain play imports
 neither Numba nor NumPy.
 """
 
@@ -22,23 +22,27 @@ u1 = Annotated[int, "u1"]
 C = TypeVar("C")
 F = TypeVar("F", bound=Callable[..., Any])
 
-REGISTERED: list[Callable[..., Any]] = []
-"""Every function marked ``@fast``, in import order."""
+REGISTERED: set[Any] = set()
+"""Every function marked ``@fast``."""
 
-
-ENTRY_POINTS: list[Callable[..., Any]] = []
-"""Those of them that Python calls: only they get wrappers and a place in Numba's cache."""
+ENTRY_POINTS: dict[Any, str] = {}
+"""Those of them that Python calls, with their names: only they get wrappers and a place in the cache."""
 
 
 def fast(function: F) -> F:
     """Register a rule for compilation and give it back unchanged."""
-    REGISTERED.append(function)
+    REGISTERED.add(function)
     return function
 
 
 def entry_point(function: F) -> F:
-    """Register a function that is called from outside; its arguments are arrays and numbers, never single records."""
-    ENTRY_POINTS.append(function)
+    """Register a function that is called from outside; its arguments are arrays and numbers, never single records.
+
+    Raises TypeError for a name that another entry point has.
+    """
+    if function.__name__ in ENTRY_POINTS.values():
+        raise TypeError(f"there is another entry point of the name {function.__name__}; rename one")
+    ENTRY_POINTS[function] = function.__name__
     return fast(function)
 
 

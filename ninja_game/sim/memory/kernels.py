@@ -1,6 +1,7 @@
-"""What the compiled memory is called for: whole runs and traces of worlds in an array, without coming back each tick.
+"""What memories are called for: worlds loaded, stepped, run and traced, without coming back to Python each tick.
 
-These functions take arrays of worlds and an index, never a single record: that is what Numba passes quickly.
+These functions take arrays of worlds and an index, never a single record: that is what Numba passes quickly. The plain
+memory calls the same functions with lists of one. Results go into flat arrays of numbers, which both write quickly.
 """
 
 from __future__ import annotations
@@ -10,9 +11,10 @@ from typing import Any
 
 from ninja_game.sim.arithmetic import clean
 from ninja_game.sim.collision.tiles import set_edges
+from ninja_game.sim.death import kill
 from ninja_game.sim.loader import populate
 from ninja_game.sim.memory.declare import entry_point
-from ninja_game.sim.memory.schema import TileMap, World
+from ninja_game.sim.memory.schema import MAX_EVENTS, TileMap, World
 from ninja_game.sim.traces import place_of, status_of
 from ninja_game.sim.world import step
 
@@ -40,20 +42,34 @@ def step_world(levels: Sequence[TileMap], worlds: Sequence[World], index: int, k
 
 
 @entry_point
+def kill_ninja(worlds: Sequence[World], index: int, cause: int, dx: float, dy: float) -> None:
+    """Kill the ninja where it is, from outside the rules: its time is over, or the player gave up."""
+    n = worlds[index].ninja
+    kill(worlds[index], cause, dx, dy, n.x, n.y)
+
+
+@entry_point
+def observe_object(worlds: Sequence[World], index: int, slot: int) -> tuple[int, float, float, int]:
+    """Kind, place (px) and status of an object, as traces show them."""
+    x, y = place_of(worlds[index], slot)
+    return worlds[index].objects[slot].kind, x, y, status_of(worlds[index], slot)
+
+
+@entry_point
 def run_world(
-    levels: Sequence[TileMap], worlds: Sequence[World], index: int, inputs: Sequence[int], positions: Any, states: Any
+    levels: Sequence[TileMap], worlds: Sequence[World], index: int, inputs: Sequence[int], places: Any, states: Any
 ) -> int:
     """Run until the tick of the first exit contact or death, or to the end of ``inputs``; the number of ticks run.
 
-    ``positions`` (ticks x 2, px) and ``states`` (ticks) receive the ninja's place and state after each tick.
+    ``places`` (x, y of each tick in turn, px) and ``states`` (one a tick) receive the ninja's after each tick.
     """
     level = levels[index]
     w = worlds[index]
     n = w.ninja
     for tick in range(len(inputs)):
         step(level, w, int(inputs[tick]))
-        positions[tick, 0] = clean(n.x)
-        positions[tick, 1] = clean(n.y)
+        places[2 * tick] = clean(n.x)
+        places[2 * tick + 1] = clean(n.y)
         states[tick] = n.state
         if w.outcome:
             return tick + 1
@@ -80,28 +96,35 @@ def trace_world(
     inputs: Sequence[int],
     slots: Sequence[int],
     ninja: Any,
-    objects: Any,
+    numbers: Any,
+    places: Any,
+    statuses: Any,
+    events: Any,
 ) -> None:
     """Run all of ``inputs``, whatever happens, and record everything after each tick.
 
-    ``ninja``: NINJA_RECORD (ticks); ``objects``: OBJECT_RECORD (ticks x slots) for the objects in ``slots``.
+    ``ninja``: x, y, prev_x, prev_y of each tick in turn; ``numbers``: state, gold. ``places``: x, y of each object in
+    ``slots``; ``statuses``: one of each. ``events``: MAX_EVENTS numbers a tick, each event's plus 1, 0 behind the last;
+    nothing is recorded in an empty array.
     """
     level = levels[index]
     w = worlds[index]
     n = w.ninja
+    count = len(slots)
     for tick in range(len(inputs)):
         step(level, w, int(inputs[tick]))
-        row = ninja[tick]
-        row.x = clean(n.x)
-        row.y = clean(n.y)
-        row.prev_x = clean(n.prev_x)
-        row.prev_y = clean(n.prev_y)
-        row.s = n.state
-        row.gold = w.gold
-        for k in range(len(slots)):
-            slot = slots[k]
-            x, y = place_of(w, slot)
-            place = objects[tick, k]
-            place.x = clean(x)
-            place.y = clean(y)
-            place.s = status_of(w, slot)
+        ninja[4 * tick] = clean(n.x)
+        ninja[4 * tick + 1] = clean(n.y)
+        ninja[4 * tick + 2] = clean(n.prev_x)
+        ninja[4 * tick + 3] = clean(n.prev_y)
+        numbers[2 * tick] = n.state
+        numbers[2 * tick + 1] = w.gold
+        for k in range(count):
+            row = tick * count + k
+            x, y = place_of(w, slots[k])
+            places[2 * row] = clean(x)
+            places[2 * row + 1] = clean(y)
+            statuses[row] = status_of(w, slots[k])
+        if len(events):
+            for k in range(w.event_count):
+                events[MAX_EVENTS * tick + k] = w.events[k].kind + 1

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from array import array
+from collections.abc import Callable, Sequence
 from operator import attrgetter
 from typing import Any
 
@@ -10,7 +11,10 @@ from ninja_game.sim.collision.tiles import set_edges
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import grid_tiles, populate, record_table
 from ninja_game.sim.memory.declare import Field, fields_of
-from ninja_game.sim.memory.schema import Ninja, Object, TileMap, World
+from ninja_game.sim.memory.interface import MemoryName, RunRecord, TraceRecord
+from ninja_game.sim.memory.kernels import kill_ninja, observe_object, run_world, trace_world
+from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, Object, TileMap, World
+from ninja_game.sim.world import step
 
 PlainState = tuple[tuple[Any, ...], tuple[Any, ...], list[int], list[int], list[tuple[Any, ...]]]
 """A save-state of a plain world: its scalars, the ninja, cell heads, edges, objects. Never changed once made."""
@@ -46,12 +50,12 @@ def _setter(fields: list[Field]) -> Callable[[Any, tuple[Any, ...]], None]:
 WORLD_SCALARS = [field for field in fields_of(World) if field.length == 0 and isinstance(field.type, str)]
 _get_scalars, _set_scalars = _getter(WORLD_SCALARS), _setter(WORLD_SCALARS)
 _get_ninja, _set_ninja = _getter(fields_of(Ninja)), _setter(fields_of(Ninja))
-_get_thing, _set_thing = _getter(fields_of(Object)), _setter(fields_of(Object))
+_get_object, _set_object = _getter(fields_of(Object)), _setter(fields_of(Object))
 
 
 def save_plain(w: World) -> PlainState:
     """Everything that changes during a run, but the events of the last tick."""
-    objects = [_get_thing(o) for o in w.objects]
+    objects = [_get_object(o) for o in w.objects]
     return _get_scalars(w), _get_ninja(w.ninja), w.heads.copy(), w.edges.copy(), objects
 
 
@@ -63,5 +67,98 @@ def restore_plain(w: World, state: PlainState) -> None:
     w.heads[:] = heads
     w.edges[:] = edges
     for o, values in zip(w.objects, objects, strict=True):
-        _set_thing(o, values)
+        _set_object(o, values)
     w.event_count = 0
+
+
+class PlainMemory:
+    """A world of plain Python objects: it starts at once, and anybody may look into it."""
+
+    name: MemoryName = "plain"
+
+    def __init__(self, level: Level, *, box: bool) -> None:
+        self._level = level
+        self._box = box
+        self.load()
+
+    def load(self) -> None:
+        """Start afresh from the level."""
+        self.tiles, self._world = load_plain(self._level, self._box)
+
+    @property
+    def tick(self) -> int:
+        """Ticks run."""
+        return self._world.tick
+
+    @property
+    def outcome(self) -> int:
+        """What came first, by number."""
+        return self._world.outcome
+
+    @property
+    def gold(self) -> int:
+        """Pieces of gold collected."""
+        return self._world.gold
+
+    @property
+    def jump_held(self) -> int:
+        """Whether the jump key was down in the last sampled tick."""
+        return self._world.ninja.jump_held
+
+    @property
+    def id_count(self) -> int:
+        """How many objects have an id."""
+        return self._world.id_count
+
+    def step(self, keys: int) -> None:
+        """One tick."""
+        step(self.tiles, self._world, keys)
+
+    def kill(self, cause: int, dx: float, dy: float) -> None:
+        """Kill the ninja where it is."""
+        kill_ninja([self._world], 0, cause, dx, dy)
+
+    def run(self, inputs: bytes) -> RunRecord:
+        """Run until the first exit contact or death, or to the end."""
+        places, states = _zeros("d", 2 * len(inputs)), bytearray(len(inputs))
+        ticks = run_world([self.tiles], [self._world], 0, inputs, places, states)
+        return RunRecord(places[: 2 * ticks], states[:ticks])
+
+    def trace(self, inputs: bytes, slots: Sequence[int], *, events: bool) -> TraceRecord:
+        """Run all of ``inputs`` and record everything."""
+        ticks, rows = len(inputs), len(inputs) * len(slots)
+        happened = bytearray(MAX_EVENTS * ticks if events else 0)
+        record = TraceRecord(
+            _zeros("d", 4 * ticks), _zeros("i", 2 * ticks), _zeros("d", 2 * rows), _zeros("i", rows), happened
+        )
+        trace_world([self.tiles], [self._world], 0, inputs, slots, *record)
+        return record
+
+    def save(self) -> PlainState:
+        """The state as tuples."""
+        return save_plain(self._world)
+
+    def restore(self, state: PlainState) -> None:
+        """Go back to a state of the same level."""
+        restore_plain(self._world, state)
+
+    def ninja(self) -> Ninja:
+        """The ninja."""
+        return self._world.ninja
+
+    def events(self) -> list[Event]:
+        """The events of the last tick."""
+        return self._world.events[: self._world.event_count]
+
+    def observe(self, slot: int) -> tuple[int, float, float, int]:
+        """Kind, x, y and status of the object in a slot."""
+        return observe_object([self._world], 0, slot)
+
+    def world(self) -> World:
+        """The world itself."""
+        return self._world
+
+
+def _zeros(code: str, count: int) -> array[Any]:
+    """So many zeros of a type, in one buffer."""
+    return array(code, bytes(count * array(code).itemsize))

@@ -42,7 +42,7 @@ def thumbnail(level: Level, palette: Palette, width: int) -> pygame.Surface:
         picture.blit(Backdrop(canvas, palette, book, static).tiles, (0, 0), special_flags=pygame.BLEND_PREMULTIPLIED)
         return picture
     animation = ObjectAnimation(run.world)
-    backdrop = Backdrop(canvas, palette, book, run.static)
+    backdrop = Backdrop(canvas, palette, book, run.tiles)
     backdrop.reset(run.world, animation)
     target = DrawTarget(canvas, palette, book)
     target.begin(backdrop.picture)
