@@ -27,7 +27,7 @@ def keep_replay(data: PlayerData, replay: Replay) -> str:
         data.records.keep_replay(replay)
         return [REPLAY_KEPT]
 
-    return told(data, work)[0]
+    return told(data, work)[-1]
 
 
 def forget_replay(data: PlayerData, number: int) -> str:

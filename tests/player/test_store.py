@@ -155,6 +155,7 @@ def test_unusable_place_keeps_the_records_in_memory_and_says_so(tmp_path: Path) 
     notices = run.passed(played(short_level()))
     assert not any("saved" in notice for notice in notices[:-1])
     assert notices[-1].startswith("Not saved yet: the records cannot be opened")
+    assert keep_replay(data, played(deadly_level()).replay()).startswith("Not saved yet")
     assert "in memory only" in " ".join(data.messages)
     assert data.records.level_best(run.entry.digest) is not None
 

@@ -86,23 +86,22 @@ def play_records(folder: str, seed: int, pipe: Connection) -> None:
 def play_in_window(folder: str, seed: int, pipe: Connection) -> None:
     """The whole program: levels played by keys, replays kept, settings changed on the way."""
     from ninja_game.play.level.screen import LevelScreen
-    from ninja_game.play.menus.level_contexts import LevelCourse
     from tests.support.menu_driver import MenuDriver
 
     chance = Random(seed)
     driver = MenuDriver(Path(folder))
     while True:
         level = level_of(chance.randrange(40))
-        screen = LevelScreen(driver.app, LevelCourse(driver.player, entry_of(level)))
+        screen = LevelScreen(driver.app, LevelRun(driver.player, entry_of(level)))
         driver.app.push(screen)
         for _ in range(3):
             driver.keys.script = [1] * chance.randrange(1, 15) + [2] * 120
             while screen.attempt.outcome != "exit":
                 driver.frames()
-            if any("saved" in notice for notice in screen.notices):
+            if any("saved" in notice for notice in screen.play.notices):
                 pipe.send(("best", level_digest(level), screen.attempt.score))
             screen.keep_replay()
-            if any("saved" in notice for notice in screen.notices):
+            if "saved" in driver.app.notice:
                 pipe.send(("replay", "", driver.player.records.replays()[0].id))
             driver.press("r")
         volume = chance.randrange(100)
