@@ -36,8 +36,7 @@ VENV = ROOT / ".venv"
 STAMP = VENV / "ninja-game-installed.txt"
 CACHES = (".pytest_cache", ".mypy_cache", ".ruff_cache", ".import_linter_cache", ".hypothesis", "build", "dist")
 SOURCES = ("ninja_game", "tests", "tools", "benchmarks")
-PLAY = ("film",)
-EXTRAS = ("cluster", "fast", "film", "plots")
+EXTRAS = ("cluster", "fast", "plots")
 DEVELOPMENT = (*EXTRAS, "dev")
 DRAWINGS = ("draw.how_it_works", "draw.legend")
 
@@ -162,7 +161,7 @@ def main(words: Sequence[str]) -> int:
     os.environ["PYTHONSAFEPATH"] = "1"
     match list(words):
         case ["play", *rest]:
-            install(PLAY)
+            install(())
             return become("-m", "ninja_game", "play", *rest)
         case ["run", *rest]:
             install(EXTRAS)

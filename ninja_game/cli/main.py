@@ -22,6 +22,7 @@ from ninja_game.signals import Terminated, end_on_signals, leave
 
 COMMANDS = {
     "play": "Play a level in a window.",
+    "export": "Write a film of a recording: a GIF, or a folder of pictures.",
     "verify": "Run recordings again and judge them.",
     "trace": "Show every tick of recordings: position, velocity, state, events.",
     "bench": "Measure how fast the world is on this machine.",

@@ -55,7 +55,7 @@ def command(
     if level is not None and replay is not None:
         raise click.UsageError("LEVEL and --replay exclude each other")
     path = _path_of(level) if level is not None else None
-    window = _pixels(size) if size else None
+    window = pixels(size) if size else None
 
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     import pygame
@@ -91,7 +91,7 @@ def _path_of(level: str) -> str:
     return str(own[level])
 
 
-def _pixels(size: str) -> tuple[int, int]:
+def pixels(size: str) -> tuple[int, int]:
     """Width and height from ``WIDTHxHEIGHT``."""
     width, _, height = size.lower().partition("x")
     digits = re.compile("[1-9][0-9]{1,4}")

@@ -70,7 +70,7 @@ def test_run_installs_numba_for_whatever_may_need_it(installed: list[tuple[str, 
 
 def test_play_installs_no_tools_of_development(installed: list[tuple[str, ...]]) -> None:
     dev.main(["play", "--help"])
-    assert installed == [("film",)]
+    assert installed == [()]
 
 
 def test_what_is_installed_is_installed_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -83,11 +83,11 @@ def test_what_is_installed_is_installed_once(tmp_path: Path, monkeypatch: pytest
     monkeypatch.setattr(dev, "STAMP", tmp_path / "stamp")
     monkeypatch.setattr(dev, "make_environment", lambda: None)
     monkeypatch.setattr(dev, "uv_sync", sync)
-    dev.install(["film"])
-    dev.install(["film"])
-    dev.install(["fast", "film"])
-    dev.install(["film"])
-    assert calls == [["film"], ["fast", "film"]]
+    dev.install(["cluster"])
+    dev.install(["cluster"])
+    dev.install(["cluster", "fast"])
+    dev.install(["cluster"])
+    assert calls == [["cluster"], ["cluster", "fast"]]
 
 
 def test_pip_installs_the_locked_versions_where_uv_cannot_be_had(
@@ -105,7 +105,7 @@ def test_pip_installs_the_locked_versions_where_uv_cannot_be_had(
     monkeypatch.setattr(dev, "uv_sync", lambda _names: False)
     monkeypatch.setattr(dev, "run", run)
     dev.install(dev.DEVELOPMENT)
-    assert asked[0] == f"{dev.ROOT}[cluster,fast,film,plots]"
+    assert asked[0] == f"{dev.ROOT}[cluster,fast,plots]"
     lock = (ROOT / "uv.lock").read_text("utf-8")
     for name in ("ruff", "pillow", "pygame-ce"):
         version = lock.partition(f'name = "{name}"\nversion = "')[2].partition('"')[0]
