@@ -13,10 +13,12 @@ from typing import IO, TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.run_options import jobs_option, memory_option, with_progress
+from ninja_game.cli.main import complain
+from ninja_game.cli.run_options import jobs_option, level_given, level_option, memory_option, with_progress
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
+    from ninja_game.runs.run import RunTrace
     from ninja_game.runs.trace_files import FiledTrace
     from ninja_game.verification.archive_tracing import Traced
 
@@ -35,8 +37,11 @@ SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 @click.option("--objects", is_flag=True, help="Rows for the objects too, not only for the ninja.")
 @click.option("--digests", is_flag=True, help="One JSON object a recording with digests of everything, instead.")
 @click.option(
-    "--against", type=click.Path(exists=True, dir_okay=False, path_type=Path), help="Compare with this trace."
-)
+    "--against", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="Compare with this trace, or with this file of recordings.",
+)  # fmt: skip
+@click.option("--against-record", type=click.IntRange(min=0), help="Compare every run with this record of --against.")
+@level_option
 @click.option(
     "--output", "-o", type=click.Path(dir_okay=False, path_type=Path), help="Write to this .csv or .npz file."
 )
@@ -52,6 +57,8 @@ def command(
     objects: bool,
     digests: bool,
     against: Path | None,
+    against_record: int | None,
+    level_path: Path | None,
     output: Path | None,
     memory: str,
     jobs: int | None,
@@ -69,28 +76,33 @@ def command(
       ninja-game trace run.replay.txt > run.csv
       ninja-game trace run.replay.txt --objects -o run.npz
       ninja-game trace run.replay.txt --against run.csv
+      ninja-game trace demos.txt --record 3 --against demos.txt --against-record 5
       ninja-game trace demos.txt --digests --after 150
     """
     if ticks is not None and after is not None:
         raise click.UsageError("--ticks and --after exclude each other")
+    if against_record is not None and not against:
+        raise click.UsageError("--against-record needs --against")
     if digests + bool(against) + bool(output) > 1:
         raise click.UsageError("--digests, --against and --output exclude each other")
     table = not digests and not against
     options = {
-        "ticks": ticks, "after": after or 0, "memory": memory,
+        "level": level_given(level_path), "jobs": jobs, "ticks": ticks, "after": after or 0, "memory": memory,
         "objects": objects or digests or against is not None, "events": table and memory != "compiled",
     }  # fmt: skip
-    traces = Traces(files, record=record, jobs=jobs, **options)
+    traces = Traces(files, record=record, **options)
     different = 0
     if digests:
         for traced in traces:
             click.echo(json.dumps(_digests(traced)))
     elif against:
-        different = _compare(traces, against)
+        there = _expected(against, against_record, options)
+        different = _compare(traces, there, against, against_record)
     else:
-        _write(traces, output, files)
+        _write(traces, output, [*files, level_path] if level_path else files)
     if not traces.count and not traces.unreadable:
-        raise click.UsageError(f"there is no record {record}")
+        there_is_no = "recordings here" if record is None else f"record {record}"
+        raise click.UsageError(f"{', '.join(map(str, files))}: no {there_is_no}")
     ctx.exit(2 if traces.unreadable else 1 if different else 0)
 
 
@@ -113,14 +125,14 @@ class Traces:
                 yield item
             else:
                 self.unreadable += 1
-                click.echo(f"ninja-game: {item.message}", err=True)
+                complain(item.message)
 
 
 def _digests(traced: Traced) -> dict[str, Any]:
     """The digests of a run, for programs."""
     from ninja_game.runs.trace import trace_digests
 
-    file, _, (record, name, run) = traced
+    file, record, name, run = traced.file, traced.trace.record, traced.trace.name, traced.trace.run
     digests = trace_digests(run)
     return {
         "file": file, "record": record, "name": name, "ticks": digests.ticks, "ninja_sha256": digests.ninja_sha256,
@@ -128,20 +140,36 @@ def _digests(traced: Traced) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _compare(traces: Traces, against: Path) -> int:
-    """How many runs differ from the trace in ``against``; each is told with its first difference."""
-    from ninja_game.runs.trace import first_difference
-    from ninja_game.runs.trace_files import read_traces
+def _expected(against: Path, record: int | None, options: dict[str, Any]) -> Iterator[FiledTrace]:
+    """The traces of a file, or of the recordings in it. Raises NinjaGameError, OSError."""
+    from ninja_game.runs.trace_files import is_trace, read_traces
 
-    expected = {trace.record: trace.run for trace in read_traces(against)}
+    if is_trace(against):
+        return (trace for trace in read_traces(against) if record is None or trace.record == record)
+    return (traced.trace for traced in Traces([against], record=record, **options))
+
+
+def _compare(traces: Traces, expected: Iterator[FiledTrace], against: Path, record: int | None) -> int:
+    """How many runs differ from the expected ones; each is told with its first difference.
+
+    Runs are paired by file and record, else by record alone; with ``record`` each is compared with that one.
+    """
+    from ninja_game.runs.trace import first_difference
+
+    pairs: dict[Any, RunTrace] = {}
+    for trace in expected:
+        pairs[trace.file, trace.record] = pairs[trace.record] = trace.run
+    if record is not None and record not in pairs:
+        raise click.UsageError(f"{against}: no record {record}")
     different = 0
-    for file, comment, (record, name, run) in traces:
+    for file, comment, trace in traces:
         section = comment if SECTION.fullmatch(comment) else ""
-        there = expected.get(record)
-        difference = first_difference(run, there, section) if there else f"record {record} is not in {against}"
+        wanted = trace.record if record is None else record
+        there = pairs.get((file, wanted), pairs.get(wanted))
+        difference = first_difference(trace.run, there, section) if there else f"record {wanted} is not in {against}"
         if difference:
             different += 1
-            click.echo(f"{shown_text(file)}:{record} {shown_text(name)}: {difference}")
+            click.echo(f"{shown_text(file)}:{trace.record} {shown_text(trace.name)}: {difference}")
     click.echo(f"{traces.count - different} of {traces.count} equal to {against}")
     return different
 

@@ -1,87 +1,141 @@
-"""Traces in files: CSV for people and spreadsheets, NumPy's .npz for programs. Both keep every bit."""
+"""Traces in files: CSV for people and spreadsheets, NumPy's .npz for programs. Both keep every bit.
+
+The columns and arrays are described in docs/replay-format.md, "Traces".
+"""
 
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable, Iterator
+import struct
+import zlib
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import groupby
 from pathlib import Path
 from typing import IO, Any, NamedTuple
+from zipfile import BadZipFile, ZipFile, ZipInfo
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ninja_game.errors import FormatError
+from ninja_game.errors import FileError, FormatError
 from ninja_game.runs.run import NINJA_RECORD, OBJECT_RECORD, RunTrace
 from ninja_game.runs.trace import NINJA_NAME, rows
+from ninja_game.sim.inputs import Input
 
-COLUMNS = ("record", "name", "tick", "id", "kind", "x", "y", "s", "prev_x", "prev_y", "vx", "vy", "gold", "events")
-"""Of the CSV. The ninja has no id; objects have neither previous position, velocity, gold nor events."""
+COLUMNS = (
+    "file", "record", "name", "tick", "keys", "id", "kind", "x", "y", "s", "prev_x", "prev_y", "vx", "vy", "gold",
+    "events",
+)  # fmt: skip
+"""Of the CSV. The ninja has no id; objects have neither keys, previous position, velocity, gold nor events."""
+
+MOST_BYTES = 2**28
+"""Of a CSV, or of all arrays in a .npz: a million ticks of the ninja are a seventh of it."""
+
+_KEYS = (("L", Input.LEFT), ("R", Input.RIGHT), ("J", Input.JUMP_HELD), ("!", Input.JUMP_PRESSED))
+
+ZIPPED = "PK"
+"""What a .npz begins with."""
+
+_UNREADABLE = (
+    ValueError, KeyError, TypeError, AttributeError, EOFError, OverflowError, NotImplementedError, MemoryError,
+    RuntimeError, struct.error, csv.Error, BadZipFile, zlib.error,
+)  # fmt: skip
+"""What odd files make the standard library and NumPy raise."""
 
 
 class FiledTrace(NamedTuple):
-    """A trace, and which record of which name it was made from."""
+    """A trace, and which record of which name and file it was made from; ``inputs``: one byte a tick."""
 
     record: int
     name: str
     run: RunTrace
+    file: str = ""
+    inputs: bytes = b""
+
+
+def keys_text(keys: int) -> str:
+    """The keys of a tick as letters: L, R, J, and ! where the jump was pressed in this tick.
+
+    >>> keys_text(2 + 4 + 8), keys_text(0)
+    ('RJ!', '')
+    """
+    return "".join(letter for letter, bit in _KEYS if keys & bit)
 
 
 def write_csv(traces: Iterable[FiledTrace], out: IO[str]) -> None:
     """Write traces; numbers are the shortest decimals that read back as the same double."""
     table = csv.DictWriter(out, COLUMNS, restval="", lineterminator="\n")
     table.writeheader()
-    for record, name, run in traces:
-        table.writerows({"record": record, "name": name, **row} for row in rows(run))
+    for record, name, run, file, inputs in traces:
+        about = {"file": file, "record": record, "name": name}
+        for row in rows(run):
+            keys = {"keys": keys_text(inputs[row["tick"]])} if inputs and row["kind"] == NINJA_NAME else {}
+            table.writerow({**about, **keys, **row})
 
 
 def read_csv(text: Iterable[str], *, file: str = "") -> Iterator[FiledTrace]:
     """The traces of a CSV that ``write_csv`` wrote. Raises FormatError where it is something else."""
     table = csv.DictReader(text)
-    if tuple(table.fieldnames or ()) != COLUMNS:
+    try:
+        header = tuple(table.fieldnames or ())
+    except csv.Error:
+        header = ("no table",)
+    if header != COLUMNS:
         raise FormatError(
-            "this is no trace", file=file, line=1, found=",".join(table.fieldnames or ())[:80] or "nothing",
-            expected=f"the header {','.join(COLUMNS)}",
+            "this is no trace", file=file, line=1, found=repr(",".join(header)[:80]),
+            expected=f"the header {','.join(COLUMNS)}", hint="`ninja-game trace -o` writes it",
         )  # fmt: skip
     try:
-        for record, group in groupby(table, key=lambda row: int(row["record"])):
-            table_of_run = list(group)
-            yield FiledTrace(record, table_of_run[0]["name"], _trace_of(table_of_run))
-    except (ValueError, TypeError, KeyError, csv.Error) as error:
+        for (source, record), group in groupby(table, key=lambda row: (row["file"], int(row["record"]))):
+            yield _read_run(group, record, source)
+    except _UNREADABLE as error:
         raise FormatError(f"a row that cannot be read ({error})", file=file, line=table.line_num) from None
 
 
-def _trace_of(table: list[dict[str, str]]) -> RunTrace:
-    """One record's rows as a trace. Raises ValueError, KeyError where a row is missing or is no number."""
-    ninjas = [row for row in table if row["kind"] == NINJA_NAME]
-    others = [row for row in table if row["kind"] != NINJA_NAME]
-    first = [row for row in others if row["tick"] == "0"]
-    ninja = np.array([tuple(float(row[name]) for name in NINJA_RECORD.names or ()) for row in ninjas], NINJA_RECORD)
-    objects = np.empty((len(ninjas), 0), OBJECT_RECORD)
-    if others:
-        if len(others) != len(first) * len(ninjas):
-            raise ValueError("objects are missing in some ticks")
-        flat = np.array([(float(row["x"]), float(row["y"]), int(row["s"])) for row in others], OBJECT_RECORD)
-        objects = flat.reshape(len(ninjas), len(first))
-    return RunTrace(
-        ninja=ninja,
-        objects=objects,
-        ids=tuple(int(row["id"]) for row in first),
-        kinds=tuple(row["kind"] for row in first),
-        events=tuple(row["events"] for row in ninjas),
+def _read_run(table: Iterable[Mapping[str, str]], record: int, file: str) -> FiledTrace:
+    """One record's rows as a trace. Raises an error of ``_UNREADABLE`` where a row is missing or is no number."""
+    ninja, objects, inputs = bytearray(), bytearray(), bytearray()
+    columns: list[tuple[int, str]] = []
+    events: list[str] = []
+    name = ""
+    for row in table:
+        x, y, s = float(row["x"]), float(row["y"]), int(row["s"])
+        if row["kind"] == NINJA_NAME:
+            name = row["name"]
+            ninja += struct.pack("<4d2i", x, y, float(row["prev_x"]), float(row["prev_y"]), s, int(row["gold"]))
+            inputs.append(sum(bit for letter, bit in _KEYS if letter in row["keys"]))
+            events.append(row["events"])
+        else:
+            objects += struct.pack("<2di", x, y, s)
+            if row["tick"] == "0":
+                columns.append((int(row["id"]), row["kind"]))
+    if len(objects) != len(columns) * len(events) * OBJECT_RECORD.itemsize:
+        raise ValueError("objects are missing in some ticks")
+    shape = (len(events), len(columns))
+    run = RunTrace(
+        ninja=np.frombuffer(bytes(ninja), NINJA_RECORD),
+        objects=np.frombuffer(bytes(objects), OBJECT_RECORD).reshape(shape),
+        ids=tuple(id_ for id_, _ in columns),
+        kinds=tuple(kind for _, kind in columns),
+        events=tuple(events),
     )
+    return FiledTrace(record, name, run, file, bytes(inputs))
 
 
 def write_npz(traces: Iterable[FiledTrace], out: IO[bytes]) -> None:
-    """Write traces as arrays: ``ninja_0``, ``things_0``, ``ids_0``, ``kinds_0``, ``events_0``, ``name_0`` and so on."""
+    """Write traces as arrays: ``ninja_0``, ``objects_0`` and so on of the first, ``ninja_1`` … of the second."""
     arrays: dict[str, Any] = {}
-    for record, name, run in traces:
+    for number, (record, name, run, file, inputs) in enumerate(traces):
         arrays |= {
-            f"ninja_{record}": run.ninja,
-            f"things_{record}": run.objects,
-            f"ids_{record}": np.array(run.ids, np.int32),
-            f"kinds_{record}": np.array(run.kinds, np.str_),
-            f"events_{record}": np.array(run.events, np.str_),
-            f"name_{record}": np.array(name),
+            f"ninja_{number}": run.ninja,
+            f"objects_{number}": run.objects,
+            f"ids_{number}": np.array(run.ids, np.int32),
+            f"kinds_{number}": np.array(run.kinds, np.str_),
+            f"events_{number}": np.array(run.events, np.str_),
+            f"keys_{number}": np.frombuffer(inputs, np.uint8),
+            f"record_{number}": np.array(record),
+            f"name_{number}": np.array(name),
+            f"file_{number}": np.array(file),
         }
     np.savez_compressed(out, **arrays)
 
@@ -89,28 +143,74 @@ def write_npz(traces: Iterable[FiledTrace], out: IO[bytes]) -> None:
 def read_npz(path: Path) -> Iterator[FiledTrace]:
     """The traces of a file that ``write_npz`` wrote. Raises FormatError where it is something else."""
     try:
-        with np.load(path, allow_pickle=False) as arrays:
-            records = sorted(int(name.removeprefix("ninja_")) for name in arrays.files if name.startswith("ninja_"))
-            for record in records:
-                run = RunTrace(
-                    ninja=arrays[f"ninja_{record}"].astype(NINJA_RECORD),
-                    objects=arrays[f"things_{record}"].astype(OBJECT_RECORD),
-                    ids=tuple(arrays[f"ids_{record}"].tolist()),
-                    kinds=tuple(arrays[f"kinds_{record}"].tolist()),
-                    events=tuple(arrays[f"events_{record}"].tolist()),
-                )
-                yield FiledTrace(record, str(arrays[f"name_{record}"]), run)
-    except (ValueError, KeyError, EOFError, AttributeError, TypeError) as error:
+        with ZipFile(path) as archive:
+            found = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
+            if sum(info.file_size for info in found.values()) > MOST_BYTES:
+                raise _too_large(path)
+            for number in sorted(int(name.removeprefix("ninja_")) for name in found if name.startswith("ninja_")):
+                yield _read_arrays(archive, found, number)
+    except FormatError:
+        raise
+    except _UNREADABLE as error:
         raise FormatError(f"this is no trace ({error})", file=str(path)) from None
 
 
-def read_traces(path: Path) -> Iterator[FiledTrace]:
-    """The traces of a CSV or .npz file, by what the file begins with."""
+def _read_arrays(archive: ZipFile, found: Mapping[str, ZipInfo], number: int) -> FiledTrace:
+    """One run. Raises an error of ``_UNREADABLE`` where its arrays are none or do not fit each other."""
+
+    def array(name: str) -> NDArray[Any]:
+        return _array(archive, found[f"{name}_{number}"])
+
+    run = RunTrace(
+        ninja=array("ninja").astype(NINJA_RECORD),
+        objects=array("objects").astype(OBJECT_RECORD),
+        ids=tuple(map(int, array("ids").tolist())),
+        kinds=tuple(map(str, array("kinds").tolist())),
+        events=tuple(map(str, array("events").tolist())),
+    )
+    ticks, columns = len(run.ninja), len(run.ids)
+    if run.ninja.ndim != 1 or run.objects.shape != (ticks, columns) or len(run.kinds) != columns:
+        raise ValueError("arrays that do not fit each other")
+    inputs = array("keys").astype(np.uint8).tobytes()
+    return FiledTrace(int(array("record")), str(array("name")), run, str(array("file")), inputs)
+
+
+def _array(archive: ZipFile, info: ZipInfo) -> NDArray[Any]:
+    """An array that claims no more memory than its file has bytes."""
+    with archive.open(info) as file:
+        version = np.lib.format.read_magic(file)
+        read_header: Any = {
+            (1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0
+        }[version]  # fmt: skip
+        shape, _, dtype = read_header(file)
+        if np.prod(shape, dtype=np.float64) * dtype.itemsize > info.file_size:
+            raise ValueError("an array that is not all there")
+    with archive.open(info) as file:
+        whole: NDArray[Any] = np.lib.format.read_array(file, allow_pickle=False)
+        return whole
+
+
+def _too_large(path: Path) -> FileError:
+    return FileError("the trace is too large", str(path), expected=f"at most {MOST_BYTES >> 20} MiB, unpacked")
+
+
+def is_trace(path: Path) -> bool:
+    """Whether a file is a trace, by what it begins with. Raises OSError."""
+    return _starts_with(path, f"{COLUMNS[0]},") or _starts_with(path, ZIPPED)
+
+
+def _starts_with(path: Path, text: str) -> bool:
     with path.open("rb") as file:
-        zipped = file.read(2) == b"PK"
-    if zipped:
+        return file.read(len(text)) == text.encode()
+
+
+def read_traces(path: Path) -> Iterator[FiledTrace]:
+    """The traces of a CSV or .npz file, by what the file begins with. Raises FormatError, FileError, OSError."""
+    if _starts_with(path, ZIPPED):
         yield from read_npz(path)
         return
+    if path.stat().st_size > MOST_BYTES:
+        raise _too_large(path)
     try:
         with path.open(encoding="utf-8", newline="") as text:
             yield from read_csv(text, file=str(path))

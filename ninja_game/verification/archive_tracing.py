@@ -15,6 +15,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.runs.recording_reader import Unreadable, recordings_in
 from ninja_game.runs.trace import trace_recording
 from ninja_game.runs.trace_files import FiledTrace
+from ninja_game.sim.level import Level
 from ninja_game.verification.workers import WorkerLostError, in_order, workers
 
 JOB = 32
@@ -34,14 +35,20 @@ Job: TypeAlias = list[Recording | Unreadable]
 
 
 def trace_all(
-    paths: Iterable[Path], *, record: int | None = None, jobs: int | None = None, memory: str = "auto", **options: Any
+    paths: Iterable[Path],
+    *,
+    level: Level | None = None,
+    record: int | None = None,
+    jobs: int | None = None,
+    memory: str = "auto",
+    **options: Any,
 ) -> Iterator[Result]:
     """A trace of every recording in files and folders, in order; what cannot be read is told and stops nothing.
 
-    ``record``: only this one of each file. ``jobs``: how many run at a time, by default one a core. ``memory`` and
-    ``options`` as for ``trace_recording``.
+    ``level``: what recordings that do not hold their level are played on; ``record``: only this one of each file.
+    ``jobs``: how many run at a time, by default one a core. ``memory`` and ``options`` as for ``trace_recording``.
     """
-    found = recordings_in(paths)
+    found = recordings_in(paths, level)
     rest = (item for item in found if record is None or isinstance(item, Unreadable) or item.record == record)
     first = list(islice(rest, JOB))
     trace = partial(_trace, {"memory": memory, **options})
@@ -75,4 +82,6 @@ def _trace(options: dict[str, Any], recording: Recording | Unreadable) -> Result
         run = trace_recording(recording, **options)
     except NinjaGameError as error:
         return Unreadable(str(error))
-    return Traced(recording.file, recording.comment, FiledTrace(recording.record, recording.name, run))
+    inputs = recording.playback(len(run.ninja))
+    trace = FiledTrace(recording.record, recording.name, run, recording.file, inputs)
+    return Traced(recording.file, recording.comment, trace)

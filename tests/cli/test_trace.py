@@ -12,7 +12,9 @@ from click.testing import CliRunner, Result
 
 from ninja_game import parse_level, trace_level
 from ninja_game.cli.main import cli
+from ninja_game.formats.n14.demo import write_demo
 from ninja_game.runs.trace import trace_digests
+from ninja_game.sim.inputs import Demo
 from tests.support.samples import SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
 
 
@@ -74,7 +76,7 @@ def test_difference_names_tick_thing_field_and_section(tmp_path: Path) -> None:
     source.write_text(replay_of_walk())
     assert trace(source, "--objects", "-o", path).exit_code == 0
     lines = path.read_text().splitlines(keepends=True)
-    at = next(number for number, line in enumerate(lines) if ",3,2,gold," in line)
+    at = next(number for number, line in enumerate(lines) if ",3,,2,gold," in line)
     lines[at] = lines[at].replace("gold,115.0", "gold,116.0")
     path.write_text("".join(lines))
     result = trace(source, "--against", path)
@@ -98,7 +100,7 @@ def test_numpy_file_keeps_every_bit(two: Path, tmp_path: Path) -> None:
     with np.load(tmp_path / "run.npz") as arrays:
         run = trace_level(parse_level(WALK), bytes([2] * (WALK_END + 1)), memory="plain")
         assert arrays["ninja_0"].tobytes() == run.ninja.tobytes()
-        assert arrays["things_0"].tobytes() == run.objects.tobytes()
+        assert arrays["objects_0"].tobytes() == run.objects.tobytes()
 
 
 @pytest.mark.parametrize(
@@ -108,7 +110,53 @@ def test_wrong_usage(words: tuple[str, ...], two: Path) -> None:
     assert trace(two, *words).exit_code == 2
 
 
-def test_against_something_else_names_the_file(two: Path) -> None:
-    result = trace(two, "--against", two)
+def test_against_something_else_names_the_file(two: Path, tmp_path: Path) -> None:
+    other = tmp_path / "other.csv"
+    other.write_text("file,and,other,columns\n")
+    result = trace(two, "--against", other)
     assert result.exit_code == 2
-    assert result.stderr.startswith(f"ninja-game: {two}:1: this is no trace")
+    assert result.stderr.startswith(f"ninja-game: {other}:1: this is no trace")
+
+
+def test_two_runs_of_one_file_are_compared(two: Path) -> None:
+    result = trace(two, "--record", "1", "--against", two, "--against-record", "0", "--ticks", "20")
+    assert result.exit_code == 1
+    assert "two.txt:1 Mine: tick 0: object 1: kind is mine, expected exit" in result.stdout
+    assert trace(two, "--record", "1", "--against", two).exit_code == 0
+    assert trace(two, "--against", two, "--against-record", "7").exit_code == 2
+    assert trace(two, "--against-record", "1").exit_code == 2
+
+
+def test_rows_tell_file_and_keys(two: Path, tmp_path: Path) -> None:
+    other = tmp_path / "other.txt"
+    other.write_text(two.read_text().replace(running(60), write_demo(Demo(bytes([0, 12, 5, 1]), 4))))
+    rows = list(csv.DictReader(trace(two, other).stdout.splitlines()))
+    assert {(row["file"], row["record"]) for row in rows} == {
+        (str(path), record) for path in (two, other) for record in "01"
+    }
+    jumping = [row["keys"] for row in rows if (row["file"], row["record"]) == (str(other), "1")]
+    assert jumping == ["", "J!", "LJ", "L", "L"]
+
+
+@pytest.mark.parametrize("name", ["all.csv", "all.npz"])
+def test_equal_record_numbers_of_two_files_are_kept_apart(name: str, two: Path, tmp_path: Path) -> None:
+    other = write_records(tmp_path / "other.txt", ("Still", WALK, running(3)))
+    assert trace(two, other, "-o", tmp_path / name).exit_code == 0
+    result = trace(two, other, "--against", tmp_path / name)
+    assert (result.exit_code, result.stdout.splitlines()[-1]) == (0, f"3 of 3 equal to {tmp_path / name}")
+
+
+def test_a_recording_without_level_is_traced_on_the_given_one(tmp_path: Path) -> None:
+    (tmp_path / "demo.txt").write_text(f"$Walk#me#test##{running(WALK_END)}#\n")
+    (tmp_path / "walk.txt").write_text(WALK)
+    assert trace(tmp_path / "demo.txt", "--digests").exit_code == 2
+    result = trace(tmp_path / "demo.txt", "--digests", "--level", tmp_path / "walk.txt")
+    assert json.loads(result.stdout)["ticks"] == WALK_END + 1
+
+
+def test_a_folder_of_levels_has_no_recordings(tmp_path: Path) -> None:
+    (tmp_path / "level.txt").write_text(WALK)
+    result = trace(tmp_path)
+    assert result.exit_code == 2
+    assert f"{tmp_path}: no recordings here" in result.stderr
+    assert "None" not in result.stderr

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
+import random
+import struct
 from hashlib import sha256
 from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
 import pytest
 
-from ninja_game.errors import FormatError
+from ninja_game.errors import FileError, FormatError
 from ninja_game.runs.run import NINJA_RECORD, OBJECT_RECORD, RunTrace
 from ninja_game.runs.trace import first_difference, rows, trace_digests
-from ninja_game.runs.trace_files import FiledTrace, read_csv, read_traces, write_csv, write_npz
+from ninja_game.runs.trace_files import COLUMNS, MOST_BYTES, FiledTrace, read_csv, read_traces, write_csv, write_npz
 from tests.support.reference import scene_traces, scenes
 
 
@@ -23,7 +27,10 @@ def a_trace() -> RunTrace:
     return RunTrace(ninja, objects, (1, 4), ("gold", "drone"), ("jumped", "", "landed died"))
 
 
-TWICE = [FiledTrace(0, "a name", a_trace()), FiledTrace(5, "a name", a_trace())]
+TWICE = [
+    FiledTrace(0, "a name", a_trace(), "a.txt", bytes([2, 14, 5])),
+    FiledTrace(5, "a name", a_trace(), "a.txt", bytes(3)),
+]
 
 
 def changed(trace: RunTrace, tick: int, column: int, field: str, value: float) -> RunTrace:
@@ -68,7 +75,9 @@ def test_files_keep_every_bit(form: str, tmp_path: Path) -> None:
         with path.open("wb") as file:
             write_npz(TWICE, file)
     back = list(read_traces(path))
-    assert [(trace.record, trace.name) for trace in back] == [(0, "a name"), (5, "a name")]
+    assert [(trace.record, trace.name, trace.file, trace.inputs) for trace in back] == [
+        (trace.record, trace.name, trace.file, trace.inputs) for trace in TWICE
+    ]
     assert trace_digests(back[1].run) == trace_digests(a_trace())
     assert (back[1].run.kinds, back[1].run.events) == (a_trace().kinds, a_trace().events)
 
@@ -121,3 +130,74 @@ def test_length_and_missing_objects_are_differences() -> None:
     fewer = RunTrace(whole.ninja, whole.objects[:, :1], whole.ids[:1], whole.kinds[:1])
     assert str(first_difference(whole, short)) == "tick 2: run: number of ticks is 3, expected 2"
     assert str(first_difference(whole, fewer)) == "tick 0: object 4: kind is drone, expected missing"
+
+
+def _zip_of(folder: Path, member: bytes, **about: int) -> Path:
+    """A .npz whose ``ninja_0`` has this content."""
+    path = folder / "odd.npz"
+    with ZipFile(path, "w", ZIP_DEFLATED) as archive:
+        archive.writestr("ninja_0.npy", member)
+        for name, value in about.items():
+            setattr(archive.infolist()[0], name, value)
+    return path
+
+
+def _header(shape: str) -> bytes:
+    """A .npy that says it holds so many doubles."""
+    text = f"{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}}}".ljust(117) + "\n"
+    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(text)) + text.encode()
+
+
+@pytest.mark.parametrize(
+    "member",
+    [
+        b"",
+        b"\x93NUMPY\x09\x00",
+        b"\x93NUMPY\x01\x00\xff\xff",
+        _header("(10**12,)"),
+        _header("(1000000000000,)"),
+        _header("()"),
+    ],
+    ids=["nothing", "a version", "a cut header", "no shape", "a shape of terabytes", "one number"],
+)
+def test_odd_arrays_are_errors_of_ours_and_take_no_memory(member: bytes, tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match="this is no trace"):
+        list(read_traces(_zip_of(tmp_path, member)))
+
+
+def test_a_zip_that_unpacks_to_gigabytes_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(FileError, match="the trace is too large"):
+        list(read_traces(_zip_of(tmp_path, bytes(MOST_BYTES + 1))))
+
+
+@pytest.mark.parametrize("name, value", [("compress_type", 99), ("CRC", 1), ("flag_bits", 1)])
+def test_a_damaged_zip_is_an_error_of_ours(name: str, value: int, tmp_path: Path) -> None:
+    with pytest.raises(FormatError, match="this is no trace"):
+        list(read_traces(_zip_of(tmp_path, _header("(3,)") + bytes(24), **{name: value})))
+
+
+def test_damaged_bytes_of_a_trace_never_escape_as_other_errors(tmp_path: Path) -> None:
+    whole = io.BytesIO()
+    write_npz(TWICE, whole)
+    rng = random.Random(3)
+    for _ in range(300):
+        data = bytearray(whole.getvalue())
+        for _ in range(rng.randint(1, 4)):
+            data[rng.randrange(2, len(data))] = rng.randrange(256)
+        path = tmp_path / "damaged.npz"
+        path.write_bytes(data[: rng.choice([len(data), rng.randrange(2, len(data))])])
+        with contextlib.suppress(FormatError):
+            list(read_traces(path))
+
+
+@pytest.mark.parametrize(
+    "row",
+    [
+        "a.txt,0,n,0,R,,ninja,1,2,99999999999,1,2,,,0,", "a.txt,0,n,0,R,,ninja,1,2,3,1,2,,," + "9" * 5000 + ",",
+        "a.txt,0,n,0,R,,ninja,1,2,nan,1,2,,,0,", "a.txt,0,n,0", "a.txt,x,n,0,R,,ninja,1,2,3,1,2,,,0,",
+        "a.txt,0,n,0,R," + "x" * 200_000 + ",ninja,1,2,3,1,2,,,0,",
+    ],
+)  # fmt: skip
+def test_odd_rows_are_errors_of_ours(row: str) -> None:
+    with pytest.raises(FormatError, match="a row that cannot be read"):
+        list(read_csv([",".join(COLUMNS) + "\n", row + "\n"]))
