@@ -29,8 +29,8 @@ from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, KEY_LEFT, KEY_RIGHT, pres
 from ninja_game.sim.kinds import KIND_OF
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import MemoryName
-from ninja_game.sim.memory.schema import TileMap, World
-from ninja_game.sim.states import OUTCOME_NAMES, STATE_NAMES
+from ninja_game.sim.memory.schema import Event, TileMap, World
+from ninja_game.sim.states import CAUSE_NAMES, NO_CAUSE, OUTCOME_NAMES, STATE_NAMES
 
 Body = Literal["circle", "box"]
 BODIES: tuple[Body, ...] = ("circle", "box")
@@ -72,7 +72,11 @@ class ObjectView:
 
 @dataclass(frozen=True)
 class EventView:
-    """Something that happened in the last tick: name, place (px), a vector that depends on the event."""
+    """Something that happened in the last tick: name, place (px), a vector that depends on the event (sim/events.py).
+
+    ``object_id``: the object whose event it is, of a death the killer; None for the ninja's own. ``cause``: of a death,
+    what killed, one of CAUSE_NAMES; else "".
+    """
 
     name: str
     x: float
@@ -80,6 +84,7 @@ class EventView:
     dx: float
     dy: float
     object_id: int | None
+    cause: str = ""
 
 
 @dataclass(frozen=True)
@@ -150,7 +155,7 @@ class Simulation:
     def kill(self, cause: int, dx: float, dy: float) -> None:
         """Kill the ninja where it is, as the game does when its time is over or the player gives up.
 
-        ``cause``: a kill type of sim/states.py; (dx, dy): its corpse's impulse, px/tick. It is part of no recording.
+        ``cause``: one of those in sim/states.py; (dx, dy): its corpse's impulse, px/tick. It is part of no recording.
         """
         self._memory.kill(cause, dx, dy)
 
@@ -198,11 +203,7 @@ class Simulation:
     @property
     def events(self) -> list[EventView]:
         """What happened in the last tick, in order."""
-        ids = self._memory.id_count
-        return [
-            EventView(EVENT_NAMES[e.kind], e.x, e.y, e.dx, e.dy, e.slot - 1 if 0 < e.slot <= ids else None)
-            for e in self._memory.events()
-        ]
+        return [_event_view(event) for event in self._memory.events()]
 
     # --- save-states and digests ---
 
@@ -241,3 +242,10 @@ def is_box(body: str) -> bool:
     if body not in BODIES:
         raise ArgumentError(f"body is {body!r}; expected 'circle' or 'box'")
     return body == "box"
+
+
+def _event_view(e: Event) -> EventView:
+    """An event as the API shows it."""
+    object_id = e.slot - 1 if e.slot else None
+    cause = CAUSE_NAMES[e.cause] if e.cause != NO_CAUSE else ""
+    return EventView(EVENT_NAMES[e.kind], e.x, e.y, e.dx, e.dy, object_id, cause)

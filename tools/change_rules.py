@@ -23,7 +23,10 @@ from tools.rule_changes import CHANGES, Change
 
 ALLOWED = 5
 COPIED = ("ninja_game", "tests", "levels", "pyproject.toml", "README.md")
-FILES = [f"tests/sim/test_{name}.py" for name in ("golden", "check_values", "edges", "properties")]
+FILES = [
+    f"tests/sim/test_{name}.py"
+    for name in ("golden", "check_values", "edges", "objects_harmless", "objects_deadly", "properties")
+]
 TESTS = (*FILES, "-x", "-q", "-k", "not compiled and not memories", "-p", "no:cacheprovider")
 
 

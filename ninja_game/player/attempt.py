@@ -89,9 +89,9 @@ class Attempt:
             self.own_hand = True
             self._kill(EXPLOSIVE if chance < 0.3 else HARD_BULLET, dx, dy)
 
-    def _kill(self, kind: int, dx: float, dy: float) -> None:
+    def _kill(self, cause: int, dx: float, dy: float) -> None:
         world = self.simulation.world
-        kill(world, kind, dx, dy, world.ninja.x, world.ninja.y)
+        kill(world, cause, 0, dx, dy, world.ninja.x, world.ninja.y)
         self.ended_tick = world.tick
 
     # --- practice ---

@@ -2,53 +2,28 @@
 
 from __future__ import annotations
 
-from math import hypot
 from typing import NamedTuple
 
 from ninja_game.player.store import Store
-from ninja_game.sim.events import DIED, MINE_EXPLODED
-from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, THWUMP
+from ninja_game.sim.events import DIED
+from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
 from ninja_game.sim.memory.schema import World
-from ninja_game.sim.states import BULLET, ELECTRIC, EXPLOSIVE, HARD_BULLET, LASER, WEAK_BULLET, WEAPON_ZAP
+from ninja_game.sim.states import WEAPON_CHAINGUN, WEAPON_LASER, WEAPON_ZAP
 
 SELF = "player"
 """Falls, being crushed, suicide, time."""
 
-ZAP_DRONE, THWUMP_KILLER, GUARD = "zap drone", "thwump", "floor guard"
-MINE_KILLER, ROCKET, TURRET = "mine", "homing rocket", "gauss turret"
-LASER_DRONE, CHAINGUN_DRONE = "laser drone", "chaingun drone"
-KILLERS = (ZAP_DRONE, LASER_DRONE, CHAINGUN_DRONE, THWUMP_KILLER, ROCKET, GUARD, TURRET, MINE_KILLER, SELF)
-
-_BY_KILL_TYPE = {LASER: LASER_DRONE, BULLET: CHAINGUN_DRONE, HARD_BULLET: TURRET, WEAK_BULLET: TURRET}
-_ELECTRIC_KINDS = {THWUMP: THWUMP_KILLER, FLOOR_GUARD: GUARD, DRONE: ZAP_DRONE}
+_DRONES = {WEAPON_ZAP: "zap drone", WEAPON_LASER: "laser drone", WEAPON_CHAINGUN: "chaingun drone"}
+KILLERS = (*_DRONES.values(), *(kind.killer for kind in KINDS if kind.killer and kind.number != DRONE), SELF)
 
 
 def killer_of(world: World) -> str:
-    """What killed the ninja in the world's last tick, one of KILLERS.
-
-    The world says how, not who: an electric death is the nearest electric thing's.
-    """
-    events = world.events[: world.event_count]
-    death = next((event for event in events if event.kind == DIED), None)
-    if death is None:
+    """What killed the ninja in the world's last tick, one of KILLERS."""
+    slot = next((event.slot for event in world.events[: world.event_count] if event.kind == DIED), 0)
+    if not slot:
         return SELF
-    if death.slot == EXPLOSIVE:
-        mine = any(e.kind == MINE_EXPLODED and (e.x, e.y) == (death.x, death.y) for e in events)
-        return MINE_KILLER if mine else ROCKET
-    if death.slot == ELECTRIC:
-        return _nearest_electric(world, death.x, death.y)
-    return _BY_KILL_TYPE.get(death.slot, SELF)
-
-
-def _nearest_electric(world: World, x: float, y: float) -> str:
-    electric = [
-        thing
-        for thing in world.objects[1:]
-        if thing.kind in (THWUMP, FLOOR_GUARD) or (thing.kind == DRONE and thing.weapon == WEAPON_ZAP)
-    ]
-    if not electric:
-        return SELF
-    return _ELECTRIC_KINDS[min(electric, key=lambda thing: hypot(thing.x - x, thing.y - y)).kind]
+    killer = world.objects[slot]
+    return _DRONES[killer.weapon] if killer.kind == DRONE else KIND_OF[killer.kind].killer
 
 
 class Played(NamedTuple):

@@ -9,7 +9,7 @@ from __future__ import annotations
 from math import sqrt
 
 from ninja_game.sim import kinds
-from ninja_game.sim.events import DIED, WON, emit
+from ninja_game.sim.events import WON, emit, emit_death
 from ninja_game.sim.grid import grid_remove
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import World
@@ -31,8 +31,12 @@ from ninja_game.sim.states import (
 
 
 @fast
-def kill(w: World, kind: int, fx: float, fy: float, cx: float, cy: float) -> None:
-    """Kill the ninja if it is alive: kill type, impulse (fx, fy) and contact point (cx, cy) px for its corpse."""
+def kill(w: World, cause: int, slot: int, fx: float, fy: float, cx: float, cy: float) -> None:
+    """Kill the ninja if it is alive.
+
+    ``cause``: what kills (states.py); ``slot``: who, 0 for nobody. For the corpse: impulse (fx, fy) in px/tick, and
+    the point (cx, cy) in px where it acts.
+    """
     n = w.ninja
     if n.state == DEAD:
         return
@@ -41,14 +45,16 @@ def kill(w: World, kind: int, fx: float, fy: float, cx: float, cy: float) -> Non
     w.deaths += 1
     if w.outcome == 0:
         w.outcome = OUTCOME_DEAD
-    emit(w, DIED, kind, cx, cy, fx, fy)
+    emit_death(w, cause, slot, cx, cy, fx, fy)
     idle_event(w)
 
 
 @fast
-def zap(w: World, dx: float, dy: float, radius: float) -> None:
-    """The electric disc of guards and zap drones: kill if the ninja is nearer than the sum of the radii."""
+def zap(w: World, x: float, y: float, radius: float, slot: int) -> None:
+    """The electric disc of guards and zap drones about (x, y), px: kill if it touches the ninja."""
     n = w.ninja
+    dx = x - n.x
+    dy = y - n.y
     length = sqrt(dx * dx + dy * dy)
     if length < radius + RADIUS:
         a = 0.0
@@ -56,7 +62,7 @@ def zap(w: World, dx: float, dy: float, radius: float) -> None:
         if length > 0.0:
             a = dx / length
             b = dy / length
-        kill(w, ELECTRIC, (-a) * ZAP_IMPULSE, (-b) * ZAP_IMPULSE, n.x + RADIUS * a, n.y + RADIUS * b)
+        kill(w, ELECTRIC, slot, (-a) * ZAP_IMPULSE, (-b) * ZAP_IMPULSE, n.x + RADIUS * a, n.y + RADIUS * b)
 
 
 @fast

@@ -4,6 +4,35 @@ from __future__ import annotations
 
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import MAX_EVENTS, World
+from ninja_game.sim.states import NO_CAUSE
+
+# Whose an event is (``slot``, 0: the ninja's), where (x, y) it is (px) and what its vector (dx, dy) says:
+#
+#   event                               slot            (x, y)             (dx, dy)
+#   jumped                              0               ninja              normal of the floor
+#   wall-jumped                         0               ninja              normal of the wall
+#   landed                              0               ninja              velocity of the impact, px/tick
+#   launched                            pad             ninja, before it   velocity that the pad gives, px/tick
+#   died                                who killed, 0:  where it was hit   impulse on the corpse, px/tick
+#                                       nobody
+#   won                                 0               ninja              0, 0
+#   gold-taken, mine-exploded           gold, mine      its place          0, 0
+#   exit-opened                         exit            its switch         0, 0
+#   door-opened, door-closed            door            its middle         0, 0
+#   lock-opened, trap-closed            door            its switch         0, 0
+#   block-woken                         block           its place          0, 0
+#   thwump-fell, thwump-landed          thwump          its place          the way it falls, unit vector
+#   guard-started                       guard           its place          the way it runs, unit vector
+#   chase-started                       drone           its place          0, 0
+#   rocket-launched                     launcher        its place          the rocket's heading, unit vector
+#   rocket-exploded                     launcher        the rocket         0, 0
+#   turret-locked                       turret          its crosshair      0, 0
+#   turret-fired                        turret          its place          from it to the crosshair, px
+#   laser-charging, chaingun-charging   drone           its place          0, 0
+#   laser-on                            drone           its place          from it to the beam's end, px
+#   chaingun-on                         drone           its place          the way it aims, unit vector
+#   chaingun-shot                       drone           its place          the way of the shot, about a unit vector
+#   laser-off, chaingun-off             drone           its place          0, 0
 
 # The ninja.
 JUMPED, WALL_JUMPED, LANDED, LAUNCHED, DIED, WON = range(6)
@@ -25,17 +54,24 @@ EVENT_NAMES = (
 
 @fast
 def emit(w: World, kind: int, slot: int, x: float, y: float, dx: float, dy: float) -> None:
-    """Note an event of this tick: where (x, y) in px, a vector (dx, dy) that depends on the kind, whose (0: ninja).
-
-    For DIED, ``slot`` is the kill type and (dx, dy) the impulse; for LANDED (dx, dy) is the impact velocity.
-    """
+    """Note an event of this tick; the table above says what its numbers mean."""
     k = w.event_count
     if k < MAX_EVENTS:
         event = w.events[k]
         event.kind = kind
         event.slot = slot
+        event.cause = NO_CAUSE
         event.x = x
         event.y = y
         event.dx = dx
         event.dy = dy
         w.event_count = k + 1
+
+
+@fast
+def emit_death(w: World, cause: int, slot: int, x: float, y: float, dx: float, dy: float) -> None:
+    """Note the death, with what killed."""
+    k = w.event_count
+    emit(w, DIED, slot, x, y, dx, dy)
+    if k < MAX_EVENTS:
+        w.events[k].cause = cause

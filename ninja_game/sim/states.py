@@ -14,8 +14,12 @@ STATE_NAMES = ("standing", "running", "skidding", "jumping", "falling", "sliding
 OUTCOME_RUNNING, OUTCOME_EXIT, OUTCOME_DEAD = 0, 1, 2
 OUTCOME_NAMES = ("running", "exit", "dead")
 
-# Kill types (objects.md §9; the chaingun's bullet and the crushed have numbers of ours).
+# What kills: causes of a death (objects.md §9; the chaingun's bullet and the crushed have numbers of ours).
+NO_CAUSE = -1
 ELECTRIC, EXPLOSIVE, WEAK_BULLET, HARD_BULLET, FALL, LASER, BULLET, CRUSHED = range(8)
+CAUSE_NAMES = ("electric", "explosive", "weak bullet", "hard bullet", "fall", "laser", "bullet", "crushed")
+"""electric: guards, zap drones, thwumps; explosive: mines, rockets; hard bullet: turrets; bullet: chainguns; crushed: a
+push out of a tile of more than √80 px; weak bullet: nobody in this game."""
 
 # Routines of the objects; 0 is always the one an object starts with.
 THWUMP_REST, THWUMP_MOVE = 0, 1

@@ -50,7 +50,7 @@ def scene(
         view.on_tick()
     if fatal >= 0:
         n = run.world.ninja
-        kill(run.world, fatal, 4.0, -3.0, n.x, n.y - 4)
+        kill(run.world, fatal, 0, 4.0, -3.0, n.x, n.y - 4)
         view.on_death()
         for _ in range(5):
             run.step_keys(0)

@@ -58,7 +58,7 @@ class AudioPlayer:
             self._machines = [thing for thing in world.objects[1:] if _has_loop(thing)]
         heard = set()
         for event in world.events[: world.event_count]:
-            names = BY_DEATH.get(event.slot, OTHER_DEATH) if event.kind == DIED else BY_EVENT.get(event.kind, ())
+            names = BY_DEATH.get(event.cause, OTHER_DEATH) if event.kind == DIED else BY_EVENT.get(event.kind, ())
             if names and names not in heard:
                 heard.add(names)
                 self.play(self._chance.choice(names), x=event.x)

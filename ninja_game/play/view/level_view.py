@@ -125,7 +125,7 @@ class LevelView:
         for event in world.events[: world.event_count]:
             if event.kind == DIED:
                 gory = not self.app.settings.reduced_gore
-                self.doll.shove(event.slot, (event.dx, event.dy), event.y, n.y, whole=not gory)
+                self.doll.shove(event.cause, (event.dx, event.dy), event.y, n.y, whole=not gory)
                 if self.doll.dismembered:
                     self.effects.blood(n.x, n.y, 0.0, -2.0, 12)
 

@@ -45,7 +45,7 @@ def step_world(levels: Sequence[TileMap], worlds: Sequence[World], index: int, k
 def kill_ninja(worlds: Sequence[World], index: int, cause: int, dx: float, dy: float) -> None:
     """Kill the ninja where it is, from outside the rules: its time is over, or the player gave up."""
     n = worlds[index].ninja
-    kill(worlds[index], cause, dx, dy, n.x, n.y)
+    kill(worlds[index], cause, 0, dx, dy, n.x, n.y)
 
 
 @entry_point

@@ -30,14 +30,20 @@ class TileMap:
 
 @struct
 class Event:
-    """Something that happened in a tick, for sound, particles and animation. ``kind``: see events.py."""
+    """Something that happened in a tick, for sound, particles and animation: the table in events.py."""
 
+    #: where, px
     x: f8
     y: f8
+    #: a vector whose meaning depends on the kind
     dx: f8
     dy: f8
+    #: its number in events.py
     kind: i4
+    #: slot of the object whose event it is, 0: nobody's or the ninja's
     slot: i4
+    #: of a death, what killed (states.py); else NO_CAUSE
+    cause: i4
 
 
 @struct

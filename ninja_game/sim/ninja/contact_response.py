@@ -24,7 +24,7 @@ def push_from_tile(w: World, qx: float, qy: float, mx: float, my: float) -> None
     n.x += qx
     n.y += qy
     if qx * qx + qy * qy > CRUSH:
-        kill(w, CRUSHED, 0.0, 0.0, n.x, n.y)
+        kill(w, CRUSHED, 0, 0.0, 0.0, n.x, n.y)
         return
     note_normal(n, mx, my)
 

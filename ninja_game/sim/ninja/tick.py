@@ -89,7 +89,7 @@ def evaluate_floor(w: World, n: Ninja) -> None:
     if n.was_in_air:
         impact = n.impact_x * n.floor_x + n.impact_y * n.floor_y
         if n.impact_y > 0.0 and impact - FLOOR_ALLOWANCE * abs(n.floor_y) < -FATAL_IMPACT:
-            kill(w, FALL, 0.0, 0.0, n.x, n.y)
+            kill(w, FALL, 0, 0.0, 0.0, n.x, n.y)
 
 
 @fast

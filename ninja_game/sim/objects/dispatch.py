@@ -102,7 +102,7 @@ def touch(w: World, slot: int) -> None:
     elif kind == MINE:
         touch_mine(w, o, slot)
     elif kind == DRONE:
-        touch_drone(w, o)
+        touch_drone(w, o, slot)
     elif kind == DOOR:
         touch_door(w, o, slot)
     elif kind == ONE_WAY:
@@ -110,9 +110,9 @@ def touch(w: World, slot: int) -> None:
     elif kind == LAUNCH_PAD:
         touch_pad(w, o, slot)
     elif kind == FLOOR_GUARD:
-        touch_guard(w, o)
+        touch_guard(w, o, slot)
     elif kind == THWUMP:
-        touch_thwump(w, o)
+        touch_thwump(w, o, slot)
     elif kind == BOUNCE_BLOCK:
         touch_block(w, o, slot)
     elif kind == LAUNCHER:

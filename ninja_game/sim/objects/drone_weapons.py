@@ -41,10 +41,10 @@ from ninja_game.sim.states import (
 
 
 @fast
-def touch_drone(w: World, o: Drone) -> None:
+def touch_drone(w: World, o: Drone, slot: int) -> None:
     """Zap drones are lethal to touch; the others are armed, but not solid."""
     if o.weapon == WEAPON_ZAP:
-        zap(w, o.x - w.ninja.x, o.y - w.ninja.y, DRONE_RADIUS)
+        zap(w, o.x, o.y, DRONE_RADIUS, slot)
 
 
 @fast
@@ -134,7 +134,7 @@ def burn(w: World, o: Drone, slot: int) -> None:
         stop_firing(w, o, slot)
         a = o.beam_x / o.beam_length
         b = o.beam_y / o.beam_length
-        kill(w, LASER, LASER_IMPULSE * a, LASER_IMPULSE * b, zx, zy)
+        kill(w, LASER, slot, LASER_IMPULSE * a, LASER_IMPULSE * b, zx, zy)
         return
     o.timer += 1
     if o.timer >= LASER_BEAM:
@@ -184,5 +184,5 @@ def shoot(level: TileMap, w: World, o: Drone, slot: int) -> None:
     emit(w, CHAINGUN_SHOT, slot, o.x, o.y, gx, gy)
     if hit:
         stop_firing(w, o, slot)
-        kill(w, BULLET, gx * BULLET_IMPULSE, gy * BULLET_IMPULSE, hit_x, hit_y)
+        kill(w, BULLET, slot, gx * BULLET_IMPULSE, gy * BULLET_IMPULSE, hit_x, hit_y)
     o.shot += 1

@@ -81,6 +81,6 @@ def chase_to_end(w: World, o: FloorGuard, slot: int) -> None:
 
 
 @fast
-def touch_guard(w: World, o: FloorGuard) -> None:
+def touch_guard(w: World, o: FloorGuard, slot: int) -> None:
     """Disc contact, active or not: lethal."""
-    zap(w, o.x - w.ninja.x, o.y - w.ninja.y, GUARD_RADIUS)
+    zap(w, o.x, o.y, GUARD_RADIUS, slot)

@@ -137,7 +137,7 @@ def touch_rocket(w: World, o: Launcher, slot: int) -> None:
     dx = n.x - o.x
     dy = n.y - o.y
     if sqrt(dx * dx + dy * dy) < ROCKET_RADIUS + RADIUS:
-        kill(w, EXPLOSIVE, dx, dy, o.x, o.y)
+        kill(w, EXPLOSIVE, slot, dx, dy, o.x, o.y)
         explode(w, o, slot)
 
 

@@ -26,7 +26,7 @@ def touch_mine(w: World, o: Mine, slot: int) -> None:
     dx = o.x - n.x
     dy = o.y - n.y
     if sqrt(dx * dx + dy * dy) < MINE_RADIUS + RADIUS:
-        kill(w, EXPLOSIVE, -dx, -dy, o.x, o.y)
+        kill(w, EXPLOSIVE, slot, -dx, -dy, o.x, o.y)
         o.spent = 1
         grid_remove(w, o)
         emit(w, MINE_EXPLODED, slot, o.x, o.y, 0.0, 0.0)

@@ -108,7 +108,7 @@ def move_thwump(w: World, o: Thwump, slot: int) -> None:
 
 
 @fast
-def touch_thwump(w: World, o: Thwump) -> None:
+def touch_thwump(w: World, o: Thwump, slot: int) -> None:
     """Box contact: the leading face kills, the others push."""
     n = w.ninja
     dy = n.y - o.y
@@ -122,19 +122,19 @@ def touch_thwump(w: World, o: Thwump) -> None:
     if overlap_y < overlap_x:
         if dy < 0.0:
             if o.face_y < 0.0:
-                kill(w, ELECTRIC, 0.0, THWUMP_UP_IMPULSE, n.x, n.y - 0.5 * RADIUS)
+                kill(w, ELECTRIC, slot, 0.0, THWUMP_UP_IMPULSE, n.x, n.y - 0.5 * RADIUS)
             else:
                 push(n, 0.0, -overlap_y, 0.0, -1.0)
         elif o.face_y > 0.0:
-            kill(w, ELECTRIC, 0.0, THWUMP_DOWN_IMPULSE, n.x, n.y + 0.5 * RADIUS)
+            kill(w, ELECTRIC, slot, 0.0, THWUMP_DOWN_IMPULSE, n.x, n.y + 0.5 * RADIUS)
         else:
             push(n, 0.0, overlap_y, 0.0, 1.0)
     elif dx < 0.0:
         if o.face_x < 0.0:
-            kill(w, ELECTRIC, -THWUMP_SIDE_IMPULSE, THWUMP_SIDE_LIFT, n.x - 0.5 * RADIUS, n.y)
+            kill(w, ELECTRIC, slot, -THWUMP_SIDE_IMPULSE, THWUMP_SIDE_LIFT, n.x - 0.5 * RADIUS, n.y)
         else:
             push(n, -overlap_x, 0.0, -1.0, 0.0)
     elif o.face_x > 0.0:
-        kill(w, ELECTRIC, THWUMP_SIDE_IMPULSE, THWUMP_SIDE_LIFT, n.x + 0.5 * RADIUS, n.y)
+        kill(w, ELECTRIC, slot, THWUMP_SIDE_IMPULSE, THWUMP_SIDE_LIFT, n.x + 0.5 * RADIUS, n.y)
     else:
         push(n, overlap_x, 0.0, 1.0, 0.0)

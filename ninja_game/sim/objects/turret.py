@@ -141,7 +141,7 @@ def fire(level: TileMap, w: World, o: Turret, slot: int) -> None:
         if length != 0.0:
             a = dx / length
             b = dy / length
-        kill(w, HARD_BULLET, a * TURRET_IMPULSE, b * TURRET_IMPULSE, hit_x, hit_y)
+        kill(w, HARD_BULLET, slot, a * TURRET_IMPULSE, b * TURRET_IMPULSE, hit_x, hit_y)
 
 
 @fast

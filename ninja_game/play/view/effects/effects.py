@@ -156,14 +156,14 @@ def _landed(e: Effects, level: TileMap, world: World, event: Event) -> None:
 
 def _died(e: Effects, level: TileMap, world: World, event: Event) -> None:
     n = world.ninja
-    if event.slot == ELECTRIC:
+    if event.cause == ELECTRIC:
         for _ in range(6):
             angle = e.chance.uniform(0, 2 * pi)
             e.add("zap", event.x, event.y, 34 * cos(angle), 34 * sin(angle), life=e.chance.uniform(12, 24))
         e.spread("bolt", event.x, event.y, 8, 40, life=22)
-    elif event.slot == EXPLOSIVE:
+    elif event.cause == EXPLOSIVE:
         e.spread("spark", n.x, n.y, 8, 42, life=26)
-    elif event.slot == FALL:
+    elif event.cause == FALL:
         e.puffs(n.x, n.y + 9, 0, -1, 40, 14)
     e.blood(event.x, event.y, event.dx, event.dy, e.chance.randint(8, 14))
 

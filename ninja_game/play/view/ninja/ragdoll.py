@@ -80,12 +80,12 @@ class Ragdoll:
 
     # --- the moment of death ---
 
-    def shove(self, kind: int, impulse: Point, hit_y: float, centre_y: float, *, whole: bool = False) -> None:
+    def shove(self, cause: int, impulse: Point, hit_y: float, centre_y: float, *, whole: bool = False) -> None:
         """The blow: everything is thrown, most of all the end that was hit. Falls have none.
 
         ``whole``: it stays in one piece, whatever killed it (reduced gore).
         """
-        if kind != FALL:
+        if cause != FALL:
             h = (hit_y - centre_y) / 10
             u = min(1.0, abs(h))
             near, far = 0.4 * (1 - u) + 0.8 * u, 0.4 * (1 - u) + 0.2 * u
@@ -95,7 +95,7 @@ class Ragdoll:
                 share = weight * (self.chance.uniform(0.8, 1) if k > SHOULDER else 1)
                 particle.ox -= impulse[0] * (share + self.chance.random())
                 particle.oy -= impulse[1] * (share + self.chance.random())
-        if kind == EXPLOSIVE and not whole:
+        if cause == EXPLOSIVE and not whole:
             self.dismember()
 
     def dismember(self) -> None:
