@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from uuid import uuid4
 
 from ninja_game.errors import ArgumentError, NinjaGameError
+from ninja_game.files.resources import how_to_install
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import Memory, MemoryName
 from ninja_game.sim.memory.plain import PlainMemory
@@ -59,7 +60,7 @@ def choose_memory(memory: str) -> MemoryName:
     if memory == "compiled":
         if not compiled_available():
             raise MemoryUnavailableError(
-                "the compiled memory needs Numba; install the extra 'fast' (pip install 'ninja-game[fast]'), "
+                f"the compiled memory needs Numba; {how_to_install('fast')}, "
                 "unset NUMBA_DISABLE_JIT, or use the plain memory"
             )
         return "compiled"

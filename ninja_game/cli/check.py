@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,7 +22,9 @@ from ninja_game.cli.solver_options import (
     seed_option,
     work_option,
 )
+from ninja_game.errors import LevelError
 from ninja_game.files.shown_text import shown_text
+from ninja_game.sim.kinds import DOOR
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
@@ -55,34 +58,43 @@ def command(
     """Certify levels: whether they can be passed, how fast, and what is odd.
 
     LEVEL is a file of levels or a folder. A level is solvable if a run to the exit was found (it is kept with
-    --replays); not finding one in the time proves nothing. The par time is that of the best run found.
+    --replays); not finding one in the time proves nothing. The par time is that of the best run found. A locked door
+    that this run does not open is told: the level may not need it.
 
-    Exit code 0: all are solvable; 1: for some no run was found; 2: something cannot be read.
+    Exit code 0: all are solvable; 1: for some no run was found; 2: something cannot be read or played.
 
     \b
     Examples:
       ninja-game check levels/
       ninja-game check my-level.txt --seconds 60 --replays certificates/
     """
+    from ninja_game.cli.main import BAD_INPUT, complain
     from ninja_game.formats.load import load_levels
     from ninja_game.solver.solve import Task, solve
 
     chosen = [level for path in levels for level in load_levels(path)]
     if replays:
         replays.mkdir(parents=True, exist_ok=True)
-    missing = 0
+    missing = broken = 0
     for level, where in zip(chosen, _certificates(chosen, replays), strict=True):
         task = Task(level.level, jobs=default_threads(jobs), **wish)
-        with progress_line() as report:
-            run = solve(task, report=report, on_better=saver(where, level.name) if where else None)
+        try:
+            with progress_line() as report:
+                run = solve(task, report=report, on_better=saver(where, level) if where else None)
+        except LevelError as error:
+            broken += 1
+            complain(str(replace(error, file=level.file, line=level.line)))
+            continue
         missing += run is None
         if as_json:
             click.echo(json.dumps(_facts(level, run, where)))
         else:
             click.echo(_row(level, run))
     if not as_json:
-        click.echo(f"{len(chosen)} levels, {len(chosen) - missing} solvable, {missing} not solved in the time")
-    ctx.exit(NOT_FOUND if missing else 0)
+        solved = len(chosen) - missing - broken
+        unplayable = f", {broken} cannot be played" if broken else ""
+        click.echo(f"{len(chosen)} levels, {solved} solvable, {missing} not solved in the time{unplayable}")
+    ctx.exit(BAD_INPUT if broken else NOT_FOUND if missing else 0)
 
 
 def _certificates(levels: Sequence[NamedLevel], folder: Path | None) -> Iterator[Path | None]:
@@ -106,22 +118,40 @@ def _row(level: NamedLevel, run: VerifiedRun | None) -> str:
     else:
         mark = click.style("solvable", fg="green")
         par = f"par {run.end_tick / TICKS_PER_SECOND:7.3f} s  {run.end_tick:>5} ticks  {run.gold:>3} gold"
-    from ninja_game.levels.warnings import level_warnings
-
     row = f"{mark} {par}  {shown_text(level.name)}  {shown_text(level.file)}:{level.record}"
-    return "\n         ".join([row, *(f"warning: {warning}" for warning in level_warnings(level.level))])
+    return "\n         ".join([row, *(f"warning: {warning}" for warning in _warnings(level, run))])
 
 
 def _facts(level: NamedLevel, run: VerifiedRun | None, where: Path | None) -> dict[str, Any]:
     """A level's certificate for programs."""
     from ninja_game.formats.n14.level_string import level_digest
-    from ninja_game.levels.warnings import level_warnings
 
     facts: dict[str, Any] = {
         "file": level.file, "record": level.record, "name": level.name, "level_digest": level_digest(level.level),
-        "solvable": True if run else None, "warnings": level_warnings(level.level),
+        "solvable": True if run else None, "warnings": _warnings(level, run),
     }  # fmt: skip
     if run:
         facts |= {"par_ticks": run.end_tick, "par_seconds": run.end_tick / TICKS_PER_SECOND, "gold": run.gold}
         facts |= {"run_digest": run.digest, "replay": str(where) if where else None}
     return facts
+
+
+def _warnings(level: NamedLevel, run: VerifiedRun | None) -> list[str]:
+    """What is odd about a level, and the locked doors that its run does not open."""
+    from ninja_game.levels.reach import well_formed
+    from ninja_game.levels.warnings import level_warnings, object_name
+    from ninja_game.sim.arithmetic import is_set
+    from ninja_game.simulation import Simulation
+
+    warnings = level_warnings(level.level)
+    specs = enumerate(spec for spec in level.level.objects if spec.kind >= 0)
+    locked = {id_: spec for id_, spec in specs if spec.kind == DOOR and well_formed(spec) and is_set(spec.values[6])}
+    if run and locked:
+        simulation = Simulation(run.level, body=run.body, memory="plain")
+        for keys in run.inputs:
+            simulation.step_keys(keys)
+            for event in simulation.events:
+                if event.name == "lock-opened" and event.object_id is not None:
+                    locked.pop(event.object_id, None)
+        warnings += [f"{object_name(spec, id_)}: the run does not open it" for id_, spec in locked.items()]
+    return warnings

@@ -77,7 +77,7 @@ def command(
     task = Task(recording.level, body=body, first=first, jobs=default_threads(jobs), **wish)  # type: ignore[arg-type]
     check_gold(task)
     before: list[int] = []
-    save = saver(output, recording.name)
+    save = saver(output, recording)
 
     def keep(found: VerifiedRun) -> None:
         before.append(found.end_tick)

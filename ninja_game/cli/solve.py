@@ -69,7 +69,7 @@ def command(
     output = output or free_replay(level)
     task = Task(chosen.level, jobs=default_threads(jobs), **wish)
     check_gold(task)
-    save = saver(output, chosen.name)
+    save = saver(output, chosen)
     with progress_line() as report:
         run = solve(task, report=report, on_better=save)
     if run is None:

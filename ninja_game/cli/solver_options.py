@@ -14,6 +14,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from ninja_game.formats.load import NamedLevel, Recording
     from ninja_game.solver.certificate import VerifiedRun
     from ninja_game.solver.solve import Progress, Task
 
@@ -106,7 +107,8 @@ def progress_line() -> Iterator[Callable[[Progress], None] | None]:
     from rich.live import Live
     from rich.text import Text
 
-    with Live(console=Console(stderr=True), transient=True, refresh_per_second=8) as live:
+    starting = Text("starting; the first time it compiles, which takes about a minute")
+    with Live(starting, console=Console(stderr=True), transient=True, refresh_per_second=8) as live:
         yield lambda progress: live.update(Text(progress_text(progress)))
 
 
@@ -134,8 +136,10 @@ def smoothed_run(run: VerifiedRun, price: int) -> VerifiedRun:
     return verified_run(run.level, inputs, body=run.body, gold=run.gold)
 
 
-def saver(path: Path, name: str) -> Callable[[VerifiedRun], None]:
-    """A function that writes each better run to a file."""
+def saver(path: Path, level: NamedLevel | Recording) -> Callable[[VerifiedRun], None]:
+    """A function that writes each better run of a level to a file."""
     from ninja_game.solver.certificate import replay_of, save_replay
 
-    return lambda run: save_replay(path, replay_of(run, name=name, author="ninja-game solve"))
+    return lambda run: save_replay(
+        path, replay_of(run, name=level.name, author="ninja-game solve", level_author=level.author)
+    )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent.parent
@@ -27,3 +28,11 @@ def bundled_levels() -> list[Path]:
 def bundled_replays() -> list[Path]:
     """The files of the replays that pass the game's own levels, in the levels' order."""
     return sorted(data_folder("replays").glob("*.replay.txt"))
+
+
+def how_to_install(extra: str) -> str:
+    """What gets an optional part of the program: in a checkout its own tool, else pip of the Python that runs this."""
+    tool = PACKAGE.parent / "tools" / "dev.py"
+    if tool.is_file():
+        return f"start the command as 'python3 {tool} run ...', which installs what is missing"
+    return f"install it: {sys.executable} -m pip install 'ninja-game[{extra}]'"

@@ -49,7 +49,8 @@ def parse_levels(text: str, *, file: str = "") -> list[NamedLevel]:
     """All levels in a text of any format. Raises LevelError or ReplayError."""
     if is_replay(text):
         replay = parse_replay(text, file=file)
-        return [NamedLevel(replay.name, "", "", level_of_replay(replay, file), file, form="replay")]
+        level, name = level_of_replay(replay, file), replay.level_name or replay.name
+        return [NamedLevel(name, replay.level_author, "", level, file, form="replay")]
     if is_ascii_level(text):
         read = parse_ascii_level(text, file=file)
         return [NamedLevel(read.name or Path(file).stem, read.author, read.comment, read.level, file, form="ascii")]

@@ -16,7 +16,7 @@ from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.named_level import NamedLevel, is_level_file, parse_levels
 from ninja_game.formats.recording import Recording, holds_recordings, parse_replays, record_of
 from ninja_game.formats.replay.text import is_replay, write_replay
-from ninja_game.runs.recording_reader import body_of, named_errors
+from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.level import Level
 
@@ -35,9 +35,8 @@ def replay_texts(recordings: Iterable[Recording]) -> Iterator[str]:
         else:
             with named_errors(recording):
                 inputs = recording.playback(recording.ticks)
-                replay = record_replay(
-                    recording.level, inputs, body=body_of(recording), name=recording.name, author=recording.author
-                )
+                replay = record_replay(recording.level, inputs, name=recording.name, author=recording.author)
+            replay = replace(replay, level_name=recording.name)
         yield write_replay(replay)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ninja_game.errors import NinjaGameError
@@ -54,9 +54,10 @@ def verified_run(level: Level, inputs: bytes, *, body: Body = "circle", gold: in
     return VerifiedRun(level, body, inputs[: run.tick], run.gold, run.replay_digest())
 
 
-def replay_of(run: VerifiedRun, *, name: str = "", author: str = "") -> Replay:
-    """A replay that holds its level."""
-    return record_replay(run.level, run.inputs, body=run.body, name=name, author=author)
+def replay_of(run: VerifiedRun, *, name: str = "", author: str = "", level_author: str = "") -> Replay:
+    """A replay that holds its level; both have the same name."""
+    replay = record_replay(run.level, run.inputs, body=run.body, name=name, author=author)
+    return replace(replay, level_name=name, level_author=level_author)
 
 
 def save_replay(path: Path, replay: Replay) -> None:

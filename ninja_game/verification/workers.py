@@ -21,6 +21,7 @@ from multiprocessing import get_context, parent_process
 from typing import Any, Protocol, TypeVar
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.resources import how_to_install
 
 J = TypeVar("J")
 R = TypeVar("R")
@@ -147,9 +148,7 @@ class Cluster:
         try:
             from distributed import Client, KilledWorker
         except ImportError:
-            raise ClusterError(
-                "a cluster needs Dask distributed; install the extra 'cluster' (pip install 'ninja-game[cluster]')"
-            ) from None
+            raise ClusterError(f"a cluster needs Dask distributed; {how_to_install('cluster')}") from None
         self.lost: tuple[type[BaseException], ...] = (KilledWorker,)
         # What it has to say comes as exceptions.
         logging.getLogger("distributed.client").setLevel(logging.CRITICAL)

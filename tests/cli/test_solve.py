@@ -13,6 +13,8 @@ from ninja_game.cli.main import cli
 from ninja_game.cli.solve import free_replay
 from ninja_game.cli.solver_options import default_threads
 from ninja_game.compile_cache import compiled_available
+from ninja_game.formats.ascii.reader import write_ascii_level
+from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.runs.run import run_level
@@ -137,3 +139,30 @@ def test_a_run_without_a_name_is_called_after_its_level(tmp_path: Path, monkeypa
     assert free_replay(Path("levels/hill.txt")) == Path("hill.replay.txt")
     Path("hill.replay.txt").touch()
     assert free_replay(Path("levels/hill.txt")) == Path("hill-2.replay.txt")
+
+
+def test_a_certificate_names_its_level_and_who_made_it(tmp_path: Path) -> None:
+    level = tmp_path / "walk.txt"
+    level.write_text(write_ascii_level(parse_level_string(WALK), name="A walk", author="Ann"))
+    assert command("check", level, "--ticks", "300000", "--jobs", "1", "--replays", tmp_path / "out").exit_code == 0
+    (found,) = load_levels(tmp_path / "out" / "walk-0.replay.txt")
+    assert (found.name, found.author) == ("A walk", "Ann")
+
+
+def test_a_locked_door_that_the_run_does_not_open_is_told(tmp_path: Path) -> None:
+    level = level_file(tmp_path, WALK + "!9^400,100,0,0,20,14,1,0,0")
+    result = command("check", level, "--ticks", "300000", "--jobs", "1")
+    assert "warning: locked door at 20,14 (object 3): the run does not open it" in result.stdout
+    opened = level_file(tmp_path, WALK + "!9^120,566,0,0,20,14,1,0,0")
+    assert "does not open it" not in command("check", opened, "--ticks", "300000", "--jobs", "1").stdout
+
+
+def test_a_level_without_a_ninja_is_an_error_of_check_and_the_others_are_checked(tmp_path: Path) -> None:
+    folder = tmp_path / "levels"
+    folder.mkdir()
+    level_file(folder, NO_NINJA, "a.txt")
+    level_file(folder, WALK, "b.txt")
+    result = command("check", folder, "--ticks", "300000", "--jobs", "1")
+    assert result.exit_code == 2
+    assert f"{folder / 'a.txt'}:1: this level cannot be played: it has no ninja" in result.stderr
+    assert "2 levels, 1 solvable, 0 not solved in the time, 1 cannot be played" in result.stdout

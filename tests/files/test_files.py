@@ -13,7 +13,7 @@ from typing import IO
 import pytest
 
 from ninja_game.errors import FileError
-from ninja_game.files import writing
+from ninja_game.files import resources, writing
 from ninja_game.files.reading import LeftOut, files_below, read_bytes, read_text, read_utf8, text_files
 from ninja_game.files.resources import data_folder
 from ninja_game.files.user_folder import user_folder
@@ -229,3 +229,9 @@ def test_home_of_an_unknown_user_is_an_error_of_ours(monkeypatch: pytest.MonkeyP
     monkeypatch.setenv("NINJA_GAME_HOME", "~nobody-of-that-name/x")
     with pytest.raises(FileError, match="NINJA_GAME_HOME names no folder"):
         user_folder()
+
+
+def test_what_is_missing_is_installed_as_the_place_has_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert "tools/dev.py run" in resources.how_to_install("fast")
+    monkeypatch.setattr(resources, "PACKAGE", tmp_path / "site-packages" / "ninja_game")
+    assert resources.how_to_install("fast") == f"install it: {sys.executable} -m pip install 'ninja-game[fast]'"

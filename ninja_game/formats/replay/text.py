@@ -49,9 +49,9 @@ class Replay:
     ``inputs``: one byte a tick, the sum of its ``Input`` flags; in ticks beyond them no key is down. ``final_tick``:
     the last tick that is run, counted from 0; ``outcome``, ``gold`` and ``digest`` (64 hex digits of what the world
     shows, or '') are as after it. The level is given by one or more of: its digest, a path from the replay's folder
-    with the number of the record in that file, the level itself. ``waypoints``: where the ninja passes, by tick, so
-    that a run that goes another way is noticed where it does. ``practice``: it was made in practice, or with its
-    tools.
+    with the number of the record in that file, the level itself with its name and author. ``waypoints``: where the
+    ninja passes, by tick, so that a run that goes another way is noticed where it does. ``practice``: it was made in
+    practice, or with its tools.
     """
 
     inputs: bytes
@@ -67,6 +67,8 @@ class Replay:
     level_path: str = ""
     level_record: int = 0
     level: Level | None = None
+    level_name: str = ""
+    level_author: str = ""
     waypoints: tuple[Waypoint, ...] = ()
     practice: bool = False
 
@@ -97,6 +99,7 @@ def parse_replay(text: str, *, file: str = "") -> Replay:
     lines = [(number, line) for number, line in numbered_lines(text) if not line.startswith(";")]
     _check_first_line(lines, file)
     headers = Headers(lines[1:], file)
+    level, level_name, level_author = _read_level(headers.section("level-data"), file)
     replay = Replay(
         inputs=read_inputs(headers.section("inputs"), file=file),
         final_tick=headers.count("final-tick"),
@@ -110,7 +113,9 @@ def parse_replay(text: str, *, file: str = "") -> Replay:
         level_digest=headers.digest("level-digest"),
         level_path=headers.text("level"),
         level_record=headers.count("level-record"),
-        level=_read_level(headers.section("level-data"), file),
+        level=level,
+        level_name=level_name,
+        level_author=level_author,
         waypoints=read_waypoints(headers.section("waypoints"), file),
         practice="practice" in headers.lines and headers.choice("practice", ("yes", "no")) == "yes",
     )
@@ -137,18 +142,23 @@ def _check_first_line(lines: Sequence[Line], file: str) -> None:
         raise ReplayError(what, file, number, 1, match[1], str(VERSION), hint)
 
 
-def _read_level(lines: Sequence[Line], file: str) -> Level | None:
-    """The embedded ASCII level; None without one. Raises LevelError with the line of the replay."""
+def _level_text(level: Level, replay: Replay) -> str:
+    return write_ascii_level(level, name=replay.level_name, author=replay.level_author)
+
+
+def _read_level(lines: Sequence[Line], file: str) -> tuple[Level | None, str, str]:
+    """The embedded ASCII level (None without one), its name and author. Raises LevelError with the replay's line."""
     if not lines:
-        return None
+        return None, "", ""
     text = [""] * lines[-1][0]
     for number, line in lines:
         text[number - 1] = line
-    level = parse_ascii_level("\n".join(text), file=file).level
+    read = parse_ascii_level("\n".join(text), file=file)
+    level = read.level
     # With one and the same NaN everywhere a replay equals the one that was written.
     one_nan = [tuple(NAN if math.isnan(value) else value for value in record.values) for record in level.objects]
     records = [record._replace(values=values) for record, values in zip(level.objects, one_nan, strict=True)]
-    return Level(level.tiles, tuple(records))
+    return Level(level.tiles, tuple(records)), read.name, read.author
 
 
 def read_waypoints(lines: Sequence[Line], file: str) -> tuple[Waypoint, ...]:
@@ -221,7 +231,7 @@ def write_replay(replay: Replay) -> str:
     if replay.waypoints:
         lines += ["waypoints:", *(f"  {tick} {x!r} {y!r} {state}" for tick, x, y, state in replay.waypoints)]
     if replay.level is not None:
-        lines += ["level-data:", *(f"  {line}".rstrip() for line in write_ascii_level(replay.level).splitlines())]
+        lines += ["level-data:", *(f"  {line}".rstrip() for line in _level_text(replay.level, replay).splitlines())]
     return "\n".join(lines) + "\n"
 
 
