@@ -9,6 +9,7 @@ import pygame
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.resources import data_folder
+from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import export_path
 from ninja_game.play.audio.output import AudioOutput
 from ninja_game.play.audio.player import AudioPlayer
@@ -254,6 +255,9 @@ def build_app(
     )
     app = App(player, bindings, sound, size=size)
     player.open_records()
-    if player.messages:
-        app.notify(" ".join(player.messages), ms=WARNING_MS)
+    messages = player.messages
+    if bindings.unknown:
+        messages.append(f"settings.toml: no key is called {shown_text(', '.join(bindings.unknown), 60)}.")
+    if messages:
+        app.notify(" ".join(messages), ms=WARNING_MS)
     return app

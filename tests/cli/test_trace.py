@@ -95,6 +95,16 @@ def test_section_of_the_specification_is_told(two: Path, tmp_path: Path) -> None
     assert "(specification: objects 8.12)" in result.stdout
 
 
+@pytest.mark.parametrize("name", ["out.csv", "out.npz"])
+def test_recordings_are_not_written_over(name: str, two: Path, tmp_path: Path) -> None:
+    source = tmp_path / name
+    source.write_bytes(two.read_bytes())
+    result = trace(source, "-o", source)
+    assert result.exit_code == 2
+    assert "read by the same command" in result.stderr
+    assert source.read_bytes() == two.read_bytes()
+
+
 def test_numpy_file_keeps_every_bit(two: Path, tmp_path: Path) -> None:
     assert trace(two, "--objects", "-o", tmp_path / "run.npz").exit_code == 0
     with np.load(tmp_path / "run.npz") as arrays:

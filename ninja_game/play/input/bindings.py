@@ -27,7 +27,7 @@ class Bindings:
     """Which keys and pad inputs mean which actions.
 
     ``keys`` and ``pad``: what the player has changed, by action; the other actions have their defaults. Unknown names
-    are ignored.
+    are ignored, and stand in ``unknown``; an action that has only such keys keeps its defaults.
     """
 
     def __init__(self, keys: Inputs | None = None, pad: Inputs | None = None, *, dead_zone: float = 0.35) -> None:
@@ -38,7 +38,12 @@ class Bindings:
 
     def bind(self, keys: Inputs, pad: Inputs) -> None:
         """Take other bindings."""
-        self.keys = {action: tuple(keys.get(action, default.keys)) for action, default in ACTIONS.items()}
+        self.unknown = sorted({name for names in keys.values() for name in names if not scancode_named(name)})
+        self.keys = {}
+        for action, default in ACTIONS.items():
+            wanted = tuple(keys.get(action, default.keys))
+            known = tuple(filter(scancode_named, wanted))
+            self.keys[action] = known if known or not wanted else tuple(default.keys)
         self.pad = {action: tuple(pad.get(action, default.pad)) for action, default in ACTIONS.items()}
         self._by_key: dict[int, list[str]] = {}
         self._by_pad: dict[str, list[str]] = {}

@@ -26,6 +26,9 @@ for _name in dir(pygame):
             if hasattr(pygame, _constant):
                 _OF_KEYCODE[getattr(pygame, _constant)] = _code
 
+SCANCODE_LIMIT = 512
+"""SDL's keys have smaller scancodes than this."""
+
 _NAMES = {code: name for name, code in sorted(SCANCODES.items(), key=lambda item: -len(item[0]))}
 _UNNAMED = re.compile(r"scancode-([0-9]{1,3})")
 
@@ -57,7 +60,7 @@ def scancode_named(name: str) -> int | None:
     """The key that a name means; None if none."""
     unnamed = _UNNAMED.fullmatch(name)
     if unnamed:
-        return int(unnamed[1])
+        return int(unnamed[1]) if int(unnamed[1]) < SCANCODE_LIMIT else None
     return SCANCODES.get(name)
 
 

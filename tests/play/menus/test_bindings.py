@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pygame
 import pytest
 
+from ninja_game.play.app import build_app
 from ninja_game.play.input.actions import ACTIONS, MENU_KEYS
 from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.input.gamepad import FULL_AXIS, Gamepads
@@ -30,6 +33,17 @@ def test_names_of_keys_and_scancodes_belong_together() -> None:
     assert all(scancode_named(key_name(code)) == code for code in SCANCODES.values())
     assert scancode_named("scancode-300") == 300
     assert scancode_named("no such key") is None
+    assert scancode_named("scancode-512") is None
+
+
+def test_keys_that_there_are_not_leave_the_defaults_and_are_named(tmp_path: Path) -> None:
+    (tmp_path / "settings.toml").write_text('[keys]\njump = ["scancode-512", "scancode-999"]\nleft = ["odd", "q"]\n')
+    app = build_app(tmp_path)
+    assert app.controls.keys["jump"] == ACTIONS["jump"].keys
+    assert app.controls.keys["left"] == ("q",)
+    assert app.controls.held() == 0
+    assert "no key is called odd, scancode-512, scancode-999" in app.notice
+    app.player.close()
 
 
 def test_every_default_and_menu_key_exists() -> None:
