@@ -1,7 +1,8 @@
 """Pictures of scenes against those in `tests/play/golden/`, with a tolerance for other rasterisers.
 
-To accept new pictures after a change of drawings run `ACCEPT_PICTURES=1 python -m pytest tests/play/test_pictures.py`
-and look at them. A picture that differs is written beside the accepted one as `NAME.new.png` (git ignores it).
+To accept new pictures after a change of drawings run `python3 tools/dev.py test tests/play/test_pictures.py` with
+`ACCEPT_PICTURES=1` in the environment, and look at them. A picture that differs is written beside the accepted one as
+`NAME.new.png` (git ignores it).
 """
 
 from __future__ import annotations
