@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ninja_game.cli.run_options import level_given, level_option
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from ninja_game.formats.load import NamedLevel, Recording
+    from ninja_game.sim.level import Level
 
 PIPE_WIDTH = 160
 
@@ -26,9 +28,12 @@ PIPE_WIDTH = 160
 @click.command()
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
 @click.option("--record", type=click.IntRange(min=0), help="Show this one of a file's levels, counted from 0.")
+@level_option
 @click.option("--picture/--no-picture", default=None, help="Draw the level. [default: if it is the only one]")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object a level, for programs.")
-def command(files: Sequence[Path], record: int | None, picture: bool | None, as_json: bool) -> None:
+def command(
+    files: Sequence[Path], record: int | None, level_path: Path | None, picture: bool | None, as_json: bool
+) -> None:
     """Show what is in level and replay files.
 
     Names and authors, counts of objects, recordings, warnings of what is odd, and a picture of the level. FILE may be
@@ -39,6 +44,7 @@ def command(files: Sequence[Path], record: int | None, picture: bool | None, as_
       ninja-game info levels/
       ninja-game info userlevels.txt --record 17
       ninja-game info userlevels.txt --json
+      ninja-game info demo.txt --level level.txt
     """
     from rich.console import Console
 
@@ -46,12 +52,14 @@ def command(files: Sequence[Path], record: int | None, picture: bool | None, as_
 
     # A pipe has no width; a table cut to 80 columns is of no use to whoever reads it.
     console = Console(highlight=False, width=None if sys.stdout.isatty() else PIPE_WIDTH)
-    levels = [level for file in files for level in load_levels(file)]
+    given = level_given(level_path)
+    runs = [run for file in files for run in _recordings(file, given)]
+    levels = [level for file in files for level in load_levels(file)] if given is None else list(map(_level_of, runs))
     if record is not None:
         levels = [level for level in levels if level.record == record]
         if not levels:
             raise click.UsageError(f"there is no record {record}")
-    recordings = {(run.file, run.record): run for file in files for run in _recordings(file)}
+    recordings = {(run.file, run.record): run for run in runs}
     if as_json:
         for level in levels:
             click.echo(json.dumps(_facts(level, recordings.get((level.file, level.record)))))
@@ -62,7 +70,14 @@ def command(files: Sequence[Path], record: int | None, picture: bool | None, as_
         _show_table(console, levels, recordings)
 
 
-def _recordings(file: Path) -> list[Recording]:
+def _level_of(run: Recording) -> NamedLevel:
+    """A recording's level under the recording's name."""
+    from ninja_game.formats.named_level import NamedLevel
+
+    return NamedLevel(run.name, run.author, run.comment, run.level, run.file, run.record, run.line)
+
+
+def _recordings(file: Path, level: Level | None) -> list[Recording]:
     """The recordings in a file or folder; none where it holds levels only."""
     from ninja_game.files.reading import text_files
     from ninja_game.formats.load import load_replays
@@ -70,7 +85,7 @@ def _recordings(file: Path) -> list[Recording]:
     found = []
     for part in text_files(file):
         try:
-            found += load_replays(part)
+            found += load_replays(part, level=level)
         except NinjaGameError:
             continue
     return found
@@ -81,6 +96,15 @@ def _counts(level: NamedLevel) -> Counter[str]:
     from ninja_game.sim.kinds import KIND_NAMES
 
     return Counter(KIND_NAMES[record.kind] for record in level.level.objects if record.kind >= 0)
+
+
+def _sorts(level: NamedLevel) -> Counter[str]:
+    """How many objects of each sort that a level's file has a word for: zap drones apart from laser drones."""
+    from ninja_game.formats.ascii.object_writer import best_form
+    from ninja_game.sim.kinds import KIND_NAMES
+
+    specs = [spec for spec in level.level.objects if spec.kind >= 0]
+    return Counter(best_form(spec)[0] or KIND_NAMES[spec.kind] for spec in specs)
 
 
 def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
@@ -109,10 +133,12 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
     console.print(Text(f"{file}, record {level.record}", "dim"))
     if picture:
         console.print(level_picture(level.level), soft_wrap=True)
-    objects = ", ".join(f"{count} {kind}" for kind, count in _counts(level).items())
+    objects = ", ".join(f"{count} {kind}" for kind, count in _sorts(level).items())
     console.print(Text(objects or "no objects"))
     if run:
-        console.print(Text(f"recording: {run.ticks} ticks, {run.ticks / TICKS_PER_SECOND:.3f} s"))
+        last = run.ticks - 1
+        cut = f", cut: {run.demo.missing} ticks of inputs are missing" if run.demo.missing else ""
+        console.print(Text(f"recording: to tick {last} at most, {last / TICKS_PER_SECOND:.3f} s{cut}"))
     if run and run.replay:
         replay = run.replay
         console.print(Text(f"claims: {replay.outcome}, gold {replay.gold}, body {replay.body}, rules {replay.rules}"))
@@ -132,7 +158,7 @@ def _show_table(console: Console, levels: Sequence[NamedLevel], recordings: dict
     table.add_column("file" if len(sizes) > 1 else "record", no_wrap=True)
     for title in ("name", "author"):
         table.add_column(title, overflow="fold")
-    for title in ("objects", "gold", "ticks", "warnings"):
+    for title in ("objects", "gold", "last tick", "warnings"):
         table.add_column(title, justify="right")
     for level in levels:
         counts = _counts(level)
@@ -145,7 +171,7 @@ def _show_table(console: Console, levels: Sequence[NamedLevel], recordings: dict
             escape(shown_text(level.author)),
             str(sum(counts.values())),
             str(counts["gold"]),
-            str(run.ticks) if run else "",
+            str(run.ticks - 1) if run else "",
             str(warnings) if warnings else "",
         )
     console.print(table)

@@ -7,7 +7,8 @@ from operator import itemgetter
 
 from rich.text import Text
 
-from ninja_game.formats.ascii.legend import symbol_chars
+from ninja_game.formats.ascii.legend import SYMBOL_OF_CHAR, symbol_chars
+from ninja_game.formats.ascii.writer import RULER
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.level import COLUMNS, ROWS, Level
@@ -34,26 +35,31 @@ QUARTERS = " ▘▝▀▖▌▞▛▗▚▐▜▄▙▟█"
 
 
 def level_picture(level: Level) -> Text:
-    """The level, two characters a cell, with a border line around it."""
+    """The level, two characters a cell, with a border line around it, its columns and rows numbered."""
     tiles = TileMap()
     tiles.tiles = grid_tiles(level)
     columns, rows = 2 * COLUMNS, ROWS
     signs = [[(_block(tiles, column, row), "grey62") for column in range(columns)] for row in range(rows)]
     for record in level.objects:
-        for char, x, y in symbol_chars(record):
+        for char, px, py in symbol_chars(record):
+            # What lies on a side of its cell is drawn in that cell.
+            x, y = px - SYMBOL_OF_CHAR[char].dx, py - SYMBOL_OF_CHAR[char].dy
             # A character is half a cell wide; a cell's centre belongs to its left one.
             if CELL <= x <= CELL * (COLUMNS + 1) and CELL <= y <= CELL * (ROWS + 1):
                 column = min(max(round((x - CELL) / 12.0) - 1, 0), columns - 1)
                 row = min(int((y - CELL) / CELL), rows - 1)
                 signs[row][column] = (char, COLOURS[record.kind])
     text = Text(no_wrap=True)
-    text.append("▗" + "▄" * columns + "▖\n", "grey62")
-    for line in signs:
+    for digits in RULER.replace(";", "").splitlines():
+        text.append("    " + " ".join(digits[4:]).rstrip() + "\n", "dim")
+    text.append("   ▗" + "▄" * columns + "▖\n", "grey62")
+    for number, line in enumerate(signs, 1):
+        text.append(f"{number:2d} ", "dim")
         text.append("▐", "grey62")
         for style, run in groupby(line, key=itemgetter(1)):
             text.append("".join(char for char, _ in run), style)
         text.append("▌\n", "grey62")
-    text.append("▝" + "▀" * columns + "▘", "grey62")
+    text.append("   ▝" + "▀" * columns + "▘", "grey62")
     return text
 
 

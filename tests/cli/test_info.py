@@ -39,7 +39,7 @@ def test_one_level_is_shown_with_picture_and_counts(two: Path) -> None:
     assert "Walk by me" in result.stdout
     assert "@" in result.stdout
     assert "1 ninja, 1 exit, 1 gold" in result.stdout
-    assert "recording: 26 ticks, 0.650 s" in result.stdout
+    assert "recording: to tick 25 at most, 0.625 s" in result.stdout
 
 
 def test_warnings_are_shown(two: Path) -> None:
@@ -73,9 +73,45 @@ def test_picture_shows_slopes_and_objects_in_their_cells() -> None:
     tiles = ["0"] * 713
     tiles[0] = "1"
     tiles[23] = "2"  # a slope, solid at the bottom left
-    lines = level_picture(parse_level_string("".join(tiles) + "|5^36,60!0^756,564")).plain.splitlines()
-    assert len(lines) == 25
-    assert {len(line) for line in lines} == {64}
-    assert lines[1][1:5] == "██▙▖"
-    assert lines[2][1] == "@"
-    assert lines[23][61] == "o"
+    pads = "!2^60,96,0,-1!2^96,84,1,0"
+    lines = level_picture(parse_level_string("".join(tiles) + "|5^36,60!0^756,564" + pads)).plain.splitlines()
+    assert len(lines) == 27
+    assert lines[0].split() == list("1" * 10 + "2" * 10 + "3" * 2)
+    assert lines[1].split()[:11] == list("12345678901")
+    assert {line[:2] for line in lines[3:26]} == {f"{row:2d}" for row in range(1, 24)}
+    picture = [line[3:] for line in lines[2:]]
+    assert {len(line) for line in picture} == {64}
+    assert picture[1][1:5] == "██▙▖"
+    assert picture[2][1] == "@"
+    assert picture[23][61] == "o"
+    assert picture[3][3] == "8", "a pad on the floor of its cell"
+    assert picture[3][7] == "6", "a pad on a wall"
+
+
+def test_drones_and_doors_are_counted_by_sort(tmp_path: Path) -> None:
+    level = tmp_path / "a.nlevel"
+    level.write_text(WALK + "!6^60,60,0,0,0,0!6^84,60,0,0,1,0!9^400,100,0,0,20,14,1,0,0!9^400,100,0,1,22,14,0,0,0")
+    assert "1 zap drone, 1 laser drone, 1 locked door, 1 trap door" in info(level).stdout
+
+
+def test_a_recording_without_its_level_is_shown_on_a_given_one(tmp_path: Path) -> None:
+    demo, level = tmp_path / "demo.txt", tmp_path / "walk.nlevel"
+    demo.write_text(f"$Walk####{running(25)}#")
+    level.write_text(WALK)
+    result = info(demo, "--level", level)
+    assert result.exit_code == 0
+    assert "recording: to tick 25" in result.stdout
+
+
+def test_a_cut_demo_is_told(tmp_path: Path) -> None:
+    demo = tmp_path / "demo.txt"
+    demo.write_text(f"$Walk###{WALK}#702:{'0|' * 98}0#")
+    assert "cut: 9 ticks of inputs are missing" in info(demo).stdout
+
+
+def test_a_name_cannot_forge_rows_or_move_the_cursor(tmp_path: Path) -> None:
+    source = tmp_path / "level.txt"
+    source.write_text('ninja-game level 1\nname: "a\\nb\\u001b[2J"\n' + ("|" + "." * 31 + "|\n") * 23)
+    shown = info(source).stdout
+    assert "a b\\x1b[2J" in shown
+    assert "\x1b" not in shown
