@@ -2,12 +2,15 @@
 
 The public API, each name imported when it is first used:
 
-- levels: ``load_levels(path)``, ``load_level(path)``, ``parse_level(text)``, ``Level``
-- a run: ``Simulation`` (step, look, save, restore, digest, inputs)
-- whole runs: ``run_level``, ``trace_level``
-- replays: ``load_replays(path)``, ``parse_replay``, ``record_replay``, ``write_replay``,
-  ``verify_recording``
+- levels: ``load_levels(path)``, ``load_level(path)``, ``parse_level(text)``, ``Level``, ``ObjectSpec``, ``NamedLevel``
+- a run: ``Simulation`` (step, look, save, restore, digest), ``SaveState``, ``Input``
+- whole runs: ``run_level`` and its ``RunResult``, ``trace_level`` and its ``RunTrace``
+- many worlds: ``Batch``, ``BatchState``
+- recordings: ``load_replays(path)``, ``Recording``, ``verify_recording``, ``Verdict``; our replays: ``Replay``,
+  ``record_replay``, ``parse_replay``, ``write_replay``; the demos of N: ``Demo``, ``parse_demo``, ``write_demo``
 - errors: everything raised on purpose is a ``NinjaGameError``
+
+docs/python-api.md describes them all.
 """
 
 from __future__ import annotations
@@ -15,24 +18,38 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from ninja_game.errors import DemoError, FormatError, LevelError, NinjaGameError, ReplayError
+from ninja_game.errors import ArgumentError, DemoError, FormatError, LevelError, NinjaGameError, ReplayError
 
 if TYPE_CHECKING:
+    from ninja_game.batch.batch import Batch, BatchState
+    from ninja_game.compile_cache import MemoryUnavailableError
     from ninja_game.formats.load import load_level, load_levels, load_replays, parse_level
     from ninja_game.formats.n14.demo import parse_demo, write_demo
+    from ninja_game.formats.named_level import NamedLevel
+    from ninja_game.formats.recording import Recording
     from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
     from ninja_game.runs.run import RunResult, RunTrace, record_replay, run_level, trace_level
     from ninja_game.runs.verify import Verdict, verify_recording
-    from ninja_game.sim.level import Level
-    from ninja_game.simulation import Simulation
+    from ninja_game.sim.inputs import Demo, Input
+    from ninja_game.sim.level import Level, ObjectSpec
+    from ninja_game.simulation import SaveState, Simulation
 
 __version__ = "0.1.0"
 
 _HOMES = {
+    "Batch": ("ninja_game.batch.batch", "Batch"),
+    "BatchState": ("ninja_game.batch.batch", "BatchState"),
+    "Demo": ("ninja_game.sim.inputs", "Demo"),
+    "Input": ("ninja_game.sim.inputs", "Input"),
     "Level": ("ninja_game.sim.level", "Level"),
+    "MemoryUnavailableError": ("ninja_game.compile_cache", "MemoryUnavailableError"),
+    "NamedLevel": ("ninja_game.formats.named_level", "NamedLevel"),
+    "ObjectSpec": ("ninja_game.sim.level", "ObjectSpec"),
+    "Recording": ("ninja_game.formats.recording", "Recording"),
     "Replay": ("ninja_game.formats.replay.text", "Replay"),
     "RunResult": ("ninja_game.runs.run", "RunResult"),
     "RunTrace": ("ninja_game.runs.run", "RunTrace"),
+    "SaveState": ("ninja_game.simulation", "SaveState"),
     "Simulation": ("ninja_game.simulation", "Simulation"),
     "Verdict": ("ninja_game.runs.verify", "Verdict"),
     "load_level": ("ninja_game.formats.load", "load_level"),
@@ -50,15 +67,25 @@ _HOMES = {
 }
 
 __all__ = [
+    "ArgumentError",
+    "Batch",
+    "BatchState",
+    "Demo",
     "DemoError",
     "FormatError",
+    "Input",
     "Level",
     "LevelError",
+    "MemoryUnavailableError",
+    "NamedLevel",
     "NinjaGameError",
+    "ObjectSpec",
+    "Recording",
     "Replay",
     "ReplayError",
     "RunResult",
     "RunTrace",
+    "SaveState",
     "Simulation",
     "Verdict",
     "__version__",

@@ -18,7 +18,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -27,26 +27,33 @@ from numpy.typing import ArrayLike, NDArray
 from ninja_game.batch.thread_pool import cores
 from ninja_game.batch.worlds import CompiledWorlds, Numbers, PlainWorlds, Worlds
 from ninja_game.compile_cache import choose_memory
+from ninja_game.errors import ArgumentError
 from ninja_game.sim.digest import world_digest
+from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, JUMP_PRESSED, KEYS_DOWN
+from ninja_game.sim.kinds import KINDS
 from ninja_game.sim.level import Level
+from ninja_game.sim.memory.declare import fields_of
 from ninja_game.sim.memory.layout import Records
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import OUTCOME_NAMES
-from ninja_game.simulation import BODIES, Body
+from ninja_game.simulation import Body, is_box
 
-__all__ = ["OUTCOME_NAMES", "Batch", "BatchState"]
+__all__ = ["OBJECT_FIELDS", "OUTCOME_NAMES", "Batch", "BatchState"]
 
-Which: TypeAlias = int | Sequence[int] | Numbers | None
-"""Numbers of worlds; None: all of them."""
+Which: TypeAlias = int | slice | Sequence[int] | Sequence[bool] | NDArray[np.intp] | NDArray[np.bool_] | None
+"""Worlds: by number, a slice of numbers, or one truth value for each world; None: all of them."""
+
+OBJECT_FIELDS = {kind.name: tuple(field.name for field in fields_of(kind.fields)) for kind in KINDS}
+"""Which fields of ``Batch.objects`` mean something, by the name of the kind; kinds share memory for the others."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class BatchState:
-    """Saved worlds of a batch: only good for batches of the same levels, body and memory. ``levels``: their levels."""
+    """Saved worlds of a batch: only good for batches of equal levels, body and memory. ``levels``: their levels."""
 
     levels: Numbers
-    states: Any
-    owner: tuple[Any, ...]
+    states: Any = field(repr=False)
+    owner: tuple[Any, ...] = field(repr=False)
 
 
 class Batch:
@@ -55,7 +62,7 @@ class Batch:
     ``levels``: what to play, one level or several. ``memory``: "compiled", "plain" (slow, needs no Numba) or "auto".
     ``threads``: how many may run at once, by default as many as there are cores; results never depend on it.
 
-    Observations are views, not copies: they show the worlds as they are now, after every call. Shapes, dtypes, units:
+    Observations are read-only views, not copies: they show the worlds as they are now. Shapes, dtypes, units:
 
     ============  ==================  ======================================================================
     positions     (count, 2) float64  the ninja's centre x, y, px, y downwards
@@ -64,14 +71,15 @@ class Batch:
     outcomes      (count,) int32      0 running, 1 exit, 2 dead: what came first
     gold, ticks   (count,) int32      pieces collected; ticks run
     levels_now    (count,) intp       which level each world plays
-    objects       (count, slots)      all objects by slot (sim/memory/schema.py): ``kind``, ``id``, ``x``, ``y`` …;
+    objects       (count, slots)      all objects by slot; which fields a kind has: ``OBJECT_FIELDS``;
                                       slot 0 and slots from ``used`` on are nobody
     places        (count, slots, 2)   their x, y as float64, px
     used          (count,) int32      slots in use
     records       (count,)            everything: the worlds themselves
     ============  ==================  ======================================================================
 
-    Raises LevelError for a level that cannot be played, MemoryUnavailableError for "compiled" without Numba.
+    Raises LevelError for a level that cannot be played, ArgumentError for another body or memory, or for no world,
+    MemoryUnavailableError for "compiled" without Numba.
     """
 
     def __init__(
@@ -83,24 +91,27 @@ class Batch:
         memory: str = "auto",
         threads: int | None = None,
     ) -> None:
-        self.levels = [levels] if isinstance(levels, Level) else list(levels)
+        self.levels = [levels] if isinstance(levels, (Level, str)) else list(levels)
         if count < 1 or not self.levels:
-            raise ValueError(f"{count} worlds in {len(self.levels)} levels; expected at least one of each")
-        if body not in BODIES:
-            raise ValueError(f"body is {body!r}; expected 'circle' or 'box'")
+            raise ArgumentError(f"{count} worlds in {len(self.levels)} levels; expected at least one of each")
         self.count = count
         self.body = body
         self.memory = choose_memory(memory)
         self.threads = threads or cores()
         make = CompiledWorlds if self.memory == "compiled" else PlainWorlds
-        self._worlds: Worlds = make(self.levels, count, body == "box")
-        self.records: Records = self._worlds.records
-        self.levels_now: Numbers = np.arange(count, dtype=np.intp) % len(self.levels)
+        self._worlds: Worlds = make(self.levels, count, is_box(body))
+        self._levels_now: Numbers = np.arange(count, dtype=np.intp) % len(self.levels)
         self._look()
         self.reset()
 
+    def __repr__(self) -> str:
+        return f"<Batch of {self.count} worlds in {len(self.levels)} levels, {self.body}, {self.memory}>"
+
     def _look(self) -> None:
-        """Make the views."""
+        """Make the views, which can only be read."""
+        self.records: Records = self._worlds.records.view()
+        self.levels_now: Numbers = self._levels_now.view()
+        self.records.flags.writeable = self.levels_now.flags.writeable = False
         ninja = self.records["ninja"]
         self.positions = pairs(ninja["x"])
         self.previous = pairs(ninja["prev_x"])
@@ -120,40 +131,63 @@ class Batch:
 
     # --- time ---
 
-    def step(self, inputs: ArrayLike) -> None:
-        """One tick of every world; ``inputs`` (count,): the keys of each, a sum of ``Input`` flags."""
-        self.run(np.asarray(inputs)[np.newaxis])
+    def step(self, inputs: ArrayLike, *, press: bool = False) -> None:
+        """One tick of every world; ``inputs`` (count,): a sum of ``Input`` flags for each (``press``: as in run)."""
+        row = np.asarray(inputs)
+        if row.shape != (self.count,):
+            raise ArgumentError(f"inputs are of shape {row.shape}; expected ({self.count},), the keys of each world")
+        self.run(row[np.newaxis], press=press)
 
-    def run(self, inputs: ArrayLike, *, stop: bool = False) -> int:
+    def run(self, inputs: ArrayLike, *, stop: bool = False, press: bool = False) -> int:
         """Many ticks of every world, ``inputs`` (ticks, count); the number of ticks run, over all worlds.
 
         ``stop``: worlds whose exit contact or death has been stand still; else they go on, as single worlds do.
+        ``press``: jump is pressed, as at a keyboard, where it is held and was not in the tick before; else a jump needs
+        both ``Input.JUMP_HELD`` and ``Input.JUMP_PRESSED``. Raises ArgumentError for other shapes and other numbers.
         """
         rows = np.asarray(inputs)
-        if rows.ndim != 2 or rows.shape[1] != self.count or not np.issubdtype(rows.dtype, np.integer):
-            raise ValueError(f"inputs are {rows.dtype} of shape {rows.shape}; expected integers, {self.count} a tick")
-        return self._worlds.run(np.ascontiguousarray(rows, np.uint8), self.levels_now, stop, self.threads)
+        if (
+            rows.ndim != 2
+            or rows.shape[1] != self.count
+            or not (np.issubdtype(rows.dtype, np.integer) or not rows.size)
+        ):
+            found = f"{rows.dtype} of shape {rows.shape}"
+            raise ArgumentError(f"inputs are {found}; expected integers, {self.count} a tick")
+        if rows.size and not 0 <= rows.min() <= rows.max() <= ALL_KEYS:
+            raise ArgumentError(f"inputs are {rows.min()} to {rows.max()}; expected sums of Input, 0 to {ALL_KEYS}")
+        keys = np.ascontiguousarray(rows, np.uint8)
+        return self._worlds.run(self._pressed(keys) if press else keys, self._levels_now, stop, self.threads)
+
+    def _pressed(self, keys: NDArray[np.uint8]) -> NDArray[np.uint8]:
+        """The keys with JUMP_PRESSED in every tick in which the jump key goes down, and in no other."""
+        held = keys & JUMP_HELD
+        before = np.vstack([self.records["ninja"]["jump_held"].astype(np.uint8) * JUMP_HELD, held[:-1]])
+        pressed: NDArray[np.uint8] = np.where(held > before, np.uint8(JUMP_PRESSED), np.uint8(0))
+        return keys & np.uint8(KEYS_DOWN) | pressed
 
     # --- single worlds ---
 
     def reset(self, worlds: Which = None, levels: Which = None) -> None:
         """Start worlds afresh, in the levels that they have or in those given."""
-        numbers = self._numbers(worlds)
+        numbers = numbers_of(worlds, self.count, "worlds")
         if levels is not None:
-            self.levels_now[numbers] = np.arange(len(self.levels))[np.asarray(levels)]
-        self._worlds.load(numbers, self.levels_now[numbers])
+            chosen = numbers_of(levels, len(self.levels), "levels")
+            if len(chosen) not in (1, len(numbers)):
+                raise ArgumentError(f"{len(chosen)} levels for {len(numbers)} worlds; expected one, or one for each")
+            self._levels_now[numbers] = chosen
+        self._worlds.load(numbers, self._levels_now[numbers])
 
     def save(self, worlds: Which = None) -> BatchState:
         """The states of worlds, to come back to."""
-        numbers = self._numbers(worlds)
-        return BatchState(self.levels_now[numbers], self._worlds.save(numbers), self._owner())
+        numbers = numbers_of(worlds, self.count, "worlds")
+        return BatchState(self._levels_now[numbers], self._worlds.save(numbers), self._owner())
 
     def restore(self, state: BatchState, worlds: Which = None) -> None:
-        """Put saved states into worlds, the same or others, as many. Raises ValueError if they do not fit."""
-        numbers = self._numbers(worlds)
+        """Put saved states into worlds, the same or others, as many. Raises ArgumentError if they do not fit."""
+        numbers = numbers_of(worlds, self.count, "worlds")
         if state.owner != self._owner() or len(state.levels) != len(numbers):
-            raise ValueError(f"{len(state.levels)} saved worlds do not fit {len(numbers)} of this batch")
-        self.levels_now[numbers] = state.levels
+            raise ArgumentError(f"{len(state.levels)} saved worlds do not fit {len(numbers)} of this batch")
+        self._levels_now[numbers] = state.levels
         self._worlds.restore(numbers, state.states, state.levels)
 
     def copy(self, sources: Which, targets: Which) -> None:
@@ -168,15 +202,30 @@ class Batch:
         """Sha256 (hex) of one world in canonical form, as ``Simulation.digest``."""
         return world_digest(self.world(index))
 
-    def _numbers(self, which: Which) -> Numbers:
-        """Numbers of worlds as an array. Raises IndexError for a world that is not there."""
-        everyone = np.arange(self.count, dtype=np.intp)
-        return everyone if which is None else np.atleast_1d(everyone[np.asarray(which, np.intp)])
-
     def _owner(self) -> tuple[Any, ...]:
         return self.levels, self.body, self.memory
 
 
+def numbers_of(which: Which, count: int, what: str) -> Numbers:
+    """The numbers, of ``count``, that are chosen. Raises ArgumentError for what chooses none of them."""
+    everyone = np.arange(count, dtype=np.intp)
+    if which is None:
+        return everyone
+    if isinstance(which, slice):
+        return everyone[which]
+    chosen = np.asarray(which)
+    if chosen.dtype == np.bool_:
+        if chosen.shape != (count,):
+            raise ArgumentError(f"{what} are chosen by {chosen.size} truth values; expected {count}, one for each")
+        return np.flatnonzero(chosen)
+    if chosen.ndim > 1 or not (np.issubdtype(chosen.dtype, np.integer) or not chosen.size):
+        expected = "numbers, a slice, or a truth value for each"
+        raise ArgumentError(f"{what} are chosen by {which!r:.40}; expected {expected}")
+    if chosen.size and not -count <= chosen.min() <= chosen.max() < count:
+        raise ArgumentError(f"{what} are {chosen.min()} to {chosen.max()}; expected numbers below {count}")
+    return np.atleast_1d(everyone[chosen.astype(np.intp)])
+
+
 def pairs(first: NDArray[np.float64]) -> NDArray[np.float64]:
     """A view of the numbers and of those that lie 8 bytes behind them in memory: x and y."""
-    return np.lib.stride_tricks.as_strided(first, (*first.shape, 2), (*first.strides, 8))
+    return np.lib.stride_tricks.as_strided(first, (*first.shape, 2), (*first.strides, 8), writeable=False)

@@ -13,6 +13,8 @@ from queue import SimpleQueue
 from threading import Thread
 from typing import TypeAlias
 
+from ninja_game.errors import ArgumentError
+
 Work: TypeAlias = Callable[[int, int], int]
 """Does items ``first`` … ``last`` - 1 and says how much that was."""
 
@@ -85,7 +87,7 @@ class ThreadPool:
 
     def __init__(self, threads: int) -> None:
         if threads < 1:
-            raise ValueError(f"threads is {threads}; expected at least 1")
+            raise ArgumentError(f"threads is {threads}; expected at least 1")
         self.threads = threads
         self._queues: list[SimpleQueue[_ParallelCall]] = [SimpleQueue() for _ in range(threads - 1)]
         for queue in self._queues:

@@ -35,6 +35,9 @@ COMMANDS = {
 }
 """Each command with its first line of help; module ``ninja_game.cli.NAME`` holds it as ``command``."""
 
+COMPILING = ("verify", "trace", "bench", "solve", "improve", "check")
+"""Those that may have to compile the rules first."""
+
 BAD_INPUT = 2
 """Exit code for input that cannot be read and for wrong usage."""
 
@@ -63,6 +66,8 @@ class Commands(click.Group):
             return None
         command = import_module(f"ninja_game.cli.{cmd_name}").command
         assert isinstance(command, click.Command)  # noqa: S101 - for the type checker
+        if cmd_name in COMPILING:
+            _announce_compiling()
         return command
 
     def resolve_command(
@@ -157,3 +162,11 @@ def main() -> NoReturn:
         if end.code in {INTERRUPTED, TERMINATED}:
             leave(end.code)
         raise
+
+
+def _announce_compiling() -> None:
+    """Say it before the rules are compiled, since that takes a while."""
+    from ninja_game.compile_cache import before_compiling
+
+    text = "ninja-game: compiling the rules for this machine, the first time only; it takes up to a minute"
+    before_compiling[:] = [lambda: click.echo(text, err=True)]

@@ -7,7 +7,6 @@ from typing import Any
 
 from ninja_game.formats.replay.text import Replay
 from ninja_game.player.scoring import level_score
-from ninja_game.sim.death import kill
 from ninja_game.sim.inputs import MAX_DEMO_TICKS, Demo, pressed
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
@@ -90,9 +89,8 @@ class Attempt:
             self._kill(EXPLOSIVE if chance < 0.3 else HARD_BULLET, dx, dy)
 
     def _kill(self, cause: int, dx: float, dy: float) -> None:
-        world = self.simulation.world
-        kill(world, cause, 0, dx, dy, world.ninja.x, world.ninja.y)
-        self.ended_tick = world.tick
+        self.simulation.kill(cause, dx, dy)
+        self.ended_tick = self.simulation.tick
 
     # --- practice ---
 

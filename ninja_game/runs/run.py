@@ -21,7 +21,7 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.replay.text import WAYPOINT_TICKS, Replay, Waypoint
 from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.events import EVENT_NAMES
-from ninja_game.sim.inputs import check_inputs
+from ninja_game.sim.inputs import check_inputs, first_ticks
 from ninja_game.sim.kinds import KIND_NAMES, KIND_OF
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import TraceRecord
@@ -39,8 +39,8 @@ OBJECT_RECORD = np.dtype([("x", "<f8"), ("y", "<f8"), ("s", "<i4")])
 """An object after a tick: position (px) and status number, both by kind."""
 
 
-MAX_TICKS = 10_000_000
-"""Longest run, almost three days of the game: what it records stays below 1 GB."""
+MAX_CELLS = 50_000_000
+"""Most objects times ticks in a trace: a gigabyte."""
 
 
 @dataclass(frozen=True)
@@ -97,22 +97,15 @@ def run_level(
     ``inputs``: one byte a tick, the sum of its ``Input`` flags (``Recording.playback`` gives them). ``memory``: as of
     ``Simulation``. ``digest``: tell the digest at the end too, as replays have it.
 
-    Raises LevelError for a level that cannot be played, DemoError for inputs that there are not, ArgumentError for more
-    than ten million ticks and for another body or memory.
+    Raises LevelError for a level that cannot be played, DemoError for more than a million inputs or for one that there
+    is not, ArgumentError for another body or memory.
     """
-    _check(inputs)
+    check_inputs(inputs)
     world = open_memory(memory, level, box=is_box(body))
     run = world.run(inputs)
     positions = np.frombuffer(run.places, np.float64).reshape(-1, 2)
     end = replay_digest(world.world()) if digest else ""
     return RunResult(OUTCOME_NAMES[world.outcome], world.gold, positions, np.frombuffer(run.states, np.uint8), end)
-
-
-def _check(inputs: bytes) -> None:
-    """Raise DemoError or ArgumentError for inputs that cannot be run."""
-    if len(inputs) > MAX_TICKS:
-        raise ArgumentError(f"the run is too long: {len(inputs)} ticks; expected at most {MAX_TICKS}")
-    check_inputs(inputs)
 
 
 def record_replay(
@@ -129,7 +122,7 @@ def record_replay(
     Ends with the first exit contact or death. Always runs on the plain memory, so that what it claims is what anybody
     can check. Raises LevelError for a level that cannot be played, ArgumentError for a run without ticks.
     """
-    played = inputs.ljust(ticks, b"\0")[:ticks] if ticks is not None else inputs
+    played = first_ticks(inputs, ticks) if ticks is not None else inputs
     if not played:
         raise ArgumentError("a replay has at least one tick")
     run = run_level(level, played, body=body, memory="plain", digest=True)
@@ -190,10 +183,13 @@ def trace_level(
 
     ``with_objects``: record objects too. ``events``: record the names of what happens. Raises what ``run_level`` does.
     """
-    _check(inputs)
+    check_inputs(inputs)
     world = open_memory(memory, level, box=is_box(body))
     kinds = [world.observe(id_ + 1)[0] for id_ in range(world.id_count)] if with_objects else []
     ids = tuple(id_ for id_, kind in enumerate(kinds) if KIND_OF[kind].traced)
+    if len(inputs) * len(ids) > MAX_CELLS:
+        found = f"{len(inputs)} ticks of {len(ids)} objects"
+        raise ArgumentError(f"the trace is too large: {found}; leave the objects out, or trace fewer ticks")
     record = world.trace(inputs, [id_ + 1 for id_ in ids], events=events)
     names = tuple(KIND_NAMES[kinds[id_]] for id_ in ids)
     return RunTrace(_ninja_rows(record), _object_rows(record, len(ids)), ids, names, _event_names(record))

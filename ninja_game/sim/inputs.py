@@ -45,6 +45,17 @@ def press_jumps(inputs: Iterable[int]) -> bytes:
     return bytes(fixed)
 
 
+MAX_TICKS = 1_000_000
+"""Longest run, almost seven hours: a slip in a number must not fill the memory."""
+
+
+def first_ticks(inputs: bytes, ticks: int) -> bytes:
+    """The inputs of the first ``ticks`` ticks; beyond them no key is down. Raises DemoError for more than a million."""
+    if not 0 <= ticks <= MAX_TICKS:
+        raise DemoError("a run of too many ticks", found=str(ticks)[:20], expected=f"0 to {MAX_TICKS}")
+    return inputs[:ticks].ljust(ticks, b"\0")
+
+
 MAX_DEMO_TICKS = 25_193
 """The game closes a recording at this length."""
 
@@ -79,18 +90,20 @@ class Demo:
         Input k while k < length; then the last one once more, its press of jump too; then no key.
         """
         end = self.end
-        played = self.inputs[:end].ljust(end, b"\0")
-        return (played + played[-1:])[:ticks].ljust(ticks, b"\0")
+        played = first_ticks(self.inputs, end)
+        return first_ticks(played + played[-1:], ticks)
 
 
 def fitted_demo(inputs: bytes, length: float) -> Demo:
     """The demo with as many inputs as it plays: superfluous ones dropped, missing ones added (no key)."""
     demo = Demo(inputs, length)
-    return Demo(inputs[: demo.end].ljust(demo.end, b"\0"), length, max(0, demo.end - len(inputs)))
+    return Demo(first_ticks(inputs, demo.end), length, max(0, demo.end - len(inputs)))
 
 
 def check_inputs(inputs: bytes) -> None:
-    """Raise DemoError for a tick with other bits than those of ``Input``."""
+    """Raise DemoError for more than a million ticks, and for a tick with other bits than those of ``Input``."""
+    if len(inputs) > MAX_TICKS:
+        raise DemoError("a run of too many ticks", found=str(len(inputs)), expected=f"0 to {MAX_TICKS}")
     wrong = inputs.translate(None, _VALID)
     if wrong:
         tick = inputs.index(wrong[:1])

@@ -9,7 +9,7 @@ from ninja_game.errors import LevelError
 from ninja_game.sim.collision.tiles import ODD_HALF_ID, UNDEFINED_ID
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import EXIT, INERT, NINJA, VALUE_COUNTS
-from ninja_game.sim.level import COLUMNS, ROWS, Level
+from ninja_game.sim.level import COLUMNS, ROWS, TILES, Level
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import CAPACITY, Ninja, TileMap, World
 from ninja_game.sim.objects.dispatch import create
@@ -38,13 +38,18 @@ class RecordTable(NamedTuple):
 
 
 def record_table(data: Level) -> RecordTable:
-    """The records that make an object. Raises LevelError for a level without a ninja or with too many objects."""
-    records = [record for record in data.objects if record.kind >= 0]
-    kinds = [record.kind for record in records]
+    """The records that make an object: the door through which every level comes, whatever its origin.
+
+    What comes through it no rule can stumble over. A record of a kind that there is not creates nothing (objects.md
+    §2.1). Raises LevelError for a level that is none, without a ninja or with too many objects.
+    """
+    _check(data)
+    records = [record for record in data.objects if 0 <= record.kind < len(VALUE_COUNTS)]
+    kinds = [int(record.kind) for record in records]
     if NINJA not in kinds:
         raise LevelError("this level cannot be played: it has no ninja", hint="add one, a record of type 5")
     counts = [len(record.values) for record in records]
-    values = [[*record.values[:9], *[0.0] * (9 - count)] for record, count in zip(records, counts, strict=True)]
+    values = [[*map(float, record.values[:9]), *[0.0] * (9 - len(record.values))] for record in records]
     slots = len(records) + 1 + kinds.count(EXIT)
     if slots > CAPACITY:
         raise LevelError(
@@ -53,6 +58,23 @@ def record_table(data: Level) -> RecordTable:
             expected=f"at most {CAPACITY - 1}",
         )
     return RecordTable(kinds, counts, values, slots)
+
+
+def _check(data: object) -> None:
+    """Raise LevelError for what is no level: 713 whole numbers and records of numbers."""
+    if not isinstance(data, Level):
+        hint = "load_level(path) and parse_level(text) read one"
+        raise LevelError("this is no level", found=repr(data)[:40], expected="a Level", hint=hint)
+    if len(data.tiles) != TILES or not all(issubclass(kind, int) for kind in set(map(type, data.tiles))):
+        raise LevelError("not the tiles of a level", expected=f"{TILES} whole numbers")
+    for number, record in enumerate(data.objects):
+        try:
+            good = isinstance(record.kind, int) and all(isinstance(float(value), float) for value in record.values)
+        except (TypeError, ValueError, OverflowError, AttributeError):
+            good = False
+        if not good:
+            expected = "a whole number as its kind, and float64 numbers"
+            raise LevelError(f"object {number} of the level is none", found=repr(record)[:60], expected=expected)
 
 
 @fast

@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 
 from ninja_game import Level, Simulation, parse_level
-from ninja_game.batch.batch import Batch
+from ninja_game.batch.batch import OBJECT_FIELDS, Batch
 from ninja_game.batch.kernels import run_worlds
 from ninja_game.batch.thread_pool import ThreadPool
 from ninja_game.compile_cache import MemoryUnavailableError, compiled, compiled_available
+from ninja_game.errors import ArgumentError, LevelError
+from ninja_game.sim.inputs import press_jumps
 from ninja_game.sim.kinds import DRONE, EXIT, MINE
 from ninja_game.sim.memory.layout import OBJECT
 from ninja_game.sim.states import OUTCOME_NAMES
@@ -162,12 +164,22 @@ def test_a_world_goes_on_alike_in_every_slot(memory: str) -> None:
 @pytest.mark.parametrize("memory", MEMORIES)
 def test_wrong_use_is_refused(memory: str) -> None:
     batch = Batch(LEVELS[0], 2, memory=memory)
-    with pytest.raises(ValueError, match="expected integers, 2 a tick"):
+    with pytest.raises(ValueError, match=r"of shape \(1,\); expected \(2,\)"):
         batch.step([1])
     with pytest.raises(ValueError, match="expected integers"):
         batch.step([0.5, 1.0])
-    with pytest.raises(IndexError):
-        batch.reset(2)
+    for keys_of_all in ([16, 0], [-1, 0], [18, 18]):
+        with pytest.raises(ArgumentError, match="expected sums of Input, 0 to 15"):
+            batch.step(keys_of_all)
+    with pytest.raises(ArgumentError, match=r"of shape \(1000,\); expected \(2,\)"):
+        batch.step(np.zeros(1000, np.uint8))
+    for which, message in ((2, "numbers below 2"), ([True] * 3, "3 truth values; expected 2"), ("all", "truth value")):
+        with pytest.raises(ArgumentError, match=message):
+            batch.reset(which)  # type: ignore[arg-type]
+    with pytest.raises(ArgumentError, match="levels are 1 to 1"):
+        batch.reset(0, levels=1)
+    with pytest.raises(LevelError, match="this is no level; found 'levels/01'"):
+        Batch("levels/01", 3, memory=memory)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="1 saved worlds do not fit 2"):
         batch.restore(batch.save(0))
     with pytest.raises(ValueError, match="do not fit"):
@@ -220,3 +232,48 @@ def test_an_empty_choice_of_levels_is_refused() -> None:
     none: list[Level] = []
     with pytest.raises(ValueError, match="0 levels"):
         Batch(none, 1)
+
+
+@pytest.mark.parametrize("memory", MEMORIES)
+def test_worlds_are_chosen_by_truth_values_and_slices_too(memory: str) -> None:
+    batch = Batch(LEVELS[0], 8, memory=memory)
+    batch.run(keys(10, 8))
+    batch.reset(np.arange(8) == 5)
+    assert batch.ticks.tolist() == [10, 10, 10, 10, 10, 0, 10, 10]
+    batch.reset([False] * 8)
+    batch.reset([])
+    assert batch.ticks.tolist() == [10, 10, 10, 10, 10, 0, 10, 10]
+    batch.reset(slice(2, 4))
+    assert batch.ticks.tolist() == [10, 10, 0, 0, 10, 0, 10, 10]
+
+
+@pytest.mark.parametrize("memory", MEMORIES)
+def test_press_jumps_as_a_keyboard_does(memory: str) -> None:
+    held = [2, 6, 6, 2, 4, 4, 4, 0, 6, 5]
+    pressed = press_jumps(held)
+    ours, theirs = (Batch(LEVELS[1], 1, memory=memory) for _ in range(2))
+    theirs.run([[down] for down in pressed])
+    ours.run([[down] for down in held[:6]], press=True)
+    for down in held[6:]:
+        ours.step([down], press=True)
+    assert ours.digest(0) == theirs.digest(0)
+    single = Simulation(LEVELS[1])
+    for down in held:
+        single.step(left=bool(down & 1), right=bool(down & 2), jump=bool(down & 4))
+    assert single.inputs == pressed
+
+
+@pytest.mark.parametrize("memory", MEMORIES)
+def test_observations_cannot_be_written_and_are_not_printed(memory: str) -> None:
+    batch = Batch(LEVELS[0], 3, memory=memory)
+    for view in (batch.positions, batch.states, batch.levels_now, batch.places, batch.records, batch.objects):
+        with pytest.raises(ValueError, match="read-only"):
+            view[0] = view[1]
+    assert repr(batch) == f"<Batch of 3 worlds in 1 levels, circle, {memory}>"
+    assert len(repr(batch.save())) < 80
+
+
+def test_every_field_of_a_kind_is_one_of_the_objects_dtype() -> None:
+    assert OBJECT.names is not None
+    assert set(OBJECT_FIELDS) >= {"gold", "drone", "door"}
+    assert {name for names in OBJECT_FIELDS.values() for name in names} == set(OBJECT.names)

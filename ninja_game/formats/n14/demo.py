@@ -8,7 +8,7 @@ import re
 from ninja_game.errors import DemoError
 from ninja_game.formats.n14.legacy_demo import parse_legacy_demo
 from ninja_game.formats.numbers import format_number, parse_number
-from ninja_game.sim.inputs import Demo, check_inputs, fitted_demo
+from ninja_game.sim.inputs import MAX_TICKS, Demo, check_inputs, fitted_demo
 
 TICKS_PER_WORD = 7
 _PLAIN_WORD = re.compile(r"0|[1-9][0-9]{0,14}")
@@ -32,6 +32,9 @@ def parse_demo(text: str, *, length: float | None = None) -> Demo:
         return parse_legacy_demo(text, length=length)
     length_text, _, rest = text.partition(":")
     words = rest.partition(":")[0]
+    if (words.count("|") + 1) * TICKS_PER_WORD >= MAX_TICKS:
+        found = f"{words.count('|') + 1} words"
+        raise DemoError("a demo that is too long", found=found, expected=f"at most {MAX_TICKS // TICKS_PER_WORD}")
     return fitted_demo(_inputs_of_words(words.split("|")), parse_number(length_text))
 
 

@@ -7,10 +7,7 @@ from collections.abc import Iterable
 from itertools import groupby
 
 from ninja_game.errors import ReplayError
-from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, check_inputs, pressed
-
-MAX_TICKS = 1_000_000
-"""Longest replay, almost seven hours: a slip in a count must not fill the memory."""
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEYS_DOWN, MAX_TICKS, check_inputs, pressed
 
 _WIDTH = 100
 _RUN = re.compile(r"(\.|L?R?J?)([!-]?)(?:\*([1-9][0-9]{0,6}))?")

@@ -15,7 +15,8 @@ from ninja_game.formats.lines import Line, numbered_lines
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import NAN
 from ninja_game.formats.replay.headers import COUNT_LIMIT, Headers
-from ninja_game.formats.replay.input_runs import MAX_TICKS, read_inputs, write_inputs
+from ninja_game.formats.replay.input_runs import read_inputs, write_inputs
+from ninja_game.sim.inputs import MAX_TICKS, first_ticks
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
@@ -79,7 +80,7 @@ class Replay:
 
     def playback(self, ticks: int) -> bytes:
         """The input of each of the first ``ticks`` ticks."""
-        return self.inputs[:ticks].ljust(ticks, b"\0")
+        return first_ticks(self.inputs, ticks)
 
 
 _FIRST_LINE = re.compile(rf"{MAGIC} +([0-9]{{1,9}})[ \t]*")

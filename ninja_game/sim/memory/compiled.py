@@ -49,9 +49,9 @@ class CompiledMemory:
     def __init__(self, compiled: Compile, level: Level, *, box: bool) -> None:
         self._compiled = compiled
         self._step, self._observe = compiled(step_world), compiled(observe_object)
+        self._levels, self._worlds = load_worlds(compiled, [level], box=box)
         self.tiles = TileMap()
         self.tiles.tiles = grid_tiles(level)
-        self._levels, self._worlds = load_worlds(compiled, [level], box=box)
         worlds = self._worlds
         self._state = state_view(worlds, 0)
         self._fresh = self._state.copy()

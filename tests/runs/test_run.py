@@ -1,0 +1,105 @@
+"""Whole runs: value equality, inputs checked at the entry, limits, an end that Ctrl-C can bring."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from ninja_game import ArgumentError, DemoError, Input, Simulation, parse_level, run_level, trace_level
+from ninja_game.compile_cache import compiled_available
+from ninja_game.runs import run as runs
+from ninja_game.sim.inputs import MAX_TICKS, Demo
+from tests.support.memories import BOTH
+
+TEXT = "0" * 713 + "|5^100,566!0^160,566"
+LEVEL = parse_level(TEXT)
+
+
+@pytest.mark.parametrize("memory", BOTH)
+def test_equal_runs_and_traces_are_equal(memory: str) -> None:
+    same, other = bytes([2] * 30), bytes([1] * 30)
+    assert run_level(LEVEL, same, memory=memory) == run_level(LEVEL, same, memory="plain")
+    assert run_level(LEVEL, same, memory=memory) != run_level(LEVEL, other, memory=memory)
+    assert trace_level(LEVEL, same, memory=memory) == trace_level(LEVEL, same, memory="plain")
+    assert len({run_level(LEVEL, same), run_level(LEVEL, same)}) == 1
+    assert len(repr(run_level(LEVEL, same))) < 100
+
+
+@pytest.mark.parametrize("memory", BOTH)
+def test_keys_that_there_are_not_are_refused_at_the_entry(memory: str) -> None:
+    for keys in (16, 200, -1):
+        with pytest.raises(ArgumentError, match="sum of Input flags"):
+            Simulation(LEVEL, memory=memory).step_keys(keys)
+    with pytest.raises(DemoError, match="tick 1 has keys that there are not; found 16"):
+        run_level(LEVEL, bytes([0, 16]), memory=memory)
+    with pytest.raises(DemoError, match="tick 0"):
+        trace_level(LEVEL, bytes([99]), memory=memory)
+    run = Simulation(LEVEL, memory=memory)
+    run.step_keys(Input.RIGHT | Input.JUMP_HELD | Input.JUMP_PRESSED)
+    assert run.inputs == bytes([14])
+
+
+@pytest.mark.parametrize("memory", BOTH)
+def test_a_save_state_fits_every_equal_level_and_no_other(memory: str) -> None:
+    run, other = Simulation(LEVEL, memory=memory), Simulation(parse_level(TEXT), memory=memory)
+    run.step(right=True)
+    other.restore(run.save())
+    assert other.digest() == run.digest()
+    assert run.save() == other.save()
+    with pytest.raises(ArgumentError, match="another level"):
+        Simulation(parse_level(TEXT.replace("160", "161")), memory=memory).restore(run.save())
+
+
+@pytest.mark.parametrize("memory", BOTH)
+def test_both_memories_show_tiles_objects_and_events_alike(memory: str) -> None:
+    run = Simulation(LEVEL, memory=memory)
+    assert run.tiles.tiles.count(1) == 33 * 25 - 31 * 23
+    while not run.gold:
+        run.step(right=True)
+    assert [(event.name, event.object_id) for event in run.events] == [("gold-taken", 1)]
+    assert run.tick == 26
+    assert run.object(1) == run.objects[0]
+    with pytest.raises(ArgumentError, match="no object 0"):
+        run.object(0)
+
+
+@pytest.mark.parametrize("memory", BOTH)
+def test_events_are_traced_alike(memory: str) -> None:
+    ours = trace_level(LEVEL, bytes([2] * 40), memory=memory, events=True)
+    assert [(tick, names) for tick, names in enumerate(ours.events) if names] == [(25, "gold-taken")]
+
+
+def test_runs_that_are_too_long_are_refused_before_they_take_memory(monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(DemoError, match="too many ticks; found 1000000000000;"):
+        Demo(b"\2", 1.0).playback(10**12)
+    with pytest.raises(DemoError, match="too many ticks"):
+        run_level(LEVEL, bytes(MAX_TICKS + 1))
+    monkeypatch.setattr(runs, "MAX_CELLS", 10)
+    with pytest.raises(ArgumentError, match="11 ticks of 1 objects"):
+        trace_level(LEVEL, bytes(11))
+
+
+@pytest.mark.skipif(not compiled_available() or sys.platform == "win32", reason="signals, Numba")
+def test_ctrl_c_ends_a_long_compiled_run_soon() -> None:
+    program = (
+        "from ninja_game import parse_level, run_level\n"
+        f"level = parse_level({TEXT!r})\n"
+        "run_level(level, bytes(9), memory='compiled')\n"
+        "print('runs', flush=True)\n"
+        "while True: run_level(level, bytes(1_000_000), memory='compiled')\n"
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stdout is not None
+    assert process.stdout.readline() == "runs\n"
+    time.sleep(0.3)
+    start = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    assert time.monotonic() - start < 2
+    assert "KeyboardInterrupt" in errors

@@ -1,0 +1,70 @@
+"""The door of the world: whatever a level holds, it is played or refused with a word, on both memories alike."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ninja_game.compile_cache import compiled_available
+from ninja_game.errors import LevelError
+from ninja_game.sim.kinds import GOLD, NINJA
+from ninja_game.sim.level import TILES, Level, ObjectSpec
+from ninja_game.sim.memory.compiled import CompiledMemory
+from ninja_game.sim.memory.compiler import Compiler
+from ninja_game.simulation import Simulation
+from tests.support.memories import BOTH
+
+NINJA_SPEC = ObjectSpec(NINJA, (100.0, 300.0))
+GOLD_SPEC = ObjectSpec(GOLD, (100.0, 300.0))
+
+
+@pytest.mark.parametrize("memory", BOTH)
+@pytest.mark.parametrize("kind", [13, 99, 10**17, -1, -2, -3, -99])
+def test_a_record_of_a_kind_that_there_is_not_creates_nothing(kind: int, memory: str) -> None:
+    run = Simulation(Level(objects=(ObjectSpec(kind, (1.0, 2.0)), NINJA_SPEC, GOLD_SPEC)), memory=memory)
+    run.step(right=True)
+    assert [(o.id, o.kind) for o in run.objects] == [(1, "gold")]
+
+
+@pytest.mark.parametrize("memory", BOTH)
+@pytest.mark.parametrize(
+    "level, message",
+    [
+        ("levels/01-first-steps.txt", "this is no level"),
+        (Level(tiles=(0,) * 12, objects=(NINJA_SPEC,)), "713 whole numbers"),
+        (Level(tiles=(0.5,) * TILES, objects=(NINJA_SPEC,)), "713 whole numbers"),  # type: ignore[arg-type]
+        (Level(objects=(NINJA_SPEC, ObjectSpec(0, ("x", 2.0)))), "object 1 of the level is none"),  # type: ignore[arg-type]
+        (Level(objects=(NINJA_SPEC, ObjectSpec(0, (10**400, 2.0)))), "object 1 of the level is none"),
+        (Level(objects=(ObjectSpec(0.5, (1.0, 2.0)), NINJA_SPEC)), "object 0 of the level is none"),  # type: ignore[arg-type]
+        (Level(objects=(GOLD_SPEC,)), "it has no ninja"),
+        (Level(objects=(NINJA_SPEC,) * 13_000), "too many objects"),
+    ],
+)
+def test_what_is_no_level_is_refused(level: Level, message: str, memory: str) -> None:
+    with pytest.raises(LevelError, match=message):
+        Simulation(level, memory=memory)
+
+
+@cache
+def checked() -> Compiler:
+    """One compiler of kernels that refuse indices out of range, for all examples."""
+    return Compiler(checked=True)
+
+
+numbers = st.one_of(st.floats(), st.integers(-3, 40).map(float), st.sampled_from([math.nan, math.inf, 1e300, 792.0]))
+specs = st.builds(ObjectSpec, st.integers(-2, 15), st.lists(numbers, max_size=10).map(tuple))
+tiles = st.lists(st.integers(-5, 50), min_size=TILES, max_size=TILES).map(tuple)
+
+
+@pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+@settings(max_examples=200, deadline=None)
+@given(tiles, st.lists(specs, max_size=12), st.binary(min_size=40, max_size=40), st.booleans())
+def test_no_hostile_level_leads_out_of_bounds(
+    ids: tuple[int, ...], records: list[ObjectSpec], keys: bytes, box: bool
+) -> None:
+    world = CompiledMemory(checked(), Level(ids, (NINJA_SPEC, *records)), box=box)
+    world.run(bytes(key & 15 for key in keys))
