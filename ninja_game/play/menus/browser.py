@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from os import sep
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -63,7 +64,7 @@ class Browser(ThumbnailScreen):
         catalogue.problems.clear()
         self.entries = catalogue.singles()
         self.bests = self.player.records.level_bests()
-        self.message = unreadable(catalogue.problems)
+        self.message = unreadable([problem.removeprefix(f"{catalogue.folder}{sep}") for problem in catalogue.problems])
         self._arrange()
         super().enter()
 

@@ -54,7 +54,8 @@ class Panel(MenuScreen):
         canvas.fill_rect(surface, veil, 0, 0, WIDTH, HEIGHT)
         x, y, w, h = self._box
         theme.window(surface, x, y, w, h)
-        theme.text(surface, self.title, x + w / 2, y + 17, size=17, align="centre", bold=True, width=w - 24)
+        size = 17 if theme.width(self.title, 17, bold=True) < w - 24 else 12
+        theme.text(surface, self.title, x + w / 2, y + 17, size=size, align="centre", bold=True, width=w - 24)
         self.draw_widgets(surface)
         return None
 

@@ -45,7 +45,7 @@ class Conflict(Panel):
 
     def __init__(self, table: BindingTable, action: str, slot: int, name: str, others: Sequence[str]) -> None:
         labels = " and ".join(ACTIONS[other].label for other in others)
-        super().__init__(table.screen.app, f"{input_label(table.device, name)}: {labels}")
+        super().__init__(table.screen.app, f"{input_label(table.device, name)} already means {labels}")
         self.table = table
         self.action = action
         self.slot = slot

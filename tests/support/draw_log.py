@@ -1,0 +1,124 @@
+"""What is drawn, as lines of text: every text, shape, sprite and picture of one whole redraw, in its order.
+
+Numbers are logical px, colours are roles of the palette.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from typing import Any
+from unittest.mock import patch
+
+import pygame
+
+from ninja_game.play.menus.thumbnails import Thumbnails
+from ninja_game.play.ui.canvas import Canvas
+from ninja_game.play.ui.lettering import Lettering
+from ninja_game.play.ui.palette import ROLES, Palette
+from ninja_game.play.view.sprites.backdrop import Backdrop
+from ninja_game.play.view.sprites.draw_target import DrawTarget
+from ninja_game.play.view.sprites.drawing import SpriteKey
+
+
+def _at(*values: float) -> str:
+    return ",".join(f"{value:.1f}".removesuffix(".0") for value in values)
+
+
+def _sprite_name(key: SpriteKey) -> str:
+    name = getattr(key.drawing.paint, "__name__", "?")
+    turn = f" turned {key.turn}" if key.turn else ""
+    faded = f" faded {key.alpha}/8" if key.alpha != 8 else ""
+    return f"{name}({', '.join(map(str, key.parameters))}){turn}{faded}"
+
+
+class DrawLog:
+    """The lines of what is drawn while ``recording`` lasts, between ``installed`` and its end."""
+
+    def __init__(self) -> None:
+        self._lines: list[str] | None = None
+        self._palette: Palette | None = None
+        self._static: dict[Backdrop, dict[int, list[tuple[SpriteKey, float, float]]]] = {}
+
+    @contextmanager
+    def recording(self, palette: Palette) -> Iterator[list[str]]:
+        """The lines of what is drawn meanwhile, in colours of a palette."""
+        self._palette = palette
+        lines: list[str] = []
+        self._lines = lines
+        try:
+            yield lines
+        finally:
+            self._lines = None
+
+    @contextmanager
+    def installed(self) -> Iterator[None]:
+        """The methods that draw are watched."""
+        notes: list[tuple[type, str, Callable[..., str]]] = [
+            (Lettering, "draw", self._text),
+            (Canvas, "fill_rect", self._fill),
+            (Canvas, "frame_rect", self._frame),
+            (Canvas, "line", lambda _, __, c, a, b, w=1: f"line {self._colour(c)} {_at(*a)} to {_at(*b)} width {w:g}"),
+            (Canvas, "circle", lambda _, __, c, at, r, w=0: f"circle {self._colour(c)} {_at(*at)} r {r:g} width {w:g}"),
+            (Canvas, "polygon", lambda _, __, c, at: f"polygon {self._colour(c)} {'  '.join(_at(*p) for p in at)}"),
+            (DrawTarget, "sprite", lambda _, key, x, y: f"sprite {_sprite_name(key)} at {_at(x, y)}"),
+            (DrawTarget, "picture", lambda _, __, x, y: f"figure at {_at(x, y)}"),
+            (DrawTarget, "line", self._beam),
+            (DrawTarget, "disc", lambda _, c, x, y, r: f"disc {self._colour(c)} at {_at(x, y)} r {r:g}"),
+            (Thumbnails, "draw", lambda _, __, e, x, y, w: f"thumbnail of {e.title!r} at {_at(x, y)} width {w:g}"),
+            (Backdrop, "_place", self._place),
+            (Backdrop, "update", self._backdrop),
+        ]
+        with ExitStack() as stack:
+            for owner, method, note in notes:
+                stack.enter_context(self._watched(owner, method, note))
+            yield
+
+    def _watched(self, owner: type, method: str, note: Callable[..., str]) -> Any:
+        """Patch a method: note its call, then do it."""
+        original = getattr(owner, method)
+
+        def noted(*args: Any, **named: Any) -> Any:
+            if self._lines is not None or method == "_place":
+                line = note(*args, **named)
+                if line and self._lines is not None:
+                    self._lines.append(line)
+            return original(*args, **named)
+
+        return patch.object(owner, method, noted)
+
+    def _colour(self, colour: Any) -> str:
+        found = pygame.Color(colour)
+        alpha = "" if found.a == 255 else f"/{found.a}"
+        for role in ROLES:
+            if getattr(self._palette, role)[:3] == found[:3]:
+                return role + alpha
+        return f"#{found.r:02x}{found.g:02x}{found.b:02x}{alpha}"
+
+    # --- lines of what has many parameters ---
+
+    def _text(self, _: Any, surface: Any, text: str, x: float, y: float, size: float, colour: Any,
+              *, align: str = "left", bold: bool = False) -> str:  # fmt: skip
+        style = (" bold" if bold else "") + (f" {align}" if align != "left" else "")
+        return f"text {text!r} at {_at(x, y)} size {size:g}{style} {self._colour(colour)}" if surface else ""
+
+    def _fill(self, _: Any, __: Any, c: Any, x: float, y: float, w: float, h: float, radius: float = 0) -> str:
+        return f"fill {self._colour(c)} {_at(x, y)} {_at(w)} x {_at(h)} radius {radius:g}"
+
+    def _frame(self, _: Any, __: Any, c: Any, x: float, y: float, w: float, h: float,
+               width: float = 1, radius: float = 0) -> str:  # fmt: skip
+        return f"frame {self._colour(c)} {_at(x, y)} {_at(w)} x {_at(h)} width {width:g} radius {radius:g}"
+
+    def _beam(self, _: Any, c: Any, ax: float, ay: float, bx: float, by: float, width: float = 0) -> str:
+        return f"beam {self._colour(c)} {_at(ax, ay)} to {_at(bx, by)} width {width:.1f}"
+
+    def _place(self, backdrop: Backdrop, slot: int, sprites: Any) -> str:
+        self._static.setdefault(backdrop, {})[slot] = list(sprites)
+        return ""
+
+    def _backdrop(self, backdrop: Backdrop, *_: Any) -> str:
+        places: dict[str, list[str]] = {}
+        for sprites in self._static.get(backdrop, {}).values():
+            for key, x, y in sprites:
+                places.setdefault(_sprite_name(key), []).append(_at(x, y))
+        return "\n".join(f"static {name} at {'  '.join(where)}" for name, where in places.items())

@@ -1,0 +1,256 @@
+"""A short life of a player, played by a script, that shows every screen of the game: for the contact sheet and for
+the recorded screens of the tests."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from random import Random
+from unittest.mock import patch
+
+import pygame
+
+from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menus.help.screen import HelpScreen
+from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.pause import PausePanel
+from ninja_game.play.menus.settings.screen import PAGES
+from tests.support.menu_driver import MenuDriver
+
+RANGE = """ninja-game level 1
+name: Target practice
+author: nobody
+|@..........L...................|
+|###............................|
+|...............................|
+|...........C...................|
+|...............................|
+|...............................|
+|...............................|
+|...............................|
+|...............................|
+|...................+...........|
+|...............................|
+|...............................|
+|...............................|
+|...............................|
+|....Z...................Q......|
+|...............................|
+|...............................|
+|...............................|
+|...............................|
+|...........................X...|
+|.........x.....................|
+|...............................|
+|###############################|
+laser drone 12,1 alternating left
+chaingun drone 12,4 alternating left
+gauss turret 20,10
+homing launcher 25,15
+zap drone 5,15 surface-cw right seeker
+exit 28,20 switch 10,21
+"""
+"""A level in which everything that shoots sees the ninja."""
+
+WITHOUT_CHANCE = ("ninja_game.play.menus.attract.Random", "ninja_game.play.level.play.Random")
+DATE = "2026-02-03T04:05:06+00:00"
+
+
+def always_alike() -> list[object]:
+    """Patches that take chance and the date out of the screens; start them before the program, stop them after."""
+    patches = [patch(name, lambda seed=None: Random(seed or 1)) for name in WITHOUT_CHANCE]
+    return [*patches, patch("ninja_game.player.records.now_text", lambda: DATE)]
+
+
+def tour(driver: MenuDriver) -> Iterator[str]:
+    """Go from screen to screen; the name of each, when it is shown."""
+    yield from _first_steps(driver)
+    yield from _an_episode(driver)
+    yield from _levels(driver)
+    yield from _records_and_replays(driver)
+    yield from _settings(driver)
+    yield from _help(driver)
+
+
+def home(driver: MenuDriver) -> None:
+    """Back to the main menu."""
+    for _ in range(10):
+        if isinstance(driver.top(), MainMenu):
+            return
+        # From a paused level escape leads back into it.
+        driver.press("q" if isinstance(driver.top(), PausePanel) else "escape")
+    raise AssertionError(f"no way home from {driver.top()}")
+
+
+def _level(driver: MenuDriver) -> LevelScreen:
+    level = driver.top()
+    assert isinstance(level, LevelScreen)
+    return level
+
+
+def _first_steps(driver: MenuDriver) -> Iterator[str]:
+    """Everything as a new player sees it."""
+    driver.frames(90)
+    yield "main-menu"
+    driver.press("escape")
+    yield "leave-the-game"
+    driver.press("escape")
+    driver.open("Records")
+    yield "records-empty"
+    home(driver)
+    driver.press("tab")
+    yield "boss"
+    driver.press("tab")
+
+
+def _an_episode(driver: MenuDriver) -> Iterator[str]:
+    """The first episode, with a pause and a death on the way."""
+    driver.open("Play")
+    driver.frames(8)
+    yield "episodes-new"
+    driver.press("down")
+    yield "episodes-locked"
+    driver.press("up", "return")
+    driver.frames(40)
+    yield "ready-first-time"
+    driver.press("space")
+    driver.frames(30)
+    driver.press("p")
+    yield "paused"
+    driver.press("p")
+    driver.press("k")
+    driver.frames(5)
+    yield "dead"
+    driver.frames(60)
+    yield "dead-message"
+    driver.press("space")
+    for number in range(1, 6):
+        level = _level(driver)
+        if number == 4:
+            driver.app.change_settings(show_keys=True)
+            level.begin()
+            driver.keys.script = [2] * 60
+            driver.frames(60)
+            yield "playing-with-keys"
+            driver.app.change_settings(show_keys=False)
+            level.retry()
+        level.begin()
+        driver.play_replay(number)
+        if number in (1, 5):
+            driver.frames(20)
+            yield "passed" if number == 1 else "passed-last-of-episode"
+        driver.press("space")
+    driver.frames(6)
+    yield "episode-passed"
+    driver.press("escape")
+    driver.frames(6)
+    yield "episodes-one-passed"
+
+
+def _levels(driver: MenuDriver) -> Iterator[str]:
+    """The browser, a ghost, practice, things that shoot, little time."""
+    (driver.player.folder / "levels" / "target.txt").write_text(RANGE)
+    (driver.player.folder / "levels" / "broken.txt").write_text("ninja-game level 1\nnonsense")
+    home(driver)
+    driver.open("Levels")
+    driver.frames(20)
+    yield "levels"
+    driver.press("return", "space")
+    driver.frames(45)
+    yield "playing-with-a-ghost"
+    level = _level(driver)
+    level.attempt.lifetime = 150
+    level.shown_lifetime = 150.0
+    yield "playing-in-danger"
+    driver.press("p", "q")
+    driver.press("up")
+    driver.type("target")
+    driver.frames(4)
+    yield "levels-found"
+    driver.type("zz")
+    yield "levels-none-found"
+    driver.press("backspace", "backspace", "down", "return")
+    _level(driver).begin()
+    for ticks in (25, 20, 15, 45):
+        driver.frames(ticks)
+        yield f"shooting-{_level(driver).attempt.simulation.tick}"
+    driver.press("escape")
+    home(driver)
+    driver.open("Levels")
+    driver.press("right", "right", "return", "space")
+    driver.frames(20)
+    driver.press("f5")
+    yield "practice"
+    for key in ("1", "2", "3", "4", "5"):
+        driver.press(key)
+    yield "practice-overlays"
+    home(driver)
+
+
+def _records_and_replays(driver: MenuDriver) -> Iterator[str]:
+    """What was played."""
+    driver.open("Records")
+    yield "records"
+    home(driver)
+    driver.open("Replays")
+    driver.frames(4)
+    yield "replays"
+    driver.press("delete")
+    yield "replays-delete"
+    home(driver)
+    driver.open("Replays")
+    driver.press("return")
+    driver.frames(80)
+    yield "replay"
+    driver.press("p", "equals")
+    yield "replay-paused"
+    home(driver)
+
+
+def _settings(driver: MenuDriver) -> Iterator[str]:
+    """Every page, a slider with the focus, a press that is waited for, a key that is taken."""
+    driver.open("Settings")
+    for page in PAGES:
+        driver.settings_page(page)
+        yield f"settings-{page.lower()}"
+    driver.settings_page("Keyboard")
+    driver.press("return")
+    yield "settings-press-a-key"
+    driver.press("r")
+    yield "settings-key-taken"
+    home(driver)
+
+
+def _help(driver: MenuDriver) -> Iterator[str]:
+    """Every page, when what it tells of has just happened."""
+    screen = driver.open("Help")
+    assert isinstance(screen, HelpScreen)
+    for index, topic in enumerate(screen.topics):
+        screen.list._select(index)
+        demonstration = screen.demonstration
+        if demonstration is not None:
+            for _ in range(len(demonstration.page.inputs)):
+                screen.update(25)
+                happened = {event.name for event in demonstration.simulation.events}
+                if happened & set(demonstration.page.shows):
+                    break
+            for _ in range(3):
+                screen.update(25)
+        yield f"help-{topic.lower().replace(' ', '-')}"
+    home(driver)
+
+
+def run_tour(folder: Path, size: tuple[int, int], show: Callable[[MenuDriver, str], None]) -> None:
+    """Play the whole tour in an empty folder of a player's; ``show`` is called at each screen."""
+    patches = always_alike()
+    for each in patches:
+        each.start()  # type: ignore[attr-defined]
+    driver = MenuDriver(folder, size)
+    try:
+        pygame.event.clear()
+        for name in tour(driver):
+            show(driver, name)
+    finally:
+        driver.close()
+        for each in patches:
+            each.stop()  # type: ignore[attr-defined]
