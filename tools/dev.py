@@ -9,6 +9,8 @@ usage: python3 tools/dev.py COMMAND ...
   lint          style, format, types, import contract; `lint --fix` mends what a program can mend
   golden        write the golden files of the tests anew, after a change of the rules that is meant
   change-rules  test the tests: break the rules one at a time and tell which breaks no test notices
+  change-pictures  the same with drawings and screens
+  accept-pictures  record the screens and pictures of the tests anew, after a change of the looks that is meant
   docs          draw the pictures of docs/ anew
   tool          any script of tools/, listed in docs/tools.md: `tool soak.attract_mode --minutes 1`
   clean         remove .venv, caches and build products
@@ -39,6 +41,7 @@ SOURCES = ("ninja_game", "tests", "tools", "benchmarks")
 EXTRAS = ("cluster", "fast", "plots")
 DEVELOPMENT = (*EXTRAS, "dev")
 DRAWINGS = ("draw.how_it_works", "draw.legend")
+PICTURE_TESTS = ("tests/play/test_recorded_screens.py", "tests/play/test_pictures.py")
 
 
 def program(name: str) -> str:
@@ -174,6 +177,11 @@ def main(words: Sequence[str]) -> int:
             return tool("golden")
         case ["change-rules", *rest]:
             return tool("change_rules", *rest)
+        case ["change-pictures", *rest]:
+            return tool("change_pictures", *rest)
+        case ["accept-pictures"]:
+            os.environ["ACCEPT_PICTURES"] = "1"
+            return test(["-q", *PICTURE_TESTS])
         case ["docs"]:
             install(DEVELOPMENT)
             return max(run(program("python"), "-m", f"tools.{name}") for name in DRAWINGS)

@@ -2,17 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
-
-class Change(NamedTuple):
-    """One line of a file under ``ninja_game/sim``, and what it becomes."""
-
-    name: str
-    file: str
-    old: str
-    new: str
-
+from tools.changes import Change
 
 CHANGES = (
     # Constants.
