@@ -73,7 +73,8 @@ def tour(driver: MenuDriver) -> Iterator[str]:
 
 
 def home(driver: MenuDriver) -> None:
-    """Back to the main menu."""
+    """Back to the main menu, with no notice left."""
+    driver.app.notify("")
     for _ in range(10):
         if isinstance(driver.top(), MainMenu):
             return
@@ -160,7 +161,7 @@ def _levels(driver: MenuDriver) -> Iterator[str]:
     yield "playing-with-a-ghost"
     level = _level(driver)
     level.attempt.lifetime = 150
-    level.shown_lifetime = 150.0
+    level.play.shown_lifetime = 150.0
     yield "playing-in-danger"
     driver.press("p", "q")
     driver.press("up")

@@ -44,7 +44,7 @@ class HudView:
 
     ``lifetime``: ticks, for the time bar; ``label``: a word in its place. ``foot``: texts at the left and the right of
     the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
-    ``message``: title and lines of a panel.
+    ``message``: title and lines of a panel, and its top.
     """
 
     lifetime: float
@@ -52,7 +52,7 @@ class HudView:
     foot: tuple[str, str]
     keys: int | None = None
     frame_ms: float | None = None
-    message: tuple[str, Sequence[str]] | None = None
+    message: tuple[str, Sequence[str], float] | None = None
 
 
 class Hud:
@@ -116,8 +116,8 @@ class Hud:
         rect = self.theme.text(surface, f"{ms:.1f} ms", 768, 566, size=8, colour=colour, align="right")
         return rect.inflate(self.theme.canvas.px(12), 2)
 
-    def message(self, surface: pygame.Surface, title: str, lines: Sequence[str], *, y: float = 232) -> pygame.Rect:
-        """A panel in the middle: a title and lines under it."""
+    def message(self, surface: pygame.Surface, title: str, lines: Sequence[str], y: float) -> pygame.Rect:
+        """A panel: a title and lines under it, from ``y`` on."""
         theme = self.theme
         widths = [theme.width(title, 15, bold=True), *(theme.width(line, 9) for line in lines)]
         w, h = max(220.0, max(widths) + 44), 40.0 + 15 * len(lines)

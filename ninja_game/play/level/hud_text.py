@@ -6,8 +6,12 @@ from collections.abc import Callable
 
 from ninja_game.play.level.hud import HudView
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
+from ninja_game.play.ui.canvas import HEIGHT
 from ninja_game.player.scoring import seconds_text
 from ninja_game.player.statistics import SELF
+
+ABOVE, BELOW = 34.0, 494.0
+"""Where the panel of a passed level begins: near the upper or the lower border."""
 
 KeyName = Callable[[str], str]
 """Gives what to press for an action."""
@@ -21,7 +25,9 @@ def hud_view(play: LevelPlay) -> HudView:
     message = None
     if play.phase is Phase.PASSED:
         keys = f"{key('confirm')}: go on    {key('retry')}: retry    {key('replay')}: replay"
-        message = f"Passed with {seconds_text(attempt.score)}", [f"{gold} gold", keys]
+        # At the far side from the ninja, so that neither its dance nor the way that it came is hidden.
+        y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
+        message = f"Passed with {seconds_text(attempt.score)}", [f"{gold} gold", keys], y
     hint = _hint(play, key)
     practice = "Practice" + (", slow motion" if play.tools.slow else "")
     return HudView(
