@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -28,12 +29,17 @@ from ninja_game.play.view.sprites import moving_sprites as moving
 from ninja_game.play.view.sprites import static_sprites as static
 from ninja_game.play.view.sprites.drawing import SpriteKey
 from ninja_game.play.view.sprites.sprite_book import SpriteBook
+from tests.support.game_screens import run_tour
+from tests.support.menu_driver import MenuDriver
 from tools import ROOT
 
 SCALE = 3.0
 CELL = 150, 138
 COLUMNS = 12
 MARGIN = 24
+
+SCREEN = 1188, 900
+HELP_PAGES = {"help-slopes", "help-laser-drones", "help-keys"}
 
 Shown = tuple[str, list[tuple[SpriteKey, float, float]]]
 """A label, and drawings with where their points lie, px from the middle of the cell."""
@@ -191,10 +197,18 @@ def main() -> int:
 
 
 def screen_pictures() -> list[tuple[str, pygame.Surface]]:
-    """Every screen of the game."""
-    from tools.draw.contact_screens import pictures
+    """Every screen of the game; of the help's pages some."""
+    shown: list[tuple[str, pygame.Surface]] = []
 
-    return pictures()
+    def show(driver: MenuDriver, name: str) -> None:
+        if not name.startswith("help-") or name in HELP_PAGES:
+            driver.app.stack.redraw_all()
+            driver.app.draw()
+            shown.append((name.replace("-", " "), driver.app.surface.copy()))
+
+    with tempfile.TemporaryDirectory() as folder:
+        run_tour(Path(folder), SCREEN, show)
+    return shown
 
 
 if __name__ == "__main__":
