@@ -18,7 +18,7 @@ from ninja_game.play.input.events import InputEvent
 from ninja_game.play.menus.boss import BossScreen
 from ninja_game.play.screen import Screen, ScreenStack
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
-from ninja_game.play.ui.palette import palette_named
+from ninja_game.play.ui.palette import PALETTES, palette_named
 from ninja_game.play.ui.theme import Theme
 from ninja_game.play.window import Window, save_picture
 from ninja_game.player.player_data import PlayerData
@@ -258,6 +258,8 @@ def build_app(
     messages = player.messages
     if bindings.unknown:
         messages.append(f"settings.toml: no key is called {shown_text(', '.join(bindings.unknown), 60)}.")
+    if settings.palette not in PALETTES:
+        messages.append(f"settings.toml: there is no palette {settings.palette}: {', '.join(PALETTES)}.")
     if messages:
         app.notify(" ".join(messages), ms=WARNING_MS)
     return app

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
-PALETTES = ("classic", "dark", "contrast", "safe", "safe-dark")
+DEFAULT_PALETTE = "classic"
 DEFAULT_COLOUR = ""
 """The ninja's colour that comes with the palette."""
 
@@ -28,7 +28,7 @@ class Settings:
     ``ninja_colour``: colour of the ninja, "" or "#rrggbb". ``frame_limit``: pictures a second, 0: as the display.
     """
 
-    palette: str = PALETTES[0]
+    palette: str = DEFAULT_PALETTE
     ninja_colour: str = DEFAULT_COLOUR
     fullscreen: bool = False
     smooth: bool = True
@@ -81,6 +81,11 @@ def _is_name(value: Any) -> bool:
     return isinstance(value, str) and len(value) <= 40 and (not value or value.isprintable())
 
 
+def _is_word(value: Any) -> bool:
+    """A name in small letters; which palettes there are is known where they are drawn."""
+    return isinstance(value, str) and re.fullmatch(r"[a-z-]{1,24}", value) is not None
+
+
 def _is_colour(value: Any) -> bool:
     return isinstance(value, str) and (value == DEFAULT_COLOUR or _COLOUR.fullmatch(value) is not None)
 
@@ -96,7 +101,7 @@ def _is_bindings(value: Any) -> bool:
 
 
 RULES = {
-    "palette": Rule("look", lambda value: value in PALETTES, f"one of {', '.join(PALETTES)}"),
+    "palette": Rule("look", _is_word, "the name of a palette, such as 'classic'"),
     "ninja_colour": Rule("look", _is_colour, "'' or a colour such as '#186285'"),
     "fullscreen": _flag("look"),
     "smooth": _flag("look"),

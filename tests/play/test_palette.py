@@ -5,13 +5,13 @@ from __future__ import annotations
 import pygame
 import pytest
 
-from ninja_game.play.ui.palette import PALETTES, ROLES, Palette
+from ninja_game.play.ui.palette import CLASSIC, PALETTES, ROLES, Palette, palette_named
 from ninja_game.play.view.effects import particle_shapes
 from ninja_game.play.view.sprites import moving_sprites as moving
 from ninja_game.play.view.sprites import static_sprites as static
 from ninja_game.play.view.sprites.drawing import Drawing, SpriteKey
 from ninja_game.play.view.sprites.sprite_book import SpriteBook
-from ninja_game.player.settings import PALETTES as OFFERED
+from ninja_game.player.settings import DEFAULT_PALETTE, Settings
 
 AT_REST = (
     static.mine(),
@@ -34,8 +34,10 @@ def contrast(a: pygame.Color, b: pygame.Color) -> float:
     return (high + 0.05) / (low + 0.05)
 
 
-def test_the_settings_offer_these_palettes() -> None:
-    assert tuple(PALETTES) == OFFERED
+def test_settings_accept_every_palette_and_an_unknown_one_is_the_first() -> None:
+    for name in PALETTES:
+        assert Settings().changed(palette=name).palette == name
+    assert palette_named(DEFAULT_PALETTE) is palette_named("of-another-version") is CLASSIC
 
 
 @pytest.mark.parametrize("palette", PALETTES.values(), ids=lambda palette: palette.name)

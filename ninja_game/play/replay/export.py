@@ -16,7 +16,7 @@ from ninja_game.files.user_folder import export_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay.playback import Playback, RecordedRun
-from ninja_game.play.ui.palette import PALETTES, ROLES, Palette, mixed
+from ninja_game.play.ui.palette import ROLES, Palette, mixed, palette_named
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.render_context import OffscreenContext
 from ninja_game.player.settings import Settings
@@ -81,7 +81,7 @@ def export_film(
 
     try:
         if path.suffix == ".gif":
-            _write_gif(pictures(), film_length(run), path, size, speed, PALETTES[(settings or Settings()).palette])
+            _write_gif(pictures(), film_length(run), path, size, speed, palette_named((settings or Settings()).palette))
         elif path.suffix:
             raise NinjaGameError(f"{path}: a film is a .gif, or a folder of pictures (a path without suffix)")
         else:
