@@ -14,5 +14,18 @@ def test_every_golden_run_is_the_same_in_every_object(file: str, memory: str) ->
     golden = golden_rows(file)
     rows = [run.row(memory) for run in FILES[file]()]
     wrong = [text for row in rows if (text := difference(row, golden.get(row["name"])))]
-    assert not wrong, f"{len(wrong)} of {len(rows)} runs differ:\n" + "\n".join(wrong[:20])
+    hint = "Is the change meant? Then `python3 tools/dev.py golden` and a new rules version (tests/golden/README.md)."
+    assert not wrong, f"{len(wrong)} of {len(rows)} runs differ. {hint}\n" + "\n".join(wrong[:20])
     assert golden.keys() == {row["name"] for row in rows}, "golden rows without a run: write them anew"
+
+
+def test_a_failure_names_the_second_the_object_and_what_is_wrong() -> None:
+    row = next(row for row in golden_rows("crowded").values() if "drone" in row["objects"])
+    before, _, after = row["objects"].partition("/drone:")
+    number = before.rpartition(" ")[2]
+    digits, rest = after[:14], after[14:]
+    moved = digits[:5] + ("0" if digits[5] != "0" else "1") + digits[6:]
+    wrong = {**row, "run": "", "objects": f"{before}/drone:{moved}{rest}"}
+    assert difference(wrong, row) == (
+        f"{row['name']}: ticks 40 to 79: object {number} (drone) place not as in the golden run"
+    )

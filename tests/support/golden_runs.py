@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from hashlib import sha256
 from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import write_replay
@@ -13,13 +17,17 @@ from ninja_game.runs.recording_reader import body_of
 from ninja_game.runs.run import record_replay, trace_level
 from ninja_game.runs.trace import trace_digests
 from ninja_game.sim.level import Level
-from ninja_game.simulation import Body
+from ninja_game.simulation import Body, Simulation
 from tests.support.crowded import TICKS, crowded_inputs, crowded_level
 from tests.support.own_scenes import SCENES
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 GOLDEN = ROOT / "tests" / "golden"
 REPLAYS = ROOT / "tests" / "replays"
+
+INTERVAL = 40
+"""Ticks between two checkpoints (1 s): a failing test names the interval in which the difference begins."""
+PLACE_DIGITS = 3
 
 AFTERMATH = 150
 """Ticks beyond a replay's end that are part of its golden run."""
@@ -41,9 +49,44 @@ class GoldenRun:
     def row(self, memory: str) -> dict[str, str]:
         """What the run shows, as a row of the golden file."""
         trace = trace_level(self.level, self.inputs, body=self.body, memory=memory)
-        digests = trace_digests(trace)
-        objects = " ".join(f"{id_}:{digest}" for id_, digest in digests.objects.items())
-        return {"name": self.name, "ticks": str(len(self.inputs)), "run": digests.run_sha256, "objects": objects}
+        objects = zip(trace.ids, trace.kinds, trace.objects.T, strict=True)
+        return {
+            "name": self.name,
+            "ticks": str(len(self.inputs)),
+            "run": trace_digests(trace).run_sha256,
+            "ninja": checkpoints(trace.ninja, ("x", "y", "prev_x", "prev_y"), ("s", "gold")),
+            "objects": " ".join(
+                f"{id_}/{kind.replace(' ', '-')}:{checkpoints(rows, ('x', 'y'), ('s',))}" for id_, kind, rows in objects
+            ),
+            "events": self._event_digests(memory),
+        }
+
+    def _event_digests(self, memory: str) -> str:
+        """Digests of everything that events say, one for each ``INTERVAL`` ticks."""
+        run = Simulation(self.level, body=self.body, memory=memory)
+        parts = []
+        for start in range(0, len(self.inputs), INTERVAL):
+            seen = sha256()
+            for keys in self.inputs[start : start + INTERVAL]:
+                run.step_keys(keys)
+                for e in run.events:
+                    seen.update(
+                        f"{run.tick} {e.name} {e.object_id} {e.cause} {e.x!r} {e.y!r} {e.dx!r} {e.dy!r}\n".encode()
+                    )
+            parts.append(seen.hexdigest()[:4])
+        return ".".join(parts)
+
+
+def checkpoints(rows: NDArray[np.void], place: Sequence[str], state: Sequence[str]) -> str:
+    """Digests of records (ticks,), one for each ``INTERVAL`` ticks: three digits of the place, one of the state."""
+    starts = range(0, len(rows), INTERVAL)
+    return ".".join(
+        "".join(
+            sha256(b"".join(rows[name][start : start + INTERVAL].tobytes() for name in names)).hexdigest()[:digits]
+            for names, digits in ((place, PLACE_DIGITS), (state, 1))
+        )
+        for start in starts
+    )
 
 
 def crowded_runs() -> Iterator[GoldenRun]:
@@ -69,7 +112,7 @@ def replay_runs() -> Iterator[GoldenRun]:
 
 
 FILES = {"crowded": crowded_runs, "replays": replay_runs, "scenes": scene_runs}
-COLUMNS = ("name", "ticks", "run", "objects")
+COLUMNS = ("name", "ticks", "run", "ninja", "objects", "events")
 
 
 def golden_rows(name: str) -> dict[str, dict[str, str]]:
@@ -79,16 +122,37 @@ def golden_rows(name: str) -> dict[str, dict[str, str]]:
 
 
 def difference(ours: dict[str, str], golden: dict[str, str] | None) -> str:
-    """What differs between a run and its golden row, in one line; empty if nothing does."""
+    """What differs first between a run and its golden row, in one line; empty if nothing does."""
     name = ours["name"]
     if golden is None:
-        return f"{name}: has no golden row; write them anew (tests/golden/README.md)"
+        return f"{name}: has no golden row"
     if ours == golden:
         return ""
-    mine, other = ours["objects"].split(), golden["objects"].split()
-    parts = [part.partition(":")[0] for part, expected in zip(mine, other, strict=False) if part != expected]
-    which = f"objects {', '.join(parts[:8])}" if parts else "the ninja"
-    return f"{name}: {which} differ from the golden run"
+    first = len(ours["ninja"])
+    parts: list[str] = []
+    for who, mine, other in _compared(ours, golden):
+        pairs = zip(mine.split("."), other.split("."), strict=False)
+        at, (now, before) = next(
+            ((k, pair) for k, pair in enumerate(pairs) if pair[0] != pair[1]), (first + 1, ("", ""))
+        )
+        if at < first:
+            first, parts = at, []
+        if at == first:
+            what = "" if who == "events" else " place" if now[:PLACE_DIGITS] != before[:PLACE_DIGITS] else " state"
+            parts.append(who + what)
+    when = f"ticks {first * INTERVAL} to {(first + 1) * INTERVAL - 1}: " if parts else ""
+    return f"{name}: {when}{', '.join(parts[:8]) or 'ticks or objects'} not as in the golden run"
+
+
+def _compared(ours: dict[str, str], golden: dict[str, str]) -> Iterator[tuple[str, str, str]]:
+    """Who, our checkpoints, the golden ones: of the ninja, of every object that both have, of the events."""
+    yield "ninja", ours["ninja"], golden["ninja"]
+    expected = dict(part.split(":") for part in golden["objects"].split())
+    for part in ours["objects"].split():
+        who, _, mine = part.partition(":")
+        number, _, kind = who.partition("/")
+        yield f"object {number} ({kind.replace('-', ' ')})", mine, expected.get(who, mine)
+    yield "events", ours["events"], golden["events"]
 
 
 def write_golden_files() -> None:
