@@ -8,6 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from ninja_game.files.reading import MAX_BYTES
+from ninja_game.sim.inputs import MAX_TICKS
+from ninja_game.sim.memory.schema import CAPACITY
+
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("tests/**/*.md")]
 SOURCES = [path for folder in ("ninja_game", "tests", "tools", "benchmarks") for path in (ROOT / folder).rglob("*.py")]
@@ -81,3 +85,10 @@ def test_every_tool_is_listed_with_its_module_name() -> None:
     modules = {".".join(path.relative_to(ROOT / "tools").with_suffix("").parts) for path in scripts} - {"dev"}
     assert {name for name in re.findall(r"^\| `([\w.]+)", page, re.MULTILINE) if "." not in name or "/" not in name}
     assert set(re.findall(r"^\| `([\w.]+)[ `]", page, re.MULTILINE)) == modules
+
+
+def test_security_page_states_the_limits_that_hold() -> None:
+    page = (ROOT / "SECURITY.md").read_text("utf-8")
+    assert f"| {MAX_BYTES // 2**20} MiB |" in page
+    assert f"| {MAX_TICKS:,} ticks |" in page
+    assert f"| {CAPACITY - 1:,}; an exit counts twice |" in page
