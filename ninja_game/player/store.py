@@ -15,7 +15,7 @@ from typing import Any
 
 from ninja_game.files.locking import locked
 from ninja_game.files.user_folder import quarantine
-from ninja_game.player.store_schema import NewerFileError, copy_in_memory, open_database
+from ninja_game.player.store_schema import OPENING_SECONDS, NewerFileError, copy_in_memory, open_database
 
 GAME_WAIT_MS, LAST_WAIT_MS = 200, 3000
 """How long a save waits for another program that writes: during play, where it holds up the picture, and at the end."""
@@ -49,18 +49,21 @@ class Store:
         if self.path is None:
             return open_database(":memory:")
         try:
-            return self._open(self.path)
+            return self._open(self.path, STARTS_WAIT, OPENING_SECONDS)
         except (sqlite3.Error, NewerFileError, OSError) as error:
             self.problem = f"the records cannot be opened ({_reason(error)})"
             self.tell(f"{self.problem[0].upper()}{self.problem[1:]}; until they can, they are kept in memory only.")
             return copy_in_memory(self.path)
 
-    def _open(self, path: Path) -> sqlite3.Connection:
-        """The file, or a new one where it had to be moved aside. Raises sqlite3.Error, NewerFileError, OSError."""
+    def _open(self, path: Path, turn: float, wait: float) -> sqlite3.Connection:
+        """The file, or a new one where it had to be moved aside. Raises sqlite3.Error, NewerFileError, OSError.
+
+        ``turn`` and ``wait``: seconds to wait for others that are opening it, and for one that has locked it.
+        """
         path.parent.mkdir(parents=True, exist_ok=True)
-        with locked(path, STARTS_WAIT):
+        with locked(path, turn):
             try:
-                connection = open_database(str(path))
+                connection = open_database(str(path), seconds=wait)
             except NewerFileError:
                 self._move_aside(path, "newer", "The records were written by a newer game")
                 connection = open_database(str(path))
@@ -81,7 +84,7 @@ class Store:
         if not self.problem or self.path is None:
             return
         try:
-            connection = self._open(self.path)
+            connection = self._open(self.path, GAME_WAIT_MS / 1000, GAME_WAIT_MS / 1000)
         except (sqlite3.Error, NewerFileError, OSError) as error:
             self.problem = f"the records cannot be opened ({_reason(error)})"
             return

@@ -96,20 +96,22 @@ VERSION = len(MIGRATIONS)
 TABLES = {"replay", "level_best", "episode_best", "episode_replay", "progress", "death", "played", "fact"}
 
 OPENING_SECONDS = 1.0
-"""How long opening waits for another program that has locked the file."""
+"""How long a start waits for another program that has locked the file."""
 
 
 class NewerFileError(Exception):
     """The file was written by a newer game."""
 
 
-def open_database(name: str, source: Path | None = None) -> sqlite3.Connection:
-    """A connection to a sound, up-to-date database; a new one where there is none. ``source``: copied into it first.
+def open_database(name: str, source: Path | None = None, seconds: float = OPENING_SECONDS) -> sqlite3.Connection:
+    """A connection to a sound, up-to-date database; a new one where there is none.
+
+    ``source``: copied into it first. ``seconds``: how long to wait for another program that has locked the file.
 
     Raises NewerFileError; sqlite3.OperationalError where the file cannot be used now (locked, read-only, no room);
     another sqlite3.DatabaseError where it is damaged or not ours.
     """
-    connection = sqlite3.connect(name, timeout=OPENING_SECONDS, isolation_level=None)
+    connection = sqlite3.connect(name, timeout=seconds, isolation_level=None)
     try:
         # Text that is no UTF-8 is damage of one row, no reason to fail.
         connection.text_factory = _text

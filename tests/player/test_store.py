@@ -215,7 +215,7 @@ def test_what_waits_is_saved_at_the_end(tmp_path: Path) -> None:
 def test_records_that_may_only_be_read_are_shown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     digest = saved_record(tmp_path)
 
-    def refuse(*_: object) -> None:
+    def refuse(*_: object, **__: object) -> None:
         raise sqlite3.OperationalError("attempt to write a readonly database")
 
     # A root user may write everything, so that modes would not do.
