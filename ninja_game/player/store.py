@@ -156,8 +156,15 @@ class Store:
             return [], self.problem
 
     def later(self, work: Work) -> None:
-        """Do ``work`` with the next save, or at the end: for what need not be on the disk at once."""
+        """Do ``work`` with the next save or ``flush``: for what need not be on the disk at once."""
         self._pending.append(work)
+
+    def flush(self) -> None:
+        """Save what waits."""
+        if self._pending:
+            self._open_again()
+            if not self.problem:
+                self._save_pending()
 
     def _save_pending(self) -> tuple[Sequence[str], str]:
         """Do what waits; the notices of the last of it, or why not."""
@@ -178,10 +185,8 @@ class Store:
     def close(self) -> None:
         """Save what still waits, and close the file."""
         if self._pending:
-            self._open_again()
-            if not self.problem:
-                self.connection.execute(f"PRAGMA busy_timeout = {LAST_WAIT_MS}")
-                self._save_pending()
+            self.connection.execute(f"PRAGMA busy_timeout = {LAST_WAIT_MS}")
+            self.flush()
         self.connection.close()
 
 

@@ -121,6 +121,7 @@ class LevelScreen(Screen):
     def quit(self) -> None:
         """Leave the level."""
         self.context.gave_up(self.attempt)
+        self.context.data.store.flush()
         self._leave_to(self.context.way_out)
 
     def _leave_to(self, where: Navigation) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ninja_game.files.resources import bundled_replays
+from ninja_game.formats.load import load_replays
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
@@ -44,6 +46,28 @@ def test_first_episode_is_played_to_its_end(driver: MenuDriver) -> None:
     assert following.context.title.startswith("Episode 1 Level 0")
     driver.press("q")
     assert isinstance(driver.top(), EpisodeGrid)
+
+
+def test_runs_that_are_begun_anew_count_with_their_gold(driver: MenuDriver) -> None:
+    driver.open("Levels")
+    driver.press("return")
+    level = driver.top()
+    assert isinstance(level, LevelScreen)
+    recording = load_replays(bundled_replays()[0])[0]
+    gold = 0
+    for _ in range(2):
+        level.begin()
+        driver.keys.script = [keys & 7 for keys in recording.playback(recording.ticks)][:-10]
+        driver.frames(len(driver.keys.script))
+        gold += level.attempt.gold
+        driver.press("r")
+    level.begin()
+    driver.frames(5)
+    driver.press("escape")
+    level.quit()
+    played = driver.player.statistics.played()
+    assert (played.attempts, played.passes, played.gold) == (3, 0, gold)
+    assert gold > 0
 
 
 def test_best_run_of_a_level_runs_along_the_next_time(driver: MenuDriver, tmp_path: Path) -> None:
