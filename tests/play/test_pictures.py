@@ -1,7 +1,7 @@
 """Pictures of scenes against those in `tests/play/golden/`, with a tolerance for other rasterisers.
 
-To accept new pictures after a change of drawings run `python3 tools/dev.py test tests/play/test_pictures.py` with
-`ACCEPT_PICTURES=1` in the environment, and look at them. A picture that differs is written beside the accepted one as
+To accept new pictures after a change of drawings run `python3 tools/dev.py accept-pictures`
+and look at them. A picture that differs is written beside the accepted one as
 `NAME.new.png` (git ignores it).
 """
 
@@ -15,6 +15,7 @@ import pytest
 
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.play.ui.palette import PALETTES
+from ninja_game.play.view import level_view
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import OVERLAY_ACTIONS, Overlays
 from ninja_game.play.view.render_context import OffscreenContext
@@ -114,7 +115,11 @@ def test_a_scene_looks_as_accepted(name: str) -> None:
         pytest.fail(f"{name} differs (mean {mean}, worst block {worst}); look at {new}, or accept it (see above)")
 
 
-def test_the_comparison_sees_a_missing_thing() -> None:
-    """Break what this file guards once: a picture without its ninja must not pass."""
-    with_ninja, without = scene(0, 120), scene(0, 60)
+def test_comparison_sees_that_the_ninja_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Break what this file guards once: the same picture without its ninja must not pass."""
+    with_ninja = scene(0, 120)
+    monkeypatch.setattr(level_view, "draw_ninja", lambda *_: None)
+    without = scene(0, 120)
     assert difference(with_ninja, without)[1] > BLOCK_TOLERANCE
+    monkeypatch.undo()
+    assert difference(with_ninja, scene(0, 120)) == (0.0, 0.0)

@@ -22,7 +22,7 @@ ROW = 30
 SIDE, SIDE_WIDTH = 528, 228
 
 
-class Row(NamedTuple):
+class RecordRow(NamedTuple):
     """A record: what, its score in ticks (None: not passed), the ids of its replays, whether it heads a group."""
 
     text: str
@@ -39,7 +39,7 @@ class RecordsScreen(MenuScreen):
 
     def __init__(self, app: App) -> None:
         super().__init__(app)
-        self.rows: list[Row] = []
+        self.rows: list[RecordRow] = []
         self.list = ListView((44, 92, 468, 15 * ROW), ROW, self._draw_row, self._watch, selected=self._say)
         self.list.empty = "No records yet: pass a level"
 
@@ -49,7 +49,7 @@ class RecordsScreen(MenuScreen):
         self.list.fill(self.rows)
         return [self.list]
 
-    def _rows(self) -> list[Row]:
+    def _rows(self) -> list[RecordRow]:
         """Episodes with their levels, then other levels that have been passed."""
         records, catalogue = self.player.records, self.player.catalogue
         bests = records.level_bests()
@@ -58,18 +58,18 @@ class RecordsScreen(MenuScreen):
         for episode in catalogue.episodes.values():
             best = records.episode_best(episode.key)
             text = f"Episode {episode.number}: {episode.name}"
-            rows.append(Row(text, best.score if best else None, best.replays if best else (), True))
+            rows.append(RecordRow(text, best.score if best else None, best.replays if best else (), True))
             for entry in episode.levels:
                 listed.add(entry.digest)
                 saved = bests.get(entry.digest)
                 score, ids = (saved.score, (saved.id,)) if saved else (None, ())
-                rows.append(Row(entry.title, score, ids, False, saved.made_at[:10] if saved else ""))
+                rows.append(RecordRow(entry.title, score, ids, False, saved.made_at[:10] if saved else ""))
         others = [saved for digest, saved in bests.items() if digest not in listed]
         if others:
-            rows.append(Row("Other levels", None, (), True))
+            rows.append(RecordRow("Other levels", None, (), True))
         others.sort(key=lambda saved: saved.name.casefold())
         return rows + [
-            Row(saved.name or "nameless", saved.score, (saved.id,), False, saved.made_at[:10]) for saved in others
+            RecordRow(saved.name or "nameless", saved.score, (saved.id,), False, saved.made_at[:10]) for saved in others
         ]
 
     def _say(self, index: int) -> None:

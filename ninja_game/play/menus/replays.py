@@ -40,7 +40,7 @@ YOU = "you"
 HINT = "Enter: watch it. Delete: remove a saved one. E: write it as a text file, to share"
 
 
-class Row(NamedTuple):
+class ReplayRow(NamedTuple):
     """A replay: what it is called, whose, how it ended, when; and where it is."""
 
     text: str
@@ -58,9 +58,9 @@ class ReplaysScreen(MenuScreen):
 
     def __init__(self, app: App) -> None:
         super().__init__(app)
-        self.rows: list[Row] = []
+        self.rows: list[ReplayRow] = []
         self.problems: list[str] = []
-        self._files: list[Row] | None = None
+        self._files: list[ReplayRow] | None = None
         self.list = ListView((44, 96, 712, 13 * ROW), ROW, self._draw_row, self._watch)
         self.list.empty = "No replays yet"
         self.list.hint = HINT
@@ -74,8 +74,8 @@ class ReplaysScreen(MenuScreen):
         self.list.fill(self.rows)
         return [self.list]
 
-    def _file_rows(self) -> list[Row]:
-        rows: list[Row] = []
+    def _file_rows(self) -> list[ReplayRow]:
+        rows: list[ReplayRow] = []
         for when, files in (("Your folder", files_below(self.player.replay_folder)), ("Bundled", bundled_replays())):
             for file in files:
                 if isinstance(file, LeftOut):
@@ -105,7 +105,7 @@ class ReplaysScreen(MenuScreen):
         else:
             super().handle(event)
 
-    def _export(self, row: Row) -> None:
+    def _export(self, row: ReplayRow) -> None:
         """Write a replay into the player's folder of exports."""
         source = row.source
         replay = source.replay if isinstance(source, Recording) else self.player.records.replay(source.id)
@@ -162,20 +162,20 @@ class ReplaysScreen(MenuScreen):
         theme.text(surface, row.when, 734, top + 1, size=10, colour=palette.faint, align="right")
 
 
-def _row_of(saved: SavedReplay) -> Row:
+def _row_of(saved: SavedReplay) -> ReplayRow:
     what = _result(saved.outcome, saved.gold, saved.final_tick)
     when = saved.made_at[:16].replace("T", "  ")
-    return Row(saved.name or "nameless", saved.player or YOU, what, when, saved.outcome == "exit", saved)
+    return ReplayRow(saved.name or "nameless", saved.player or YOU, what, when, saved.outcome == "exit", saved)
 
 
-def _row_of_recording(recording: Recording, when: str) -> Row:
+def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
     replay = recording.replay
     if replay is None:
         result = f"recording, {seconds_text(recording.ticks)}"
     else:
         result = _result(replay.outcome, replay.gold, replay.final_tick)
     passed = replay is not None and replay.outcome == "exit"
-    return Row(recording.name or "nameless", recording.author, result, when, passed, recording)
+    return ReplayRow(recording.name or "nameless", recording.author, result, when, passed, recording)
 
 
 def _result(outcome: str, gold: int, final_tick: int) -> str:

@@ -43,8 +43,8 @@ STICKS = (
 TRUNK = 2
 
 
-class Particle(Box):
-    """A joint: a box with an old place (its velocity is the difference) and a drag."""
+class VerletParticle(Box):
+    """A joint of the corpse: a box with an old place (its velocity is the difference) and a drag."""
 
     __slots__ = ("drag", "ox", "oy", "sx", "sy")
 
@@ -72,7 +72,7 @@ class Ragdoll:
             (NEAR_FOOT, pose.near_foot, before.near_foot), (FAR_FOOT, pose.far_foot, before.far_foot),
         )  # fmt: skip
         self.particles = [
-            Particle(x, y, (x - bx) * 0.5 + velocity[0], (y - by) * 0.5 + velocity[1], _HALVES[k], _DRAGS[k])
+            VerletParticle(x, y, (x - bx) * 0.5 + velocity[0], (y - by) * 0.5 + velocity[1], _HALVES[k], _DRAGS[k])
             for k, (x, y), (bx, by) in (*joints, *limbs)
         ]
         self.sticks = list(STICKS)
@@ -113,7 +113,7 @@ class Ragdoll:
             for end in (stick.second,):
                 self.particles[end].ox -= vx
                 self.particles[end].oy -= vy
-            loose = Particle(joint.x, joint.y, joint.x - joint.ox + vx, joint.y - joint.oy + vy, 2.0, 0.99)
+            loose = VerletParticle(joint.x, joint.y, joint.x - joint.ox + vx, joint.y - joint.oy + vy, 2.0, 0.99)
             self.particles.append(loose)
             sticks.append(stick._replace(first=len(self.particles) - 1, share=0.5))
         self.sticks = sticks
@@ -148,7 +148,7 @@ class Ragdoll:
             b.x -= dx * pull * (1 - stick.share)
             b.y -= dy * pull * (1 - stick.share)
 
-    def _collide(self, level: TileMap, world: World, p: Particle) -> None:
+    def _collide(self, level: TileMap, world: World, p: VerletParticle) -> None:
         """At the end of the way, and for a fast particle at places before it."""
         vx, vy = p.x - p.sx, p.y - p.sy
         square = vx * vx + vy * vy
@@ -167,7 +167,7 @@ class Ragdoll:
             if touched:
                 break
 
-    def _bounce(self, p: Particle, nx: float, ny: float) -> None:
+    def _bounce(self, p: VerletParticle, nx: float, ny: float) -> None:
         """Lose part of the velocity into and along a surface."""
         vx, vy = p.x - p.ox, p.y - p.oy
         # The push itself is no motion: the speed is that of before it.
