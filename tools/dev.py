@@ -3,17 +3,17 @@
 
 usage: python3 tools/dev.py COMMAND ...
 
-  play          the game, in a window; words after it go to `ninja-game play`
-  run           any `ninja-game` command: `run info levels/01-first-steps.txt`
-  test          `lint`, then all tests; with words of your own (a file, `-k NAME`) pytest alone, with them
-  lint          style, format, types, import contract; `lint --fix` mends what a program can mend
-  golden        write the golden files of the tests anew, after a change of the rules that is meant
-  change-rules  test the tests: break the rules one at a time and tell which breaks no test notices
+  play             the game, in a window; words after it go to `ninja-game play`
+  run              any `ninja-game` command: `run info levels/01-first-steps.txt`
+  test             `lint`, then all tests; with words of your own (a file, `-k NAME`) pytest alone, with them
+  lint             style, format, types, import contract; `lint --fix` mends what a program can mend
+  golden           write the golden files of the tests anew, after a change of the rules that is meant
+  change-rules     test the tests: break the rules one at a time and tell which breaks no test notices
   change-pictures  the same with drawings and screens
   accept-pictures  record the screens and pictures of the tests anew, after a change of the looks that is meant
-  docs          draw the pictures of docs/ anew
-  tool          any script of tools/, listed in docs/tools.md: `tool soak.attract_mode --minutes 1`
-  clean         remove .venv, caches and build products
+  docs             draw the pictures of docs/ anew
+  tool             any script of tools/, listed in docs/tools.md: `tool soak.attract_mode --minutes 1`
+  clean            remove .venv, caches and build products
 
 Versions are those of uv.lock: uv installs them, or pip where uv cannot be had. Standard library only.
 """
@@ -173,12 +173,8 @@ def main(words: Sequence[str]) -> int:
             return test(rest)
         case ["lint"] | ["lint", "--fix"]:
             return lint(*words[1:])
-        case ["golden"]:
-            return tool("golden")
-        case ["change-rules", *rest]:
-            return tool("change_rules", *rest)
-        case ["change-pictures", *rest]:
-            return tool("change_pictures", *rest)
+        case [("golden" | "change-rules" | "change-pictures") as name, *rest]:
+            return tool(name.replace("-", "_"), *rest)
         case ["accept-pictures"]:
             os.environ["ACCEPT_PICTURES"] = "1"
             return test(["-q", *PICTURE_TESTS])
