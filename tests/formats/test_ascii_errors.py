@@ -217,7 +217,37 @@ MISTAKES = {
     ),
     "side as direction": (
         level_text("automatic door 5,7 up"),
-        "broken.txt:26:20: unknown word for 'automatic door'; found 'up'; known are right, bottom, left, top, switch",
+        "broken.txt:26:20: unknown word for 'automatic door'; found 'up'; did you mean top?",
+    ),
+    "side as point of the compass": (
+        level_text("automatic door 5,7 east"),
+        "broken.txt:26:20: unknown word for 'automatic door'; found 'east'; did you mean right?",
+    ),
+    "direction as point of the compass": (
+        level_text("thwump 5.5,7 north"),
+        "broken.txt:26:14: unknown word for 'thwump'; found 'north'; did you mean up?",
+    ),
+    "column and row apart": (
+        level_text("zap drone 25 5 wander-cw right"),
+        ("broken.txt:26:11: unknown word for 'zap drone'; found '25'; column and row stand together: write 25,5"),
+    ),
+    "automatic door with a switch": (
+        level_text("automatic door 5,7 left switch 27,15"),
+        (
+            "broken.txt:26:25: automatic doors have no switch; it opens for whoever comes near; "
+            "write 'locked door' or 'trap door' for one with a switch"
+        ),
+    ),
+    "notes in the header": (
+        level_text(header="ninja-game level 1\n# my notes"),
+        (
+            "broken.txt:2:1: not a header line; found '# my notes'; "
+            "expected key: value, or the first row of the picture, |...|; comments begin with ;"
+        ),
+    ),
+    "notes in the list": (
+        level_text("# my notes"),
+        "broken.txt:26:1: unknown kind of object; found '# my notes'; comments begin with ;",
     ),
     "raw without anything": (
         level_text("raw"),

@@ -115,6 +115,7 @@ def test_a_byte_that_is_no_input_is_refused() -> None:
         ("R*2", "r*2", "a.txt:11:3: not an input run; found 'r*2'; expected keys and a count, such as R*30; write R*2"),
         ("RJ*2", "JR*2", "a.txt:11:7: not an input run; found 'JR*2'; ~; write RJ*2"),
         ("RJ*2", "RJ*0", "a.txt:11:7: ~; a count is a whole number from 1"),
+        ("RJ*2", "RJ *2", "a.txt:11:10: ~; a count stands next to its keys, without a blank: R*33"),
         ("RJ*2", "X", "a.txt:11:7: ~; L left, R right, J jump, . no key"),
         ("RJ*2", "RJ*", "a.txt:11:7: ~a count is"),
         ("RJ*2", "!", "a.txt:11:7: ~write .!"),

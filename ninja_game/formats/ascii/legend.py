@@ -176,6 +176,7 @@ def legend_text() -> str:
     for title, needs_line in (("Objects:", False), ("Objects that also need a line below the picture:", True)):
         lines.append(f"; {title}")
         cells = [f"{symbol.char} {symbol.name}" for symbol in SYMBOLS if (symbol.values is None) is needs_line]
+        width = max(map(len, cells)) + 2
         rows = (cells[start : start + 4] for start in range(0, len(cells), 4))
-        lines.extend(";   " + "".join(f"{cell:<26}" for cell in row).rstrip() for row in rows)
+        lines.extend(";   " + "".join(cell.ljust(width) for cell in row).rstrip() for row in rows)
     return "\n".join(lines) + "\n"

@@ -74,7 +74,7 @@ FORMS: dict[str, Form] = {
     "laser drone": _DRONE,
     "chaingun drone": _DRONE,
     "exit": Form(EXIT, takes=("switch",), needs=(("switch",),), single=True),
-    "automatic door": Form(DOOR, {"side": SIDES}, ("switch",), (("side",),), single=True),
+    "automatic door": Form(DOOR, {"side": SIDES}, (), (("side",),), single=True),
     "locked door": Form(DOOR, {"side": SIDES}, ("switch",), (("side",), ("switch",)), single=True),
     "trap door": Form(DOOR, {"side": SIDES}, ("switch",), (("side",), ("switch",)), single=True),
 }

@@ -15,6 +15,14 @@ from ninja_game.sim.level import ObjectSpec
 
 _TOKEN = re.compile(r';.*|"(?:[^"\\]|\\.)*+"|[^\s;"]+|".*')
 
+_NUMBER = re.compile(r"\d{1,4}(?:\.\d{1,4})?(?:px)?", re.ASCII)
+
+_SYNONYMS = {
+    "east": ("right",), "west": ("left",), "north": ("up", "top"), "south": ("down", "bottom"),
+    "up": ("top",), "upper": ("top",), "top": ("up",), "down": ("bottom",), "lower": ("bottom",), "bottom": ("down",),
+}  # fmt: skip
+"""Other words for sides and directions."""
+
 
 class Listed(NamedTuple):
     """An object that a line of the list creates, and the column of its place in that line."""
@@ -40,7 +48,10 @@ def tokens_of(text: str) -> list[Token]:
 def suggestion(found: str, known: Iterable[str]) -> str:
     """A hint that names the nearest known words, or all of a short list."""
     known = list(known)
-    near = [word for word in known if found and (found in word.split() or found.startswith(word))]
+    if found.startswith(("#", "//")):
+        return "comments begin with ;"
+    near = [word for word in _SYNONYMS.get(found.lower(), ()) if word in known]
+    near = near or [word for word in known if found and (found in word.split() or found.startswith(word))]
     near = near or difflib.get_close_matches(found, known, 3, 0.6)
     if near:
         return f"did you mean {' or '.join(near)}?"
@@ -108,14 +119,25 @@ def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list
             places.append(token)
             continue
         else:
-            known = [word for vocabulary in form.words.values() for word in vocabulary] + list(form.takes)
-            hint = suggestion(token.text, known) if known else f"'{keyword}' has places only, such as 5,7"
-            raise LevelError(f"unknown word for '{keyword}'", column=token.column, found=shown(token.text), hint=hint)
+            raise _unknown_word(keyword, form, token, next(words, None))
         if name in given:
             raise LevelError(f"the {name} of '{keyword}' is given twice", column=token.column, found=shown(token.text))
         given[name] = value
     _check_complete(keyword, form, given, tokens)
     return places, given
+
+
+def _unknown_word(keyword: str, form: Form, token: Token, following: Token | None) -> LevelError:
+    """The error for a word that a form does not have, with the likeliest way to mend it."""
+    if keyword == "automatic door" and token.text == "switch":
+        hint = "it opens for whoever comes near; write 'locked door' or 'trap door' for one with a switch"
+        return LevelError("automatic doors have no switch", column=token.column, hint=hint)
+    known = [word for vocabulary in form.words.values() for word in vocabulary] + list(form.takes)
+    if following and _NUMBER.fullmatch(token.text) and _NUMBER.fullmatch(following.text):
+        hint = f"column and row stand together: write {token.text},{following.text}"
+    else:
+        hint = suggestion(token.text, known) if known else f"'{keyword}' has places only, such as 5,7"
+    return LevelError(f"unknown word for '{keyword}'", column=token.column, found=shown(token.text), hint=hint)
 
 
 def _value_example(name: str) -> str:

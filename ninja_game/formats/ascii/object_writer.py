@@ -100,6 +100,6 @@ def _door_form(values: tuple[float, ...]) -> tuple[str, str, str]:
         return "", "", ""
     if not side:
         return "", "", ""
-    if keyword == "automatic door" and door_middle(*cell, side) == (x, y):
-        return keyword, place, side
+    if keyword == "automatic door":
+        return keyword if door_middle(*cell, side) == (x, y) else "", place, side
     return keyword, place, f"{side} switch {place_text(x, y)}"

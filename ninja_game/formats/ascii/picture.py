@@ -16,6 +16,8 @@ Cell = tuple[int, int]
 
 FRAME = "|"
 ROW_START = re.compile(r"\s*+(\d*+)\s*+\|", re.ASCII)
+ROW_END = re.compile(r"\|\s*+\d*+\s*+$", re.ASCII)
+"""The end of a row, which may have lost its left frame."""
 _ROW = re.compile(r"\s*+(\d*+)\s*+\|(.*)\|\s*+(\d*+)\s*+", re.ASCII)
 
 _LOOKS_LIKE = {
@@ -64,11 +66,14 @@ def read_picture(lines: Sequence[tuple[int, str]], end: int, problems: Problems)
     """
     before = len(problems.found)
     rows: list[tuple[str, int, int]] = []
-    for line, text in lines[:ROWS]:
-        row = _read_row(line, text, len(rows) + 1, problems)
+    misnumbered = False
+    for number, (line, text) in enumerate(lines[:ROWS], 1):
+        # After one wrong number all others are wrong too.
+        misnumbered = misnumbered or not _check_number(line, text, number, problems)
+        row = _read_row(line, text, number, problems)
         if row is not None:
             rows.append((row[0], line, row[1]))
-    if len(lines) != ROWS:
+    if len(lines) != ROWS and not misnumbered:
         problems.add(
             "the picture has too many rows" if len(lines) > ROWS else "the picture has too few rows",
             lines[ROWS][0] if len(lines) > ROWS else end,
@@ -81,23 +86,33 @@ def read_picture(lines: Sequence[tuple[int, str]], end: int, problems: Problems)
     return Picture(texts, numbers, columns)
 
 
+def _check_number(line: int, text: str, number: int, problems: Problems) -> bool:
+    """Whether a row has no other number than its own; a wrong one is noted."""
+    match = _ROW.fullmatch(text)
+    for label in match.group(1, 3) if match else ():
+        if label and (len(label) > 2 or int(label) != number):
+            hint = "a row is missing or stands twice above; the numbers may be left out"
+            problems.add("wrong row number", line, found=shown(label), expected=str(number), hint=hint)
+            return False
+    return True
+
+
 def _read_row(line: int, text: str, number: int, problems: Problems) -> tuple[str, int] | None:
     """Text and column of a row; its mistakes are noted, None if it has no two frame bars."""
     match = _ROW.fullmatch(text)
     if match is None:
         column = len(text) + 1
         tail = text.rpartition(FRAME)[2]
-        if text.count(FRAME) > 1:
+        if not ROW_START.match(text):
+            start = len(text) - len(text.lstrip()) + 1
+            problems.add("a picture row without its left frame", line, start, expected=f"'{FRAME}' before the cells")
+        elif text.count(FRAME) > 1:
             hint = "nothing but the row's number may follow the frame"
             problems.add("a picture row with something after its frame", line, found=shown(tail.strip()), hint=hint)
         else:
             problems.add("a picture row without its right frame", line, column, expected=f"'{FRAME}' at the end")
         return None
     cells, start = match.group(2), match.start(2) + 1
-    for label in match.group(1, 3):
-        if label and (len(label) > 2 or int(label) != number):
-            hint = "a row is missing or stands twice above; the numbers may be left out"
-            problems.add("wrong row number", line, found=shown(label), expected=str(number), hint=hint)
     if len(cells) != COLUMNS:
         more = COLUMNS - len(cells)
         column = start + min(len(cells), COLUMNS)

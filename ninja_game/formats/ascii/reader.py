@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.match import Placed, PlacedTile, join
 from ninja_game.formats.ascii.object_lines import OddTile, read_object_line, read_quoted, suggestion
-from ninja_game.formats.ascii.picture import ROW_START, read_picture
+from ninja_game.formats.ascii.picture import ROW_END, ROW_START, read_picture
 from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.problems import Problems
 from ninja_game.formats.ascii.writer import HEADER_KEYS, MAGIC, VERSION, write_ascii_level
@@ -78,12 +78,12 @@ def _sections(lines: Sequence[Line], problems: Problems) -> tuple[list[Line], li
     rows: list[Line] = []
     listed: list[Line] = []
     for number, line in lines:
-        if ROW_START.match(line):
+        if ROW_START.match(line) or (":" not in line and ROW_END.search(line)):
             if listed:
                 hint = "the picture is one block; the list of objects stands below it"
                 problems.add("a picture row below the list", number, found=shown(line.strip()), hint=hint)
-            else:
-                rows.append((number, line))
+                break
+            rows.append((number, line))
         else:
             (listed if rows else header).append((number, line))
     return header, rows, listed
@@ -99,7 +99,8 @@ def _read_header(lines: Sequence[Line], problems: Problems) -> dict[str, str]:
         if not colon:
             problems.add("not a header line", number, 1, found=shown(line.strip()),
                          expected="key: value, or the first row of the picture, |...|",
-                         hint="objects are listed below the picture")  # fmt: skip
+                         hint="comments begin with ;" if line.lstrip().startswith(("#", "//"))
+                         else "objects are listed below the picture")  # fmt: skip
         elif key not in HEADER_KEYS:
             problems.add("unknown header", number, 1, found=shown(key), hint=suggestion(key, HEADER_KEYS))
         elif key in fields:

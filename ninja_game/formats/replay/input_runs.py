@@ -85,6 +85,8 @@ def _bad_run(text: str, file: str, line: int, column: int) -> ReplayError:
     keys, star, count = text.partition("*")
     if star and not re.fullmatch("[1-9][0-9]{0,6}", count):
         hint = "a count is a whole number from 1"
+    elif star and not keys:
+        hint = "a count stands next to its keys, without a blank: R*33"
     elif set(keys.upper()) <= set("LRJ!-."):
         hint = f"write {_in_order(keys.upper())}{star}{count}"
     else:
