@@ -6,7 +6,7 @@ import os
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 
 if sys.platform == "win32":
@@ -45,7 +45,11 @@ def locked(path: Path, seconds: float) -> Iterator[None]:
 def _lock(handle: int, seconds: float) -> None:
     end = time.monotonic() + seconds
     while time.monotonic() < end:
-        with suppress(BlockingIOError, PermissionError):
+        try:
             _try_to_lock(handle)
             return
-        time.sleep(0.005)
+        except (BlockingIOError, PermissionError):
+            time.sleep(0.005)
+        except OSError:
+            # This disk has no locks.
+            return

@@ -7,13 +7,17 @@ import resource
 import signal
 import subprocess
 import sys
+import threading
+import time
 from pathlib import Path
 from typing import IO
+from unittest.mock import Mock
 
 import pytest
 
 from ninja_game.errors import FileError
 from ninja_game.files import resources, writing
+from ninja_game.files.locking import locked
 from ninja_game.files.reading import LeftOut, files_below, read_bytes, read_text, read_utf8, text_files
 from ninja_game.files.resources import data_folder
 from ninja_game.files.user_folder import user_folder
@@ -216,6 +220,33 @@ def test_unreadable_corner_is_left_out(tmp_path: Path, monkeypatch: pytest.Monke
     secret, file = files_below(tmp_path)
     assert str(secret) == f"{tmp_path / 'secret'}: Permission denied"
     assert file == tmp_path / "z.txt"
+
+
+# --- locks ---
+
+
+def test_lock_is_for_one_and_a_missing_one_stops_nobody(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    order = []
+
+    def second() -> None:
+        with locked(tmp_path / "file", 10):
+            order.append("second")
+
+    other = threading.Thread(target=second)
+    with locked(tmp_path / "file", 1):
+        other.start()
+        start = time.monotonic()
+        with locked(tmp_path / "file", 0.1):
+            assert time.monotonic() - start >= 0.1
+        order.append("first")
+    other.join()
+    assert order == ["first", "second"]
+    with locked(tmp_path / "no such folder" / "file", 1):
+        pass
+    monkeypatch.setattr("fcntl.flock", Mock(side_effect=OSError(37, "No locks available")))
+    start = time.monotonic()
+    with locked(tmp_path / "file", 10):
+        assert time.monotonic() - start < 5
 
 
 # --- places ---
