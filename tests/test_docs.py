@@ -11,6 +11,7 @@ import pytest
 from ninja_game.files.reading import MAX_BYTES
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.memory.schema import CAPACITY
+from tests.support.api_page import HEADING, PAGE, reference
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("tests/**/*.md")]
@@ -92,3 +93,9 @@ def test_security_page_states_the_limits_that_hold() -> None:
     assert f"| {MAX_BYTES // 2**20} MiB |" in page
     assert f"| {MAX_TICKS:,} ticks |" in page
     assert f"| {CAPACITY - 1:,}; an exit counts twice |" in page
+
+
+def test_the_page_of_the_api_tells_every_public_name_with_its_signature() -> None:
+    page = PAGE.read_text("utf-8")
+    assert page.partition(HEADING)[2] == reference().partition(HEADING)[2], "write it anew: python3 tools/dev.py golden"
+    assert all(line.partition(": ")[2] for line in reference().splitlines()[2:] if line), "something has no docstring"

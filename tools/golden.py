@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from tests.support.api_page import write_api_page
 from tests.support.golden_runs import GOLDEN, write_golden_files
 
 if __name__ == "__main__":
     write_golden_files()
+    write_api_page()
     print(f"wrote tests/replays and {', '.join(sorted(path.name for path in GOLDEN.glob('*.tsv')))}")
