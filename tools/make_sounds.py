@@ -70,10 +70,15 @@ def servo(seconds: float, start: float, end: float, seed: int) -> Wave:
 
 def hum(seconds: float, frequency: float, wobble: float, overtones: tuple[float, ...], bend: float) -> Wave:
     """A steady machine tone that loops: whole numbers of periods of tone and wobble."""
-    cycles = round(frequency * seconds) / seconds
-    slow = round(wobble * seconds) / seconds
+    whole = len(times(seconds)) / RATE
+    cycles, slow = round(frequency * seconds) / whole, round(wobble * seconds) / whole
     steady = tone(cycles, seconds, overtones=overtones, bend=bend)
     return steady * (0.8 + 0.2 * np.sin(2 * np.pi * slow * times(seconds)))
+
+
+def released(shape: Callable[[Wave], Wave]) -> Callable[[Wave], Wave]:
+    """An envelope that dies away in its last eighth."""
+    return lambda share: np.asarray(shape(share) * np.minimum(1.0, 8 * (1 - share)))
 
 
 def turn(start: float, end: float, seconds: float, shape: Callable[[Wave], Wave]) -> Wave:
@@ -147,9 +152,9 @@ RECIPES: dict[str, tuple[float, Callable[[], Wave]]] = {
     "rocket-explode": (0.85, lambda: blast(0.55, 33, depth=80)),
     "turret-lock": (0.35, lambda: echo(tone(988.0, 0.06) * fade(0.06, half_life=0.03), 0.11, 0.9, 3)),
     "turret-fire": (0.70, lambda: blast(0.31, 35, depth=160) + whistle(2200, 200, 0.31, 0.03)),
-    "laser-charge": (0.35, lambda: turn(160, 940, 0.84, lambda s: s**1.5)),
+    "laser-charge": (0.35, lambda: turn(160, 940, 0.84, released(lambda s: s**1.5))),
     "laser-beam": (0.40, lambda: hum(1.5, 146, 12, BRIGHT, 0.8) + 0.25 * noise(1.5, 2000, 7000, 37)),
-    "chaingun-charge": (0.35, lambda: turn(50, 190, 0.9, lambda s: 0.2 + 0.8 * s)),
+    "chaingun-charge": (0.35, lambda: turn(50, 190, 0.9, released(lambda s: 0.2 + 0.8 * s))),
     "chaingun-shot": (0.55, lambda: thud(0.12, 190, 38, grit=2.5)),
     "chaingun-off": (0.30, lambda: turn(190, 45, 0.7, lambda s: (1 - s) ** 1.2)),
     "chase": (0.45, lambda: whistle(300, 1200, 0.35, 0.12, bend=0.6)),

@@ -153,9 +153,7 @@ def main() -> NoReturn:
     for stream in (sys.stdout, sys.stderr):
         # Names of levels may hold what the terminal's encoding has not.
         getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")
-    if sys.argv[1:2] != ["play"]:
-        # A window ends by itself, and may have something to save.
-        end_on_signals()
+    end_on_signals()
     try:
         cli.main(prog_name="ninja-game")
     except SystemExit as end:

@@ -80,10 +80,8 @@ def prepare_sdl() -> None:
     """What SDL reads from the environment when it starts."""
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     # The kind of window, by which desktops find its icon and group it.
-    os.environ.setdefault("SDL_VIDEO_X11_WMCLASS", TITLE)
+    os.environ["SDL_VIDEO_X11_WMCLASS"] = TITLE  # pygame has put the name of the script there
     os.environ.setdefault("SDL_VIDEO_WAYLAND_WMCLASS", TITLE)
-    # SDL would turn SIGTERM and Ctrl-C into an event that nobody reads while a long recording is run.
-    os.environ.setdefault("SDL_NO_SIGNAL_HANDLERS", "1")
 
 
 def _prefer_shared_memory() -> None:

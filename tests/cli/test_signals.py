@@ -34,6 +34,8 @@ COMMANDS = {
     "improve": "improve walk.replay.txt --seconds 100 --jobs 1 -o out/run.replay.txt",
     "check": "check far.txt --seconds 100 --replays out",
     "bench": "bench walk.replay.txt",
+    "play": "play --replay archive.txt --size 132x100",
+    "export": "export archive.txt -o out/film.gif",
 }
 
 
@@ -53,7 +55,7 @@ def ended(words: str, number: signal.Signals, after: float, folder: Path) -> tup
     for file in (folder / "out").iterdir():
         file.unlink()
     program = [sys.executable, "-m", "ninja_game", *words.split()]
-    environment = {**os.environ, "TMPDIR": str(folder / "out")}
+    environment = {**os.environ, "TMPDIR": str(folder / "out"), "NINJA_GAME_HOME": str(folder / "home")}
     with subprocess.Popen(
         program, cwd=folder, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True
     ) as running_program:

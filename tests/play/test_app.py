@@ -9,12 +9,17 @@ import pytest
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import export_path
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
 from ninja_game.play.main import first_screen, main
 from ninja_game.play.menus.boss import BossScreen
 from ninja_game.play.menus.pause import PausePanel
+from ninja_game.play.menus.watch_replay import watch_recording
 from ninja_game.play.window import Window
+from ninja_game.sim.inputs import Demo
 from tests.support.menu_driver import MenuDriver
+from tests.support.samples import NO_NINJA
 from tests.support.scripted import frames, press, scripted_app
 
 LEVEL = Path(__file__).parent.parent.parent / "levels" / "01-first-steps.txt"
@@ -102,6 +107,15 @@ def test_picture_that_cannot_be_saved_is_a_notice() -> None:
         press("screenshot")
         frames(app)
         assert "could not be saved" in app.notice
+
+
+def test_replay_without_a_ninja_is_refused_with_a_notice() -> None:
+    level = parse_level_string(NO_NINJA)
+    with scripted_app() as (app, _):
+        start_level(app)
+        watch_recording(app, Recording("empty", "", "", level, Demo(b"", 0.0), "empty.txt"))
+        assert len(app.stack) == 1
+        assert "cannot be watched" in app.notice
 
 
 def test_notice_is_drawn_below_the_stage_and_never_for_the_boss() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pygame
 import pytest
 
+from ninja_game.play.level.hud import trough
 from ninja_game.play.ui.palette import CLASSIC, PALETTES, ROLES, Palette, palette_named
 from ninja_game.play.view.effects import particle_shapes
 from ninja_game.play.view.sprites import moving_sprites as moving
@@ -38,6 +39,13 @@ def test_settings_accept_every_palette_and_an_unknown_one_is_the_first() -> None
     for name in PALETTES:
         assert Settings().changed(palette=name).palette == name
     assert palette_named(DEFAULT_PALETTE) is palette_named("of-another-version") is CLASSIC
+
+
+@pytest.mark.parametrize("palette", PALETTES.values(), ids=lambda palette: palette.name)
+def test_time_bar_stands_out_full_and_empty(palette: Palette) -> None:
+    for colour in (palette.bar_full, palette.bar_empty):
+        assert contrast(colour, trough(palette)) >= 4.5
+        assert contrast(colour, palette.tile) >= 2
 
 
 @pytest.mark.parametrize("palette", PALETTES.values(), ids=lambda palette: palette.name)

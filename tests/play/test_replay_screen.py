@@ -9,9 +9,11 @@ import pygame
 import pytest
 
 from ninja_game.formats.load import load_replays
+from ninja_game.play.replay import playback
 from ninja_game.play.replay.export import export_film, film_length
 from ninja_game.play.replay.playback import RecordedRun, recorded_run
 from ninja_game.play.replay.screen import AFTERMATH, SPEEDS, ReplayScreen
+from ninja_game.play.ui.theme import Theme
 from ninja_game.simulation import Simulation
 from tests.support.scripted import frames, press, scripted_app
 
@@ -119,3 +121,85 @@ def test_a_gif_has_as_many_pictures(tmp_path: Path) -> None:
             ms += film.info["duration"]
         # Pillow joins equal pictures: the time is what counts.
         assert abs(ms - 25 * film_length(short)) <= 30
+
+
+def test_home_and_end_lead_to_the_start_and_the_outcome() -> None:
+    with scripted_app((396, 300)) as (app, _):
+        screen = ReplayScreen(app, [TAKE])
+        app.push(screen)
+        press("last")
+        frames(app, 1, 0)
+        assert screen.tick == screen.end
+        press("first")
+        frames(app, 1, 0)
+        assert screen.tick == 0
+
+
+def test_count_of_ticks_stops_at_the_end_of_the_recording(monkeypatch: pytest.MonkeyPatch) -> None:
+    with scripted_app((396, 300)) as (app, _):
+        screen = ReplayScreen(app, [TAKE])
+        app.push(screen)
+        screen.seek(screen.end + 20)
+        written: list[str] = []
+
+        def note(_: Theme, surface: pygame.Surface, text: str, *__: object, **___: object) -> pygame.Rect:
+            written.append(text)
+            return surface.get_rect()
+
+        monkeypatch.setattr(Theme, "text", note)
+        screen.draw(app.surface)
+        assert any(text.startswith(f"{screen.end} / {screen.end} ") for text in written)
+
+
+def test_mark_of_an_exit_is_not_that_of_a_death() -> None:
+    marks = []
+    for inputs, outcome in ((TAKE.inputs, "exit"), (bytes(600), "running")):
+        with scripted_app((792, 600)) as (app, _):
+            screen = ReplayScreen(app, [RecordedRun("run", TAKE.level, inputs)])
+            app.push(screen)
+            frames(app, 1, 0)
+            assert screen.outcome == outcome
+            x = 24 + 560 * screen.end / screen.length
+            marks.append(app.surface.get_at((round(x), 584))[:3])
+            if outcome == "exit":
+                assert marks[0] == app.theme.palette.good[:3]
+                assert marks[0] != app.theme.palette.bad[:3]
+    assert marks[0] != marks[1]
+
+
+def test_nothing_of_the_viewer_is_written_over_the_level() -> None:
+    with scripted_app() as (app, _):
+        screen = ReplayScreen(app, [TAKE])
+        app.push(screen)
+        press("pause")
+        frames(app, 3)
+        with_words = app.surface.copy()
+        screen.view.draw(app.surface, 1.0, whole=True)
+        changed = pygame.mask.from_threshold(app.surface, (0, 0, 0), (1, 1, 1, 255), with_words)
+        changed.invert()
+        assert changed.count()
+        assert all(rect.top >= 576 or rect.bottom <= 24 for rect in changed.get_bounding_rects())
+
+
+def test_sound_is_back_after_seeking_even_if_it_fails(monkeypatch: pytest.MonkeyPatch) -> None:
+    with scripted_app((396, 300)) as (app, _):
+        screen = ReplayScreen(app, [TAKE])
+
+        def broken() -> None:
+            raise RuntimeError
+
+        monkeypatch.setattr(screen.playback, "step", broken)
+        with pytest.raises(RuntimeError):
+            screen.seek(50)
+        assert screen.view.audible
+
+
+def test_long_run_keeps_few_states_and_every_moment_stays_exact(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(playback, "MOST_STATES", 10)
+    played = playback.Playback(Simulation(TAKE.level), TAKE.inputs, spacing=4)
+    digests = straight_digests(TAKE, 300)
+    played.seek(300)
+    assert len(played._states) <= 10
+    for tick in (0, 299, 8, 150, 151, 3):
+        played.seek(tick)
+        assert played.simulation.digest() == digests[tick]

@@ -14,6 +14,7 @@ from ninja_game.play.audio.player import AudioPlayer
 from ninja_game.play.audio.table import BY_DEATH, BY_EVENT, CORPSE, LOOPS, OTHER_DEATH, loop_levels
 from ninja_game.simulation import Simulation
 from tools.make_sounds import RECIPES, samples
+from tools.synthesis import RATE
 
 FLAT = parse_level_string("0" * 713 + "|5^100,566!0^140,566!11^400,564,500,564")
 
@@ -45,7 +46,13 @@ def test_file_is_what_the_script_makes(folder: Path, name: str) -> None:
 def test_loops_end_as_they_begin(name: str) -> None:
     made = np.frombuffer(samples(name), "<i2").astype(float)
     steps = np.abs(np.diff(made))
-    assert abs(made[0] - made[-1]) <= 1.5 * steps.max()
+    assert abs(made[0] - made[-1]) <= steps.max()
+
+
+@pytest.mark.parametrize("name", sorted(set(RECIPES) - set(LOOPS)))
+def test_other_sounds_die_away_before_they_end(name: str) -> None:
+    made = np.abs(np.frombuffer(samples(name), "<i2").astype(float))
+    assert made[-RATE // 100 :].max() <= 0.3 * made.max()
 
 
 def test_skid_and_slide_follow_the_speed() -> None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import os
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from math import isfinite
 from pathlib import Path
 from random import Random
@@ -135,11 +137,26 @@ def _has_loop(thing: Object) -> bool:
     return thing.kind in (LAUNCHER, FLOOR_GUARD) or (thing.kind == DRONE and thing.weapon == WEAPON_LASER)
 
 
+@contextmanager
+def _quiet_libraries() -> Iterator[None]:
+    """Nothing on stderr: where there is no sound card, the system's sound library complains there in many lines."""
+    kept = os.dup(2)
+    silence = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(silence, 2)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(silence)
+
+
 def _open_mixer() -> bool:
     """Whether there is a sound device that can be used."""
     try:
         if not pygame.mixer.get_init():
-            pygame.mixer.init(RATE, -16, 2, BUFFER)
+            with _quiet_libraries():
+                pygame.mixer.init(RATE, -16, 2, BUFFER)
         pygame.mixer.set_num_channels(CHANNELS)
         pygame.mixer.set_reserved(len(LOOPS))
     except (pygame.error, NotImplementedError):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import pygame
 
-from ninja_game.play.ui.palette import mixed
+from ninja_game.play.ui.palette import Palette, mixed
 from ninja_game.play.ui.theme import Theme
 from ninja_game.player.scoring import seconds_text
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
@@ -36,6 +36,11 @@ _KEYS = (
     (40, KEY_RIGHT, ((3, 0), (-2, -4), (-2, 4))),
 )
 """Where the keys of left, jump and right are drawn, their bits and their arrows."""
+
+
+def trough(palette: Palette) -> pygame.Color:
+    """What is behind the time bar."""
+    return mixed(palette.tile, palette.outline, 0.8)
 
 
 @dataclass(frozen=True)
@@ -82,7 +87,7 @@ class Hud:
         thick = 5 + 8 * danger
         colour = mixed(palette.bar_full, palette.bar_empty, danger)
         frame = canvas.fill_rect(
-            surface, mixed(palette.tile, palette.outline, 0.25), _BAR_LEFT - 1, _BAR_MIDDLE - thick / 2 - 1,
+            surface, trough(palette), _BAR_LEFT - 1, _BAR_MIDDLE - thick / 2 - 1,
             _BAR_LONGEST + 2, thick + 2, 2,
         )  # fmt: skip
         if length > 0:

@@ -64,8 +64,8 @@ class Palette:
 
 _CLASSIC = dict(  # noqa: C408 - one form for all palettes
     background="#cacad0", tile="#787887", text="#17171c", faint="#62626f", on_tile="#e4e4ea", panel="#dcdce1",
-    panel_edge="#9a9aa6", accent="#a33a2c", good="#2d6a3a", bad="#992222", bar_full="#5865a0",
-    bar_empty="#ad4b4e", ninja="#1d1d22", band="#a33a2c", ghost="#5865a0", blood="#990000", outline="#3a3a42",
+    panel_edge="#9a9aa6", accent="#a33a2c", good="#2d6a3a", bad="#992222", bar_full="#c0ccff",
+    bar_empty="#ffab9f", ninja="#1d1d22", band="#a33a2c", ghost="#5865a0", blood="#990000", outline="#3a3a42",
     dark="#5b5b66", middle="#9a9aa5", light="#b8b8c1", bright="#ebebef", gold="#cc9900", gold_light="#f4dd55",
     gold_dark="#8a6500", exit="#8f6fb0", exit_light="#cbb4dd", switch="#5b7fb0", mine="#990f0f",
     weapon="#882222", laser="#9c1c1c", warning="#cb7679", turret="#7f335a", launcher="#4d0f2c",
@@ -96,7 +96,7 @@ DARK = _palette(
 CONTRAST = _palette(
     "contrast", danger_by_shape=True, background="#ffffff", tile="#3a3a3a", text="#000000", faint="#333333",
     on_tile="#ffffff", panel="#ffffff", panel_edge="#000000", accent="#0033cc", good="#006000", bad="#b00000",
-    bar_full="#0033cc", bar_empty="#b00000", ninja="#000000", band="#0033cc", ghost="#4a6fff", blood="#c00000",
+    bar_full="#7fb2ff", bar_empty="#ff8080", ninja="#000000", band="#0033cc", ghost="#4a6fff", blood="#c00000",
     outline="#000000", dark="#333333", middle="#888888", light="#c4c4c4", bright="#ffffff",
     gold="#c08000", gold_light="#ffe000", gold_dark="#4d3300", exit="#7a2fc0", exit_light="#d8b0ff",
     switch="#0050d0", mine="#d00000", weapon="#d00000", laser="#d00000", warning="#ff5a5a", turret="#a00060",
@@ -108,7 +108,7 @@ CONTRAST = _palette(
 SAFE = _palette(
     "safe", danger_by_shape=True, background="#d3d5d8", tile="#6f7680", text="#14161a", faint="#565c66",
     on_tile="#eef0f3", panel="#e3e5e8", panel_edge="#8f959f", accent="#0060a8", good="#0060a8", bad="#c24a00",
-    bar_full="#0072b2", bar_empty="#d55e00", ninja="#101216", band="#0060a8", ghost="#0072b2", blood="#8a2c00",
+    bar_full="#a6dcfa", bar_empty="#ffb877", ninja="#101216", band="#0060a8", ghost="#0072b2", blood="#8a2c00",
     gold="#e6c200", gold_light="#fff27a", gold_dark="#6b5900", exit="#56b4e9", exit_light="#c9e8fb",
     switch="#0072b2", mine="#d55e00", weapon="#d55e00", laser="#d55e00", warning="#e8a06a", turret="#b04a00",
     launcher="#7a3300", electric="#d55e00", spark="#fff0d8", drone="#202329", lock="#5b5f22", trap="#a34700",
