@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 from tools import ROOT
 
-COPIED = ("ninja_game", "tests", "levels", "assets", "pyproject.toml", "README.md")
+COPIED = ("ninja_game", "tests", "tools", "levels", "assets", "pyproject.toml", "README.md")
 
 
 class Change(NamedTuple):

@@ -24,6 +24,7 @@ from ninja_game.player.settings import Settings
 from ninja_game.sim.death import kill
 from ninja_game.sim.states import ELECTRIC, EXPLOSIVE
 from ninja_game.simulation import Simulation
+from tools.draw.contact_sheet import THINGS, paint_things
 
 HERE = Path(__file__).parent
 GOLDEN = HERE / "golden"
@@ -73,6 +74,7 @@ SCENES = {
     "death-explosive": lambda: scene(0, 60, fatal=EXPLOSIVE),
     "death-electric": lambda: scene(0, 60, fatal=ELECTRIC),
     "death-without-gore": lambda: scene(0, 60, Settings(reduced_gore=True, reduced_motion=True), fatal=EXPLOSIVE),
+    "drawings": lambda: paint_things(PALETTES["classic"], THINGS),
     "thumbnail": lambda: thumbnail(
         load_levels(ROOT / "levels" / "08-the-works.txt")[0].level, PALETTES["classic"], 264
     ),
@@ -123,3 +125,19 @@ def test_comparison_sees_that_the_ninja_is_missing(monkeypatch: pytest.MonkeyPat
     assert difference(with_ninja, without)[1] > BLOCK_TOLERANCE
     monkeypatch.undo()
     assert difference(with_ninja, scene(0, 120)) == (0.0, 0.0)
+
+
+def test_tiles_cover_what_moves() -> None:
+    """An explosion inside a wall is not seen."""
+    recording = load_replays(min((ROOT / "tests" / "replays").glob("*.replay.txt")))[0]
+    view = LevelView(OffscreenContext(SIZE), Simulation(recording.level), chance=7)
+    surface = pygame.Surface(SIZE)
+    view.draw(surface, whole=True)
+    before = pygame.image.tobytes(surface, "RGB")
+    view.effects.explosion(100, 100)
+    view.effects.now += 3
+    view.draw(surface)
+    assert pygame.image.tobytes(surface, "RGB") == before
+    view.effects.explosion(396, 160)
+    view.draw(surface)
+    assert pygame.image.tobytes(surface, "RGB") != before

@@ -29,10 +29,10 @@ author: nobody
 |...............................|
 |...............................|
 |...............................|
-|...................+...........|
+|...................+..........4|
 |...............................|
 |...............................|
-|...............................|
+|..............................7|
 |...............................|
 |....Z...................Q......|
 |...............................|
@@ -229,6 +229,10 @@ def _help(driver: MenuDriver) -> Iterator[str]:
     for index, topic in enumerate(screen.topics):
         screen.list._select(index)
         demonstration = screen.demonstration
+        if topic == "Gauss turrets":
+            for _ in range(40):
+                screen.update(25)
+            yield "help-gauss-turrets-aiming"
         if demonstration is not None:
             for _ in range(len(demonstration.page.inputs)):
                 screen.update(25)
