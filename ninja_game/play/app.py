@@ -91,6 +91,12 @@ class App:
         self.notice, self._notice_ms = text, ms
         self.stack.redraw_all()
 
+    def tell_problems(self) -> None:
+        """Show what is wrong with the player's files and has not been shown yet."""
+        text = self.player.new_messages()
+        if text:
+            self.notify(text, ms=WARNING_MS)
+
     def _lay_out(self) -> None:
         """Draw everything again, at the window's present size and in the present palette."""
         self.canvas = Canvas(self.surface.get_size())
@@ -255,11 +261,9 @@ def build_app(
     )
     app = App(player, bindings, sound, size=size)
     player.open_records()
-    messages = player.messages
     if bindings.unknown:
-        messages.append(f"settings.toml: no key is called {shown_text(', '.join(bindings.unknown), 60)}.")
+        player.tell(f"settings.toml: no key is called {shown_text(', '.join(bindings.unknown), 60)}.")
     if settings.palette not in PALETTES:
-        messages.append(f"settings.toml: there is no palette {settings.palette}: {', '.join(PALETTES)}.")
-    if messages:
-        app.notify(" ".join(messages), ms=WARNING_MS)
+        player.tell(f"settings.toml: there is no palette {settings.palette}: {', '.join(PALETTES)}.")
+    app.tell_problems()
     return app

@@ -19,11 +19,15 @@ from ninja_game.player.unlocks import complete_columns
 
 
 class PlayerData:
-    """The player's data in one folder. that is wrong with the folder or its files keeps the game from starting."""
+    """The player's data in one folder. Nothing that is wrong with the folder or its files keeps the game from starting.
+
+    ``messages``: what the player should be told about settings and, once they are open, records.
+    """
 
     def __init__(self, folder: Path | None = None) -> None:
         self.folder = user_folder() if folder is None else folder
         self._messages: list[str] = []
+        self._told: set[str] = set()
         try:
             make_user_folder(self.folder)
             remove_leftovers(self.folder)
@@ -41,8 +45,18 @@ class PlayerData:
 
     @property
     def messages(self) -> list[str]:
-        """What the player should be told about settings and, once they are open, records."""
+        """All messages so far."""
         return self._messages + (self.store.messages if "store" in self.__dict__ else [])
+
+    def tell(self, message: str) -> None:
+        """Add a message."""
+        self._messages.append(message)
+
+    def new_messages(self) -> str:
+        """The messages that this method has not given yet, as one text."""
+        new = [message for message in self.messages if message not in self._told]
+        self._told.update(new)
+        return " ".join(new)
 
     def open_records(self) -> None:
         """Open the database now, so that ``messages`` says what is wrong with it before anyone needs it."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME, TICK_MS
 
 
@@ -14,15 +12,6 @@ def level_score(gold: int, exit_tick: int) -> int:
     3240
     """
     return LIFETIME + GOLD_BONUS * gold - exit_tick
-
-
-def episode_score(levels: Iterable[tuple[int, int]]) -> int:
-    """Score of an episode in ticks, from (gold, exit tick) of its levels: the lifetime at its last exit.
-
-    >>> episode_score([(3, 600), (0, 100)])
-    3140
-    """
-    return LIFETIME + sum(GOLD_BONUS * gold - exit_tick for gold, exit_tick in levels)
 
 
 def seconds_text(ticks: int) -> str:

@@ -68,6 +68,7 @@ class MenuScreen(Screen):
             pygame.key.start_text_input()
         else:
             pygame.key.stop_text_input()
+        self.app.tell_problems()
 
     # --- input ---
 

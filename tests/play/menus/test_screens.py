@@ -256,6 +256,18 @@ def test_odd_names_and_a_level_without_ninja_stop_no_screen(driver: MenuDriver) 
     assert len(list((driver.player.folder / "exports").iterdir())) == 1
 
 
+def test_damaged_rows_are_told_of_where_they_are_missing(driver: MenuDriver) -> None:
+    driver.player.store.connection.execute("INSERT INTO death VALUES ('mine', 'often')")
+    driver.player.store.connection.execute("INSERT INTO progress VALUES (0, 'far', 0, 0, 0)")
+    driver.player.store.epoch += 1
+    driver.open("Play")
+    assert "Some of the records are damaged" in driver.app.notice
+    driver.app.notify("")
+    driver.press("escape")
+    driver.open("Records")
+    assert driver.app.notice == ""
+
+
 def test_file_dropped_on_the_window_is_taken_in(driver: MenuDriver, tmp_path: Path) -> None:
     browser = driver.open("Levels")
     assert isinstance(browser, Browser)
