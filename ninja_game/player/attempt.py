@@ -26,11 +26,11 @@ class Attempt:
     """
 
     def __init__(
-        self, level: Level, *, body: Body = "circle", lifetime: int = LIFETIME, practice: bool = False
+        self, level: Level, *, body: Body = "circle", lifetime: int = LIFETIME, practice_mode: bool = False
     ) -> None:
         self.simulation = Simulation(level, body=body)
         self.start_lifetime = lifetime
-        self.practice = practice
+        self.practice_mode = practice_mode
         self.restart()
 
     def restart(self) -> None:
@@ -41,7 +41,7 @@ class Attempt:
         self.score = 0
         self.ended_tick = -1
         self.own_hand = False
-        self.assisted = self.practice
+        self.assisted = self.practice_mode
 
     @property
     def outcome(self) -> str:
@@ -74,12 +74,12 @@ class Attempt:
             self.ended_tick = world.tick - 1
             # The score is taken inside the tick of the exit contact, before its lifetime step.
             self.score = level_score(world.gold, self.ended_tick)
-        elif not self.practice:
+        elif not self.practice_mode:
             self.lifetime -= 1
 
     def check_time(self) -> None:
         """Kill a ninja whose lifetime is over: asked once per picture, after its ticks."""
-        if self.lifetime <= 0 and not self.practice and self.outcome == "running":
+        if self.lifetime <= 0 and not self.practice_mode and self.outcome == "running":
             self._kill(FALL, 0.0, 0.0)
 
     def give_up(self, chance: float, dx: float, dy: float) -> None:
@@ -112,7 +112,7 @@ class Attempt:
         ended = self.outcome != "running"
         del self.inputs[tick:]
         self.lifetime = self.start_lifetime + GOLD_BONUS * self.gold
-        if not self.practice:
+        if not self.practice_mode:
             self.lifetime -= self.ended_tick if ended else tick
         if not ended:
             # After a death by the player's own hand ticks went on without input.

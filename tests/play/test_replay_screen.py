@@ -162,8 +162,8 @@ def test_mark_of_an_exit_is_not_that_of_a_death() -> None:
             x = 24 + 560 * screen.end / screen.length
             marks.append(app.surface.get_at((round(x), 584))[:3])
             if outcome == "exit":
-                assert marks[0] == app.theme.palette.good[:3]
-                assert marks[0] != app.theme.palette.bad[:3]
+                assert marks[0] == app.theme.palette.bar_full[:3]
+                assert marks[0] != app.theme.palette.bar_empty[:3]
     assert marks[0] != marks[1]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -61,6 +62,16 @@ def test_playing_needs_neither_numba_nor_numpy(tmp_path: Path) -> None:
         "assert 'numpy' not in sys.modules\n"
     )
     subprocess.run([sys.executable, "-c", program], check=True, timeout=60, cwd=ROOT)
+
+
+def test_a_machine_without_a_sound_card_is_silent_on_the_terminal_too(tmp_path: Path) -> None:
+    environment = {name: value for name, value in os.environ.items() if name != "SDL_AUDIODRIVER"}
+    environment |= {"SDL_VIDEODRIVER": "dummy", "NINJA_GAME_HOME": str(tmp_path)}
+    done = subprocess.run(
+        [sys.executable, "-m", "ninja_game", "play", LEVEL, "--frames", "2"],
+        env=environment, cwd=ROOT, capture_output=True, text=True, check=True, timeout=60,
+    )  # fmt: skip
+    assert not done.stderr
 
 
 class Probe(Screen):

@@ -50,7 +50,7 @@ def player_data(folder: Path, *episodes: Episode) -> PlayerData:
 
 def played(level: Level, *, lifetime: int = LIFETIME, practice: bool = False, wait: int = 0) -> Attempt:
     """An attempt that runs right, after ``wait`` ticks of standing, until it passes or dies."""
-    attempt = Attempt(level, lifetime=lifetime, practice=practice)
+    attempt = Attempt(level, lifetime=lifetime, practice_mode=practice)
     for tick in range(400):
         attempt.tick(RIGHT if tick >= wait else 0)
         if attempt.outcome != "running":

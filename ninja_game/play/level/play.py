@@ -51,7 +51,7 @@ class LevelPlay:
         self.chance = Random()  # noqa: S311 - presentation and the suicide key
         self.clock = RunClock()
         self.attempt = Attempt(
-            context.level, body=context.body, lifetime=context.lifetime, practice=context.practice_mode
+            context.level, body=context.body, lifetime=context.lifetime, practice_mode=context.practice_mode
         )  # fmt: skip
         self.tools = PracticeTools(self.attempt)
         self.view = LevelView(app, self.attempt.simulation, chance=self.chance.randrange(1 << 30))

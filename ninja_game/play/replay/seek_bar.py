@@ -40,7 +40,7 @@ class ReplayBar:
         at = _LEFT + _WIDTH * min(1.0, tick / max(1, length))
         canvas.fill_rect(surface, palette.on_tile, _LEFT, _Y - 2, at - _LEFT, 4, 2)
         mark = _LEFT + _WIDTH * end / max(1, length)
-        colour = {"exit": palette.good, "dead": palette.bad}.get(outcome, palette.accent)
+        colour = {"exit": palette.bar_full, "dead": palette.bar_empty}.get(outcome, palette.accent)
         canvas.fill_rect(surface, colour, mark - 1, _Y - 5, 2, 10)
         knob = canvas.circle(surface, palette.on_tile, (at, _Y), 5)
         return rect.union(knob).inflate(canvas.px(10), canvas.px(10))
