@@ -175,6 +175,10 @@ def _levels(driver: MenuDriver) -> Iterator[str]:
     for ticks in (25, 20, 15, 45):
         driver.frames(ticks)
         yield f"shooting-{_level(driver).attempt.simulation.tick}"
+        if ticks == 20:
+            driver.press("4")
+            yield "shooting-rays"
+            driver.press("4")
     driver.press("escape")
     home(driver)
     driver.open("Levels")

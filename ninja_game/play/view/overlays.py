@@ -1,4 +1,4 @@
-"""Overlays that show how the world thinks: hit boxes, grid, edge states, lines of sight, cells. They only read it."""
+"""Overlays that show how the world works: hit boxes, grid, edge states, lines of sight, cells. They only read it."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Overlays:
         self._sheet_of: tuple[object, ...] = ()
 
     def toggle(self, action: str) -> bool:
-        """Switch the overlay of an action; whether it is one's."""
+        """Switch the overlay that an action means; False if it means none."""
         if action not in OVERLAY_ACTIONS:
             return False
         self.on ^= {action}
@@ -106,7 +106,7 @@ def _tint(target: DrawTarget, colour: pygame.Color, alpha: int, cell: int, inset
 
 
 def _draw_cells(target: DrawTarget, world: World) -> None:
-    """The nine cells that are asked for things; stronger, the cells whose tiles the body touches; things' own cells."""
+    """The nine cells that are searched for objects; stronger, those whose tiles are touched; the cells of objects."""
     n = world.ninja
     if EXISTS[n.cell]:
         for offset in NINE_CELLS:
@@ -132,7 +132,7 @@ def touched_cells(x: float, y: float, cell: int) -> list[int]:
 
 
 def _draw_rays(target: DrawTarget, simulation: Simulation) -> None:
-    """From everything that looks for the ninja: to it where it is seen, to the tile in the way where not."""
+    """A line from each object that looks for the ninja: to the ninja if it is in sight, else to the tile between."""
     world, level = simulation.world, simulation.tiles
     n = world.ninja
     for slot in range(1, world.id_count + 1):
