@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
@@ -12,8 +13,6 @@ import click
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from ninja_game.formats.load import NamedLevel, Recording
     from ninja_game.solver.certificate import VerifiedRun
     from ninja_game.solver.solve import Progress, Task
@@ -137,9 +136,11 @@ def smoothed_run(run: VerifiedRun, price: int) -> VerifiedRun:
 
 
 def saver(path: Path, level: NamedLevel | Recording) -> Callable[[VerifiedRun], None]:
-    """A function that writes each better run of a level to a file."""
+    """A function that writes each better run of a level to a file, which must not be the level's own."""
+    from ninja_game.files.writing import check_output
     from ninja_game.solver.certificate import replay_of, save_replay
 
+    check_output(path, keep=[Path(level.file)])
     return lambda run: save_replay(
         path, replay_of(run, name=level.name, author="ninja-game solve", level_author=level.author)
     )

@@ -88,6 +88,11 @@ def discard_unfinished() -> None:
             part.unlink(missing_ok=True)
 
 
+def check_output(path: Path, keep: Iterable[Path] = ()) -> None:
+    """Raise now what ``open_atomically`` would raise about a path, for commands that work long before they write."""
+    _target(path, keep)
+
+
 def remove_leftovers(folder: Path) -> None:
     """Remove the temporary files of killed writers from a folder; once for each folder and process."""
     if folder in _tidied:

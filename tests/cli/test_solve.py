@@ -55,6 +55,17 @@ def test_solve_writes_a_replay_that_passes(tmp_path: Path) -> None:
     assert (run.outcome, run.end_tick) == ("exit", WALK_END)
 
 
+@pytest.mark.parametrize("command_name", ["solve", "improve"])
+def test_source_is_not_written_over(command_name: str, tmp_path: Path) -> None:
+    source = write_records(tmp_path / "demos.txt", ("Walk", WALK, running(WALK_END)))
+    before = source.read_bytes()
+    for out in (source, "/dev/null"):
+        result = command(command_name, source, "-o", out)
+        assert result.exit_code == 2
+        assert "read by the same command" in result.stderr or "only a regular file" in result.stderr
+    assert source.read_bytes() == before
+
+
 def test_solve_says_when_it_found_nothing(tmp_path: Path) -> None:
     out = tmp_path / "out.replay.txt"
     result = command("solve", level_file(tmp_path, CLOSED_IN), "--ticks", "300000", "--jobs", "1", "-o", out)
