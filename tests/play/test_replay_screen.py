@@ -203,3 +203,31 @@ def test_long_run_keeps_few_states_and_every_moment_stays_exact(monkeypatch: pyt
     for tick in (0, 299, 8, 150, 151, 3):
         played.seek(tick)
         assert played.simulation.digest() == digests[tick]
+
+
+def test_film_is_made_from_the_viewer_and_told_whatever_the_palette() -> None:
+    with scripted_app((396, 300), palette="of-another-version") as (app, _):
+        screen = ReplayScreen(app, [RecordedRun("a / b", TAKE.level, TAKE.inputs[:3])])
+        app.push(screen)
+        press("export")
+        frames(app, 1, 0)
+        job = screen.export
+        assert job is not None
+        job._thread.join(60)
+        frames(app, 1, 0)
+        assert app.notice == f"Saved: {app.player.folder / 'exports' / 'a-b-1.gif'}"
+        assert (app.player.folder / "exports" / "a-b-1.gif").is_file()
+
+
+def test_film_that_cannot_be_saved_is_told() -> None:
+    with scripted_app((396, 300)) as (app, _):
+        screen = ReplayScreen(app, [RecordedRun("run", TAKE.level, TAKE.inputs[:3])])
+        app.push(screen)
+        (app.player.folder / "exports").rmdir()
+        (app.player.folder / "exports").write_text("in the way")
+        press("export")
+        frames(app, 1, 0)
+        assert screen.export is not None
+        screen.export._thread.join(60)
+        frames(app, 1, 0)
+        assert "could not be saved" in app.notice
