@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ninja_game.cli.run_options import LevelPath
 from ninja_game.cli.solver_options import (
     NOT_FOUND,
     body_option,
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("levels", metavar="LEVEL...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
+@click.argument("levels", metavar="LEVEL...", nargs=-1, required=True, type=LevelPath())
 @gold_option
 @seconds_option(10.0)
 @work_option
@@ -65,7 +66,8 @@ def command(
 
     \b
     Examples:
-      ninja-game check levels/
+      ninja-game check 01-first-steps
+      ninja-game check my-levels/
       ninja-game check my-level.txt --seconds 60 --replays certificates/
     """
     from ninja_game.cli.main import BAD_INPUT, complain

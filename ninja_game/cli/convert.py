@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ninja_game.cli.run_options import level_given, level_option
+from ninja_game.cli.run_options import LevelPath, level_given, level_option
 from ninja_game.errors import FileError, LevelError
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ FORM_OF_NAME = {".replay.txt": "replay", ".replay": "replay", ".demo": "file", "
 
 
 @click.command()
-@click.argument("sources", metavar="IN...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
+@click.argument("sources", metavar="IN...", nargs=-1, required=True, type=LevelPath())
 @click.argument("target", metavar="OUT", type=click.Path(allow_dash=True))
 @click.option("--to", "form", type=click.Choice(FORMS), help="The form to write, whatever OUT is called.")
 @click.option("--legend", is_flag=True, help="End readable levels with the meaning of all characters, as comments.")
@@ -36,10 +36,10 @@ def command(
     IN is a file or folder in any format; OUT a file, a folder, or - for the terminal. What is written:
 
     \b
-      ascii   levels in the readable format of docs/level-format.md; several: one file each, in the folder OUT
+      ascii   levels as a picture and a list of objects; several: one file each, in the folder OUT
       string  levels as in-game strings of N, one a line
       file    a level file of N, $name#author#comment#level#, recordings with their demos behind the level
-      replay  recordings as replay texts of docs/replay-format.md, run once; several: one file each, in the folder OUT
+      replay  recordings as our replay texts, run once; several: one file each, in the folder OUT
 
     Without --to: replay where OUT ends in .replay.txt or .replay, file for .demo, string for .nlevel; else levels of N
     become ascii and readable ones a level file. What the form cannot hold is told.

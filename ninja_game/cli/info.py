@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ninja_game.cli.run_options import level_given, level_option
+from ninja_game.cli.run_options import LevelPath, level_given, level_option
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
@@ -26,7 +26,7 @@ PIPE_WIDTH = 160
 
 
 @click.command()
-@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=LevelPath())
 @click.option("--record", type=click.IntRange(min=0), help="Show this one of a file's levels, counted from 0.")
 @level_option
 @click.option("--picture/--no-picture", default=None, help="Draw the level. [default: if it is the only one]")
@@ -41,7 +41,8 @@ def command(
 
     \b
     Examples:
-      ninja-game info levels/
+      ninja-game info 01-first-steps
+      ninja-game info my-levels/
       ninja-game info userlevels.txt --record 17
       ninja-game info userlevels.txt --json
       ninja-game info demo.txt --level level.txt

@@ -143,7 +143,8 @@ def cli() -> None:
 
     \b
     Examples:
-      ninja-game info levels/
+      ninja-game play
+      ninja-game info 01-first-steps
       ninja-game convert level.nlevel level.txt
     """
 

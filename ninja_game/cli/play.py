@@ -9,11 +9,12 @@ from typing import Literal
 
 import click
 
+from ninja_game.cli.run_options import LevelPath
 from ninja_game.errors import NinjaGameError
 
 
 @click.command()
-@click.argument("level", required=False)
+@click.argument("level", required=False, type=LevelPath())
 @click.option(
     "--record", type=click.IntRange(0, 10**6), default=0, help="Begin with this level of the file, counted from 0."
 )
@@ -29,7 +30,7 @@ from ninja_game.errors import NinjaGameError
 @click.pass_context
 def command(
     ctx: click.Context,
-    level: str | None,
+    level: Path | None,
     record: int,
     body: Literal["circle", "box"],
     practice: bool,
@@ -54,7 +55,7 @@ def command(
     """
     if level is not None and replay is not None:
         raise click.UsageError("LEVEL and --replay exclude each other")
-    path = _path_of(level) if level is not None else None
+    path = str(level) if level is not None else None
     window = pixels(size) if size else None
 
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
@@ -76,19 +77,6 @@ def command(
     except pygame.error as error:
         raise NinjaGameError(f"the window cannot be opened: {error}") from None
     ctx.exit(code)
-
-
-def _path_of(level: str) -> str:
-    """The file that LEVEL means."""
-    from ninja_game.files.resources import bundled_levels
-
-    if Path(level).exists():
-        return level
-    own = {path.stem: path for path in bundled_levels()}
-    if level not in own:
-        names = f"; the game's own levels: {', '.join(own)}" if own else ""
-        raise click.UsageError(f"there is no level {level!r}{names}")
-    return str(own[level])
 
 
 def pixels(size: str) -> tuple[int, int]:

@@ -7,9 +7,10 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
+from click.shell_completion import CompletionItem
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
@@ -19,6 +20,33 @@ T = TypeVar("T")
 
 PATIENCE = 1.0
 """Seconds after which work is long enough for a progress bar."""
+
+
+class LevelPath(click.Path):
+    """A file or folder; or the name of one of the game's own levels, which stands for its file."""
+
+    def __init__(self, *, dir_okay: bool = True) -> None:
+        super().__init__(exists=True, dir_okay=dir_okay, path_type=Path)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The path; usage error for what is neither there nor a name."""
+        own = _own_levels()
+        there = Path(value).exists() or "\0" in str(value)
+        if not there and str(value) not in own and not Path(value).suffix:
+            self.fail(f"{value!r} does not exist; the game's own levels: {', '.join(own)}", param, ctx)
+        return super().convert(value if there else own.get(str(value), value), param, ctx)
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        """Files, and the names that begin so."""
+        names = [CompletionItem(name) for name in _own_levels() if name.startswith(incomplete)]
+        return super().shell_complete(ctx, param, incomplete) + names
+
+
+def _own_levels() -> dict[str, Path]:
+    from ninja_game.files.resources import bundled_levels
+
+    return {path.stem: path for path in bundled_levels()}
+
 
 memory_option = click.option(
     "--memory", type=click.Choice(["auto", "plain", "compiled"]), default="auto", show_default=True,
@@ -30,7 +58,7 @@ jobs_option = click.option(
 )
 
 level_option = click.option(
-    "--level", "level_path", metavar="FILE", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    "--level", "level_path", metavar="FILE", type=LevelPath(dir_okay=False),
     help="The level of recordings that do not hold theirs.",
 )  # fmt: skip
 

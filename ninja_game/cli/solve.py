@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from ninja_game.cli.run_options import choose_level
+from ninja_game.cli.run_options import LevelPath, choose_level
 from ninja_game.cli.solver_options import (
     NOT_FOUND,
     body_option,
@@ -27,7 +27,7 @@ from ninja_game.cli.solver_options import (
 
 
 @click.command()
-@click.argument("level", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.argument("level", type=LevelPath(dir_okay=False))
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's levels, counted from 0.")
 @gold_option
 @seconds_option(60.0)
@@ -60,7 +60,7 @@ def command(
 
     \b
     Examples:
-      ninja-game solve levels/01-first-steps.txt -o first.replay.txt
+      ninja-game solve 01-first-steps -o first.replay.txt
       ninja-game solve userlevels.txt --record 17 --gold all --seconds 300 -o gold.replay.txt
     """
     from ninja_game.solver.solve import Task, solve

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -105,6 +106,18 @@ def test_numbers_without_measure_are_wrong_usage(words: tuple[str, ...]) -> None
     result = CliRunner().invoke(cli, [level if word == "LEVEL" else word for word in words])
     assert result.exit_code == 2, result.output
     assert "Traceback" not in result.stderr
+
+
+def test_the_names_of_our_levels_stand_for_their_files_and_are_completed() -> None:
+    result = CliRunner().invoke(cli, ["info", "01-first-steps"])
+    assert result.exit_code == 0
+    assert str(bundled_levels()[0]) in result.stdout.replace("\n", "")
+    assert "the game's own levels: 01-first-steps" in CliRunner().invoke(cli, ["solve", "no-such-level"]).stderr
+    asked = {"_NINJA_GAME_COMPLETE": "bash_complete", "COMP_WORDS": "ninja-game info 01-", "COMP_CWORD": "2"}
+    completed = subprocess.run(
+        [sys.executable, "-m", "ninja_game"], env=os.environ | asked, capture_output=True, text=True, check=False
+    )
+    assert "plain,01-first-steps" in completed.stdout
 
 
 def test_bad_input_names_the_place(monkeypatch: pytest.MonkeyPatch) -> None:

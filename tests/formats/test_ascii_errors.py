@@ -98,14 +98,14 @@ MISTAKES = {
         level_text(rows={5: "##/##"}),
         (
             "broken.txt:7:4: a character that is not in the legend; found '/'; "
-            "expected a tile or object of docs/level-format.md; did you mean s or q, the 45° slopes?"
+            "expected a tile or an object; did you mean s or q, the 45° slopes?"
         ),
     ),
     "wrong case": (
         level_text(rows={5: ".z"}),
         (
             "broken.txt:7:3: a character that is not in the legend; found 'z'; "
-            "expected a tile or object of docs/level-format.md; did you mean Z (zap drone)?"
+            "expected a tile or an object; did you mean Z (zap drone)?"
         ),
     ),
     "picture in two parts": (

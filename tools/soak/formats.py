@@ -1,6 +1,6 @@
-"""Feed mutated levels, demos and replays to all readers: only errors of ours may come out, none after over a second.
+"""Feed mutated levels, demos, replays, traces and names to all readers: only errors of ours, none after over a second.
 
-    python3 tools/dev.py tool soak.formats [--count 100000] [--seed 1] [--reference]
+    python3 tools/dev.py tool soak.formats [--count 1000000] [--seed 1] [--reference]
 
 Exit code 0: nothing found; 1: something was, printed with the text that made it.
 """
@@ -8,7 +8,10 @@ Exit code 0: nothing found; 1: something was, printed with the text that made it
 from __future__ import annotations
 
 import argparse
+import io
 import random
+import re
+import resource
 import sys
 import time
 import traceback
@@ -16,6 +19,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.shown_text import file_stem, shown_text
 from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.legacy_demo import write_legacy_demo
@@ -23,9 +27,11 @@ from ninja_game.formats.n14.level_file import read_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.named_level import parse_levels
 from ninja_game.formats.numbers import format_exact, parse_number
-from ninja_game.formats.recording import parse_replays
+from ninja_game.formats.recording import parse_replays, record_of
 from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
 from ninja_game.levels.warnings import level_warnings
+from ninja_game.runs.run import trace_level
+from ninja_game.runs.trace_files import FiledTrace, read_csv, write_csv
 from tools import ROOT
 
 SLOW_S = 1.0
@@ -53,6 +59,12 @@ JUNK = [
 ]
 JUNK += ["1e-400", "9" * 400, "%24", "%zz", "&userdata=", "0" * 713, "ninja-game level 1\n", "ninja-game replay 2\n"]
 
+EXTREMES = ("-1", "0", "33", "713", "65536", "4294967296", "-9223372036854775809", "1e308", "1e-320", "9" * 5000)
+BULK: tuple[str, ...] = (*"\n ;0$#|", "!9^1,2,3,4,5,6,7,8,9", "\u0301", "\u202e", "\ud800", "R*9 ", "mine 5.5,5\n")
+MOST = 400_000
+"""Longest text, so that 10^6 of them end within a day."""
+_NUMBER = re.compile(r"[+-]?[0-9]+(?:\.[0-9]+)?")
+
 
 def read_level(text: str) -> None:
     """An in-game string: read, digest, warnings, and writing in both forms."""
@@ -70,14 +82,37 @@ def read_demo(text: str) -> None:
     write_demo(demo)
 
 
+def read_ascii(text: str) -> None:
+    """An ASCII level: what is read is the same when it is written and read again."""
+    read = parse_ascii_level(text)
+    again = parse_ascii_level(write_ascii_level(read.level, name=read.name, author=read.author, comment=read.comment))
+    if level_digest(again.level) != level_digest(read.level) or (again.name, again.author) != (read.name, read.author):
+        raise AssertionError("an ASCII level changes when it is written and read")
+
+
+def read_recordings(text: str) -> None:
+    """Recordings of any format, each as a record of N too."""
+    for recording in parse_replays(text):
+        record_of(recording)
+
+
+def show(text: str) -> None:
+    """A name: shown in one line, and in a file's name."""
+    shown = shown_text(text)
+    if not shown.isprintable() or len(shown) > 2100 or len(file_stem(text).encode()) > 200:
+        raise AssertionError("a name that cannot be shown")
+
+
 READERS: dict[str, Callable[[str], object]] = {
     "level string": read_level,
     "level file": read_level_file,
-    "ASCII level": parse_ascii_level,
+    "ASCII level": read_ascii,
     "demo": read_demo,
     "replay": parse_replay,
     "any levels": parse_levels,
-    "any recordings": parse_replays,
+    "any recordings": read_recordings,
+    "trace table": lambda text: list(read_csv(text.splitlines(keepends=True))),
+    "name": show,
     "number": lambda text: format_exact(parse_number(text[:60])),
 }
 
@@ -87,6 +122,8 @@ def seeds(*, reference: bool) -> list[str]:
     level = parse_level_string(LEVEL)
     demo = parse_demo(DEMO)
     replay = Replay(demo.inputs[:60], 99, "dead", 3, "0f" * 32, level=level, name="walk")
+    trace = io.StringIO()
+    write_csv([FiledTrace(0, "walk", trace_level(level, demo.inputs[:20], memory="plain"))], trace)
     texts = [
         LEVEL,
         DEMO,
@@ -97,6 +134,7 @@ def seeds(*, reference: bool) -> list[str]:
         write_ascii_level(level, name="A hill", author="us", legend=True),
         write_replay(replay),
         " -0x1.5e+2",
+        trace.getvalue(),
         *[path.read_text(encoding="utf-8") for path in sorted(ROOT.glob("levels/*.txt"))],
         *[path.read_text(encoding="utf-8") for path in sorted(ROOT.glob("tests/replays/*.txt"))],
     ]
@@ -118,6 +156,32 @@ def taken_by(text: str) -> list[str]:
         except NinjaGameError:
             continue
     return names
+
+
+def rebuilt(text: str, other: str, rng: random.Random) -> str:
+    """A text with its structure changed: its numbers, lines, fields, its end; or joined with another text."""
+    kind = rng.randrange(7)
+    if kind == 0:
+        share = rng.choice((0.001, 0.02, 0.3))
+        return _NUMBER.sub(lambda match: rng.choice(EXTREMES) if rng.random() < share else str(match[0]), text)
+    if kind == 1:
+        return text[: rng.randrange(len(text) + 1)] + other[rng.randrange(len(other) + 1) :]
+    if kind == 2:
+        return text[: rng.randrange(len(text) + 1)]
+    if kind == 3:
+        place = rng.randrange(len(text) + 1)
+        return text[:place] + rng.choice(BULK) * rng.choice((100, 3000, 50_000)) + text[place:]
+    divider = rng.choice(("\n", "\n", "#", "$", "!", ",", "^", "|", " ", ":"))
+    parts = text.split(divider)
+    place = rng.randrange(len(parts))
+    if kind == 4:
+        parts[place : place + rng.choice((1, 1, 3))] = []
+    elif kind == 5:
+        parts[place:place] = [parts[place]] * rng.choice((1, 2, 2000))
+    else:
+        there = rng.randrange(len(parts))
+        parts[place], parts[there] = parts[there], rng.choice((parts[place], rng.choice(other.split(divider))))
+    return divider.join(parts)
 
 
 def mutated(text: str, rng: random.Random) -> str:
@@ -155,7 +219,11 @@ def found(count: int, rng: random.Random, texts: list[str], outcomes: Counter[st
     for number in range(count):
         name = everywhere[number % len(everywhere)]
         # Now and then a text of another format.
-        text = mutated(rng.choice(texts if rng.random() < 0.1 else fitting[name]), rng)
+        text = rng.choice(texts if rng.random() < 0.1 else fitting[name])
+        if number // len(everywhere) % 2:
+            text = rebuilt(text, rng.choice(texts), rng)[:MOST]
+        if not number // len(everywhere) % 3:
+            text = mutated(text, rng)
         started = time.perf_counter()
         try:
             READERS[name](text)
@@ -187,6 +255,8 @@ def main() -> int:
             break
     for outcome, times in sorted(outcomes.items()):
         print(f"{times:8d}  {outcome}")
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    print(f"peak memory {peak:.0f} MiB")
     print(f"{sum(outcomes.values())} texts in {time.perf_counter() - started:.0f} s, {wrong} wrong")
     return 1 if wrong else 0
 

@@ -121,9 +121,13 @@ def _read_row(line: int, text: str, number: int, problems: Problems) -> tuple[st
                      found=f"{len(cells)} characters", expected=f"{COLUMNS}", hint=hint)  # fmt: skip
     for offset, char in enumerate(cells[:COLUMNS]):
         if char not in TILE_OF_CHAR and char not in SYMBOL_OF_CHAR and char != ODD_TILE:
-            hint = f"did you mean {_similar(char)}?" if _similar(char) else ""
+            hint = (
+                f"did you mean {_similar(char)}?"
+                if _similar(char)
+                else "'ninja-game convert --legend' writes the legend"
+            )
             problems.add("a character that is not in the legend", line, start + offset, found=repr(char), hint=hint,
-                         expected="a tile or object of docs/level-format.md")  # fmt: skip
+                         expected="a tile or an object")  # fmt: skip
     return cells, start
 
 
