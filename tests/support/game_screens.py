@@ -124,7 +124,7 @@ def _an_episode(driver: MenuDriver) -> Iterator[str]:
     yield "dead"
     driver.frames(60)
     yield "dead-message"
-    driver.press("space")
+    driver.press("space", "space", "k", "space")
     for number in range(1, 6):
         level = _level(driver)
         if number == 4:
