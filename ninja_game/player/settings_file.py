@@ -127,41 +127,45 @@ def write_changes(before: Settings, after: Settings, path: Path) -> None:
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     with locked(path, LOCK_SECONDS):
-        document = _document(path)
-        new = document is None
-        if document is None:
-            document = _new_document()
-        for name in RULES:
-            if new or getattr(before, name) != getattr(after, name):
-                _put(document, name, {} if new else getattr(before, name), getattr(after, name))
-        write_atomically(path, document.as_string())
+        write_atomically(path, _changed_text(path, before, after) or _new_text(after))
 
 
-def _document(path: Path) -> TOMLDocument | None:
-    """The file with its comments; None where there is none that can be used."""
+def _changed_text(path: Path, before: Settings, after: Settings) -> str:
+    """The file's text with the changes; '' where there is none, or no longer."""
     import tomlkit
+    from tomlkit.exceptions import TOMLKitError
 
+    why = "damaged"
     try:
         with _long_numbers():
             document = tomlkit.parse(read_utf8(path, MAX_BYTES))
+            if document.get("version", VERSION) == VERSION:
+                for name in RULES:
+                    if getattr(before, name) != getattr(after, name):
+                        _put(document, name, getattr(before, name), getattr(after, name))
+                text = document.as_string()
+                tomllib.loads(text)
+                return text
+            why = "newer"
     except FileNotFoundError:
-        return None
-    except (FileError, ValueError, RecursionError):
-        quarantine(path, "damaged")
-        return None
-    if document.get("version", VERSION) != VERSION:
-        quarantine(path, "newer")
-        return None
-    return document
+        return ""
+    except (FileError, TOMLKitError, ValueError, TypeError, KeyError, RecursionError):
+        # No TOML, or too odd for the library: it is kept, and a new one begun.
+        pass
+    quarantine(path, why)
+    return ""
 
 
-def _new_document() -> TOMLDocument:
+def _new_text(settings: Settings) -> str:
+    """A file with all settings."""
     import tomlkit
 
     document = tomlkit.document()
     document.add(tomlkit.comment(COMMENT))
     document.add("version", tomlkit.item(VERSION))
-    return document
+    for name in RULES:
+        _put(document, name, {}, getattr(settings, name))
+    return document.as_string()
 
 
 def _put(document: TOMLDocument, name: str, before: Any, after: Any) -> None:

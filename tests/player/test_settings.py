@@ -153,6 +153,16 @@ def test_game_starts_with_any_text_and_settings_can_be_changed_then(tmp_path: Pa
         assert [each.read_bytes() for each in tmp_path.glob("settings.damaged*")] in ([text], [])
 
 
+@pytest.mark.parametrize("text", ODD_TEXTS)
+def test_any_text_that_appears_while_the_game_runs_is_kept(tmp_path: Path, text: bytes) -> None:
+    data = PlayerData(tmp_path)
+    (tmp_path / "settings.toml").write_bytes(text)
+    assert not data.change_settings(data.settings.changed(volume=11))
+    assert PlayerData(tmp_path).settings.volume == 11
+    kept = [each.read_bytes() for each in tmp_path.glob("settings*.toml")]
+    assert len(kept) == 1 or text in kept
+
+
 @pytest.mark.parametrize("start", [b"", MINE.encode()])
 @hypothesis_settings(max_examples=60)
 @given(text=st.binary(max_size=80) | st.text("[]{}=.,'\"#\n ax1-\ud800").map(lambda t: t.encode("utf-8", "replace")))
