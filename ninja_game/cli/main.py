@@ -165,7 +165,7 @@ def main() -> NoReturn:
 
 def _announce_compiling() -> None:
     """Say it before the rules are compiled, since that takes a while."""
-    from ninja_game.compile_cache import before_compiling
+    from ninja_game.kernel_cache import before_compiling
 
     text = "ninja-game: compiling the rules for this machine, the first time only; it takes up to a minute"
     before_compiling[:] = [lambda: click.echo(text, err=True)]

@@ -10,8 +10,9 @@ from pathlib import Path
 import pytest
 
 from ninja_game import compile_cache
-from ninja_game.compile_cache import KEPT_FILES, MemoryUnavailableError, choose_memory, forget_old_code
+from ninja_game.compile_cache import MemoryUnavailableError, choose_memory
 from ninja_game.errors import ArgumentError
+from ninja_game.kernel_cache import KEPT_FILES, forget_old_code
 from ninja_game.sim.memory.kernels import step_world
 from ninja_game.sim.ninja import tick
 
@@ -19,7 +20,7 @@ needs_numba = pytest.mark.skipif(not compile_cache.compiled_available(), reason=
 
 # Compiles one small kernel, so that it takes a second, and says whether it was compiled.
 PROGRAM = """
-from ninja_game import compile_cache
+from ninja_game import compile_cache, kernel_cache
 from ninja_game.sim.memory.compiled import load_worlds
 from ninja_game.sim.memory.declare import entry_point
 from ninja_game.sim.memory.schema import World
@@ -27,16 +28,16 @@ import numpy as np
 FACTOR = {factor}
 @entry_point
 def scaled(numbers: World, count: int) -> int:
-    return numbers[0] * FACTOR + count
-compile_cache.before_compiling.append(lambda: print("compiles"))
-print(compile_cache.compiled(scaled)(np.array([3]), 1))
+    return numbers[count - 1] * FACTOR + count
+kernel_cache.before_compiling.append(lambda: print("compiles"))
+print(compile_cache.compiled(scaled)(np.array([3]), {count}))
 """
 
 
-def run(folder: Path, factor: int = 2, **more: str) -> tuple[str, str]:
+def run(folder: Path, factor: int = 2, count: int = 1, **more: str) -> tuple[str, str]:
     """What the program says on stdout and stderr, with its cache in a folder."""
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder), **more}
-    command = [sys.executable, "-c", PROGRAM.format(factor=factor)]
+    command = [sys.executable, "-c", PROGRAM.format(factor=factor, count=count)]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     return done.stdout, done.stderr
 
@@ -76,6 +77,14 @@ def test_numba_switched_off_is_numba_missing(tmp_path: Path) -> None:
 
 
 @needs_numba
+def test_checked_kernels_refuse_an_index_out_of_range_and_are_kept_apart(tmp_path: Path) -> None:
+    run(tmp_path)
+    out, errors = run(tmp_path, count=2, NINJA_GAME_CHECKED="1")
+    assert (out, "IndexError" in errors) == ("compiles\n", True)
+    assert run(tmp_path, NINJA_GAME_CHECKED="1") == ("7\n", "")
+
+
+@needs_numba
 def test_the_digest_follows_every_rule_and_constant_that_a_kernel_reaches(monkeypatch: pytest.MonkeyPatch) -> None:
     from ninja_game.sim.memory.compiler import code_digest
 
@@ -112,7 +121,7 @@ def test_threads_may_ask_for_kernels_at_once_whoever_imported_numba(first: str) 
 def test_without_numba_auto_is_plain_and_compiled_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(compile_cache, "compiled_available", lambda: False)
     assert choose_memory("auto") == "plain"
-    with pytest.raises(MemoryUnavailableError, match="fast"):
+    with pytest.raises(MemoryUnavailableError, match="needs Numba"):
         choose_memory("compiled")
     with pytest.raises(ArgumentError, match="expected 'plain'"):
         choose_memory("fast")

@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ninja_game import parse_level, run_level
 from ninja_game.compile_cache import compiled_available
 from ninja_game.errors import LevelError
 from ninja_game.sim.kinds import GOLD, NINJA
@@ -28,6 +29,16 @@ def test_a_record_of_a_kind_that_there_is_not_creates_nothing(kind: int, memory:
     run = Simulation(Level(objects=(ObjectSpec(kind, (1.0, 2.0)), NINJA_SPEC, GOLD_SPEC)), memory=memory)
     run.step(right=True)
     assert [(o.id, o.kind) for o in run.objects] == [(1, "gold")]
+
+
+@pytest.mark.parametrize("memory", BOTH)
+@pytest.mark.parametrize("kind", ["99", "999999999999999999"])
+def test_an_odd_type_number_in_a_level_file_harms_nobody(kind: str, memory: str) -> None:
+    try:
+        level = parse_level("0" * 713 + f"|5^100,300!{kind}^1,2")
+    except LevelError:
+        return
+    assert run_level(level, bytes(9), memory=memory).outcome == "running"
 
 
 @pytest.mark.parametrize("memory", BOTH)
