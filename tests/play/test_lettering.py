@@ -133,3 +133,8 @@ def test_text_is_aligned_and_kept() -> None:
     assert right.right == 200
     assert abs(centre.centerx - 200) <= 1
     assert lettering.rendered("score", 10, "white") is lettering.rendered("score", 10, "white")
+
+
+def test_bold_letters_have_thicker_strokes() -> None:
+    plain, bold = (pygame.mask.from_surface(StrokeFont(30, bold=b).render("Il", "black")) for b in (False, True))
+    assert bold.count() > 1.25 * plain.count()
