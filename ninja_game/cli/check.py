@@ -140,13 +140,13 @@ def _facts(level: NamedLevel, run: VerifiedRun | None, where: Path | None) -> di
 
 def _warnings(level: NamedLevel, run: VerifiedRun | None) -> list[str]:
     """What is odd about a level, and the locked doors that its run does not open."""
-    from ninja_game.levels.reach import well_formed
     from ninja_game.levels.warnings import level_warnings, object_name
     from ninja_game.sim.arithmetic import is_set
+    from ninja_game.sim.level import makes_object, well_formed
     from ninja_game.simulation import Simulation
 
     warnings = level_warnings(level.level)
-    specs = enumerate(spec for spec in level.level.objects if spec.kind >= 0)
+    specs = enumerate(filter(makes_object, level.level.objects))
     locked = {id_: spec for id_, spec in specs if spec.kind == DOOR and well_formed(spec) and is_set(spec.values[6])}
     if run and locked:
         simulation = Simulation(run.level, body=run.body, memory="plain")

@@ -14,6 +14,7 @@ import click
 from ninja_game.cli.run_options import LevelPath, level_given, level_option
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
+from ninja_game.sim.level import makes_object
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
@@ -96,7 +97,7 @@ def _counts(level: NamedLevel) -> Counter[str]:
     """How many objects of each kind."""
     from ninja_game.sim.kinds import KIND_NAMES
 
-    return Counter(KIND_NAMES[record.kind] for record in level.level.objects if record.kind >= 0)
+    return Counter(KIND_NAMES[spec.kind] for spec in filter(makes_object, level.level.objects))
 
 
 def _sorts(level: NamedLevel) -> Counter[str]:
@@ -104,7 +105,7 @@ def _sorts(level: NamedLevel) -> Counter[str]:
     from ninja_game.formats.ascii.object_writer import best_form
     from ninja_game.sim.kinds import KIND_NAMES
 
-    specs = [spec for spec in level.level.objects if spec.kind >= 0]
+    specs = filter(makes_object, level.level.objects)
     return Counter(best_form(spec)[0] or KIND_NAMES[spec.kind] for spec in specs)
 
 

@@ -1,4 +1,4 @@
-"""Levels with what their file says about them, from a text of any format: it is told from the text, not from a name."""
+"""Levels with what their file says about them. The text itself shows its format, whatever the file is called."""
 
 from __future__ import annotations
 

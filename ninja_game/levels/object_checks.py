@@ -6,14 +6,14 @@ from collections.abc import Callable, Iterator
 from math import isnan, sqrt
 
 from ninja_game.formats.ascii.places import place_text
-from ninja_game.levels.reach import Ground, edges_of, well_formed
+from ninja_game.levels.reach import Ground, edges_of
 from ninja_game.sim import kinds
 from ninja_game.sim.arithmetic import is_set
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.collision.tiles import COLUMN, FULL, ROW, SHAPE
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import VALUE_COUNTS
-from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
+from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec, well_formed
 from ninja_game.sim.rules import DOOR_SWITCH_RADIUS, EXIT_RADIUS, GOLD_RADIUS, OFF, SOLID, SWITCH_RADIUS
 
 _DIRECTIONS = (0, 1, 2, 3)

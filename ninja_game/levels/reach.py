@@ -16,18 +16,13 @@ from ninja_game.sim.collision.tiles import (
     set_edges,
 )
 from ninja_game.sim.grid import cell_at, grid_remove
-from ninja_game.sim.kinds import DOOR, NINJA, VALUE_COUNTS
-from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.sim.kinds import DOOR, NINJA
+from ninja_game.sim.level import Level, ObjectSpec, well_formed
 from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.schema import Object, TileMap, World
 from ninja_game.sim.objects.door import create_door
 from ninja_game.sim.rules import CELL, DOOR_SWITCH_RADIUS, RADIUS, SOLID, STRIDE
 from ninja_game.sim.states import LOCKED, TRAP
-
-
-def well_formed(record: ObjectSpec) -> bool:
-    """Whether a record is of a known kind and has the number of values that it needs."""
-    return 0 <= record.kind < len(VALUE_COUNTS) and len(record.values) == VALUE_COUNTS[record.kind]
 
 
 def _made_door(world: World, record: ObjectSpec) -> Object:

@@ -8,10 +8,10 @@ from math import dist
 from ninja_game.formats.ascii.object_writer import best_form
 from ninja_game.formats.ascii.places import place_text
 from ninja_game.levels.object_checks import oddities
-from ninja_game.levels.reach import Ground, well_formed
+from ninja_game.levels.reach import Ground
 from ninja_game.sim import kinds
 from ninja_game.sim.kinds import KIND_NAMES
-from ninja_game.sim.level import ROWS, Level, ObjectSpec
+from ninja_game.sim.level import ROWS, Level, ObjectSpec, makes_object, well_formed
 from ninja_game.sim.rules import MINE_RADIUS, RADIUS
 
 MANY_OBJECTS = 2000
@@ -24,7 +24,7 @@ def level_warnings(level: Level) -> list[str]:
 
     "Cannot be reached" is said only where it is certain: by cells and closed sides, whatever the ninja could jump.
     """
-    objects = [record for record in level.objects if record.kind >= 0]  # what gets an id (objects.md §2.1)
+    objects = list(filter(makes_object, level.objects))
     ground = Ground(level)
     odd: dict[str, list[tuple[ObjectSpec, int]]] = {}
     first: dict[ObjectSpec, int] = {}
@@ -76,7 +76,7 @@ def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[str
         yield "there is no exit: the level cannot be passed"
     if len(objects) > MANY_OBJECTS:
         yield f"there are {len(objects)} objects, more than {MANY_OBJECTS}: the game may be slow"
-    ignored = [record.text for record in level.objects if record.kind < 0]
+    ignored = [record.text or str(record.kind) for record in level.objects if not makes_object(record)]
     if ignored:
         yield f"{len(ignored)} records create nothing (unknown type), the first is {ignored[0][:40]!r}"
 

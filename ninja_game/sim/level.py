@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from ninja_game.sim.kinds import VALUE_COUNTS
+
 COLUMNS = 31
 ROWS = 23
 TILES = COLUMNS * ROWS
@@ -21,6 +23,16 @@ class ObjectSpec(NamedTuple):
     kind: int
     values: tuple[float, ...]
     text: str = ""
+
+
+def makes_object(record: ObjectSpec) -> bool:
+    """Whether a record is of a kind that there is; all others create nothing and get no id (objects.md §2.1)."""
+    return 0 <= record.kind < len(VALUE_COUNTS)
+
+
+def well_formed(record: ObjectSpec) -> bool:
+    """Whether a record makes an object and has the number of values that its kind needs."""
+    return makes_object(record) and len(record.values) == VALUE_COUNTS[record.kind]
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from ninja_game.errors import LevelError
 from ninja_game.sim.collision.tiles import ODD_HALF_ID, UNDEFINED_ID
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import EXIT, INERT, NINJA, VALUE_COUNTS
-from ninja_game.sim.level import COLUMNS, ROWS, TILES, Level
+from ninja_game.sim.level import COLUMNS, ROWS, TILES, Level, makes_object
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import CAPACITY, Ninja, TileMap, World
 from ninja_game.sim.objects.dispatch import create
@@ -44,7 +44,7 @@ def record_table(data: Level) -> RecordTable:
     §2.1). Raises LevelError for a level that is none, without a ninja or with too many objects.
     """
     _check(data)
-    records = [record for record in data.objects if 0 <= record.kind < len(VALUE_COUNTS)]
+    records = list(filter(makes_object, data.objects))
     kinds = [int(record.kind) for record in records]
     if NINJA not in kinds:
         raise LevelError("this level cannot be played: it has no ninja", hint="add one, a record of type 5")

@@ -115,3 +115,13 @@ def test_a_name_cannot_forge_rows_or_move_the_cursor(tmp_path: Path) -> None:
     shown = info(source).stdout
     assert "a b\\x1b[2J" in shown
     assert "\x1b" not in shown
+
+
+def test_a_record_of_an_unknown_type_is_warned_of(tmp_path: Path) -> None:
+    source = tmp_path / "level.txt"
+    source.write_text(
+        "ninja-game level 1\nname: x\n" + ("|" + "." * 31 + "|\n") * 23 + "ninja 5.5,5\nraw 99 1,2\nraw 99999999999 1\n"
+    )
+    result = info(source)
+    assert result.exit_code == 0
+    assert "warning: 2 records create nothing (unknown type), the first is '99'" in result.stdout

@@ -9,8 +9,7 @@ from collections import Counter
 from typing import NamedTuple
 
 from ninja_game.sim import kinds
-from ninja_game.sim.kinds import VALUE_COUNTS
-from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
+from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec, well_formed
 
 CELL = 24.0
 """Side of a cell, px."""
@@ -138,7 +137,7 @@ class Part(NamedTuple):
 def symbol_chars(record: ObjectSpec) -> tuple[tuple[str, float, float], ...]:
     """The characters that could draw an object, each with the px point it stands for; none for what has no picture."""
     kind, values = record.kind, record.values
-    if not 0 <= kind < len(VALUE_COUNTS) or len(values) != VALUE_COUNTS[kind]:
+    if not well_formed(record):
         return ()
     x, y = values[:2]
     if kind == kinds.EXIT:

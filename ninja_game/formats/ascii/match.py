@@ -37,7 +37,7 @@ class PlacedTile(NamedTuple):
     line: int
 
 
-def join(
+def merge_picture_and_list(
     picture: Picture, objects: Sequence[Placed], tiles: Sequence[PlacedTile], problems: Problems
 ) -> Level:  # fmt: skip
     """The level: drawn objects that no line mentions (ninjas first, then in reading order), then the list in order.

@@ -11,8 +11,7 @@ from ninja_game.formats.ascii.object_forms import DOORS, FORMS, MOVEMENTS, SIDES
 from ninja_game.formats.ascii.object_lines import Listed, read_object_line
 from ninja_game.formats.ascii.places import number_text, place_text, read_cell, same_bits
 from ninja_game.sim import kinds
-from ninja_game.sim.kinds import VALUE_COUNTS
-from ninja_game.sim.level import ObjectSpec
+from ninja_game.sim.level import ObjectSpec, well_formed
 
 _LINE_WIDTH = 100
 
@@ -60,7 +59,7 @@ def _word(vocabulary: Mapping[str, float], value: float) -> str:
 def best_form(record: ObjectSpec) -> tuple[str, str, str]:
     """The form that fits a record's kind; keyword '' if none does. Not yet sure to give it back exactly."""
     kind, values = record.kind, record.values
-    if not 0 <= kind < len(VALUE_COUNTS) or len(values) != VALUE_COUNTS[kind] or record.text:
+    if not well_formed(record) or record.text:
         return "", "", ""
     x, y = values[:2]
     keyword = next(keyword for keyword, form in FORMS.items() if form.kind == kind)

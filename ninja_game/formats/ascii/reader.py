@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ninja_game.errors import LevelError
-from ninja_game.formats.ascii.match import Placed, PlacedTile, join
+from ninja_game.formats.ascii.match import Placed, PlacedTile, merge_picture_and_list
 from ninja_game.formats.ascii.object_lines import OddTile, read_object_line, read_quoted, suggestion
 from ninja_game.formats.ascii.picture import ROW_END, ROW_START, read_picture
 from ninja_game.formats.ascii.places import shown
@@ -54,7 +54,7 @@ def parse_ascii_level(text: str, *, file: str = "") -> AsciiLevel:
     objects, tiles = _read_list(listed, problems)
     problems.raise_if_any()
     assert picture is not None  # noqa: S101 - a broken picture has been raised as a problem
-    level = join(picture, objects, tiles, problems)
+    level = merge_picture_and_list(picture, objects, tiles, problems)
     problems.raise_if_any()
     return AsciiLevel(fields.get("name", ""), fields.get("author", ""), fields.get("comment", ""), level)
 

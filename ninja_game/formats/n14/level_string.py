@@ -9,7 +9,7 @@ from collections.abc import Callable
 from ninja_game.errors import LevelError
 from ninja_game.formats.numbers import format_exact, format_number, parse_number
 from ninja_game.sim.kinds import KIND_NAMES
-from ninja_game.sim.level import TILES, Level, ObjectSpec
+from ninja_game.sim.level import TILES, Level, ObjectSpec, makes_object
 
 MISSING_TILE = -1
 """Id of a cell that the tile string does not reach: never solid, yet not empty."""
@@ -122,11 +122,11 @@ def _write_record(record: ObjectSpec, number: Callable[[float], str]) -> str:
 def level_digest(level: Level) -> str:
     """The level's sha256, as 64 hex digits: over tile ids and records, values to the last bit.
 
-    Ignored records (kind -1) do not count, since they create nothing; the sign of a zero does not count either.
+    Records that create nothing do not count, since they create nothing; the sign of a zero does not count either.
     """
     records = "!".join(
         f"{record.kind}^" + ",".join(repr(value or 0.0) for value in record.values)
         for record in level.objects
-        if record.kind >= 0
+        if makes_object(record)
     )
     return hashlib.sha256(f"{','.join(map(str, level.tiles))}|{records}".encode()).hexdigest()
