@@ -19,6 +19,10 @@ GRACE = 1.2
 """Seconds that a command has to end by itself after a signal."""
 
 
+told = threading.Event()
+"""The command has said itself that it was stopped; what remains may take its time."""
+
+
 class Terminated(BaseException):
     """SIGTERM has come."""
 
@@ -51,12 +55,6 @@ def _end_by_force(arrivals: int) -> None:
     for child in multiprocessing.active_children():
         child.kill()
     discard_unfinished()
-    os.write(2, b"ninja-game: interrupted\n" if number == signal.SIGINT else b"ninja-game: terminated\n")
+    if not told.is_set():
+        os.write(2, b"ninja-game: interrupted\n" if number == signal.SIGINT else b"ninja-game: terminated\n")
     os._exit(128 + number)
-
-
-def leave(code: int) -> NoReturn:
-    """End the process now, without waiting for threads that still compute."""
-    for stream in (sys.stdout, sys.stderr):
-        stream.flush()
-    os._exit(code)

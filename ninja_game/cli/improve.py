@@ -77,7 +77,7 @@ def command(
     task = Task(recording.level, body=body, first=first, jobs=default_threads(jobs), **wish)  # type: ignore[arg-type]
     check_gold(task)
     before: list[int] = []
-    save = saver(output, recording)
+    save = saver(output, recording, recording.author)
 
     def keep(found: VerifiedRun) -> None:
         before.append(found.end_tick)
@@ -89,4 +89,6 @@ def command(
     if smooth is not None:
         run = smoothed_run(run, smooth)
         save(run)
-    click.echo(f"{output}: {time_text(run.end_tick)}, {before[0] - run.end_tick} ticks shorter, {run.gold} gold")
+    gain = before[0] - run.end_tick
+    change = f"{abs(gain)} ticks {'shorter' if gain > 0 else 'longer'}" if gain else "no shorter run was found"
+    click.echo(f"{output}: {time_text(run.end_tick)}, {change}, {run.gold} gold")

@@ -18,7 +18,7 @@ import click
 from ninja_game import __version__
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
-from ninja_game.signals import Terminated, end_on_signals, leave
+from ninja_game.signals import Terminated, end_on_signals, told
 
 COMMANDS = {
     "play": "Play a level in a window.",
@@ -118,9 +118,11 @@ class Commands(click.Group):
             code = complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
         except (click.Abort, KeyboardInterrupt):
             complain("interrupted")
+            told.set()
             code = INTERRUPTED
         except Terminated:
             complain("terminated")
+            told.set()
             code = TERMINATED
         except Exception:  # noqa: BLE001 - nothing may end like a run that failed
             traceback.print_exc()
@@ -155,12 +157,7 @@ def main() -> NoReturn:
         # Names of levels may hold what the terminal's encoding has not.
         getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")
     end_on_signals()
-    try:
-        cli.main(prog_name="ninja-game")
-    except SystemExit as end:
-        if end.code in {INTERRUPTED, TERMINATED}:
-            leave(end.code)
-        raise
+    cli.main(prog_name="ninja-game")
 
 
 def _announce_compiling() -> None:

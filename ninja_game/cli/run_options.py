@@ -21,6 +21,9 @@ T = TypeVar("T")
 PATIENCE = 1.0
 """Seconds after which work is long enough for a progress bar."""
 
+EVERY = 15.0
+"""Seconds between two lines of progress where nobody watches."""
+
 
 class LevelPath(click.Path):
     """A file or folder; or the name of one of the game's own levels, which stands for its file."""
@@ -83,9 +86,12 @@ def level_given(path: Path | None) -> Level | None:
 
 
 def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
-    """The same items; if they take long and a person watches, with a bar on stderr that counts them."""
+    """The same items, counted on stderr if they take long: by a bar, or by a line now and then where that is a file."""
     if not sys.stderr.isatty():
-        yield from items
+        log = ProgressLog()
+        for number, item in enumerate(items, 1):
+            yield item
+            log.say(f"{number:,} {label}")
         return
     start = time.monotonic()
     with ExitStack() as stack:
@@ -96,6 +102,20 @@ def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
                 advance = stack.enter_context(_Counter(label, number))
             elif advance:
                 advance()
+
+
+class ProgressLog:
+    """Lines on stderr that say how long work stands, one each EVERY seconds."""
+
+    def __init__(self) -> None:
+        self.start = self.last = time.monotonic()
+
+    def say(self, text: str) -> None:
+        """Write the line if it is time for one."""
+        now = time.monotonic()
+        if now - self.last >= EVERY:
+            self.last = now
+            click.echo(f"ninja-game: {now - self.start:,.0f} s: {text}", err=True)
 
 
 class _Counter:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from ninja_game.cli.run_options import ProgressLog
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
@@ -98,9 +99,10 @@ def check_gold(task: Task) -> None:
 
 @contextmanager
 def progress_line() -> Iterator[Callable[[Progress], None] | None]:
-    """A line on stderr that says how the search stands; nothing where nobody watches."""
+    """A line on stderr that says how the search stands: always the present one, or one now and then in a file."""
     if not sys.stderr.isatty():
-        yield None
+        log = ProgressLog()
+        yield lambda progress: log.say(progress_text(progress))
         return
     from rich.console import Console
     from rich.live import Live
@@ -115,10 +117,8 @@ def progress_text(progress: Progress) -> str:
     """Best run, worlds explored and speed in a line."""
     best = time_text(progress.best) if progress.best >= 0 else "none yet"
     speed = progress.ticks / progress.seconds / 1e6 if progress.seconds > 0 else 0.0
-    return (
-        f"{progress.doing:<10} {progress.seconds:5.0f} s   best {best}   "
-        f"{progress.worlds:,} worlds   {speed:.1f} million ticks/s"
-    )
+    worlds = progress.worlds / 1e6
+    return f"{progress.doing:<10} {progress.seconds:4.0f} s  best {best}  {worlds:.1f}M worlds  {speed:.1f}M ticks/s"
 
 
 def time_text(end_tick: int) -> str:
@@ -135,12 +135,10 @@ def smoothed_run(run: VerifiedRun, price: int) -> VerifiedRun:
     return verified_run(run.level, inputs, body=run.body, gold=run.gold)
 
 
-def saver(path: Path, level: NamedLevel | Recording) -> Callable[[VerifiedRun], None]:
+def saver(path: Path, level: NamedLevel | Recording, author: str = "ninja-game solve") -> Callable[[VerifiedRun], None]:
     """A function that writes each better run of a level to a file, which must not be the level's own."""
     from ninja_game.files.writing import check_output
     from ninja_game.solver.certificate import replay_of, save_replay
 
     check_output(path, keep=[Path(level.file)])
-    return lambda run: save_replay(
-        path, replay_of(run, name=level.name, author="ninja-game solve", level_author=level.author)
-    )
+    return lambda run: save_replay(path, replay_of(run, name=level.name, author=author, level_author=level.author))

@@ -116,7 +116,7 @@ class Local:
         """End processes at once, and do not wait for threads."""
         for process in list((getattr(self._executor, "_processes", None) or {}).values()):
             process.kill()
-        self._executor.shutdown(wait=False, cancel_futures=True)
+        self._executor.shutdown(wait=self._processes, cancel_futures=not self._processes)
 
 
 def _begin_worker() -> None:
@@ -207,23 +207,19 @@ def in_order(
     """
     flying: deque[tuple[J, Any]] = deque()
     waiting = iter(jobs)
-    try:
-        while True:
-            for job in islice(waiting, max(0, AHEAD * pool.count - len(flying))):
-                flying.append((job, pool.submit(function, send(job))))
-            if not flying:
-                return
-            job, future = flying.popleft()
-            try:
-                result = future.result()
-            except pool.lost:
-                # Whose fault it was is not known: this job goes again alone, then all that fell with it.
-                result = _retry(pool, function, send(job))
-                flying = deque((job, _kept(pool, function, send(job), future)) for job, future in flying)
-            yield job, result
-    finally:
-        for _, future in flying:
-            future.cancel()
+    while True:
+        for job in islice(waiting, max(0, AHEAD * pool.count - len(flying))):
+            flying.append((job, pool.submit(function, send(job))))
+        if not flying:
+            return
+        job, future = flying.popleft()
+        try:
+            result = future.result()
+        except pool.lost:
+            # Whose fault it was is not known: this job goes again alone, then all that fell with it.
+            result = _retry(pool, function, send(job))
+            flying = deque((job, _kept(pool, function, send(job), future)) for job, future in flying)
+        yield job, result
 
 
 def _retry(pool: Workers, function: Callable[[J], R], job: J) -> R | WorkerLostError:

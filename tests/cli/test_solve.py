@@ -9,9 +9,10 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+from ninja_game.cli import run_options
 from ninja_game.cli.main import cli
 from ninja_game.cli.solve import free_replay
-from ninja_game.cli.solver_options import default_threads
+from ninja_game.cli.solver_options import default_threads, progress_text
 from ninja_game.compile_cache import compiled_available
 from ninja_game.formats.ascii.reader import write_ascii_level
 from ninja_game.formats.load import load_levels
@@ -177,3 +178,28 @@ def test_a_level_without_a_ninja_is_an_error_of_check_and_the_others_are_checked
     assert result.exit_code == 2
     assert f"{folder / 'a.txt'}:1: this level cannot be played: it has no ninja" in result.stderr
     assert "2 levels, 1 solvable, 0 not solved in the time, 1 cannot be played" in result.stdout
+
+
+def test_improving_keeps_name_and_author_and_says_when_nothing_was_found(tmp_path: Path) -> None:
+    path = write_records(tmp_path / "walk.txt", ("Walk", WALK, running(WALK_END)))
+    out = tmp_path / "out.replay.txt"
+    result = command("improve", path, "--ticks", "100000", "--jobs", "1", "-o", out)
+    assert result.exit_code == 0, result.stderr
+    assert "no shorter run was found" in result.stdout
+    replay = parse_replay(out.read_text())
+    assert (replay.name, replay.author, replay.final_tick) == ("Walk", "me", WALK_END)
+
+
+def test_the_line_of_progress_fits_eighty_columns() -> None:
+    from ninja_game.solver.solve import Progress
+
+    text = progress_text(Progress(best=99_999, worlds=2_000_000_000, ticks=10**11, seconds=9_999.0, doing="shortening"))
+    assert len(text) <= 80
+
+
+def test_progress_is_told_now_and_then_where_nobody_watches(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(run_options, "EVERY", 0.0)
+    assert list(run_options.with_progress(range(2), "runs")) == [0, 1]
+    assert [line.partition("s: ")[2] for line in capsys.readouterr().err.splitlines()] == ["1 runs", "2 runs"]
