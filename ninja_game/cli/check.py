@@ -54,7 +54,7 @@ def command(
     replays: Path | None,
     as_json: bool,
     jobs: int | None,
-    **wish: Any,
+    **task_options: Any,
 ) -> None:
     """Certify levels: whether they can be passed, how fast, and what is odd.
 
@@ -79,7 +79,7 @@ def command(
         replays.mkdir(parents=True, exist_ok=True)
     missing = broken = 0
     for level, where in zip(chosen, _certificates(chosen, replays), strict=True):
-        task = Task(level.level, jobs=default_threads(jobs), **wish)
+        task = Task(level.level, jobs=default_threads(jobs), **task_options)
         try:
             with progress_line() as report:
                 run = solve(task, report=report, on_better=saver(where, level) if where else None)

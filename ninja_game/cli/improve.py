@@ -48,7 +48,7 @@ def command(
     output: Path,
     jobs: int | None,
     smooth: int | None,
-    **wish: Any,
+    **task_options: Any,
 ) -> None:
     """Shorten a run that exists.
 
@@ -74,7 +74,7 @@ def command(
     recording = recordings[0]
     body = recording.replay.body if recording.replay else "circle"
     first = recording.playback(recording.ticks)
-    task = Task(recording.level, body=body, first=first, jobs=default_threads(jobs), **wish)  # type: ignore[arg-type]
+    task = Task(recording.level, body=body, first=first, jobs=default_threads(jobs), **task_options)  # type: ignore[arg-type]
     check_gold(task)
     before: list[int] = []
     save = saver(output, recording, recording.author)

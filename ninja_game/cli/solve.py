@@ -49,7 +49,7 @@ def command(
     output: Path | None,
     jobs: int | None,
     smooth: int | None,
-    **wish: Any,
+    **task_options: Any,
 ) -> None:
     """Find a run to the exit, then shorten it.
 
@@ -67,7 +67,7 @@ def command(
 
     chosen = choose_level(level, record)
     output = output or free_replay(level)
-    task = Task(chosen.level, jobs=default_threads(jobs), **wish)
+    task = Task(chosen.level, jobs=default_threads(jobs), **task_options)
     check_gold(task)
     save = saver(output, chosen)
     with progress_line() as report:

@@ -1,7 +1,7 @@
 """Where to go next: the switch, the exit, the gold, or the switch of a door that is in the way.
 
-What has been switched so far is a *stage*: one bit for each exit, locked door and trap door of the level. Every stage
-has a distance field of its own, made when the search first reaches it.
+What has been switched so far is a *switch state*: one bit for each exit, locked door and trap door of the level. Every
+switch state has a distance field of its own, made when the search first reaches it.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ class Switchable(NamedTuple):
     bars: tuple[int, ...]
 
 
-class Goals:
-    """Distance fields of one level, by stage."""
+class Heuristics:
+    """Distance fields of one level, by switch_state."""
 
     def __init__(self, levels: Records, worlds: Records) -> None:
         used = int(worlds["slots_used"][0])
@@ -88,13 +88,13 @@ class Goals:
         costs = self._closed(0, DOOR_COST / 4)
         return np.array([widened(self._field(costs, [(x, y, 0.0)])) for x, y in self.gold_places], np.float32)
 
-    def field(self, stage: int, x: float, y: float) -> Field:
-        """Ticks from every point to what should be done next in this stage by a ninja at (x, y), and on to the exit."""
-        costs = self._closed(stage, 0.0)
-        dear = self._closed(stage, DOOR_COST)
+    def field(self, switch_state: int, x: float, y: float) -> Field:
+        """Ticks from every point to what a ninja at (x, y) should do next in this switch state, and on to the exit."""
+        costs = self._closed(switch_state, 0.0)
+        dear = self._closed(switch_state, DOOR_COST)
         sources = []
         for bit, exit_ in enumerate(self.exits):
-            if bit < MAX_BITS and stage >> bit & 1:
+            if bit < MAX_BITS and switch_state >> bit & 1:
                 sources.append((exit_.x, exit_.y, 0.0))
             else:
                 home = widened(self._field(dear, [(exit_.x, exit_.y, 0.0)]))
@@ -107,7 +107,7 @@ class Goals:
             if field[here] < UNREACHED:
                 return field
             imagined = widened(self._field(dear, sources))
-            door = self._first_door(imagined, here, stage)
+            door = self._first_door(imagined, here, switch_state)
             if door is None or door.slot in visited:
                 return imagined
             visited.add(door.slot)
@@ -127,21 +127,21 @@ class Goals:
         compiled(spread)(costs, self.blocked, field, self._queue, self._waiting)
         return field
 
-    def _closed(self, stage: int, door_cost: float) -> Costs:
-        """The cost factors with the doors as they are in a stage."""
+    def _closed(self, switch_state: int, door_cost: float) -> Costs:
+        """The cost factors with the doors as they are in a switch_state."""
         costs = self.costs.copy()
         for bit, switch in enumerate(self.switches):
-            if switch.door and switch.trap == bool(stage >> bit & 1):
+            if switch.door and switch.trap == bool(switch_state >> bit & 1):
                 bars = [point for point in switch.bars if costs[point] > 0.0]
                 costs[bars] = np.float32(0.0 if switch.trap else door_cost)
         return costs
 
-    def _first_door(self, field: Field, here: int, stage: int) -> Switchable | None:
+    def _first_door(self, field: Field, here: int, switch_state: int) -> Switchable | None:
         """The first closed locked door on the way down a field."""
         closed = {
             point: switch
             for bit, switch in enumerate(self.switches)
-            if switch.door and not switch.trap and not stage >> bit & 1
+            if switch.door and not switch.trap and not switch_state >> bit & 1
             for point in switch.bars
         }
         for _ in range(POINTS):

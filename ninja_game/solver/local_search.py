@@ -1,4 +1,4 @@
-"""Local improvement of a run: random edits, played from the save-state before the first changed tick.
+"""Local improvement of a run: random mutations, played from the save-state before the first changed tick.
 
 A run is kept if it is shorter; of runs of equal length that which is deeper in the exit's disc in the last tick, a
 measure between two ticks. Now and then a slightly longer one is kept too, to get out of dead ends.
@@ -14,13 +14,13 @@ from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
 from ninja_game.sim.world import step
-from ninja_game.solver.mutations import edit, random_below
+from ninja_game.solver.mutations import mutate, random_below
 
 CHECKPOINT = 8
 """Ticks between the save-states of the current run."""
 
 # Counters (int64) of a climb; index 0 is the random state.
-CURRENT_TICKS, SHORTEST, TRIALS, PLAYED, KEPT, SHORTENED, GOLD_WANTED, SINCE_BEST = range(1, 9)
+CURRENT_TICKS, SHORTEST, TRIALS, PLAYED, GOLD_WANTED = range(1, 6)
 # Scores (float64): of the current and of the best run; how much longer (ticks) a kept run may be.
 CURRENT_SCORE, BEST_SCORE, TEMPERATURE, LEASH = range(4)
 
@@ -88,11 +88,11 @@ def try_run(
 
 
 @entry_point
-def climb(
+def local_search(
     levels: Any, worlds: Any, words: Any, keys: Any, path: Any, checkpoints: Any, counters: Any, scores: Any,
     budget: int,
 ) -> None:  # fmt: skip
-    """Try edits of the current run until about ``budget`` ticks were played.
+    """Try mutations of the current run until about ``budget`` ticks were played.
 
     ``keys`` (3 rows, uint8): the best, the current and the trial run, one byte a tick without trigger bit; ``path``
     (px) and ``checkpoints`` belong to the current run, see ``retrace``.
@@ -108,10 +108,10 @@ def climb(
         for k in range(room):
             keys[TRIAL_ROW, k] = keys[CURRENT_ROW, k]
         first = random_below(counters, ticks)
-        tick, shift = edit(keys[TRIAL_ROW], room, first, counters)
+        tick, shift = mutate(keys[TRIAL_ROW], room, first, counters)
         while random_below(counters, 2):
             near = max(0, min(first + random_below(counters, 80) - 40, ticks - 1))
-            again, more = edit(keys[TRIAL_ROW], room, near, counters)
+            again, more = mutate(keys[TRIAL_ROW], room, near, counters)
             tick = min(tick, again)
             shift += more
         while tick < ticks and keys[TRIAL_ROW, tick] == keys[CURRENT_ROW, tick]:
@@ -128,23 +128,18 @@ def climb(
         limit = min(int(allowed) + 1, room)
         played = try_run(level, w, keys, path, start, shift, limit, scores[LEASH], ticks)
         counters[PLAYED] += played + 4
-        counters[SINCE_BEST] += 1
         if w.outcome != OUTCOME_EXIT or w.gold < counters[GOLD_WANTED]:
             continue
         score = score_of(w)
         if score > allowed:
             continue
-        counters[KEPT] += 1
         for k in range(room):
             keys[CURRENT_ROW, k] = keys[TRIAL_ROW, k]
         scores[CURRENT_SCORE] = score
         counters[CURRENT_TICKS] = w.tick
         if score < scores[BEST_SCORE]:
-            if w.tick < counters[SHORTEST]:
-                counters[SHORTENED] += 1
             scores[BEST_SCORE] = score
             counters[SHORTEST] = w.tick
-            counters[SINCE_BEST] = 0
             for k in range(room):
                 keys[BEST_ROW, k] = keys[TRIAL_ROW, k]
         retrace(levels, worlds, words, keys, path, checkpoints, tick, w.tick)

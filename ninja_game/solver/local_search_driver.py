@@ -1,4 +1,4 @@
-"""A climb from one run: its arrays, and slices of work."""
+"""A local search from one run: its arrays, and slices of work."""
 
 from __future__ import annotations
 
@@ -20,20 +20,22 @@ from ninja_game.solver.local_search import (
     LEASH,
     PLAYED,
     SHORTEST,
-    SINCE_BEST,
     TEMPERATURE,
     TRIALS,
-    climb,
+    local_search,
     retrace,
 )
 from ninja_game.solver.search_memory import Start
 
 ROOM = 64
-"""Ticks by which a current run may be longer than the run that the climb began with."""
+"""Ticks by which a current run may be longer than the run that the local search began with."""
 
 
-class Climb:
-    """Improves a run by random edits. ``inputs`` must reach the exit; ``gold``: pieces that every run must collect."""
+class LocalSearch:
+    """Improves a run by random mutations.
+
+    ``inputs`` must reach the exit; ``gold``: pieces that every run must collect.
+    """
 
     def __init__(self, start: Start, inputs: bytes, *, gold: int, seed: int) -> None:
         self.start = start
@@ -59,12 +61,11 @@ class Climb:
             raise ValueError("the run does not reach the exit with triggers only where the jump key goes down")
         self.scores[CURRENT_SCORE] = self.scores[BEST_SCORE]
         self.counters[CURRENT_TICKS] = limit
-        self.counters[SINCE_BEST] = 0
 
     def run(self, budget: int, *, temperature: float) -> None:
-        """Try edits for about ``budget`` ticks. ``temperature``: ticks by which a kept run may be longer, at most."""
+        """Try mutations for about ``budget`` ticks; ``temperature``: how many ticks longer a kept run may be."""
         self.scores[TEMPERATURE] = temperature
-        self._call(climb, self.counters, self.scores, budget)
+        self._call(local_search, self.counters, self.scores, budget)
 
     def _call(self, entry: Callable[..., Any], *more: Any) -> Any:
         start = self.start

@@ -89,7 +89,7 @@ def shift_pulse(keys: Any, length: int, tick: int, by: int) -> int:
 
 
 @fast
-def edit(keys: Any, length: int, tick: int, counters: Any) -> tuple[int, int]:
+def mutate(keys: Any, length: int, tick: int, counters: Any) -> tuple[int, int]:
     """One random edit at or after a tick."""
     kind = random_below(counters, 12)
     by = 1 + random_below(counters, 2 if random_below(counters, 2) else 8)

@@ -8,7 +8,6 @@ from ninja_game.sim.memory.declare import fast
 from ninja_game.solver.search_memory import (
     BUCKETS,
     CHUNK,
-    DROPPED,
     FREE_CHUNK,
     HIGHEST,
     LOWEST,
@@ -130,7 +129,6 @@ def drop_highest(nodes: Any, buckets: Any, pool: Any, counters: Any) -> None:
     index = buckets[bucket]
     buckets[bucket] = nodes[index].next
     counters[WAITING] -= 1
-    counters[DROPPED] += 1
     if nodes[index].chunk >= 0:
         free_state(nodes[index].chunk, pool, counters)
         nodes[index].chunk = -1

@@ -1,4 +1,4 @@
-"""In which order a solver looks: coarse and greedy first, then finer, patient and varied searches, then climbs.
+"""In which order a solver looks: coarse and greedy first, then finer, patient and varied searches, then local searches.
 
 Amounts of work are in ticks of a climb; a tick of a search counts more, for its save-states and tables.
 """
@@ -38,7 +38,7 @@ VARY = (
 VARY_TICKS = 12_000_000
 
 COOLING = (6.0, 4.0, 2.5, 1.2, 0.4)
-"""Temperatures of a climb, one after the other."""
+"""Temperatures of a local search, one after the other."""
 
 
 @dataclass(frozen=True)

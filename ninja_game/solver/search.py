@@ -21,12 +21,11 @@ from ninja_game.solver.search_memory import (
     BEST_TICKS,
     ENTRIES,
     EXPANDED,
-    FULL,
     GOLD_NEEDED,
     LINKS,
     MACRO_JITTER,
     MACRO_TICKS,
-    NEW_STAGES,
+    NEW_SWITCH_STATES,
     NODES,
     OFF_GUIDE,
     PATIENCE,
@@ -36,8 +35,8 @@ from ninja_game.solver.search_memory import (
     WAITING,
     WEIGHT,
 )
-from ninja_game.solver.search_stages import estimate, gold_hash, stage_of
 from ninja_game.solver.state_abstraction import find, is_news, key_of
+from ninja_game.solver.switch_states import estimate, gold_hash, switch_state_of
 
 CHOICES = 10
 """Macros to choose from: three directions by three modes of the jump key, and waiting."""
@@ -46,15 +45,15 @@ BOUND_SHARE = 0.4
 
 
 @entry_point
-def begin(place: Any, memory: Any, stages: Any, goals: Any, guide: Any, budget: int) -> int:
+def begin(place: Any, memory: Any, switch_states: Any, heuristics: Any, guide: Any, budget: int) -> int:
     """Make the root, the start of the level. Arguments as for ``expand``."""
     _, worlds, (base, _, work_words) = place
     nodes, table, _, pool, buckets, counters, parameters = memory
     for k in range(len(base)):
         work_words[k] = base[k]
     w = worlds[1]
-    stage = stage_of(w, goals, stages, counters, 0)
-    key = key_of(w, stage, gold_hash(w, goals, counters), parameters)
+    switch_state = switch_state_of(w, heuristics, switch_states, counters, 0)
+    key = key_of(w, switch_state, gold_hash(w, heuristics, counters), parameters)
     slot = find(table, key)
     table[slot].key = key
     table[slot].visits = 1
@@ -64,7 +63,7 @@ def begin(place: Any, memory: Any, stages: Any, goals: Any, guide: Any, budget: 
     root.parent = -1
     root.tick = 0
     root.action = 0
-    root.stage = stage
+    root.switch_state = switch_state
     root.entry = slot
     root.ahead = 0.0
     keep_state(work_words, base, root, pool, counters)
@@ -73,13 +72,13 @@ def begin(place: Any, memory: Any, stages: Any, goals: Any, guide: Any, budget: 
 
 
 @entry_point
-def expand(place: Any, memory: Any, stages: Any, goals: Any, guide: Any, budget: int) -> int:
-    """Expand nodes until ``budget`` ticks were run, a new stage wants its field, or nothing is left.
+def expand(place: Any, memory: Any, switch_states: Any, heuristics: Any, guide: Any, budget: int) -> int:
+    """Expand nodes until ``budget`` ticks were run, a new switch state wants its field, or nothing is left.
 
     ``place``: level, worlds (the node's and the working one), and their states as words, the start's first.
-    ``memory``: nodes, table, links, pool, buckets, counters, parameters. ``stages``: their bits, where they were first
-    seen, their fields. ``goals``: slots of the switches, how many, slots of the gold, fields of the gold. ``guide``:
-    the table of an earlier search whose ``value`` is the estimate (length 1: none) and its parameters.
+    ``memory``: nodes, table, links, pool, buckets, counters, parameters. ``switch_states``: their bits, where they
+    were first seen, their fields. ``heuristics``: slots of the switches, how many, slots of the gold, fields of the
+    gold. ``guide``: the table of an earlier search whose ``value`` is the estimate (length 1: none), its parameters.
 
     Answers 0: go on, 1: nothing left, 2: no room for nodes.
     """
@@ -88,10 +87,9 @@ def expand(place: Any, memory: Any, stages: Any, goals: Any, guide: Any, budget:
     here = worlds[0]
     w = worlds[1]
     stop = counters[TICKS] + budget
-    while counters[TICKS] < stop and counters[NEW_STAGES] == 0:
+    while counters[TICKS] < stop and counters[NEW_SWITCH_STATES] == 0:
         full = counters[NODES] + 16 > len(nodes) or counters[LINKS] + 16 > len(links)
         if full or counters[ENTRIES] * 4 > len(table) * 3:
-            counters[FULL] = 1
             return 2
         index = pop_lowest(nodes, buckets, counters)
         if index < 0:
@@ -111,7 +109,7 @@ def expand(place: Any, memory: Any, stages: Any, goals: Any, guide: Any, budget:
             action = action_code(direction, mode, held, played)
             if w.outcome == OUTCOME_RUNNING:
                 if w.tick < LIFETIME + GOLD_BONUS * w.gold:
-                    keep_child(index, action, played, place, memory, stages, goals, guide)
+                    keep_child(index, action, played, place, memory, switch_states, heuristics, guide)
             elif w.outcome == OUTCOME_EXIT and w.gold >= counters[GOLD_NEEDED]:
                 keep_end(index, action, played, w.tick, memory)
     return 0
@@ -174,23 +172,23 @@ def keep_end(parent: int, action: int, played: int, tick: int, memory: Any) -> N
 
 @fast
 def keep_child(
-    parent: int, action: int, played: int, place: Any, memory: Any, stages: Any, goals: Any, guide: Any
+    parent: int, action: int, played: int, place: Any, memory: Any, switch_states: Any, heuristics: Any, guide: Any
 ) -> None:
     """Make a node of the working world if its key is news and it can still beat the best run."""
     _, worlds, (base, _, work_words) = place
     nodes, table, links, pool, buckets, counters, parameters = memory
     w = worlds[1]
     source = nodes[parent]
-    stage = stage_of(w, goals, stages, counters, source.stage)
-    if stage < 0:
+    switch_state = switch_state_of(w, heuristics, switch_states, counters, source.switch_state)
+    if switch_state < 0:
         return
     tick = w.tick
     best = counters[BEST_TICKS]
-    ahead = estimate(w, goals, stages, counters, stage, point_at(w.ninja.x, w.ninja.y), source.ahead)
+    ahead = estimate(w, heuristics, switch_states, counters, switch_state, point_at(w.ninja.x, w.ninja.y), source.ahead)
     if best > 0 and tick + ahead * BOUND_SHARE >= best:
         return
-    gold = gold_hash(w, goals, counters)
-    key = key_of(w, stage, gold, parameters)
+    gold = gold_hash(w, heuristics, counters)
+    key = key_of(w, switch_state, gold, parameters)
     slot = find(table, key)
     entry = table[slot]
     if entry.key != 0:
@@ -199,7 +197,7 @@ def keep_child(
             return
     guide_table, guide_parameters = guide
     if len(guide_table) > 1:
-        known = guide_table[find(guide_table, key_of(w, stage, gold, guide_parameters))]
+        known = guide_table[find(guide_table, key_of(w, switch_state, gold, guide_parameters))]
         if known.key != 0 and known.value < 1.0e8:
             ahead = 0.0 + known.value
         else:
@@ -217,7 +215,7 @@ def keep_child(
     entry.last = max(entry.last, tick)
     index = add_node(parent, action, tick, memory)
     child = nodes[index]
-    child.stage = stage
+    child.switch_state = switch_state
     child.entry = slot
     child.ahead = ahead
     while not keep_state(work_words, base, child, pool, counters) and counters[WAITING] > 0:

@@ -21,12 +21,12 @@ NODE = np.dtype(
     [
         ("parent", "<i4"),  # index of the node it came from, -1: the root
         ("tick", "<i4"),  # ticks run
-        ("action", "<i4"),  # see macros.py
+        ("action", "<i4"),  # see macro_actions.py
         ("chunk", "<i4"),  # first chunk of its save-state, -1: none (any more)
         ("words", "<i4"),  # words in it
         ("next", "<i4"),  # next node of its bucket, -1: last
         ("priority", "<i4"),  # its bucket
-        ("stage", "<i4"),  # index of its stage (goals.py)
+        ("switch_state", "<i4"),  # index of its switch state (heuristics.py)
         ("entry", "<i4"),  # its place in the table
         ("ahead", "<f4"),  # estimated ticks to the exit
     ]
@@ -46,16 +46,16 @@ LINK = np.dtype([("source", "<i4"), ("target", "<i4"), ("ticks", "<i4")])
 CHUNK = 32
 """Words in a chunk."""
 BUCKETS = 1 << 14
-MAX_STAGES = 512
+MAX_SWITCH_STATES = 512
 
 # Counters (int64) of a search: what the kernel and its caller tell each other.
-NODES, FREE_CHUNK, LOWEST, HIGHEST, BEST_TICKS, BEST_NODE, TICKS, EXPANDED, STAGES, NEW_STAGES = range(10)
-ENTRIES, DROPPED, LINKS, RANDOM, GOLD_NEEDED, WAITING, FULL, MOST_GOLD = range(10, 18)
+NODES, FREE_CHUNK, LOWEST, HIGHEST, BEST_TICKS, BEST_NODE, TICKS, EXPANDED, SWITCH_STATES, NEW_SWITCH_STATES = range(10)
+ENTRIES, LINKS, RANDOM, GOLD_NEEDED, WAITING = range(10, 15)
 COUNTERS = 24
 
 # Parameters (float64) of a search.
 CELL_PX, SHIFT_X, SHIFT_Y, SPEED_STEP, SHIFT_VX, SHIFT_VY, MACRO_TICKS, MACRO_JITTER = range(8)
-WEIGHT, PATIENCE, REVISITS, SLACK, OFF_GUIDE, SKEW = range(8, 14)
+WEIGHT, PATIENCE, REVISITS, SLACK, OFF_GUIDE = range(8, 13)
 PARAMETERS = 16
 
 
@@ -94,20 +94,20 @@ class SearchMemory:
         self.buckets = np.empty(BUCKETS, np.int32)
         self.counters = np.zeros(COUNTERS, np.int64)
         self.parameters = np.zeros(PARAMETERS)
-        self.stages = np.zeros(MAX_STAGES, np.int64)
-        self.stage_places = np.zeros((MAX_STAGES, 2))
-        self.fields = np.zeros((MAX_STAGES, POINTS), np.float32)
+        self.switch_states = np.zeros(MAX_SWITCH_STATES, np.int64)
+        self.switch_state_places = np.zeros((MAX_SWITCH_STATES, 2))
+        self.fields = np.zeros((MAX_SWITCH_STATES, POINTS), np.float32)
         self.fields[:, 0] = -1.0
 
     def clear(self) -> None:
-        """Forget everything but the stages and their fields."""
+        """Forget everything but the switch states and their fields."""
         self.table[:] = 0
         self.chunk_next[:] = np.arange(1, len(self.chunk_next) + 1, dtype=np.int32)
         self.chunk_next[-1] = -1
         self.buckets[:] = -1
-        stages = self.counters[STAGES]
+        switch_states = self.counters[SWITCH_STATES]
         self.counters[:] = 0
-        self.counters[STAGES] = stages
+        self.counters[SWITCH_STATES] = switch_states
         self.counters[LOWEST] = BUCKETS
         self.counters[BEST_NODE] = -1
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ninja_game.compile_cache import compiled
-from ninja_game.solver.heuristics import Goals
+from ninja_game.solver.heuristics import Heuristics
 from ninja_game.solver.macro_actions import action_inputs
 from ninja_game.solver.search import begin, expand
 from ninja_game.solver.search_memory import (
@@ -21,9 +21,7 @@ from ninja_game.solver.search_memory import (
     GOLD_NEEDED,
     MACRO_JITTER,
     MACRO_TICKS,
-    MOST_GOLD,
-    NEW_STAGES,
-    NODES,
+    NEW_SWITCH_STATES,
     OFF_GUIDE,
     PATIENCE,
     RANDOM,
@@ -34,13 +32,13 @@ from ninja_game.solver.search_memory import (
     SHIFT_Y,
     SLACK,
     SPEED_STEP,
-    STAGES,
+    SWITCH_STATES,
     TICKS,
     WEIGHT,
     SearchMemory,
     Start,
 )
-from ninja_game.solver.value_backup import settle_values
+from ninja_game.solver.value_backup import back_up_values
 
 MORE, EXHAUSTED, NO_ROOM = 0, 1, 2
 """How a slice of a search ended."""
@@ -53,7 +51,9 @@ class Resolution:
     """How finely a search looks: size of a place (px), of a velocity (px/tick), length of a macro (ticks).
 
     ``weight``: of the estimated ticks to go against those run; ``patience``: ticks after which the same place counts
-    as new, at most ``visits`` times; ``slack``, ``off_guide``: see ``expand``, guided searches only.
+    as new, at most ``visits`` times; guided searches only: ``slack``: ticks by
+    which an estimate may exceed the best run, in a plan as a share of it; ``off_guide``: how much a tick counts where
+    the guide knows nothing.
     """
 
     cell: float = 12.0
@@ -70,13 +70,13 @@ class Resolution:
 class Search:
     """A best-first search from the start of a level, in memory that can be used again and again."""
 
-    def __init__(self, start: Start, goals: Goals, memory: SearchMemory, gold: int) -> None:
+    def __init__(self, start: Start, heuristics: Heuristics, memory: SearchMemory, gold: int) -> None:
         self.start = start
-        self.goals = goals
+        self.heuristics = heuristics
         self.memory = memory
         self.gold = gold
-        self._gold_fields = goals.gold_fields() if gold else np.zeros((1, 1), np.float32)
-        memory.counters[STAGES] = 0
+        self._gold_fields = heuristics.gold_fields() if gold else np.zeros((1, 1), np.float32)
+        memory.counters[SWITCH_STATES] = 0
 
     def begin(self, resolution: Resolution, *, seed: int, bound: int, guided: bool = False) -> None:
         """Begin a new search. ``bound``: only runs of fewer ticks count (0: any).
@@ -85,7 +85,7 @@ class Search:
         """
         memory = self.memory
         if guided:
-            memory.keep_as_guide(compiled(settle_values))
+            memory.keep_as_guide(compiled(back_up_values))
         memory.clear()
         counters, parameters = memory.counters, memory.parameters
         random = np.random.default_rng([seed, 6])
@@ -112,31 +112,31 @@ class Search:
             if left <= 0:
                 return MORE
             ended = int(self._call(expand, left))
-            if counters[NEW_STAGES]:
+            if counters[NEW_SWITCH_STATES]:
                 self._fill_fields()
             elif ended != MORE:
                 return ended
 
     def _call(self, entry: Callable[..., Any], budget: int) -> Any:
-        memory, start, goals = self.memory, self.start, self.goals
+        memory, start, heuristics = self.memory, self.start, self.heuristics
         return compiled(entry)(
             (start.levels, start.worlds, (start.base, start.node_words, start.work_words)),
             (memory.nodes, memory.table, memory.links, (memory.chunk_next, memory.chunk_index, memory.chunk_value),
              memory.buckets, memory.counters, memory.parameters),
-            (memory.stages, memory.stage_places, memory.fields),
-            (goals.slots, len(goals.switches), goals.gold_slots, self._gold_fields),
+            (memory.switch_states, memory.switch_state_places, memory.fields),
+            (heuristics.slots, len(heuristics.switches), heuristics.gold_slots, self._gold_fields),
             (self._guide, memory.guided_by),
             budget,
         )  # fmt: skip
 
     def _fill_fields(self) -> None:
-        """Make the distance fields of the stages that were seen for the first time."""
+        """Make the distance fields of the switch states that were seen for the first time."""
         memory = self.memory
-        for index in range(int(memory.counters[STAGES])):
+        for index in range(int(memory.counters[SWITCH_STATES])):
             if memory.fields[index, 0] < 0.0:
-                x, y = memory.stage_places[index]
-                memory.fields[index] = self.goals.field(int(memory.stages[index]), float(x), float(y))
-        memory.counters[NEW_STAGES] = 0
+                x, y = memory.switch_state_places[index]
+                memory.fields[index] = self.heuristics.field(int(memory.switch_states[index]), float(x), float(y))
+        memory.counters[NEW_SWITCH_STATES] = 0
 
     @property
     def ticks(self) -> int:
@@ -147,16 +147,6 @@ class Search:
     def worlds(self) -> int:
         """Save-states expanded since ``begin``."""
         return int(self.memory.counters[EXPANDED])
-
-    @property
-    def most_gold(self) -> int:
-        """The most gold that a run has collected."""
-        return int(self.memory.counters[MOST_GOLD])
-
-    @property
-    def nodes(self) -> int:
-        """Nodes made since ``begin``."""
-        return int(self.memory.counters[NODES])
 
     def best(self) -> bytes | None:
         """The inputs of the shortest run to the exit that this search has found, one byte a tick; None if none."""

@@ -1,4 +1,4 @@
-"""Find a run to the exit, then shorten it: searches and climbs on all threads, the best run so far at any time.
+"""Find a run to the exit, then shorten it: searches and local searches on all threads, the best run so far at any time.
 
 With one job a solver does the same work in the same order for the same seed: the clock only says when it ends.
 """
@@ -13,12 +13,12 @@ from functools import cache
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.inputs import press_jumps
 from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, verified_run
-from ninja_game.solver.heuristics import Goals
-from ninja_game.solver.local_search_driver import Climb
+from ninja_game.solver.heuristics import Heuristics
+from ninja_game.solver.local_search_driver import LocalSearch
 from ninja_game.solver.plan import COOLING, SEARCH_COST, VARY, VARY_TICKS, Shares, find_order
 from ninja_game.solver.search_memory import SearchMemory, Start
 from ninja_game.solver.search_run import MORE, Resolution, Search
-from ninja_game.solver.task import Progress, Report, Shared, Task
+from ninja_game.solver.task import Progress, Report, SearchState, Task
 
 __all__ = ["Progress", "Task", "compile_solver", "solve"]
 
@@ -29,9 +29,9 @@ SLICE = 1_000_000
 class _Job:
     """One thread's work."""
 
-    def __init__(self, shared: Shared, number: int) -> None:
-        task = shared.task
-        self.shared = shared
+    def __init__(self, state: SearchState, number: int) -> None:
+        task = state.task
+        self.state = state
         self.number = number
         self.seed = task.seed * 1000 + number
         self.work = 0.0
@@ -39,43 +39,43 @@ class _Job:
         self.start = Start(task.level, box=task.body == "box")
         self._search: Search | None = None
         self._turn = 2 * number
-        self._climbs = 0
+        self._local_searches = 0
 
     def run(self) -> None:
-        """Find, vary, climb, until the end."""
-        shared, shares = self.shared, self.shares
-        if not shared.runs:
+        """Find, vary, local search, until the end."""
+        state, shares = self.state, self.shares
+        if not state.runs:
             self._find()
-        while not self._over and shared.runs:
-            if self.work < shares.vary_until * shared.task.work_planned and not shared.task.first:
+        while not self._over and state.runs:
+            if self.work < shares.vary_until * state.task.work_planned and not state.task.first:
                 self._vary()
             else:
                 self._turn += 1
                 # The best run most of the time; now and then another one that may have more in it.
-                rank = (0, 1, 0, 2, 0)[self._turn % 5] if not shared.task.first else 0
-                with shared.lock:
-                    inputs = shared.runs[min(rank, len(shared.runs) - 1)]
-                self._climb(inputs, shares.long_climb)
+                rank = (0, 1, 0, 2, 0)[self._turn % 5] if not state.task.first else 0
+                with state.lock:
+                    inputs = state.runs[min(rank, len(state.runs) - 1)]
+                self._shorten(inputs, shares.long_climb)
 
     @property
     def _over(self) -> bool:
-        return self.shared.over or bool(self.shared.task.work and self.work >= self.shared.task.work)
+        return self.state.over or bool(self.state.task.work and self.work >= self.state.task.work)
 
     def _memory(self) -> Search:
         """The search of this job, made when it is first needed."""
         if self._search is None:
-            task = self.shared.task
+            task = self.state.task
             nodes = int(min(1_500_000, max(100_000, task.work_planned / 40)))
-            goals = Goals(self.start.levels, self.start.worlds)
+            heuristics = Heuristics(self.start.levels, self.start.worlds)
             memory = SearchMemory(nodes, nodes)
-            self._search = Search(self.start, goals, memory, task.gold_wanted)
+            self._search = Search(self.start, heuristics, memory, task.gold_wanted)
         return self._search
 
     def _find(self) -> None:
         for resolution, ticks, turn in find_order(self.number):
-            if self._over or self.shared.runs:
+            if self._over or self.state.runs:
                 return
-            wanted = ticks * (4 if self.shared.task.gold_wanted else 1)
+            wanted = ticks * (4 if self.state.task.gold_wanted else 1)
             self._search_once(resolution, wanted, seed=turn, bound=0, until_found=True)
 
     def _vary(self) -> None:
@@ -83,12 +83,12 @@ class _Job:
         self._turn += 1
         resolution = VARY[turn % len(VARY)]
         guided = resolution.slack > 0.0
-        with self.shared.lock:
-            shortest = len(self.shared.runs[0])
+        with self.state.lock:
+            shortest = len(self.state.runs[0])
         resolution = replace(resolution, slack=resolution.slack * shortest)
         bound = shortest + max(4, shortest // 20)
         found = self._search_once(resolution, VARY_TICKS, seed=100 + turn, bound=bound, guided=guided)
-        self._climb(found or self.shared.runs[0], self.shares.first_climb)
+        self._shorten(found or self.state.runs[0], self.shares.first_climb)
 
     def _search_once(
         self, resolution: Resolution, ticks: int, *, seed: int, bound: int, guided: bool = False,
@@ -101,29 +101,29 @@ class _Job:
             before = search.ticks
             ended = search.run(min(SLICE, ticks - before))
             self.work += (search.ticks - before) * SEARCH_COST
-            self.shared.count(search.ticks - before, search.worlds - worlds, "searching")
+            self.state.count(search.ticks - before, search.worlds - worlds, "searching")
             worlds = search.worlds
-            if until_found and (self.shared.runs or search.best()):
+            if until_found and (self.state.runs or search.best()):
                 break
         found = search.best()
         if found:
-            self.shared.offer(found)
+            self.state.submit(found)
         return found
 
-    def _climb(self, inputs: bytes, ticks: int) -> None:
-        self._climbs += 1
-        gold = self.shared.task.gold_wanted
-        climb = Climb(self.start, inputs, gold=gold, seed=self.seed + 7919 * self._climbs)
+    def _shorten(self, inputs: bytes, ticks: int) -> None:
+        self._local_searches += 1
+        gold = self.state.task.gold_wanted
+        local_search = LocalSearch(self.start, inputs, gold=gold, seed=self.seed + 7919 * self._local_searches)
         for temperature in COOLING:
-            until = climb.played + ticks // len(COOLING)
-            while climb.played < until and not self._over:
-                before, trials, best = climb.played, climb.trials, climb.ticks
-                climb.run(min(SLICE, until - before), temperature=temperature)
-                self.work += climb.played - before
-                self.shared.count(climb.played - before, climb.trials - trials, "shortening")
-                if climb.ticks < best:
-                    self.shared.offer(climb.best())
-            climb.return_to_best()
+            until = local_search.played + ticks // len(COOLING)
+            while local_search.played < until and not self._over:
+                before, trials, best = local_search.played, local_search.trials, local_search.ticks
+                local_search.run(min(SLICE, until - before), temperature=temperature)
+                self.work += local_search.played - before
+                self.state.count(local_search.played - before, local_search.trials - trials, "shortening")
+                if local_search.ticks < best:
+                    self.state.submit(local_search.best())
+            local_search.return_to_best()
 
 
 _SMALL = "0" * 713 + "|5^100,566!11^160,564,130,564"
@@ -136,7 +136,7 @@ def compile_solver() -> None:
     Raises MemoryUnavailableError without Numba.
     """
     task = Task(parse_level_string(_SMALL), work=30_000)
-    _Job(Shared(task, None), 0).run()
+    _Job(SearchState(task, None), 0).run()
 
 
 def solve(
@@ -150,13 +150,13 @@ def solve(
     first run that does not reach the exit.
     """
     compile_solver()
-    shared = Shared(task, report, on_better=on_better)
+    state = SearchState(task, report, on_better=on_better)
     if task.first:
-        shared.offer(_with_plain_triggers(task))
-    jobs = [_Job(shared, number) for number in range(task.jobs)]
+        state.submit(_with_plain_triggers(task))
+    jobs = [_Job(state, number) for number in range(task.jobs)]
     if len(jobs) == 1:
         jobs[0].run()
-        return shared.best
+        return state.best
     with ThreadPoolExecutor(len(jobs)) as pool:
         running = {pool.submit(job.run) for job in jobs}
         try:
@@ -165,12 +165,12 @@ def solve(
                 for job in done:
                     job.result()
         finally:
-            shared.stop.set()
-    return shared.best
+            state.stop.set()
+    return state.best
 
 
 def _with_plain_triggers(task: Task) -> bytes:
-    """The first run with triggers just where the jump key goes down, as edits keep them.
+    """The first run with triggers just where the jump key goes down, as mutations keep them.
 
     Raises UnverifiedRunError where the run does not reach the exit, or only by triggers that no keyboard makes.
     """

@@ -1,4 +1,4 @@
-"""When two moments count as the same: place and velocity in steps, state, stage and gold - and what a table knows."""
+"""When two moments count as the same: place, velocity, state, switch state and gold - and what a table knows."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def state_class(w: World) -> int:
 
 
 @fast
-def key_of(w: World, stage: int, gold: int, parameters: Any) -> int:
+def key_of(w: World, switch_state: int, gold: int, parameters: Any) -> int:
     """The key of a moment, never 0. ``gold``: a hash (16 bits) of what was collected, 0 where gold does not matter."""
     n = w.ninja
     cell = parameters[CELL_PX]
@@ -45,7 +45,7 @@ def key_of(w: World, stage: int, gold: int, parameters: Any) -> int:
     y = int((n.y + parameters[SHIFT_Y]) / cell) & 511
     vx = floor((n.x - n.prev_x + parameters[SHIFT_VX]) / speed) & 255
     vy = floor((n.y - n.prev_y + parameters[SHIFT_VY]) / speed) & 255
-    key = x | y << 9 | vx << 18 | vy << 26 | state_class(w) << 34 | (stage & 511) << 37 | (gold & 0xFFFF) << 46
+    key = x | y << 9 | vx << 18 | vy << 26 | state_class(w) << 34 | (switch_state & 511) << 37 | (gold & 0xFFFF) << 46
     return int(key + 1)
 
 

@@ -14,7 +14,7 @@ from ninja_game.solver.certificate import VerifiedRun, verified_run
 from ninja_game.solver.plan import WORK_PER_SECOND
 
 CANDIDATES = 4
-"""Runs that are remembered for climbs."""
+"""Runs that are remembered for local searches."""
 
 Report = Callable[["Progress"], None]
 
@@ -55,7 +55,7 @@ class Task:
 
 
 @dataclass
-class Shared:
+class SearchState:
     """What the jobs share: the best runs, the count of work, and the end."""
 
     task: Task
@@ -68,7 +68,7 @@ class Shared:
     progress: Progress = field(default_factory=Progress)
     on_better: Callable[[VerifiedRun], None] | None = None
 
-    def offer(self, inputs: bytes) -> None:
+    def submit(self, inputs: bytes) -> None:
         """Remember a run if it is among the best; a new best one is verified first."""
         with self.lock:
             if self.best is None or len(inputs) <= self.best.end_tick:

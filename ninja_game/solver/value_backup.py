@@ -14,7 +14,7 @@ UNKNOWN = 1.0e9
 
 
 @entry_point
-def settle_values(table: Any, links: Any, count: int, sweeps: int) -> int:
+def back_up_values(table: Any, links: Any, count: int, sweeps: int) -> int:
     """Set ``value`` of all entries to the least ticks to the exit over the first ``count`` links; the sweeps made.
 
     Places that count as the same are not quite the same, so values are estimates, on the whole too low.

@@ -1,4 +1,4 @@
-"""The solver's parts: macros, distance fields, stages, edits."""
+"""The solver's parts: macros, distance fields, switch states, mutations."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ if not compiled_available():
 from ninja_game.sim.inputs import press_jumps
 from ninja_game.solver import search as _search  # noqa: F401 - registers the kernels
 from ninja_game.solver.distance_field import UNREACHED, point_at
-from ninja_game.solver.heuristics import Goals
+from ninja_game.solver.heuristics import Heuristics
 from ninja_game.solver.macro_actions import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_inputs
-from ninja_game.solver.mutations import cut, edit, overwrite, shift_boundary, shift_pulse, stretch
+from ninja_game.solver.mutations import cut, mutate, overwrite, shift_boundary, shift_pulse, stretch
 from ninja_game.solver.search_memory import Start
 
 OPEN = "0" * 713 + "|"
 CORRIDOR = ("0" * 10 + "1" * 12 + "0") * 10 + "0" * 23 * 21
 
 
-def goals_of(text: str) -> Goals:
+def heuristics_of(text: str) -> Heuristics:
     """The distance fields of a level."""
     level: Level = parse_level_string(text)
     start = Start(level, box=False)
-    return Goals(start.levels, start.worlds)
+    return Heuristics(start.levels, start.worlds)
 
 
 @pytest.mark.parametrize(
@@ -49,8 +49,8 @@ def test_triggers_are_put_where_the_key_goes_down() -> None:
 
 
 def test_the_field_leads_to_the_switch_and_then_to_the_exit() -> None:
-    goals = goals_of(OPEN + "5^100,300!11^700,300,400,300")
-    before, after = goals.field(0, 100.0, 300.0), goals.field(1, 400.0, 300.0)
+    heuristics = heuristics_of(OPEN + "5^100,300!11^700,300,400,300")
+    before, after = heuristics.field(0, 100.0, 300.0), heuristics.field(1, 400.0, 300.0)
     assert before[point_at(100, 300)] > before[point_at(250, 300)] > before[point_at(400, 300)] > 0
     assert after[point_at(400, 300)] > after[point_at(700, 300)] == 0
 
@@ -58,12 +58,15 @@ def test_the_field_leads_to_the_switch_and_then_to_the_exit() -> None:
 def test_a_wall_is_walked_around() -> None:
     walled = "0" * 23 * 10 + "0" + "1" * 22 + "0" * 23 * 20 + "|5^100,300!11^700,300,400,300"
     here = point_at(200, 500)
-    assert goals_of(walled).field(0, 100.0, 300.0)[here] > goals_of(OPEN + walled.split("|")[1]).field(0, 0, 0)[here]
+    assert (
+        heuristics_of(walled).field(0, 100.0, 300.0)[here]
+        > heuristics_of(OPEN + walled.split("|")[1]).field(0, 0, 0)[here]
+    )
 
 
 def test_a_locked_door_sends_to_its_switch_first() -> None:
-    goals = goals_of(CORRIDOR + "|5^200,566!11^400,566,330,566!9^60,566,0,0,10,23,1,0,0")
-    closed, opened = goals.field(0, 200.0, 566.0), goals.field(0b10, 60.0, 566.0)
+    heuristics = heuristics_of(CORRIDOR + "|5^200,566!11^400,566,330,566!9^60,566,0,0,10,23,1,0,0")
+    closed, opened = heuristics.field(0, 200.0, 566.0), heuristics.field(0b10, 60.0, 566.0)
     assert closed[point_at(60, 566)] < closed[point_at(200, 566)] < UNREACHED
     assert opened[point_at(200, 566)] < opened[point_at(60, 566)]
 
@@ -71,8 +74,8 @@ def test_a_locked_door_sends_to_its_switch_first() -> None:
 def test_a_one_way_platform_is_passed_from_its_back_only() -> None:
     """Columns 10 are full but for one cell, which a platform that faces left closes from the left."""
     wall = "0" * 23 * 10 + "1" * 22 + "0" + "0" * 23 * 20
-    forward = goals_of(wall + "|5^60,566!11^700,566,600,566!7^276,564,2").field(0, 60.0, 566.0)
-    backward = goals_of(wall + "|5^60,566!11^700,566,600,566!7^276,564,0").field(0, 60.0, 566.0)
+    forward = heuristics_of(wall + "|5^60,566!11^700,566,600,566!7^276,564,2").field(0, 60.0, 566.0)
+    backward = heuristics_of(wall + "|5^60,566!11^700,566,600,566!7^276,564,0").field(0, 60.0, 566.0)
     assert forward[point_at(60, 566)] >= UNREACHED
     assert backward[point_at(60, 566)] < UNREACHED
 
@@ -107,15 +110,15 @@ def test_overwriting_stays_within_the_run() -> None:
     assert keys.tolist() == [2, 2, 5]
 
 
-def test_random_edits_leave_what_lies_before_and_make_keys_only() -> None:
-    """The plain form of the compiled edits; numbers stay small enough for Python by the mask on the random state."""
+def test_random_mutations_leave_what_lies_before_and_make_keys_only() -> None:
+    """The plain form of the compiled mutations; a mask on the random state keeps numbers small enough for Python."""
     counters = [12345]
     for trial in range(500):
         keys = keys_of(*([2] * 10 + [6] * 10 + [1] * 10 + [5] * 10))
         before = keys.copy()
         tick = trial % 40
         counters[0] &= (1 << 63) - 1
-        first, shift = edit(keys, 40, tick, counters)
+        first, shift = mutate(keys, 40, tick, counters)
         assert keys.max() <= 7
         assert abs(shift) <= 3
         first = max(first, 0)
