@@ -142,6 +142,9 @@ def _copy(source: Path, connection: sqlite3.Connection) -> None:
     uri = f"file:{quote(str(source.absolute()), errors='surrogateescape')}"
     try:
         with closing(sqlite3.connect(f"{uri}?mode=ro", timeout=OPENING_SECONDS, uri=True)) as opened:
+            # A backup waits for a lock without end; a transaction that has begun to read has it, or fails.
+            opened.execute("BEGIN")
+            opened.execute("SELECT count(*) FROM sqlite_master").fetchone()
             opened.backup(connection)
     except sqlite3.OperationalError:
         # Where its folder cannot be written either, SQLite reads only what it takes for unchangeable.

@@ -201,6 +201,22 @@ def test_locked_records_hold_nobody_up_and_nothing_is_lost(tmp_path: Path) -> No
     assert data.statistics.played().deaths == 1
 
 
+def test_start_goes_on_while_another_program_keeps_everyone_out(tmp_path: Path) -> None:
+    saved_record(tmp_path)
+    other = sqlite3.connect(tmp_path / "records.sqlite", isolation_level=None)
+    other.execute("PRAGMA locking_mode = EXCLUSIVE")
+    other.execute("BEGIN EXCLUSIVE")
+    start = time.monotonic()
+    data = player_data(tmp_path)
+    assert "locked" in data.store.problem
+    assert keep_replay(data, played(deadly_level()).replay()).startswith("Not saved yet")
+    assert time.monotonic() - start < 10
+    other.execute("ROLLBACK")
+    other.close()
+    data.close()
+    assert len(player_data(tmp_path).records.replays()) == 2
+
+
 def test_what_waits_is_saved_at_the_end(tmp_path: Path) -> None:
     data = player_data(tmp_path)
     assert not data.records.replays()
