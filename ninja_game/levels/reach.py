@@ -11,8 +11,8 @@ from ninja_game.sim.collision.tiles import (
     EMPTY,
     EXISTS,
     FULL,
+    NEIGHBOUR_OFFSET,
     SHAPE,
-    STEP,
     set_edges,
 )
 from ninja_game.sim.grid import cell_at, grid_remove
@@ -95,7 +95,7 @@ class Ground:
             frontier += [there for there in self._ways(cell, closed) if there not in self.cells]
 
     def _ways(self, cell: int, closed: set[int]) -> Iterator[int]:
-        for side, step in enumerate(STEP):
+        for side, step in enumerate(NEIGHBOUR_OFFSET):
             there, here = 4 * cell + side, 4 * (cell + step) + (side ^ 2)
             if EXISTS[cell + step] and SHAPE[self.level.tiles[cell + step]] != FULL:
                 tiles_open = self.edges[there] != SOLID and self.edges[here] != SOLID

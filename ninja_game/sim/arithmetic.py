@@ -7,7 +7,7 @@ from ninja_game.sim.rules import INF, NAN
 
 
 @fast
-def div(a: float, b: float) -> float:
+def ieee_divide(a: float, b: float) -> float:
     """Give a / b, with x/0 = ±∞ (by the sign of x) and 0/0 = NaN. The sign of a zero never matters."""
     if b == 0.0:
         if a > 0.0:
@@ -25,7 +25,7 @@ def is_set(value: float) -> bool:
 
 
 @fast
-def clean(value: float) -> float:
+def canonical(value: float) -> float:
     """A number as traces write it: no -0.0, one NaN."""
     if value != value:
         return NAN

@@ -83,19 +83,18 @@ def win(w: World) -> None:
 def idle_event(w: World) -> None:
     """Every object reacts to a death or a win, highest id first.
 
-    Bounce blocks, pads, one-ways and mines do nothing. What lasts is one flag, ``idled``: thwumps at rest stay there,
-    launchers and drones think no more, seekers do not chase, and the ninja's contact pass is off.
+    Bounce blocks, pads, one-ways and mines do nothing. What lasts is one flag, ``round_over``: thwumps at rest stay
+    there, launchers and drones think no more, seekers do not chase, and the ninja's contact pass is off.
     """
     w.round_over = 1
-    w.contacts_off = 1
     for slot in range(w.id_count, 0, -1):
         o = w.objects[slot]
         kind = o.kind
         if kind == kinds.GOLD:
-            if not o.spent:
+            if not o.taken:
                 grid_remove(w, o)
         elif kind == kinds.EXIT:
-            if o.spent:
+            if o.is_open:
                 grid_remove(w, o)
         elif kind == kinds.DOOR:
             grid_remove(w, o)

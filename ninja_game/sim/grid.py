@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Header, World
+from ninja_game.sim.memory.object_fields import Header
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import CELL, GRID_COLUMNS, GRID_ROWS, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
 
 

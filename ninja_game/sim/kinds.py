@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from ninja_game.sim import rules
-from ninja_game.sim.memory import schema
+from ninja_game.sim.memory import object_fields as fields
 
 GOLD, BOUNCE_BLOCK, LAUNCH_PAD, TURRET, FLOOR_GUARD, NINJA, DRONE = range(7)
 ONE_WAY, THWUMP, DOOR, LAUNCHER, EXIT, MINE = range(7, 13)
@@ -43,45 +43,45 @@ class Kind(NamedTuple):
 
 
 KINDS = (
-    Kind(GOLD, "gold", 2, schema.Gold, ("create", "touch", "idle", "status"), disc=rules.GOLD_RADIUS),
+    Kind(GOLD, "gold", 2, fields.Gold, ("create", "touch", "idle", "status"), disc=rules.GOLD_RADIUS),
     Kind(
-        BOUNCE_BLOCK, "bounce block", 2, schema.BounceBlock, ("create", "touch", "update", "think", "status"),
+        BOUNCE_BLOCK, "bounce block", 2, fields.BounceBlock, ("create", "touch", "update", "think", "status"),
         box=rules.BLOCK_HALF, moves=True,
     ),
-    Kind(LAUNCH_PAD, "launch pad", 4, schema.LaunchPad, ("create", "touch"), disc=rules.PAD_RADIUS),
+    Kind(LAUNCH_PAD, "launch pad", 4, fields.LaunchPad, ("create", "touch"), disc=rules.PAD_RADIUS),
     Kind(
-        TURRET, "gauss turret", 2, schema.Turret, ("create", "update", "think", "idle", "status"),
+        TURRET, "gauss turret", 2, fields.Turret, ("create", "update", "think", "idle", "status"),
         killer="gauss turret", moves=True,
     ),
     Kind(
-        FLOOR_GUARD, "floor guard", 3, schema.FloorGuard, ("create", "touch", "update", "idle", "status"),
+        FLOOR_GUARD, "floor guard", 3, fields.FloorGuard, ("create", "touch", "update", "idle", "status"),
         disc=rules.GUARD_RADIUS, killer="floor guard", by_touch=True, moves=True,
     ),
-    Kind(NINJA, "ninja", 2, schema.Header, (), traced=False),
+    Kind(NINJA, "ninja", 2, fields.Header, (), traced=False),
     Kind(
-        DRONE, "drone", 6, schema.Drone, ("create", "touch", "update", "think", "idle", "status"),
+        DRONE, "drone", 6, fields.Drone, ("create", "touch", "update", "think", "idle", "status"),
         disc=rules.DRONE_RADIUS, killer="zap drone", by_touch=True, moves=True,
     ),
-    Kind(ONE_WAY, "one-way platform", 3, schema.OneWay, ("create", "touch"), box=rules.ONE_WAY_HALF),
+    Kind(ONE_WAY, "one-way platform", 3, fields.OneWay, ("create", "touch"), box=rules.ONE_WAY_HALF),
     Kind(
-        THWUMP, "thwump", 3, schema.Thwump, ("create", "touch", "update", "status"),
+        THWUMP, "thwump", 3, fields.Thwump, ("create", "touch", "update", "status"),
         box=rules.THWUMP_HALF, killer="thwump", by_touch=True, moves=True,
     ),
     Kind(
-        DOOR, "door", 9, schema.Door, ("create", "touch", "update", "idle", "status"),
+        DOOR, "door", 9, fields.Door, ("create", "touch", "update", "idle", "status"),
         disc=rules.AUTOMATIC_DOOR_RADIUS,
     ),
     Kind(
-        LAUNCHER, "homing launcher", 2, schema.Launcher, ("create", "touch", "update", "think", "idle", "status"),
+        LAUNCHER, "homing launcher", 2, fields.Launcher, ("create", "touch", "update", "think", "idle", "status"),
         disc=rules.ROCKET_RADIUS, killer="homing rocket", by_touch=True, moves=True,
     ),
-    Kind(EXIT, "exit", 4, schema.Exit, ("create", "touch", "idle", "status"), disc=rules.EXIT_RADIUS),
+    Kind(EXIT, "exit", 4, fields.Exit, ("create", "touch", "idle", "status"), disc=rules.EXIT_RADIUS),
     Kind(
-        MINE, "mine", 2, schema.Mine, ("create", "touch", "status"),
+        MINE, "mine", 2, fields.Mine, ("create", "touch", "status"),
         disc=rules.MINE_RADIUS, killer="mine", by_touch=True,
     ),
-    Kind(SWITCH, "exit switch", 0, schema.Switch, ("touch",), disc=rules.SWITCH_RADIUS, traced=False),
-    Kind(INERT, "inert object", 0, schema.Header, (), traced=False),
+    Kind(SWITCH, "exit switch", 0, fields.Switch, ("touch",), disc=rules.SWITCH_RADIUS, traced=False),
+    Kind(INERT, "inert object", 0, fields.Header, (), traced=False),
 )  # fmt: skip
 """Every kind: those of the level string in the order of their numbers, then the game's own."""
 

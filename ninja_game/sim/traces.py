@@ -29,8 +29,10 @@ def status_of(w: World, slot: int) -> int:
     """What an object is doing, as one number (the table is in docs/replay-format.md)."""
     o = w.objects[slot]
     kind = o.kind
-    if kind == kinds.GOLD or kind == kinds.MINE:
-        return 1 - o.spent
+    if kind == kinds.GOLD:
+        return 1 - o.taken
+    if kind == kinds.MINE:
+        return 1 - o.exploded
     if kind == kinds.DRONE:
         direction = o.direction if 0 <= o.direction <= 3 else 9
         return o.routine * 100 + o.chasing * 10 + direction
@@ -52,5 +54,5 @@ def status_of(w: World, slot: int) -> int:
     if kind == kinds.LAUNCHER:
         return o.routine
     if kind == kinds.EXIT:
-        return o.spent
+        return o.is_open
     return 0

@@ -34,7 +34,7 @@ def score_of(w: Any) -> float:
     nearest = 22.0
     for slot in range(1, w.id_count + 1):
         o = w.objects[slot]
-        if o.kind == EXIT and o.spent:
+        if o.kind == EXIT and o.is_open:
             nearest = min(nearest, sqrt((o.x - n.x) * (o.x - n.x) + (o.y - n.y) * (o.y - n.y)))
     return float(w.tick) - 0.99 * (1.0 - nearest / 22.0)
 

@@ -18,7 +18,7 @@ def switch_state_of(w: Any, heuristics: Any, switch_states: Any, counters: Any, 
     masks, places, _ = switch_states
     mask = 0
     for k in range(switches):
-        if w.objects[switch_slots[k]].spent:
+        if w.objects[switch_slots[k]].is_open:
             mask |= 1 << k
     if masks[guess] == mask and guess < counters[SWITCH_STATES]:
         return guess
@@ -44,7 +44,7 @@ def gold_hash(w: Any, heuristics: Any, counters: Any) -> int:
     gold_slots = heuristics[2]
     mixed = 0
     for k in range(len(gold_slots)):
-        if w.objects[gold_slots[k]].spent:
+        if w.objects[gold_slots[k]].taken:
             mixed ^= (k + 1) * 40503
     return mixed & 0xFFFF
 
@@ -60,7 +60,7 @@ def estimate(
     if needed > 0:
         nearest = 1.0e9
         for k in range(len(gold_slots)):
-            if not w.objects[gold_slots[k]].spent and gold_fields[k, point] < nearest:
+            if not w.objects[gold_slots[k]].taken and gold_fields[k, point] < nearest:
                 nearest = 0.0 + gold_fields[k, point]
         return float(nearest + GOLD_STEP * needed)
     # The field of a switch state that has just been discovered is not there yet.

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from ninja_game.sim.collision.tiles import COLUMN, EXISTS, ODD_HALF_ID, ROW, SHAPE, STEP, UNDEFINED_ID
+from ninja_game.sim.collision.tiles import COLUMN, EXISTS, NEIGHBOUR_OFFSET, ODD_HALF_ID, ROW, SHAPE, UNDEFINED_ID
 from ninja_game.sim.grid import cell_at, cell_index
 from ninja_game.sim.kinds import NINJA
 from ninja_game.sim.level import Level, ObjectSpec
@@ -105,7 +105,7 @@ def test_a_cell_must_exist_to_have_an_index(column: float, row: float) -> None:
 def test_no_step_from_a_cell_leaves_the_array_and_the_ring_is_missing() -> None:
     for cell in range(len(EXISTS)):
         if EXISTS[cell]:
-            for step in STEP:
+            for step in NEIGHBOUR_OFFSET:
                 neighbour = cell + step
                 inside = 0 <= COLUMN[cell] + (step if abs(step) == 1 else 0) <= 32
                 inside = inside and 0 <= ROW[cell] + (step // STRIDE if abs(step) > 1 else 0) <= 24

@@ -163,5 +163,5 @@ def test_the_digest_of_replays_covers_what_the_world_shows_and_nothing_inside_it
     whole, shown = run.digest(), run.replay_digest()
     run.world.think_counter += 1
     assert (run.digest() != whole, run.replay_digest()) == (True, shown)
-    run.world.objects[2].spent = 1
+    run.world.objects[2].taken = 1
     assert run.replay_digest() != shown

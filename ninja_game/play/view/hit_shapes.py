@@ -33,7 +33,7 @@ def hit_shapes(world: World) -> Iterator[HitShape]:
     """Of everything that is filed in the grid, and so can be touched; the ninja's last."""
     for slot in range(1, world.slots_used):
         o = world.objects[slot]
-        if o.in_grid or (o.kind == SWITCH and not world.objects[o.partner].spent):
+        if o.in_grid or (o.kind == SWITCH and not world.objects[o.partner].is_open):
             kind, half = KIND_OF[o.kind], _half(o)
             if half is not None:
                 deadly = kind.by_touch and not _unarmed(o)

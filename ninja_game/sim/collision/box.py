@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import sqrt
 
-from ninja_game.sim.arithmetic import div
-from ninja_game.sim.collision.circle_contacts import AXIS, NONE, SHAPED
+from ninja_game.sim.arithmetic import ieee_divide
+from ninja_game.sim.collision.circle_contacts import NO_CONTACT, SHAPE_CONTACT, SIDE_CONTACT
 from ninja_game.sim.collision.tiles import (
     ANCHOR_X,
     ANCHOR_Y,
@@ -46,37 +46,37 @@ def collide_box(level: TileMap, w: World) -> None:
     cx = CENTRE_X[cell]
     cy = CENTRE_Y[cell]
     if tiles[cell]:
-        own(w, tiles[cell], cx, cy)
+        collide_own_tile(w, tiles[cell], cx, cy)
 
     dy = n.y - cy
     oy = (abs(dy) + BOX_HALF) - HALF
     side_v = UP if dy < 0.0 else DOWN
     hy = 1.0 if dy < 0.0 else -1.0
     edge_v = edges[4 * cell + side_v]
-    kind_v = NONE
+    kind_v = NO_CONTACT
     if oy > 0.0:
         if edge_v == SOLID:
             push_from_tile(w, 0.0, oy * hy, 0.0, hy)
-            kind_v = AXIS
+            kind_v = SIDE_CONTACT
         elif edge_v != OFF:
             neighbour = cell - STRIDE if side_v == UP else cell + STRIDE
-            kind_v = narrow(w, tiles[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], 0.0, oy * hy)
+            kind_v = collide_tile(w, tiles[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], 0.0, oy * hy)
 
     dx = n.x - cx
     ox = (abs(dx) + BOX_HALF) - HALF
     side_h = LEFT if dx < 0.0 else RIGHT
     hx = 1.0 if dx < 0.0 else -1.0
     edge_h = edges[4 * cell + side_h]
-    kind_h = NONE
+    kind_h = NO_CONTACT
     if ox > 0.0:
         if edge_h == SOLID:
             push_from_tile(w, ox * hx, 0.0, hx, 0.0)
-            kind_h = AXIS
+            kind_h = SIDE_CONTACT
         elif edge_h != OFF:
             neighbour = cell - 1 if side_h == LEFT else cell + 1
-            kind_h = narrow(w, tiles[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], ox * hx, 0.0)
+            kind_h = collide_tile(w, tiles[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], ox * hx, 0.0)
 
-    if oy > 0.0 and ox > 0.0 and kind_v != AXIS and kind_h != AXIS:
+    if oy > 0.0 and ox > 0.0 and kind_v != SIDE_CONTACT and kind_h != SIDE_CONTACT:
         collide_corner(level, w, cell, edge_h, edge_v, ox * hx, hx, oy * hy, hy)
 
 
@@ -123,7 +123,7 @@ def collide_corner(
         return
     if edge_h == OFF and edge_v == OFF:
         return
-    if narrow(w, level.tiles[corner], CENTRE_X[corner], CENTRE_Y[corner], a, b) == NONE:
+    if collide_tile(w, level.tiles[corner], CENTRE_X[corner], CENTRE_Y[corner], a, b) == NO_CONTACT:
         if edge_v == SOLID:
             push_from_tile(w, 0.0, push_v, 0.0, hy)
         elif edge_h == SOLID:
@@ -131,34 +131,34 @@ def collide_corner(
 
 
 @fast
-def own(w: World, tile: int, cx: float, cy: float) -> None:
+def collide_own_tile(w: World, tile: int, cx: float, cy: float) -> None:
     """The tile of the cell that holds the body's centre: the candidate is the shortest way out of the cell."""
     dx = w.ninja.x - cx
     dy = w.ninja.y - cy
     ox = (HALF + BOX_HALF) - abs(dx)
     oy = (HALF + BOX_HALF) - abs(dy)
     if ox < oy:
-        narrow(w, tile, cx, cy, -ox if dx < 0.0 else ox, 0.0)
+        collide_tile(w, tile, cx, cy, -ox if dx < 0.0 else ox, 0.0)
     else:
-        narrow(w, tile, cx, cy, 0.0, -oy if dy < 0.0 else oy)
+        collide_tile(w, tile, cx, cy, 0.0, -oy if dy < 0.0 else oy)
 
 
 @fast
-def axis(w: World, a: float, b: float) -> int:
+def push_along_candidate(w: World, a: float, b: float) -> int:
     """AX: the candidate itself."""
     m = sqrt(a * a + b * b)
-    push_from_tile(w, a, b, div(a, m), div(b, m))
-    return AXIS
+    push_from_tile(w, a, b, ieee_divide(a, m), ieee_divide(b, m))
+    return SIDE_CONTACT
 
 
 @fast
-def narrow(w: World, tile: int, cx: float, cy: float, a: float, b: float) -> int:
+def collide_tile(w: World, tile: int, cx: float, cy: float, a: float, b: float) -> int:
     """The box against one tile with the candidate push (a, b); tells the kind of contact."""
     shape = SHAPE[tile]
     if shape == EMPTY or shape == UNDEFINED:
-        return NONE
+        return NO_CONTACT
     if shape == FULL:
-        return axis(w, a, b)
+        return push_along_candidate(w, a, b)
     sx = SIGN_X[tile]
     sy = SIGN_Y[tile]
     kx = w.ninja.x - sx * BOX_HALF
@@ -168,45 +168,47 @@ def narrow(w: World, tile: int, cx: float, cy: float, a: float, b: float) -> int
         dx = (cx + sx * HALF) - kx
         dy = (cy + sy * HALF) - ky
         length = sqrt(dx * dx + dy * dy)
-        return arc(w, dx, dy, length, length - CELL, a, b, m)
+        return push_from_arc(w, dx, dy, length, length - CELL, a, b, m)
     if shape == CONVEX:
         dx = kx - (cx - sx * HALF)
         dy = ky - (cy - sy * HALF)
         if sx * dx < 0.0 or sy * dy < 0.0:
-            return axis(w, a, b)
+            return push_along_candidate(w, a, b)
         length = sqrt(dx * dx + dy * dy)
         depth = CELL - length
         if depth > 0.0:
-            dx = div(dx, length)
-            dy = div(dy, length)
+            dx = ieee_divide(dx, length)
+            dy = ieee_divide(dy, length)
             push_from_tile(w, dx * depth, dy * depth, dx, dy)
-            return SHAPED
-        return NONE
+            return SHAPE_CONTACT
+        return NO_CONTACT
     nx = NORMAL_X[tile]
     ny = NORMAL_Y[tile]
     depth = (kx - (cx + ANCHOR_X[tile])) * nx + (ky - (cy + ANCHOR_Y[tile])) * ny
     if shape == THIN_22:
         gap = cy - ky
         if gap * sy > 0.0 and depth < 0.0:
-            return thin(w, depth, nx, ny, 0.0, gap, a, b, m)
-        return NONE
+            return push_from_wedge(w, depth, nx, ny, 0.0, gap, a, b, m)
+        return NO_CONTACT
     if shape == THIN_67:
         gap = cx - kx
         if gap * sx > 0.0 and depth < 0.0:
-            return thin(w, depth, nx, ny, gap, 0.0, a, b, m)
-        return NONE
+            return push_from_wedge(w, depth, nx, ny, gap, 0.0, a, b, m)
+        return NO_CONTACT
     if depth < 0.0:
         qx = nx * (-depth)
         qy = ny * (-depth)
         if m < sqrt(qx * qx + qy * qy):
-            return axis(w, a, b)
+            return push_along_candidate(w, a, b)
         push_from_tile(w, qx, qy, nx, ny)
-        return SHAPED
-    return NONE
+        return SHAPE_CONTACT
+    return NO_CONTACT
 
 
 @fast
-def thin(w: World, depth: float, nx: float, ny: float, gap_x: float, gap_y: float, a: float, b: float, m: float) -> int:
+def push_from_wedge(
+    w: World, depth: float, nx: float, ny: float, gap_x: float, gap_y: float, a: float, b: float, m: float
+) -> int:
     """A thin wedge: out over its flat side (the gap), along the candidate, or along its normal - whichever is least."""
     qx = nx * (-depth)
     qy = ny * (-depth)
@@ -214,21 +216,21 @@ def thin(w: World, depth: float, nx: float, ny: float, gap_x: float, gap_y: floa
     gap = abs(gap_x + gap_y)
     if gap < (m if m < q else q):
         push_from_tile(w, gap_x, gap_y, gap_x / gap, gap_y / gap)
-        return SHAPED
+        return SHAPE_CONTACT
     if m < q:
-        return axis(w, a, b)
+        return push_along_candidate(w, a, b)
     push_from_tile(w, qx, qy, nx, ny)
-    return SHAPED
+    return SHAPE_CONTACT
 
 
 @fast
-def arc(w: World, dx: float, dy: float, length: float, depth: float, a: float, b: float, m: float) -> int:
+def push_from_arc(w: World, dx: float, dy: float, length: float, depth: float, a: float, b: float, m: float) -> int:
     """The hollow arc of a concave tile."""
     if depth > 0.0:
         if m < depth:
-            return axis(w, a, b)
+            return push_along_candidate(w, a, b)
         dx = dx / length
         dy = dy / length
         push_from_tile(w, dx * depth, dy * depth, dx, dy)
-        return SHAPED
-    return NONE
+        return SHAPE_CONTACT
+    return NO_CONTACT

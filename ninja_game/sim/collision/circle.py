@@ -6,9 +6,9 @@ exactly one pass. (hx, hy) always points from the neighbour to the body.
 
 from __future__ import annotations
 
-from ninja_game.sim.collision.circle_contacts import AXIS, NONE, point
-from ninja_game.sim.collision.circle_neighbours import diagonal, horizontal, vertical
-from ninja_game.sim.collision.circle_own_tile import own
+from ninja_game.sim.collision.circle_contacts import NO_CONTACT, SIDE_CONTACT, push_from_corner
+from ninja_game.sim.collision.circle_neighbours import collide_diagonal, collide_horizontal, collide_vertical
+from ninja_game.sim.collision.circle_own_tile import collide_own_tile
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.declare import fast
@@ -29,11 +29,11 @@ def collide_circle(level: TileMap, w: World) -> None:
     cx = CENTRE_X[cell]
     cy = CENTRE_Y[cell]
     if tiles[cell]:
-        own(w, tiles[cell], cx, cy)
+        collide_own_tile(w, tiles[cell], cx, cy)
 
     dy = n.y - cy
     oy = (abs(dy) + RADIUS) - HALF
-    kind_v = NONE
+    kind_v = NO_CONTACT
     side_v = DOWN
     hy = -1.0
     if oy > 0.0:
@@ -43,14 +43,14 @@ def collide_circle(level: TileMap, w: World) -> None:
         edge = edges[4 * cell + side_v]
         if edge == SOLID:
             push_from_tile(w, 0.0, oy * hy, 0.0, hy)
-            kind_v = AXIS
+            kind_v = SIDE_CONTACT
         elif edge != OFF:
             neighbour = cell - STRIDE if side_v == UP else cell + STRIDE
-            kind_v = vertical(w, tiles[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], oy, hy)
+            kind_v = collide_vertical(w, tiles[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], oy, hy)
 
     dx = n.x - cx
     ox = (abs(dx) + RADIUS) - HALF
-    kind_h = NONE
+    kind_h = NO_CONTACT
     side_h = RIGHT
     hx = -1.0
     if ox > 0.0:
@@ -60,12 +60,12 @@ def collide_circle(level: TileMap, w: World) -> None:
         edge = edges[4 * cell + side_h]
         if edge == SOLID:
             push_from_tile(w, ox * hx, 0.0, hx, 0.0)
-            kind_h = AXIS
+            kind_h = SIDE_CONTACT
         elif edge != OFF:
             neighbour = cell - 1 if side_h == LEFT else cell + 1
-            kind_h = horizontal(w, tiles[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], ox, hx)
+            kind_h = collide_horizontal(w, tiles[neighbour], CENTRE_X[neighbour], CENTRE_Y[neighbour], ox, hx)
 
-    if oy > 0.0 and ox > 0.0 and kind_v != AXIS and kind_h != AXIS:
+    if oy > 0.0 and ox > 0.0 and kind_v != SIDE_CONTACT and kind_h != SIDE_CONTACT:
         beside = cell - 1 if side_h == LEFT else cell + 1
         above = cell - STRIDE if side_v == UP else cell + STRIDE
         corner = above + (beside - cell)
@@ -74,6 +74,6 @@ def collide_circle(level: TileMap, w: World) -> None:
         if edge_h == SOLID or edge_v == SOLID:
             cx = CENTRE_X[corner]
             cy = CENTRE_Y[corner]
-            point(w, cx + hx * HALF, cy + hy * HALF, hx / ROOT2, hy / ROOT2)
+            push_from_corner(w, cx + hx * HALF, cy + hy * HALF, hx / ROOT2, hy / ROOT2)
         elif edge_h != OFF or edge_v != OFF:
-            diagonal(w, tiles[corner], CENTRE_X[corner], CENTRE_Y[corner], hx, hy)
+            collide_diagonal(w, tiles[corner], CENTRE_X[corner], CENTRE_Y[corner], hx, hy)

@@ -8,26 +8,26 @@ from __future__ import annotations
 
 from math import sqrt
 
-from ninja_game.sim.arithmetic import div
+from ninja_game.sim.arithmetic import ieee_divide
 from ninja_game.sim.collision.tiles import NORMAL_X, NORMAL_Y, S_X, S_Y, SIGN_X, SIGN_Y, T_X, T_Y
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.ninja.contact_response import push_from_tile
 from ninja_game.sim.rules import CELL, HALF, RADIUS, ROOT2
 
-NONE, AXIS, SHAPED = 0, 1, 2
+NO_CONTACT, SIDE_CONTACT, SHAPE_CONTACT = 0, 1, 2
 """Result kinds."""
 
 
 @fast
-def axis(w: World, ox: float, oy: float, hx: float, hy: float) -> int:
+def push_from_side(w: World, ox: float, oy: float, hx: float, hy: float) -> int:
     """Push straight out of the side: AXH with hy = 0, AXV with hx = 0."""
     push_from_tile(w, ox * hx, oy * hy, hx, hy)
-    return AXIS
+    return SIDE_CONTACT
 
 
 @fast
-def point(w: World, vx: float, vy: float, fx: float, fy: float) -> int:
+def push_from_corner(w: World, vx: float, vy: float, fx: float, fy: float) -> int:
     """POINT: push away from a corner point; (fx, fy) is the normal when the centre lies exactly on it."""
     n = w.ninja
     dx = n.x - vx
@@ -42,12 +42,12 @@ def point(w: World, vx: float, vy: float, fx: float, fy: float) -> int:
             dx = dx / length
             dy = dy / length
         push_from_tile(w, dx * depth, dy * depth, dx, dy)
-        return SHAPED
-    return NONE
+        return SHAPE_CONTACT
+    return NO_CONTACT
 
 
 @fast
-def face(w: World, tile: int, ax: float, ay: float) -> int:
+def push_from_face(w: World, tile: int, ax: float, ay: float) -> int:
     """FACE: push along the surface normal. A centre behind the surface is pushed out too little: |D| is a quirk."""
     n = w.ninja
     nx = NORMAL_X[tile]
@@ -55,12 +55,12 @@ def face(w: World, tile: int, ax: float, ay: float) -> int:
     depth = RADIUS - abs((n.x - ax) * nx + (n.y - ay) * ny)
     if depth > 0.0:
         push_from_tile(w, nx * depth, ny * depth, nx, ny)
-        return SHAPED
-    return NONE
+        return SHAPE_CONTACT
+    return NO_CONTACT
 
 
 @fast
-def beyond(w: World, tile: int, ax: float, ay: float) -> float:
+def position_past_end(w: World, tile: int, ax: float, ay: float) -> float:
     """Where the body is along the surface relative to an end point: > 0 beyond a T, < 0 beyond an S."""
     n = w.ninja
     along = (n.x - ax) * (-NORMAL_Y[tile]) + (n.y - ay) * NORMAL_X[tile]
@@ -68,27 +68,27 @@ def beyond(w: World, tile: int, ax: float, ay: float) -> float:
 
 
 @fast
-def segment_t(w: World, tile: int, cx: float, cy: float, hx: float, hy: float) -> int:
+def collide_segment_t(w: World, tile: int, cx: float, cy: float, hx: float, hy: float) -> int:
     """SEGT: the surface, or its end point T for a body beyond it."""
     ax = cx + T_X[tile]
     ay = cy + T_Y[tile]
-    if beyond(w, tile, ax, ay) > 0.0:
-        return point(w, ax, ay, hx / ROOT2, hy / ROOT2)
-    return face(w, tile, ax, ay)
+    if position_past_end(w, tile, ax, ay) > 0.0:
+        return push_from_corner(w, ax, ay, hx / ROOT2, hy / ROOT2)
+    return push_from_face(w, tile, ax, ay)
 
 
 @fast
-def segment_s(w: World, tile: int, cx: float, cy: float, hx: float, hy: float) -> int:
+def collide_segment_s(w: World, tile: int, cx: float, cy: float, hx: float, hy: float) -> int:
     """SEGS: the surface, or its end point S for a body beyond it."""
     ax = cx + S_X[tile]
     ay = cy + S_Y[tile]
-    if beyond(w, tile, ax, ay) < 0.0:
-        return point(w, ax, ay, hx / ROOT2, hy / ROOT2)
-    return face(w, tile, ax, ay)
+    if position_past_end(w, tile, ax, ay) < 0.0:
+        return push_from_corner(w, ax, ay, hx / ROOT2, hy / ROOT2)
+    return push_from_face(w, tile, ax, ay)
 
 
 @fast
-def line(w: World, tile: int, ax: float, ay: float) -> int:
+def push_from_line(w: World, tile: int, ax: float, ay: float) -> int:
     """LINE: push the body's deepest point back to the surface."""
     n = w.ninja
     nx = NORMAL_X[tile]
@@ -96,12 +96,12 @@ def line(w: World, tile: int, ax: float, ay: float) -> int:
     depth = ((n.x - nx * RADIUS) - ax) * nx + ((n.y - ny * RADIUS) - ay) * ny
     if depth < 0.0:
         push_from_tile(w, -nx * depth, -ny * depth, nx, ny)
-        return SHAPED
-    return NONE
+        return SHAPE_CONTACT
+    return NO_CONTACT
 
 
 @fast
-def round_side(w: World, tile: int, cx: float, cy: float) -> int:
+def push_from_round_side(w: World, tile: int, cx: float, cy: float) -> int:
     """ROUND: push away from a convex tile's centre; not clipped to the arc."""
     n = w.ninja
     dx = n.x - (cx - SIGN_X[tile] * HALF)
@@ -109,8 +109,8 @@ def round_side(w: World, tile: int, cx: float, cy: float) -> int:
     length = sqrt(dx * dx + dy * dy)
     depth = (CELL + RADIUS) - length
     if depth > 0.0:
-        dx = div(dx, length)
-        dy = div(dy, length)
+        dx = ieee_divide(dx, length)
+        dy = ieee_divide(dy, length)
         push_from_tile(w, dx * depth, dy * depth, dx, dy)
-        return SHAPED
-    return NONE
+        return SHAPE_CONTACT
+    return NO_CONTACT

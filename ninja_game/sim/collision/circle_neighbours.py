@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.collision.circle_contacts import NONE, axis, line, point, round_side, segment_s, segment_t
+from ninja_game.sim.collision.circle_contacts import (
+    NO_CONTACT,
+    collide_segment_s,
+    collide_segment_t,
+    push_from_corner,
+    push_from_line,
+    push_from_round_side,
+    push_from_side,
+)
 from ninja_game.sim.collision.tiles import (
     CONCAVE,
     CONVEX,
@@ -27,94 +35,94 @@ from ninja_game.sim.rules import HALF, ROOT2
 
 
 @fast
-def vertical(w: World, tile: int, cx: float, cy: float, oy: float, hy: float) -> int:
+def collide_vertical(w: World, tile: int, cx: float, cy: float, oy: float, hy: float) -> int:
     """The tile above or below."""
     shape = SHAPE[tile]
     sx = SIGN_X[tile]
     sy = SIGN_Y[tile]
     if shape == UNDEFINED or tile == 0:
-        return NONE
+        return NO_CONTACT
     if shape == FULL:
-        return axis(w, 0.0, oy, 0.0, hy)
+        return push_from_side(w, 0.0, oy, 0.0, hy)
     if shape == HALF_TILE:
         facing = sy * hy
         if facing > 0.0:
-            return NONE
+            return NO_CONTACT
         if facing < 0.0 or (w.ninja.x - cx) * sx < 0.0:
-            return axis(w, 0.0, oy, 0.0, hy)
-        return point(w, cx, cy + hy * HALF, sx / ROOT2, hy / ROOT2)
+            return push_from_side(w, 0.0, oy, 0.0, hy)
+        return push_from_corner(w, cx, cy + hy * HALF, sx / ROOT2, hy / ROOT2)
     if sy * hy < 0.0:
         if shape == THIN_67 and not (w.ninja.x - cx) * sx < 0.0:
-            return point(w, cx + S_X[tile], cy + S_Y[tile], 0.0, hy / ROOT2)
-        return axis(w, 0.0, oy, 0.0, hy)
+            return push_from_corner(w, cx + S_X[tile], cy + S_Y[tile], 0.0, hy / ROOT2)
+        return push_from_side(w, 0.0, oy, 0.0, hy)
     if shape == THIN_22:
-        return NONE
+        return NO_CONTACT
     if shape == THICK_67 and (w.ninja.x - cx) * sx < 0.0:
-        return axis(w, 0.0, oy, 0.0, hy)
+        return push_from_side(w, 0.0, oy, 0.0, hy)
     if shape == CONCAVE:
-        return point(w, cx - sx * HALF, cy + sy * HALF, 0.0, hy)
+        return push_from_corner(w, cx - sx * HALF, cy + sy * HALF, 0.0, hy)
     if shape == CONVEX:
-        return round_side(w, tile, cx, cy)
-    return segment_t(w, tile, cx, cy, 0.0, hy)
+        return push_from_round_side(w, tile, cx, cy)
+    return collide_segment_t(w, tile, cx, cy, 0.0, hy)
 
 
 @fast
-def horizontal(w: World, tile: int, cx: float, cy: float, ox: float, hx: float) -> int:
+def collide_horizontal(w: World, tile: int, cx: float, cy: float, ox: float, hx: float) -> int:
     """The tile to the left or right."""
     shape = SHAPE[tile]
     sx = SIGN_X[tile]
     sy = SIGN_Y[tile]
     if shape == UNDEFINED or tile == 0:
-        return NONE
+        return NO_CONTACT
     if shape == FULL:
-        return axis(w, ox, 0.0, hx, 0.0)
+        return push_from_side(w, ox, 0.0, hx, 0.0)
     if shape == HALF_TILE:
         facing = sx * hx
         if facing > 0.0:
-            return NONE
+            return NO_CONTACT
         if facing < 0.0 or (w.ninja.y - cy) * sy < 0.0:
-            return axis(w, ox, 0.0, hx, 0.0)
+            return push_from_side(w, ox, 0.0, hx, 0.0)
         # Quirk: a centre exactly on this point is pushed by nothing, with the normal (0, 0) that reads as a wall.
-        return point(w, cx + hx * HALF, cy, 0.0, 0.0)
+        return push_from_corner(w, cx + hx * HALF, cy, 0.0, 0.0)
     if sx * hx < 0.0:
         if shape == THIN_22 and not (w.ninja.y - cy) * sy < 0.0:
-            return point(w, cx + T_X[tile], cy + T_Y[tile], hx / ROOT2, 0.0)
-        return axis(w, ox, 0.0, hx, 0.0)
+            return push_from_corner(w, cx + T_X[tile], cy + T_Y[tile], hx / ROOT2, 0.0)
+        return push_from_side(w, ox, 0.0, hx, 0.0)
     if shape == THIN_67:
-        return NONE
+        return NO_CONTACT
     if shape == THICK_22 and (w.ninja.y - cy) * sy < 0.0:
-        return axis(w, ox, 0.0, hx, 0.0)
+        return push_from_side(w, ox, 0.0, hx, 0.0)
     if shape == CONCAVE:
-        return point(w, cx + sx * HALF, cy - sy * HALF, hx, 0.0)
+        return push_from_corner(w, cx + sx * HALF, cy - sy * HALF, hx, 0.0)
     if shape == CONVEX:
-        return round_side(w, tile, cx, cy)
-    return segment_s(w, tile, cx, cy, hx, 0.0)
+        return push_from_round_side(w, tile, cx, cy)
+    return collide_segment_s(w, tile, cx, cy, hx, 0.0)
 
 
 @fast
-def diagonal(w: World, tile: int, cx: float, cy: float, hx: float, hy: float) -> int:
+def collide_diagonal(w: World, tile: int, cx: float, cy: float, hx: float, hy: float) -> int:
     """The tile at the corner: its corner point, unless the shape leaves that corner open."""
     shape = SHAPE[tile]
     if shape == UNDEFINED or tile == 0:
-        return NONE
+        return NO_CONTACT
     sx = SIGN_X[tile]
     sy = SIGN_Y[tile]
     facing = sx * hx + sy * hy
     if shape == HALF_TILE:
         if facing > 0.0:
-            return NONE
+            return NO_CONTACT
     elif shape == THIN_22:
         if sy * hy > 0.0:
-            return NONE
+            return NO_CONTACT
     elif shape == THIN_67:
         if sx * hx > 0.0:
-            return NONE
+            return NO_CONTACT
     elif facing > 0.0:
         if shape == THICK_22:
-            return line(w, tile, cx + T_X[tile], cy + T_Y[tile])
+            return push_from_line(w, tile, cx + T_X[tile], cy + T_Y[tile])
         if shape == THICK_67:
-            return line(w, tile, cx + S_X[tile], cy + S_Y[tile])
+            return push_from_line(w, tile, cx + S_X[tile], cy + S_Y[tile])
         if shape == CONVEX:
-            return round_side(w, tile, cx, cy)
-        return NONE
-    return point(w, cx + hx * HALF, cy + hy * HALF, hx / ROOT2, hy / ROOT2)
+            return push_from_round_side(w, tile, cx, cy)
+        return NO_CONTACT
+    return push_from_corner(w, cx + hx * HALF, cy + hy * HALF, hx / ROOT2, hy / ROOT2)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from math import sqrt
 
-from ninja_game.sim.arithmetic import div
-from ninja_game.sim.collision.circle_contacts import beyond, point
+from ninja_game.sim.arithmetic import ieee_divide
+from ninja_game.sim.collision.circle_contacts import position_past_end, push_from_corner
 from ninja_game.sim.collision.tiles import (
     CONCAVE,
     CONVEX,
@@ -33,64 +33,64 @@ from ninja_game.sim.rules import CELL, HALF, RADIUS
 
 
 @fast
-def own(w: World, tile: int, cx: float, cy: float) -> None:
+def collide_own_tile(w: World, tile: int, cx: float, cy: float) -> None:
     """The tile of the cell that holds the body's centre."""
     shape = SHAPE[tile]
     n = w.ninja
     nx = NORMAL_X[tile]
     ny = NORMAL_Y[tile]
     if shape == SLOPE_45:
-        sink(w, ((n.x - nx * RADIUS) - cx) * nx + ((n.y - ny * RADIUS) - cy) * ny, nx, ny, cx, cy)
+        push_to_surface(w, ((n.x - nx * RADIUS) - cx) * nx + ((n.y - ny * RADIUS) - cy) * ny, nx, ny, cx, cy)
     elif shape == THICK_22:
         depth = ((n.x - nx * RADIUS) - (cx + T_X[tile])) * nx + ((n.y - ny * RADIUS) - (cy + T_Y[tile])) * ny
-        sink(w, depth, nx, ny, cx, cy)
+        push_to_surface(w, depth, nx, ny, cx, cy)
     elif shape == THICK_67:
         depth = ((n.x - nx * RADIUS) - (cx + S_X[tile])) * nx + ((n.y - ny * RADIUS) - (cy + S_Y[tile])) * ny
-        sink(w, depth, nx, ny, cx, cy)
+        push_to_surface(w, depth, nx, ny, cx, cy)
     elif shape == THIN_22:
         ax = cx + T_X[tile]
         ay = cy + T_Y[tile]
-        if beyond(w, tile, ax, ay) > 0.0:
-            point(w, ax, ay, 0.0, 0.0)
+        if position_past_end(w, tile, ax, ay) > 0.0:
+            push_from_corner(w, ax, ay, 0.0, 0.0)
         else:
-            sink(w, ((n.x - ax) - RADIUS * nx) * nx + ((n.y - ay) - RADIUS * ny) * ny, nx, ny, cx, cy)
+            push_to_surface(w, ((n.x - ax) - RADIUS * nx) * nx + ((n.y - ay) - RADIUS * ny) * ny, nx, ny, cx, cy)
     elif shape == THIN_67:
         ax = cx + S_X[tile]
         ay = cy + S_Y[tile]
-        if beyond(w, tile, ax, ay) < 0.0:
-            point(w, ax, ay, 0.0, 0.0)
+        if position_past_end(w, tile, ax, ay) < 0.0:
+            push_from_corner(w, ax, ay, 0.0, 0.0)
         else:
-            sink(w, ((n.x - ax) - RADIUS * nx) * nx + ((n.y - ay) - RADIUS * ny) * ny, nx, ny, cx, cy)
+            push_to_surface(w, ((n.x - ax) - RADIUS * nx) * nx + ((n.y - ay) - RADIUS * ny) * ny, nx, ny, cx, cy)
     elif shape == CONCAVE:
         dx = (cx + SIGN_X[tile] * HALF) - n.x
         dy = (cy + SIGN_Y[tile] * HALF) - n.y
         length = sqrt(dx * dx + dy * dy)
-        own_arc(w, dx, dy, length, (length + RADIUS) - CELL, cx, cy)
+        collide_own_arc(w, dx, dy, length, (length + RADIUS) - CELL, cx, cy)
     elif shape == CONVEX:
         dx = n.x - (cx - SIGN_X[tile] * HALF)
         dy = n.y - (cy - SIGN_Y[tile] * HALF)
         length = sqrt(dx * dx + dy * dy)
-        own_arc(w, dx, dy, length, (CELL + RADIUS) - length, cx, cy)
+        collide_own_arc(w, dx, dy, length, (CELL + RADIUS) - length, cx, cy)
     elif shape == FULL:
-        exit_side(w, cx, cy)
+        push_out_of_cell(w, cx, cy)
     elif shape == HALF_TILE:
-        own_half(w, SIGN_X[tile], SIGN_Y[tile], cx, cy)
+        collide_own_half(w, SIGN_X[tile], SIGN_Y[tile], cx, cy)
 
 
 @fast
-def own_arc(w: World, dx: float, dy: float, length: float, depth: float, cx: float, cy: float) -> None:
+def collide_own_arc(w: World, dx: float, dy: float, length: float, depth: float, cx: float, cy: float) -> None:
     """Push along (dx, dy) by the depth below an arc, or out of the cell if that is nearer."""
     if depth > 0.0:
-        if nearest_side(w, cx, cy) < depth:
-            exit_side(w, cx, cy)
+        if distance_to_nearest_side(w, cx, cy) < depth:
+            push_out_of_cell(w, cx, cy)
         else:
-            dx = div(dx, length)
-            dy = div(dy, length)
+            dx = ieee_divide(dx, length)
+            dy = ieee_divide(dy, length)
             push_from_tile(w, dx * depth, dy * depth, dx, dy)
 
 
 @fast
-def own_half(w: World, sx: float, sy: float, cx: float, cy: float) -> None:
+def collide_own_half(w: World, sx: float, sy: float, cx: float, cy: float) -> None:
     """A half tile. Quirk: the short way out is (ox, oy), both overlaps at once, always right and down."""
     n = w.ninja
     depth = ((n.x - sx * RADIUS) - cx) * sx + ((n.y - sy * RADIUS) - cy) * sy
@@ -107,19 +107,19 @@ def own_half(w: World, sx: float, sy: float, cx: float, cy: float) -> None:
 
 
 @fast
-def sink(w: World, depth: float, nx: float, ny: float, cx: float, cy: float) -> None:
+def push_to_surface(w: World, depth: float, nx: float, ny: float, cx: float, cy: float) -> None:
     """SINK: push a body with depth < 0 back to the surface, or out of the cell if that is nearer."""
     if depth < 0.0:
         qx = nx * (-depth)
         qy = ny * (-depth)
-        if nearest_side(w, cx, cy) < sqrt(qx * qx + qy * qy):
-            exit_side(w, cx, cy)
+        if distance_to_nearest_side(w, cx, cy) < sqrt(qx * qx + qy * qy):
+            push_out_of_cell(w, cx, cy)
         else:
             push_from_tile(w, qx, qy, nx, ny)
 
 
 @fast
-def nearest_side(w: World, cx: float, cy: float) -> float:
+def distance_to_nearest_side(w: World, cx: float, cy: float) -> float:
     """ℓ: how far the body is from leaving its own cell's square over the nearest side."""
     ox = (HALF + RADIUS) - abs(w.ninja.x - cx)
     oy = (HALF + RADIUS) - abs(w.ninja.y - cy)
@@ -127,7 +127,7 @@ def nearest_side(w: World, cx: float, cy: float) -> float:
 
 
 @fast
-def exit_side(w: World, cx: float, cy: float) -> None:
+def push_out_of_cell(w: World, cx: float, cy: float) -> None:
     """EXIT: push the body out of its own cell's square over the nearest side (vertically when equal)."""
     dx = w.ninja.x - cx
     dy = w.ninja.y - cy

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import sqrt
 
-from ninja_game.sim.arithmetic import div
+from ninja_game.sim.arithmetic import ieee_divide
 from ninja_game.sim.collision.tiles import (
     CONCAVE,
     CONVEX,
@@ -92,7 +92,7 @@ def ray_tile(tile: int, cx: float, cy: float, x: float, y: float, dx: float, dy:
             ex = ex + sx * QUARTER
             mx = cx + sx * QUARTER
             ux = -sy * HALF / 2.0
-    kappa = div(dy * ex - dx * ey, dx * uy - dy * ux)
+    kappa = ieee_divide(dy * ex - dx * ey, dx * uy - dy * ux)
     if 1.0 < abs(kappa):
         return False, 0.0, 0.0
     return True, mx + kappa * ux, my + kappa * uy
@@ -107,7 +107,7 @@ def arc_roots(fx: float, fy: float, dx: float, dy: float) -> tuple[bool, float, 
     discriminant = b * b - 4.0 * a * g
     if discriminant < 0.0:
         return False, 0.0, 0.0
-    k = div(1.0, 2.0 * a)
+    k = ieee_divide(1.0, 2.0 * a)
     root = sqrt(discriminant)
     return True, (-b + root) * k, (-b - root) * k
 
@@ -123,7 +123,7 @@ def ray_concave(
     ey = cy - y
     ux = sx * HALF
     uy = -sy * HALF
-    kappa = div(dy * ex - dx * ey, dx * uy - dy * ux)
+    kappa = ieee_divide(dy * ex - dx * ey, dx * uy - dy * ux)
     if 1.0 < abs(kappa):
         return False, 0.0, 0.0
     meets, t1, t2 = arc_roots(-ux - ex, uy - ey, dx, dy)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import sqrt
 
-from ninja_game.sim.arithmetic import div
+from ninja_game.sim.arithmetic import ieee_divide
 from ninja_game.sim.collision.ray_shapes import ray_tile
 from ninja_game.sim.collision.tiles import (
     ANCHOR_X,
@@ -108,7 +108,7 @@ def ray_circle(
     discriminant = b * b - 4.0 * a * g
     if discriminant < 0.0:
         return False, 0.0, 0.0
-    k = div(1.0, 2.0 * a)  # a is 0 for a ray towards a place so far away that its direction vanishes
+    k = ieee_divide(1.0, 2.0 * a)  # a is 0 for a ray towards a place so far away that its direction vanishes
     root = sqrt(discriminant)
     t1 = (-b + root) * k
     t2 = (-b - root) * k

@@ -91,7 +91,7 @@ FACE = [_face(tile, side) for tile in range(len(SHAPE)) for side in range(4)]
 EDGE_OF_FACES = [OFF, INTERESTING, SOLID, OFF, INTERESTING, SOLID, OFF, INTERESTING, OFF]
 """Edge state at index 3 · own face + neighbour's face."""
 
-STEP = [1, STRIDE, -1, -STRIDE]
+NEIGHBOUR_OFFSET = [1, STRIDE, -1, -STRIDE]
 """From a cell to its neighbour right, down, left, up: add this to the grid index."""
 UNIT_X = [1.0, 0.0, -1.0, 0.0]
 UNIT_Y = [0.0, 1.0, 0.0, -1.0]
@@ -123,7 +123,7 @@ def set_edges(level: TileMap, w: World) -> None:
         for cell in range(start, start + GRID_COLUMNS):
             tile = tiles[cell]
             for side in range(4):
-                neighbour = cell + STEP[side]
+                neighbour = cell + NEIGHBOUR_OFFSET[side]
                 if EXISTS[neighbour]:
                     # The neighbour's touching face is on the opposite side: 0 <-> 2, 1 <-> 3.
                     touching = FACE[4 * tiles[neighbour] + (side ^ 2)]

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ninja_game.sim.arithmetic import clean
+from ninja_game.sim.arithmetic import canonical
 from ninja_game.sim.collision.tiles import set_edges
 from ninja_game.sim.death import kill
 from ninja_game.sim.loader import populate
@@ -68,8 +68,8 @@ def run_world(
     n = w.ninja
     for tick in range(len(inputs)):
         step(level, w, int(inputs[tick]))
-        places[2 * tick] = clean(n.x)
-        places[2 * tick + 1] = clean(n.y)
+        places[2 * tick] = canonical(n.x)
+        places[2 * tick + 1] = canonical(n.y)
         states[tick] = n.state
         if w.outcome:
             return tick + 1
@@ -113,17 +113,17 @@ def trace_world(
     count = len(slots)
     for tick in range(len(inputs)):
         step(level, w, int(inputs[tick]))
-        ninja[4 * tick] = clean(n.x)
-        ninja[4 * tick + 1] = clean(n.y)
-        ninja[4 * tick + 2] = clean(n.prev_x)
-        ninja[4 * tick + 3] = clean(n.prev_y)
+        ninja[4 * tick] = canonical(n.x)
+        ninja[4 * tick + 1] = canonical(n.y)
+        ninja[4 * tick + 2] = canonical(n.prev_x)
+        ninja[4 * tick + 3] = canonical(n.prev_y)
         numbers[2 * tick] = n.state
         numbers[2 * tick + 1] = w.gold
         for k in range(count):
             row = tick * count + k
             x, y = place_of(w, slots[k])
-            places[2 * row] = clean(x)
-            places[2 * row + 1] = clean(y)
+            places[2 * row] = canonical(x)
+            places[2 * row + 1] = canonical(y)
             statuses[row] = status_of(w, slots[k])
         if len(events):
             for k in range(w.event_count):

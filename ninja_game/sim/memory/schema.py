@@ -9,7 +9,22 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from ninja_game.sim.memory.declare import f8, i2, i4, part, struct, u1
+from ninja_game.sim.memory.declare import f8, i2, i4, struct, u1
+from ninja_game.sim.memory.object_fields import (
+    BounceBlock,
+    Door,
+    Drone,
+    Exit,
+    FloorGuard,
+    Gold,
+    Launcher,
+    LaunchPad,
+    Mine,
+    OneWay,
+    Switch,
+    Thwump,
+    Turret,
+)
 from ninja_game.sim.rules import GRID_CELLS
 
 CAPACITY = 12_288
@@ -23,232 +38,56 @@ EDGE_STATES = GRID_CELLS * 4
 
 @struct
 class TileMap:
-    """What never changes during a run: the tile of each cell, by grid index."""
+    """What never changes during a run."""
 
-    tiles: Annotated[list[u1], GRID_CELLS]
+    tiles: Annotated[list[u1], GRID_CELLS]  #: tile id of each cell, by grid index
 
 
 @struct
 class Event:
     """Something that happened in a tick, for sound, particles and animation: the table in events.py."""
 
-    #: where, px
-    x: f8
+    x: f8  #: where, px
     y: f8
-    #: a vector whose meaning depends on the kind
-    dx: f8
+    dx: f8  #: a vector whose meaning depends on the kind
     dy: f8
-    #: its number in events.py
-    kind: i4
-    #: slot of the object whose event it is, 0: nobody's or the ninja's
-    slot: i4
-    #: of a death, what killed (states.py); else NO_CAUSE
-    cause: i4
+    kind: i4  #: its number in events.py
+    slot: i4  #: slot of the object whose event it is, 0: nobody's or the ninja's
+    cause: i4  #: of a death, what killed (states.py); else NO_CAUSE
 
 
 @struct
 class Ninja:
-    """The player's figure (ninja.md §2). The velocity is never stored: it is (x - px, y - py)."""
+    """The player's figure (ninja.md §2). Its velocity is never stored: it is (x - prev_x, y - prev_y), px/tick."""
 
-    x: f8
+    x: f8  #: middle, px
     y: f8
-    prev_x: f8
+    prev_x: f8  #: middle after the last tick, px; jumps and launches change it without a move
     prev_y: f8
-    gravity: f8
-    drag: f8
-    wall_x: f8
+    gravity: f8  #: added to the speed downwards, px/tick²; less in a jump
+    drag: f8  #: what is left of the velocity after a tick, 0 to 1
+    wall_x: f8  #: unit normal of the wall last touched
     wall_y: f8
-    floor_x: f8
+    floor_x: f8  #: unit normal of the floor last stood on; kept from tick to tick
     floor_y: f8
-    first_floor_x: f8
+    first_floor_x: f8  #: unit normals of the first and the last floor contact of this tick
     first_floor_y: f8
     last_floor_x: f8
     last_floor_y: f8
-    impact_x: f8
+    impact_x: f8  #: velocity of this tick before any contact, px/tick
     impact_y: f8
-    state: i4
-    cell: i4
-    in_air: i4
+    state: i4  #: what it is doing: a state of states.py
+    cell: i4  #: grid index of the cell in which it is registered, 0: none
+    in_air: i4  #: 1: no floor contact in this tick / in the last one
     was_in_air: i4
-    near_wall: i4
-    floor_contacts: i4
-    jump_timer: i4
-    direction: i4
-    jump_held: i4
+    near_wall: i4  #: 1: a wall was touched or is within reach
+    floor_contacts: i4  #: floor contacts in this tick; 2 stands for more
+    jump_timer: i4  #: ticks since the jump began
+    direction: i4  #: the keys sampled last: -1 left, 0 none or both, 1 right
+    jump_held: i4  #: 1: the jump key is down / went down in this tick
     jump_pressed: i4
-    celebrated_in_air: i4
-    box: i4
-
-
-@part
-class Header:
-    """What every object has: place, cell list, update set, thinker ring, current routines."""
-
-    x: f8
-    y: f8
-    kind: i4
-    id: i4
-    cell: i4
-    in_grid: i4
-    next: i4
-    prev: i4
-    updating: i4
-    newer: i4
-    older: i4
-    thinking: i4
-    ring_next: i4
-    ring_prev: i4
-    routine: i4
-    counter: i4
-
-
-@part
-class Gold(Header):
-    """``spent``: collected."""
-
-    spent: i4
-
-
-@part
-class Mine(Header):
-    """``spent``: exploded."""
-
-    spent: i4
-
-
-@part
-class Exit(Header):
-    """``spent``: open. ``partner``: the slot of its switch."""
-
-    spent: i4
-    partner: i4
-
-
-@part
-class Switch(Header):
-    """An exit's switch: filed in a cell, but without an id (objects.md §2.2). ``partner``: the slot of its exit."""
-
-    partner: i4
-
-
-@part
-class BounceBlock(Header):
-    """A block on a spring about its anchor; ``old_*`` is where it was a tick ago; ``counter`` sends it to sleep."""
-
-    anchor_x: f8
-    anchor_y: f8
-    prev_x: f8
-    prev_y: f8
-
-
-@part
-class LaunchPad(Header):
-    """``face_*``: the normal as given, not normalised."""
-
-    face_x: f8
-    face_y: f8
-
-
-@part
-class OneWay(Header):
-    """``face_*``: the side on which one can land."""
-
-    face_x: f8
-    face_y: f8
-
-
-@part
-class Door(Header):
-    """Two edge states of one shared side (indices into ``World.edges``, 0: missing) and what they were at load."""
-
-    mechanism: i4
-    spent: i4
-    edge_1: i4
-    edge_2: i4
-    stored_1: i4
-    stored_2: i4
-
-
-@part
-class Thwump(Header):
-    """A block that falls to ``fall_*`` and rises to ``anchor_*``; lethal on the side of ``face_*``."""
-
-    anchor_x: f8
-    anchor_y: f8
-    face_x: f8
-    face_y: f8
-    goal_x: f8
-    goal_y: f8
-    fall_x: f8
-    fall_y: f8
-    speed: f8
-    sign: f8
-    low: i4
-    high: i4
-
-
-@part
-class FloorGuard(Header):
-    """Runs between ``low_x`` and ``high_x`` (px) when the ninja is on its row in columns ``low``…``high``."""
-
-    low_x: f8
-    high_x: f8
-    facing: f8
-    low: i4
-    high: i4
-
-
-@part
-class Turret(Header):
-    """``aim_*``: where the crosshair is."""
-
-    aim_x: f8
-    aim_y: f8
-    aim_factor: f8
-    shot_counter: f8
-    think: i4
-
-
-@part
-class Launcher(Header):
-    """``base_*`` is the launcher, ``x, y`` the rocket (the base's place until the first one flies)."""
-
-    base_x: f8
-    base_y: f8
-    heading_x: f8
-    heading_y: f8
-    speed: f8
-    acceleration: f8
-
-
-@part
-class Drone(Header):
-    """All drones. ``clock`` and ``toggle`` are k and w of objects.md §8.13; ``grab`` is the pending direction + 1."""
-
-    goal_x: f8
-    goal_y: f8
-    speed: f8
-    end_x: f8
-    end_y: f8
-    beam_x: f8
-    beam_y: f8
-    beam_length: f8
-    aim_x: f8
-    aim_y: f8
-    sweep_x: f8
-    sweep_y: f8
-    spread: f8
-    movement: i4
-    weapon: i4
-    seeker: i4
-    direction: i4
-    chasing: i4
-    clock: i4
-    toggle: i4
-    grab: i4
-    timer: i4
-    shot: i4
-    last_shot: i4
+    celebrated_in_air: i4  #: 1: it was in the air in the celebration's last tick
+    box: i4  #: 1: the body is a box, 0: a circle
 
 
 @struct
@@ -262,22 +101,23 @@ class Object(
 class World:
     """Everything that changes during a run."""
 
-    events: Annotated[list[Event], MAX_EVENTS]
+    events: Annotated[list[Event], MAX_EVENTS]  #: what happened in the last tick, and how many of them are in use
     event_count: i4
-    outcome: i4
-    tick: i4
-    gold: i4
-    won: i4
+    outcome: i4  #: what came first, the exit or death: an outcome of states.py
+    tick: i4  #: ticks run
+    gold: i4  #: pieces of gold collected
+    won: i4  #: exit contacts and deaths so far
     deaths: i4
-    round_over: i4
-    contacts_off: i4
-    update_head: i4
+    round_over: i4  #: 1 after the first of them: objects are idled, and the ninja's contact pass is off for good
+    update_head: i4  #: newest member of the update set, and where its pass is: slots, 0: none
     update_cursor: i4
-    think_cursor: i4
+    think_cursor: i4  #: who thinks next: a slot, 0: nobody; ticks since the last think
     think_counter: i4
-    id_count: i4
-    slots_used: i4
+    id_count: i4  #: objects with an id
+    slots_used: i4  #: slots in use: nobody, objects with an id, switches
     ninja: Ninja
-    heads: Annotated[list[i2], GRID_CELLS]
-    edges: Annotated[list[u1], EDGE_STATES]
-    objects: Annotated[list[Object], CAPACITY]
+    heads: Annotated[list[i2], GRID_CELLS]  #: first object of each cell's list, by grid index: slots, 0: none
+    edges: Annotated[
+        list[u1], EDGE_STATES
+    ]  #: state of each cell's own side, at 4 times the grid index plus the direction: off, interesting, solid
+    objects: Annotated[list[Object], CAPACITY]  #: by slot; 0 is nobody

@@ -39,7 +39,7 @@ def tick_ninja(level: TileMap, w: World, keys: int) -> None:
     n.in_air = 1
     n.floor_contacts = 0
 
-    if not w.contacts_off:
+    if not w.round_over:
         touch_objects(w)
     if n.box:
         collide_box(level, w)

@@ -10,7 +10,8 @@ from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS
 from ninja_game.sim.events import DOOR_CLOSED, DOOR_OPENED, LOCK_OPENED, TRAP_CLOSED, emit
 from ninja_game.sim.grid import cell_index, grid_insert, grid_remove
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Door, World
+from ninja_game.sim.memory.object_fields import Door
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import (
     AUTOMATIC_DOOR_OPEN,
     AUTOMATIC_DOOR_RADIUS,
@@ -81,18 +82,18 @@ def touch_door(w: World, o: Door, slot: int) -> None:
         return
     o.counter = 0
     if o.mechanism == AUTOMATIC:
-        if not o.spent:
-            o.spent = 1
+        if not o.switched:
+            o.switched = 1
             write_edges(w, o, False)
             start_update(w, o, slot)
             emit(w, DOOR_OPENED, slot, o.x, o.y, 0.0, 0.0)
     elif o.mechanism == LOCKED:
-        if not o.spent:
-            o.spent = 1
+        if not o.switched:
+            o.switched = 1
             write_edges(w, o, False)
             emit(w, LOCK_OPENED, slot, o.x, o.y, 0.0, 0.0)
     else:
-        o.spent = 1
+        o.switched = 1
         write_edges(w, o, True)
         grid_remove(w, o)
         emit(w, TRAP_CLOSED, slot, o.x, o.y, 0.0, 0.0)
@@ -104,6 +105,6 @@ def update_door(w: World, o: Door, slot: int) -> None:
     o.counter += 1
     if o.counter > AUTOMATIC_DOOR_OPEN:
         end_update(w, o, slot)
-        o.spent = 0
+        o.switched = 0
         write_edges(w, o, True)
         emit(w, DOOR_CLOSED, slot, o.x, o.y, 0.0, 0.0)

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ninja_game.sim.arithmetic import is_set
-from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, ROW, STEP, UNIT_X, UNIT_Y
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, NEIGHBOUR_OFFSET, ROW, UNIT_X, UNIT_Y
 from ninja_game.sim.events import CHAINGUN_OFF, CHASE_STARTED, LASER_OFF, emit
 from ninja_game.sim.grid import cell_at, grid_move, link
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Drone, World
+from ninja_game.sim.memory.object_fields import Drone
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import (
     CELL,
     CHAINGUN_PACE,
@@ -42,7 +43,7 @@ from ninja_game.sim.states import (
 
 ROTATIONS = [1, 0, 3, 2, 3, 0, 1, 2, 0, 1, 3, 2, 0, 3, 1, 2]
 """Order in which directions are tried, four for each movement 0-3."""
-LIST_A, LIST_B = WANDER_CW, WANDER_CCW
+FIRST_LIST, SECOND_LIST = WANDER_CW, WANDER_CCW
 
 
 @fast
@@ -97,7 +98,7 @@ def direction_code(value: float) -> int:
 @fast
 def move_drone(w: World, o: Drone, slot: int) -> None:
     """One step towards the goal; a tick of arrival chooses the next goal and does not move."""
-    o.clock += 1
+    o.move_ticks += 1
     dx = o.goal_x - o.x
     dy = o.goal_y - o.y
     if dx * dx + dy * dy < o.speed * o.speed:
@@ -126,14 +127,14 @@ def turn(w: World, o: Drone) -> None:
     if SURFACE_CW <= movement <= WANDER_CCW:
         new = first_open(w, o, movement)
     elif movement == ALTERNATING:
-        new = first_open(w, o, LIST_B if o.toggle else LIST_A)
+        new = first_open(w, o, SECOND_LIST if o.second_list else FIRST_LIST)
         if new != old:
-            o.toggle = 1 - o.toggle
+            o.second_list = 1 - o.second_list
     elif movement == PSEUDO_RANDOM:
-        odd = o.clock % 2
-        new = first_open(w, o, LIST_B if odd else LIST_A)
+        odd = o.move_ticks % 2
+        new = first_open(w, o, SECOND_LIST if odd else FIRST_LIST)
         if new != old:
-            o.clock = 0 if odd else 1
+            o.move_ticks = 0 if odd else 1
     # Once "none", a direction is never assigned again: only the goal moves (objects.md §8.15).
     if old != NO_DIRECTION:
         o.direction = new
@@ -152,7 +153,7 @@ def first_open(w: World, o: Drone, movement: int) -> int:
         elif -candidate % 4 == 0:
             candidate = 0  # the remainder has the sign of the dividend: of the negative ones only this is a direction
         if candidate >= 0 and w.edges[4 * o.cell + candidate] == OFF:
-            neighbour = o.cell + STEP[candidate]
+            neighbour = o.cell + NEIGHBOUR_OFFSET[candidate]
             o.goal_x = CENTRE_X[neighbour]
             o.goal_y = CENTRE_Y[neighbour]
             return candidate
@@ -165,12 +166,12 @@ def chase(w: World, o: Drone) -> bool:
     if not o.seeker:
         return False
     if w.round_over:
-        o.grab = 0
+        o.pending_direction = 0
         return False
-    if o.grab:
+    if o.pending_direction:
         if o.direction != NO_DIRECTION:
-            o.direction = o.grab - 1
-        o.grab = 0
+            o.direction = o.pending_direction - 1
+        o.pending_direction = 0
         return False
     n = w.ninja
     column = COLUMN[o.cell]
@@ -188,7 +189,7 @@ def chase(w: World, o: Drone) -> bool:
     steps = 0
     cell = o.cell
     while cell != 0 and w.edges[4 * cell + direction] == OFF:
-        cell += STEP[direction]
+        cell += NEIGHBOUR_OFFSET[direction]
         steps += 1
     if steps < distance:
         return False
@@ -199,9 +200,9 @@ def chase(w: World, o: Drone) -> bool:
     if o.direction != NO_DIRECTION:
         o.direction = direction
     if o.movement == SURFACE_CW:
-        o.grab = (direction + 3) % 4 + 1
+        o.pending_direction = (direction + 3) % 4 + 1
     elif o.movement == SURFACE_CCW:
-        o.grab = (direction + 1) % 4 + 1
+        o.pending_direction = (direction + 1) % 4 + 1
     elif o.movement == MOVEMENT_BELOW:
         return False
     return True

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from math import sqrt
 
-from ninja_game.sim.arithmetic import div
+from ninja_game.sim.arithmetic import ieee_divide
 from ninja_game.sim.collision.rays import ray_tiles, sees
 from ninja_game.sim.death import kill, zap
 from ninja_game.sim.events import CHAINGUN_CHARGING, CHAINGUN_ON, CHAINGUN_SHOT, LASER_CHARGING, LASER_ON, emit
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Drone, TileMap, World
+from ninja_game.sim.memory.object_fields import Drone
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.objects.drone import stop_firing
 from ninja_game.sim.rules import (
     BULLET_IMPULSE,
@@ -118,7 +119,7 @@ def burn(w: World, o: Drone, slot: int) -> None:
     n = w.ninja
     wx = n.x - o.x
     wy = n.y - o.y
-    t = div(wx * o.beam_x + wy * o.beam_y, o.beam_length * o.beam_length)
+    t = ieee_divide(wx * o.beam_x + wy * o.beam_y, o.beam_length * o.beam_length)
     if t < 0.0:
         zx = o.x
         zy = o.y

@@ -10,7 +10,8 @@ from ninja_game.sim.events import EXIT_OPENED, emit
 from ninja_game.sim.grid import grid_insert
 from ninja_game.sim.kinds import SWITCH
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Exit, Switch, World
+from ninja_game.sim.memory.object_fields import Exit, Switch
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS, SWITCH_RADIUS
 
 
@@ -33,13 +34,13 @@ def create_exit(w: World, o: Exit, slot: int, p: Sequence[float]) -> None:
 def touch_switch(w: World, o: Switch) -> None:
     """Open and file the exit. The switch itself is never unfiled: it stays in its list, inert (objects.md §2.2)."""
     door = w.objects[o.partner]
-    if door.spent:
+    if door.is_open:
         return
     n = w.ninja
     dx = o.x - n.x
     dy = o.y - n.y
     if sqrt(dx * dx + dy * dy) < SWITCH_RADIUS + RADIUS:
-        door.spent = 1
+        door.is_open = 1
         grid_insert(w, door, o.partner)
         emit(w, EXIT_OPENED, o.partner, o.x, o.y, 0.0, 0.0)
 

@@ -7,7 +7,8 @@ from math import sqrt
 from ninja_game.sim.events import GOLD_TAKEN, emit
 from ninja_game.sim.grid import grid_insert, grid_remove
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Gold, World
+from ninja_game.sim.memory.object_fields import Gold
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import GOLD_RADIUS, RADIUS
 
 
@@ -24,7 +25,7 @@ def touch_gold(w: World, o: Gold, slot: int) -> None:
     dx = o.x - n.x
     dy = o.y - n.y
     if sqrt(dx * dx + dy * dy) < GOLD_RADIUS + RADIUS:
-        o.spent = 1
+        o.taken = 1
         w.gold += 1
         grid_remove(w, o)
         emit(w, GOLD_TAKEN, slot, o.x, o.y, 0.0, 0.0)

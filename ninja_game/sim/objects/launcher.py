@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from math import sqrt
 
-from ninja_game.sim.arithmetic import div
+from ninja_game.sim.arithmetic import ieee_divide
 from ninja_game.sim.collision.rays import sees, solid_at
-from ninja_game.sim.collision.tiles import STEP
+from ninja_game.sim.collision.tiles import NEIGHBOUR_OFFSET
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import ROCKET_EXPLODED, ROCKET_LAUNCHED, emit
 from ninja_game.sim.grid import grid_insert, grid_move, grid_remove
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Launcher, TileMap, World
+from ninja_game.sim.memory.object_fields import Launcher
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import (
     OFF,
     RADIUS,
@@ -105,7 +106,7 @@ def edge_between(w: World, old: int, new: int) -> int:
     """The old cell's own edge towards a direct neighbour; off for anything farther, and where there is no cell."""
     if old != 0 and new != 0:
         for side in range(4):
-            if old + STEP[side] == new:
+            if old + NEIGHBOUR_OFFSET[side] == new:
                 return w.edges[4 * old + side]
     return OFF
 
@@ -117,8 +118,8 @@ def steer(w: World, o: Launcher) -> None:
     dx = 2.0 * n.x - n.prev_x - (o.x + o.speed * o.heading_x)
     dy = 2.0 * n.y - n.prev_y - (o.y + o.speed * o.heading_y)
     length = sqrt(dx * dx + dy * dy)
-    dx = div(dx, length)
-    dy = div(dy, length)
+    dx = ieee_divide(dx, length)
+    dy = ieee_divide(dy, length)
     q = (-o.heading_y) * dx + o.heading_x * dy
     hx = o.heading_x + q * (-o.heading_y) * ROCKET_TURN
     hy = o.heading_y + q * o.heading_x * ROCKET_TURN

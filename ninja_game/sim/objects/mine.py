@@ -8,7 +8,8 @@ from ninja_game.sim.death import kill
 from ninja_game.sim.events import MINE_EXPLODED, emit
 from ninja_game.sim.grid import grid_insert, grid_remove
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Mine, World
+from ninja_game.sim.memory.object_fields import Mine
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import MINE_RADIUS, RADIUS
 from ninja_game.sim.states import EXPLOSIVE
 
@@ -27,6 +28,6 @@ def touch_mine(w: World, o: Mine, slot: int) -> None:
     dy = o.y - n.y
     if sqrt(dx * dx + dy * dy) < MINE_RADIUS + RADIUS:
         kill(w, EXPLOSIVE, slot, -dx, -dy, o.x, o.y)
-        o.spent = 1
+        o.exploded = 1
         grid_remove(w, o)
         emit(w, MINE_EXPLODED, slot, o.x, o.y, 0.0, 0.0)

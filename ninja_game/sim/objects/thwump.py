@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW, STEP, UNIT_X, UNIT_Y
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, NEIGHBOUR_OFFSET, ROW, UNIT_X, UNIT_Y
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import THWUMP_FELL, THWUMP_LANDED, emit
 from ninja_game.sim.grid import cell_at, grid_insert, grid_move
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Thwump, TileMap, World
+from ninja_game.sim.memory.object_fields import Thwump
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.ninja.contact_response import push
 from ninja_game.sim.rules import (
     CELL,
@@ -46,10 +47,10 @@ def create_thwump(level: TileMap, w: World, o: Thwump, slot: int, direction: flo
             start = goal
             sign = o.face_x + o.face_y
             if cell:
-                ahead = cell + STEP[side]
+                ahead = cell + NEIGHBOUR_OFFSET[side]
                 while EXISTS[ahead] and level.tiles[ahead] == 0:
                     goal = goal + sign * CELL
-                    ahead += STEP[side]
+                    ahead += NEIGHBOUR_OFFSET[side]
             goal = goal + sign * THWUMP_HALF
             o.fall_x = o.x
             o.fall_y = o.y

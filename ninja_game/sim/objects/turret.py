@@ -8,7 +8,8 @@ from ninja_game.sim.collision.rays import sees
 from ninja_game.sim.death import kill
 from ninja_game.sim.events import TURRET_FIRED, TURRET_LOCKED, emit
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import TileMap, Turret, World
+from ninja_game.sim.memory.object_fields import Turret
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import (
     AIM_FAR,
     AIM_FAR_SQUARED,

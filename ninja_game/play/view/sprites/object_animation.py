@@ -14,6 +14,10 @@ from ninja_game.sim.states import DRONE_MOVE, LAUNCHER_FLIGHT
 MOVING_KINDS = frozenset(
     {kinds.BOUNCE_BLOCK, kinds.THWUMP, kinds.FLOOR_GUARD, kinds.DRONE, kinds.TURRET, kinds.LAUNCHER}
 )
+_FLAGS = {
+    kinds.GOLD: "taken", kinds.MINE: "exploded", kinds.EXIT: "is_open", kinds.DOOR: "switched", kinds.DRONE: "chasing",
+}  # fmt: skip
+"""The field that tells whether an object has changed for good or for a while, where a kind has one."""
 LONG_AGO = -100_000
 _JUMP = 30.0
 """A thing that is farther away than this (px) after a tick was put there, it did not move."""
@@ -29,7 +33,7 @@ def state_of(world: World, o: Object) -> tuple[int, int, int]:
     if o.kind == kinds.SWITCH:
         # An exit's switch has no state of its own: it is pressed when the exit is open.
         o = world.objects[o.partner]
-    return o.spent if o.kind != kinds.DRONE else o.chasing, o.routine, o.updating
+    return getattr(o, _FLAGS.get(o.kind, "updating")), o.routine, o.updating
 
 
 def drawn_place(o: Object) -> Place:

@@ -26,13 +26,15 @@ def static_sprites_of(world: World, slot: int, animation: ObjectAnimation, fract
     """The drawings of one thing; [] if nothing of it is fixed to the walls, or it is gone."""
     o = world.objects[slot]
     kind = o.kind
-    if kind in {kinds.GOLD, kinds.MINE}:
-        return [] if o.spent else [((drawings.gold if kind == kinds.GOLD else drawings.mine)(), o.x, o.y)]
+    if kind == kinds.GOLD:
+        return [] if o.taken else [(drawings.gold(), o.x, o.y)]
+    if kind == kinds.MINE:
+        return [] if o.exploded else [(drawings.mine(), o.x, o.y)]
     if kind == kinds.EXIT:
-        step = animation.step(slot, fraction, _EXIT_FRAMES) if o.spent else 0
+        step = animation.step(slot, fraction, _EXIT_FRAMES) if o.is_open else 0
         return [(drawings.exit_door(step), o.x, o.y)]
     if kind == kinds.SWITCH:
-        return [(drawings.exit_switch(world.objects[o.partner].spent), o.x, o.y)]
+        return [(drawings.exit_switch(world.objects[o.partner].is_open), o.x, o.y)]
     if kind == kinds.DOOR:
         return _door_sprites(o, slot, animation, fraction)
     if kind == kinds.LAUNCH_PAD:
@@ -75,17 +77,17 @@ def _door_sprites(o: Object, slot: int, animation: ObjectAnimation, fraction: fl
     sprites: list[PlacedSprite] = []
     place = door_place(o)
     step = animation.step(slot, fraction, _door_frames(o))
-    closed = o.spent == (o.mechanism == TRAP)
+    closed = o.switched == (o.mechanism == TRAP)
     # A trap door cannot be seen until it is sprung.
-    if place and not (o.mechanism == TRAP and not o.spent):
+    if place and not (o.mechanism == TRAP and not o.switched):
         x, y, turn = place
         sprites.append((drawings.door(o.mechanism, 8 - step if closed else step).turned(turn), x, y))
     if o.mechanism != AUTOMATIC:
-        sprites.append((drawings.door_switch(o.mechanism, o.spent), o.x, o.y))
+        sprites.append((drawings.door_switch(o.mechanism, o.switched), o.x, o.y))
     return sprites
 
 
 def _door_frames(o: Object) -> int:
     if o.mechanism == AUTOMATIC:
-        return _DOOR_OPENING if o.spent else _DOOR_CLOSING
+        return _DOOR_OPENING if o.switched else _DOOR_CLOSING
     return _TRAP_FRAMES if o.mechanism == TRAP else _LOCK_FRAMES
