@@ -19,7 +19,8 @@ from ninja_game.sim.grid import cell_at, grid_remove
 from ninja_game.sim.kinds import DOOR, NINJA
 from ninja_game.sim.level import Level, ObjectSpec, well_formed
 from ninja_game.sim.loader import grid_tiles
-from ninja_game.sim.memory.schema import Object, TileMap, World
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.objects.door import create_door
 from ninja_game.sim.rules import CELL, DOOR_SWITCH_RADIUS, RADIUS, SOLID, STRIDE
 from ninja_game.sim.states import LOCKED, TRAP

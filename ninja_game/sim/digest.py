@@ -15,8 +15,9 @@ from typing import Any
 
 from ninja_game.sim.kinds import KIND_OF, KINDS
 from ninja_game.sim.memory.declare import fields_of
+from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.plain import WORLD_SCALARS
-from ninja_game.sim.memory.schema import Ninja, Object, World
+from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.rules import NAN
 from ninja_game.sim.traces import is_traced, place_of, status_of
 

@@ -22,8 +22,7 @@ from ninja_game.player.statistics import KILLERS
 from ninja_game.sim import events, kinds
 from ninja_game.sim.death import idle_event
 from ninja_game.sim.kinds import INERT, KINDS, NINJA, NO_KIND, Kind
-from ninja_game.sim.memory.object_fields import Header
-from ninja_game.sim.memory.schema import Object
+from ninja_game.sim.memory.object_fields import Header, Object
 from ninja_game.sim.objects import dispatch
 from ninja_game.sim.traces import status_of
 

@@ -20,8 +20,8 @@ from ninja_game.sim.memory.layout import (
     state_view,
     used_bytes,
 )
-from ninja_game.sim.memory.object_fields import Header
-from ninja_game.sim.memory.schema import CAPACITY, Object
+from ninja_game.sim.memory.object_fields import Header, Object
+from ninja_game.sim.memory.schema import CAPACITY
 from tests.support.crowded import crowded_inputs, crowded_level
 
 needs_numba = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")

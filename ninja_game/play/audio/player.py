@@ -15,7 +15,8 @@ import pygame
 from ninja_game.play.audio.table import BY_DEATH, BY_EVENT, CORPSE, LOOPS, OTHER_DEATH, loop_levels
 from ninja_game.sim.events import DIED
 from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
-from ninja_game.sim.memory.schema import Object, World
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import WORLD_WIDTH
 from ninja_game.sim.states import WEAPON_LASER
 

@@ -7,7 +7,8 @@ from math import floor
 
 from ninja_game.sim import events
 from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
-from ninja_game.sim.memory.schema import Object, World
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import (
     DRONE_FIRING,
     ELECTRIC,

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from ninja_game.sim import rules
 from ninja_game.sim.kinds import DOOR, DRONE, KIND_OF, SWITCH
-from ninja_game.sim.memory.schema import Object, World
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import AUTOMATIC
 
 

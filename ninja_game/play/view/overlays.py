@@ -13,7 +13,8 @@ from ninja_game.play.view.sprites.draw_target import DrawTarget
 from ninja_game.sim.collision.rays import ray_tiles, sees
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS
 from ninja_game.sim.kinds import DRONE, LAUNCHER, TURRET
-from ninja_game.sim.memory.schema import Object, World
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.objects.dispatch import NINE_CELLS
 from ninja_game.sim.rules import INTERESTING, OFF, RADIUS, STRIDE
 from ninja_game.sim.states import WEAPON_ZAP

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.sim.memory.declare import Field, fields_of
-from ninja_game.sim.memory.object_fields import Header
-from ninja_game.sim.memory.schema import Object, TileMap, World
+from ninja_game.sim.memory.object_fields import Header, Object
+from ninja_game.sim.memory.schema import TileMap, World
 
 _SIZES = {"f8": 8, "i4": 4, "i2": 2, "u1": 1}
 _REFUSED = set(dir(np.recarray)) | set(dir(np.record))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.memory.declare import f8, i4, part
+from ninja_game.sim.memory.declare import f8, i4, part, struct
 
 
 @part
@@ -174,3 +174,10 @@ class Drone(Header):
     timer: i4  #: ticks since the beam or the last shot began
     shot: i4  #: number of the next shot of a burst, and of its last
     last_shot: i4
+
+
+@struct
+class Object(
+    Gold, Mine, Exit, Switch, BounceBlock, LaunchPad, OneWay, Door, Thwump, FloorGuard, Turret, Launcher, Drone
+):  # fmt: skip
+    """Any object. One class for all kinds, so that plain code stays monomorphic; one record in which they overlap."""

@@ -13,7 +13,8 @@ from ninja_game.sim.loader import grid_tiles, populate, record_table
 from ninja_game.sim.memory.declare import Field, fields_of
 from ninja_game.sim.memory.interface import MemoryName, RunRecord, TraceRecord
 from ninja_game.sim.memory.kernels import kill_ninja, observe_object, run_world, trace_world
-from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, Object, TileMap, World
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, TileMap, World
 from ninja_game.sim.world import step
 
 PlainState = tuple[tuple[Any, ...], tuple[Any, ...], list[int], list[int], list[tuple[Any, ...]]]

@@ -10,21 +10,7 @@ from __future__ import annotations
 from typing import Annotated
 
 from ninja_game.sim.memory.declare import f8, i2, i4, struct, u1
-from ninja_game.sim.memory.object_fields import (
-    BounceBlock,
-    Door,
-    Drone,
-    Exit,
-    FloorGuard,
-    Gold,
-    Launcher,
-    LaunchPad,
-    Mine,
-    OneWay,
-    Switch,
-    Thwump,
-    Turret,
-)
+from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.rules import GRID_CELLS
 
 CAPACITY = 12_288
@@ -91,13 +77,6 @@ class Ninja:
 
 
 @struct
-class Object(
-    Gold, Mine, Exit, Switch, BounceBlock, LaunchPad, OneWay, Door, Thwump, FloorGuard, Turret, Launcher, Drone
-):  # fmt: skip
-    """Any object. One class for all kinds, so that plain code stays monomorphic; one record in which they overlap."""
-
-
-@struct
 class World:
     """Everything that changes during a run."""
 
@@ -117,7 +96,6 @@ class World:
     slots_used: i4  #: slots in use: nobody, objects with an id, switches
     ninja: Ninja
     heads: Annotated[list[i2], GRID_CELLS]  #: first object of each cell's list, by grid index: slots, 0: none
-    edges: Annotated[
-        list[u1], EDGE_STATES
-    ]  #: state of each cell's own side, at 4 times the grid index plus the direction: off, interesting, solid
+    #: state of each cell's own sides (off, interesting, solid), at 4 times the grid index plus the direction
+    edges: Annotated[list[u1], EDGE_STATES]
     objects: Annotated[list[Object], CAPACITY]  #: by slot; 0 is nobody

@@ -24,7 +24,8 @@ from ninja_game.sim.kinds import (
     TURRET,
 )
 from ninja_game.sim.memory.declare import fast
-from ninja_game.sim.memory.schema import Object, TileMap, World
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.objects.bounce_block import create_block, think_block, touch_block, update_block
 from ninja_game.sim.objects.door import create_door, touch_door, update_door
 from ninja_game.sim.objects.drone import create_drone, move_drone

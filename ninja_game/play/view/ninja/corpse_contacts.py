@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 from ninja_game.play.view.ninja.box_contact import Box
 from ninja_game.sim import kinds
-from ninja_game.sim.memory.schema import Object, World
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.rules import BLOCK_HALF, THWUMP_HALF
 from ninja_game.sim.states import WEAPON_ZAP
 

@@ -11,7 +11,8 @@ from ninja_game.play.view.sprites.draw_target import DrawTarget
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
 from ninja_game.play.view.sprites.static_sprites import crosshair
 from ninja_game.sim import kinds
-from ninja_game.sim.memory.schema import Object, World
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import (
     DRONE_FIRING,
     DRONE_MOVE,

@@ -8,7 +8,8 @@ from __future__ import annotations
 from math import atan2, pi
 
 from ninja_game.sim import kinds
-from ninja_game.sim.memory.schema import Object, World
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import DRONE_MOVE, LAUNCHER_FLIGHT
 
 MOVING_KINDS = frozenset(

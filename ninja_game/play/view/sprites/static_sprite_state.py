@@ -9,7 +9,8 @@ from ninja_game.play.view.sprites.drawing import SpriteKey
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
-from ninja_game.sim.memory.schema import Object, World
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import AUTOMATIC, LAUNCHER_PREPARE, TRAP, TURRET_POST_FIRE, TURRET_PRE_FIRE
 
 PlacedSprite = tuple[SpriteKey, float, float]
