@@ -23,9 +23,9 @@ CHANGES = (
     # What stays.
     Change("exit-switch-pressed", "view/sprites/object_animation.py", "    if o.kind == kinds.SWITCH:", "    if False:"),
     Change("door-opening", "view/sprites/static_sprite_state.py", "8 - step if closed else step", "0"),
-    Change("hidden-trap-shown", "view/sprites/static_sprite_state.py", "and not o.spent):", "and False):"),
+    Change("hidden-trap-shown", "view/sprites/static_sprite_state.py", "and not o.switched):", "and False):"),
     Change("pad-direction", "view/sprites/static_sprite_state.py", "launch_pad(step).turned(", "launch_pad(step).turned(0 * "),
-    Change("gold-taken-stays", "view/sprites/static_sprite_state.py", "return [] if o.spent else [", "return ["),
+    Change("gold-taken-stays", "view/sprites/static_sprite_state.py", "return [] if o.taken else [", "return ["),
     Change("mine-drawn-as-gold", "view/sprites/static_sprites.py", "s.disc(p.mine, 0, 0, 2.9)", "s.disc(p.gold, 0, 0, 2.9)"),
     Change("key-without-sign", "view/sprites/static_sprites.py", "s.ring(sign, -1.6", "s.ring(plate, -1.6"),
     Change("danger-only-by-colour", "view/sprites/static_sprites.py", "5.2 if p.danger_by_shape else 4.6", "4.6"),
