@@ -246,6 +246,5 @@ def is_box(body: str) -> bool:
 
 def _event_view(e: Event) -> EventView:
     """An event as the API shows it."""
-    object_id = e.slot - 1 if e.slot else None
     cause = CAUSE_NAMES[e.cause] if e.cause != NO_CAUSE else ""
-    return EventView(EVENT_NAMES[e.kind], e.x, e.y, e.dx, e.dy, object_id, cause)
+    return EventView(EVENT_NAMES[e.kind], e.x, e.y, e.dx, e.dy, e.slot - 1 if e.slot else None, cause)

@@ -126,7 +126,7 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
     """One level in full."""
     from rich.text import Text
 
-    from ninja_game.cli.picture import level_picture
+    from ninja_game.levels.picture import level_picture
     from ninja_game.levels.warnings import level_warnings
 
     name, author, comment, file = map(shown_text, (level.name, level.author, level.comment, level.file))

@@ -124,10 +124,6 @@ class App:
         if not self.stack:
             self.running = False
 
-    def pop_to(self, kind: type[Screen]) -> None:
-        """Go back to the topmost screen of a kind, or to the lowest one."""
-        self.stack.pop_to(kind)
-
     def quit(self) -> None:
         """End the program after this picture."""
         self.running = False
@@ -200,32 +196,17 @@ class App:
 
     def draw(self) -> None:
         """Draw the screens that are seen and show what changed."""
-        visible = self.stack.visible()
-        if len(visible) > 1 and any(screen.redraw or screen.below_runs for screen in visible[1:]):
-            visible[0].redraw = True
-        changed: list[pygame.Rect] | None = []
-        for screen in visible:
-            whole = screen.redraw
-            if not whole and screen is not self.top:
-                # Covered and still: drawing it again would paint over what covers it.
-                continue
-            rects = screen.draw(self.surface)
-            screen.redraw = False
-            changed = None if whole or rects is None or changed is None else changed + rects
+        changed = self.stack.draw(self.surface)
         if self.notice and not isinstance(self.top, BossScreen):
-            rect = self._draw_notice()
+            # In the border below the stage.
+            rect = self.canvas.fill_rect(self.surface, self.theme.palette.panel, 0, HEIGHT - 24, WIDTH, 24)
+            at = WIDTH / 2, HEIGHT - 17
+            self.theme.text(self.surface, self.notice, *at, size=9.5, align="centre", width=WIDTH - 40)
             changed = None if changed is None else [*changed, rect]
         if changed is None:
             pygame.display.flip()
         elif changed:
             pygame.display.update(changed)
-
-    def _draw_notice(self) -> pygame.Rect:
-        """The notice, in the border below the stage."""
-        theme = self.theme
-        rect = self.canvas.fill_rect(self.surface, theme.palette.panel, 0, HEIGHT - 24, WIDTH, 24)
-        theme.text(self.surface, self.notice, WIDTH / 2, HEIGHT - 17, size=9.5, align="centre", width=WIDTH - 40)
-        return rect
 
     def keep_screenshot(self) -> None:
         """Put the picture, without a notice in it, among the player's exports, and say where."""

@@ -82,12 +82,6 @@ class ScreenStack:
         self._screens.append(screen)
         self._uncover()
 
-    def pop_to(self, kind: type[Screen]) -> None:
-        """Go back to the topmost screen of a kind, or to the lowest screen if there is none."""
-        while len(self._screens) > 1 and not isinstance(self.top, kind):
-            self._screens.pop().leave()
-        self._uncover()
-
     def clear(self) -> None:
         """Leave every screen."""
         while self._screens:
@@ -103,12 +97,24 @@ class ScreenStack:
         for screen in self._screens:
             screen.redraw = True
 
-    def visible(self) -> list[Screen]:
-        """The screens that are seen, lowest first."""
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        """Draw the screens that are seen; the px rectangles that changed, or None if everything may have."""
         first = len(self._screens) - 1
         while first > 0 and self._screens[first].see_through:
             first -= 1
-        return self._screens[max(first, 0) :]
+        visible = self._screens[max(first, 0) :]
+        if len(visible) > 1 and any(screen.redraw or screen.below_runs for screen in visible[1:]):
+            visible[0].redraw = True
+        changed: list[pygame.Rect] | None = []
+        for screen in visible:
+            whole = screen.redraw
+            if not whole and screen is not self.top:
+                # Covered and still: drawing it again would paint over what covers it.
+                continue
+            rects = screen.draw(surface)
+            screen.redraw = False
+            changed = None if whole or rects is None or changed is None else changed + rects
+        return changed
 
     def running(self) -> list[Screen]:
         """The screens for which time passes, lowest first."""

@@ -9,13 +9,12 @@ from ninja_game.errors import FileError
 from ninja_game.files.user_folder import LEVELS, RECORDS, REPLAYS, SETTINGS, make_user_folder, user_folder
 from ninja_game.files.writing import remove_leftovers
 from ninja_game.player.catalogue import Catalogue
-from ninja_game.player.progress import Progress
+from ninja_game.player.progress import Progress, complete_columns
 from ninja_game.player.records import Records
 from ninja_game.player.settings import Settings
 from ninja_game.player.settings_file import read_settings, write_changes
 from ninja_game.player.statistics import Statistics
 from ninja_game.player.store import Store
-from ninja_game.player.unlocks import complete_columns
 
 
 class PlayerData:

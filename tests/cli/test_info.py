@@ -9,8 +9,8 @@ import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game.cli.main import cli
-from ninja_game.cli.picture import level_picture
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.levels.picture import level_picture
 from tests.support.samples import NO_NINJA, SPIKED, WALK, running, write_records
 
 

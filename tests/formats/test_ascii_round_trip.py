@@ -13,7 +13,6 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.formats.ascii.legend import SYMBOLS, TILE_CHARS, visible_parts
 from ninja_game.formats.ascii.object_writer import same_record
 from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level, write_ascii_level
-from ninja_game.formats.ascii.writer import picture_rows
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.kinds import GOLD, NINJA, VALUE_COUNTS
 from ninja_game.sim.level import TILES, Level, ObjectSpec
@@ -110,7 +109,7 @@ def test_objects_in_reading_order_need_no_line() -> None:
 
 def test_the_picture_shows_tiles_and_objects() -> None:
     level = Level((1,) * 23 + (0,) * (TILES - 23), (ObjectSpec(GOLD, (60.0, 36.0)),))
-    rows = picture_rows(level)
+    rows = [line.split("|")[1] for line in write_ascii_level(level).splitlines() if line.endswith("|")]
     assert len(rows) == 23
     assert rows[0] == "#o" + "." * 29
 

@@ -110,7 +110,6 @@ def test_the_stack_draws_what_is_seen_and_runs_what_runs() -> None:
         below.log.clear()
         frames(app)
         assert below.log == []
-        app.pop_to(Probe)
         app.pop()
         assert panel.log[-1] == "enter"
         app.pop()

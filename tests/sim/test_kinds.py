@@ -12,9 +12,9 @@ from typing import Any
 
 import pytest
 
-from ninja_game.cli.picture import COLOURS
 from ninja_game.formats.ascii.legend import SYMBOLS
 from ninja_game.formats.ascii.object_forms import FORMS
+from ninja_game.levels.picture import COLOURS
 from ninja_game.play.audio.table import BY_DEATH, BY_EVENT, OTHER_DEATH
 from ninja_game.play.view.sprites.draw_moving import PAINTERS
 from ninja_game.play.view.sprites.static_sprite_state import static_sprites_of

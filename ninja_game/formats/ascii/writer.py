@@ -54,11 +54,6 @@ def write_ascii_level(
     return "".join(text)
 
 
-def picture_rows(level: Level) -> list[str]:
-    """The picture alone, 23 texts of 31 characters: tiles, and every object that a character can show."""
-    return _picture(level, [visible_parts(record) for record in level.objects])
-
-
 def _header_text(value: str) -> str:
     plain = value == value.strip() and not value.startswith('"') and value.isprintable()
     return value if plain else json.dumps(value)

@@ -15,7 +15,7 @@ from ninja_game.play.ui.palette import NINJA_COLOURS, PALETTES
 from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Choice, Label, Slider, Widget
-from ninja_game.player.unlocks import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
+from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
