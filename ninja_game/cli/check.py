@@ -10,19 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ninja_game.cli import solver_options as options
 from ninja_game.cli.run_options import LevelPath
-from ninja_game.cli.solver_options import (
-    NOT_FOUND,
-    body_option,
-    default_threads,
-    gold_option,
-    progress_line,
-    saver,
-    search_jobs_option,
-    seconds_option,
-    seed_option,
-    work_option,
-)
 from ninja_game.errors import LevelError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.sim.kinds import DOOR
@@ -35,12 +24,12 @@ if TYPE_CHECKING:
 
 @click.command()
 @click.argument("levels", metavar="LEVEL...", nargs=-1, required=True, type=LevelPath())
-@gold_option
-@seconds_option(10.0)
-@work_option
-@seed_option
-@search_jobs_option
-@body_option
+@options.gold_option
+@options.seconds_option(10.0)
+@options.work_option
+@options.seed_option
+@options.search_jobs_option
+@options.body_option
 @click.option(
     "--replays", metavar="FOLDER", type=click.Path(file_okay=False, path_type=Path),
     help="Keep the runs that were found in this folder.",
@@ -79,10 +68,10 @@ def command(
         replays.mkdir(parents=True, exist_ok=True)
     missing = broken = 0
     for level, where in zip(chosen, _certificates(chosen, replays), strict=True):
-        task = Task(level.level, jobs=default_threads(jobs), **task_options)
+        task = Task(level.level, jobs=options.default_threads(jobs), **task_options)
         try:
-            with progress_line() as report:
-                run = solve(task, report=report, on_better=saver(where, level) if where else None)
+            with options.progress_line() as report:
+                run = solve(task, report=report, on_better=options.saver(where, level) if where else None)
         except LevelError as error:
             broken += 1
             complain(str(replace(error, file=level.file, line=level.line)))
@@ -96,7 +85,7 @@ def command(
         solved = len(chosen) - missing - broken
         unplayable = f", {broken} cannot be played" if broken else ""
         click.echo(f"{len(chosen)} levels, {solved} solvable, {missing} not solved in the time{unplayable}")
-    ctx.exit(BAD_INPUT if broken else NOT_FOUND if missing else 0)
+    ctx.exit(BAD_INPUT if broken else options.NOT_FOUND if missing else 0)
 
 
 def _certificates(levels: Sequence[NamedLevel], folder: Path | None) -> Iterator[Path | None]:

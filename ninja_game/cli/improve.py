@@ -7,21 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ninja_game.cli import solver_options as options
 from ninja_game.cli.run_options import level_given, level_option
-from ninja_game.cli.solver_options import (
-    check_gold,
-    default_threads,
-    gold_option,
-    progress_line,
-    saver,
-    search_jobs_option,
-    seconds_option,
-    seed_option,
-    smooth_option,
-    smoothed_run,
-    time_text,
-    work_option,
-)
 
 if TYPE_CHECKING:
     from ninja_game.solver.certificate import VerifiedRun
@@ -31,12 +18,12 @@ if TYPE_CHECKING:
 @click.argument("replay", type=click.Path(exists=True, dir_okay=False, path_type=Path))
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
 @level_option
-@gold_option
-@seconds_option(60.0)
-@work_option
-@seed_option
-@search_jobs_option
-@smooth_option
+@options.gold_option
+@options.seconds_option(60.0)
+@options.work_option
+@options.seed_option
+@options.search_jobs_option
+@options.smooth_option
 @click.option(
     "-o", "--output", metavar="REPLAY", required=True, type=click.Path(dir_okay=False, path_type=Path),
     help="Where the best run so far is kept.",
@@ -74,21 +61,21 @@ def command(
     recording = recordings[0]
     body = recording.replay.body if recording.replay else "circle"
     first = recording.playback(recording.ticks)
-    task = Task(recording.level, body=body, first=first, jobs=default_threads(jobs), **task_options)  # type: ignore[arg-type]
-    check_gold(task)
+    task = Task(recording.level, body=body, first=first, jobs=options.default_threads(jobs), **task_options)  # type: ignore[arg-type]
+    options.check_gold(task)
     before: list[int] = []
-    save = saver(output, recording, recording.author)
+    save = options.saver(output, recording, recording.author)
 
     def keep(found: VerifiedRun) -> None:
         before.append(found.end_tick)
         save(found)
 
-    with progress_line() as report:
+    with options.progress_line() as report:
         run = solve(task, report=report, on_better=keep)
     assert run is not None  # noqa: S101 - the first run is one
     if smooth is not None:
-        run = smoothed_run(run, smooth)
+        run = options.smoothed_run(run, smooth)
         save(run)
     gain = before[0] - run.end_tick
     change = f"{abs(gain)} ticks {'shorter' if gain > 0 else 'longer'}" if gain else "no shorter run was found"
-    click.echo(f"{output}: {time_text(run.end_tick)}, {change}, {run.gold} gold")
+    click.echo(f"{output}: {options.time_text(run.end_tick)}, {change}, {run.gold} gold")

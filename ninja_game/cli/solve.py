@@ -7,35 +7,20 @@ from typing import Any
 
 import click
 
+from ninja_game.cli import solver_options as options
 from ninja_game.cli.run_options import LevelPath, choose_level
-from ninja_game.cli.solver_options import (
-    NOT_FOUND,
-    body_option,
-    check_gold,
-    default_threads,
-    gold_option,
-    progress_line,
-    saver,
-    search_jobs_option,
-    seconds_option,
-    seed_option,
-    smooth_option,
-    smoothed_run,
-    time_text,
-    work_option,
-)
 
 
 @click.command()
 @click.argument("level", type=LevelPath(dir_okay=False))
 @click.option("--record", type=click.IntRange(min=0), help="Which of a file's levels, counted from 0.")
-@gold_option
-@seconds_option(60.0)
-@work_option
-@seed_option
-@search_jobs_option
-@smooth_option
-@body_option
+@options.gold_option
+@options.seconds_option(60.0)
+@options.work_option
+@options.seed_option
+@options.search_jobs_option
+@options.smooth_option
+@options.body_option
 @click.option(
     "-o", "--output", metavar="REPLAY", type=click.Path(dir_okay=False, path_type=Path),
     help="Where the best run so far is kept. [default: LEVEL's name and .replay.txt, in the current folder]",
@@ -67,18 +52,18 @@ def command(
 
     chosen = choose_level(level, record)
     output = output or free_replay(level)
-    task = Task(chosen.level, jobs=default_threads(jobs), **task_options)
-    check_gold(task)
-    save = saver(output, chosen)
-    with progress_line() as report:
+    task = Task(chosen.level, jobs=options.default_threads(jobs), **task_options)
+    options.check_gold(task)
+    save = options.saver(output, chosen)
+    with options.progress_line() as report:
         run = solve(task, report=report, on_better=save)
     if run is None:
         click.echo("no run to the exit found; more time or another --seed may find one")
-        ctx.exit(NOT_FOUND)
+        ctx.exit(options.NOT_FOUND)
     if smooth is not None:
-        run = smoothed_run(run, smooth)
+        run = options.smoothed_run(run, smooth)
         save(run)
-    click.echo(f"{output}: {time_text(run.end_tick)}, {run.gold} gold")
+    click.echo(f"{output}: {options.time_text(run.end_tick)}, {run.gold} gold")
 
 
 def free_replay(level: Path) -> Path:

@@ -5,16 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 
-from ninja_game.sim.collision.tiles import (
-    CENTRE_X,
-    CENTRE_Y,
-    EMPTY,
-    EXISTS,
-    FULL,
-    NEIGHBOUR_OFFSET,
-    SHAPE,
-    set_edges,
-)
+from ninja_game.sim.collision import tiles
 from ninja_game.sim.grid import cell_at, grid_remove
 from ninja_game.sim.kinds import DOOR, NINJA
 from ninja_game.sim.level import Level, ObjectSpec, well_formed
@@ -51,7 +42,7 @@ class Ground:
         self.level = TileMap()
         self.level.tiles = grid_tiles(level)
         world = World()
-        set_edges(self.level, world)
+        tiles.set_edges(self.level, world)
         self.edges: list[int] = list(world.edges)
         specs = [spec for spec in level.objects if spec.kind == DOOR and well_formed(spec)]
         self.doors = {spec: _made_door(world, spec) for spec in set(specs)}
@@ -60,7 +51,7 @@ class Ground:
         ninjas = [record for record in level.objects if record.kind == NINJA]
         start = cell_at(*ninjas[-1].values) if ninjas and well_formed(ninjas[-1]) else 0
         # A ninja that starts in a tile may be pushed out on any side: nothing is certain then.
-        self.certain = bool(start) and SHAPE[self.level.tiles[start]] == EMPTY
+        self.certain = bool(start) and tiles.SHAPE[self.level.tiles[start]] == tiles.EMPTY
         self.cells: set[int] = set()
         if self.certain:
             self._fill(start)
@@ -96,9 +87,9 @@ class Ground:
             frontier += [there for there in self._ways(cell, closed) if there not in self.cells]
 
     def _ways(self, cell: int, closed: set[int]) -> Iterator[int]:
-        for side, step in enumerate(NEIGHBOUR_OFFSET):
+        for side, step in enumerate(tiles.NEIGHBOUR_OFFSET):
             there, here = 4 * cell + side, 4 * (cell + step) + (side ^ 2)
-            if EXISTS[cell + step] and SHAPE[self.level.tiles[cell + step]] != FULL:
+            if tiles.EXISTS[cell + step] and tiles.SHAPE[self.level.tiles[cell + step]] != tiles.FULL:
                 tiles_open = self.edges[there] != SOLID and self.edges[here] != SOLID
                 if tiles_open and there not in closed and here not in closed:
                     yield cell + step
@@ -111,6 +102,6 @@ def _around(cell: int) -> list[int]:
 
 def _touches(cell: int, x: float, y: float, radius: float) -> bool:
     """Whether a ninja with its centre in a cell could touch a disc (px)."""
-    dx = max(abs(x - CENTRE_X[cell]) - CELL / 2, 0.0)
-    dy = max(abs(y - CENTRE_Y[cell]) - CELL / 2, 0.0)
+    dx = max(abs(x - tiles.CENTRE_X[cell]) - CELL / 2, 0.0)
+    dy = max(abs(y - tiles.CENTRE_Y[cell]) - CELL / 2, 0.0)
     return dx * dx + dy * dy < (radius + RADIUS) ** 2

@@ -5,21 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from math import floor
 
-from ninja_game.sim import events
+from ninja_game.sim import events, states
 from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
-from ninja_game.sim.states import (
-    DRONE_FIRING,
-    ELECTRIC,
-    EXPLOSIVE,
-    FALL,
-    GUARD_CHASE,
-    LASER,
-    LAUNCHER_FLIGHT,
-    SKIDDING,
-    SLIDING,
-)
 
 Names = tuple[str, ...]
 """Sounds of which one is chosen by chance."""
@@ -49,10 +38,10 @@ BY_EVENT: dict[int, Names] = {
 }
 
 BY_DEATH: dict[int, Names] = {
-    EXPLOSIVE: ("death-explosive-1", "death-explosive-2"),
-    FALL: ("death-fall",),
-    LASER: ("death-laser",),
-    ELECTRIC: ("death-electric",),
+    states.EXPLOSIVE: ("death-explosive-1", "death-explosive-2"),
+    states.FALL: ("death-fall",),
+    states.LASER: ("death-laser",),
+    states.ELECTRIC: ("death-electric",),
 }
 OTHER_DEATH: Names = ("death-bullet-1", "death-bullet-2")
 
@@ -66,9 +55,9 @@ CORPSE: tuple[tuple[float, Names], ...] = (
 LOOPS = ("skid", "slide", "rocket-flight", "laser-beam", "guard")
 
 _LASTING = {
-    LAUNCHER: (LAUNCHER_FLIGHT, "rocket-flight"),
-    DRONE: (DRONE_FIRING, "laser-beam"),
-    FLOOR_GUARD: (GUARD_CHASE, "guard"),
+    LAUNCHER: (states.LAUNCHER_FLIGHT, "rocket-flight"),
+    DRONE: (states.DRONE_FIRING, "laser-beam"),
+    FLOOR_GUARD: (states.GUARD_CHASE, "guard"),
 }
 """By kind: the routine that lasts, and its loop."""
 
@@ -78,9 +67,9 @@ def loop_levels(world: World, machines: Iterable[Object]) -> dict[str, float]:
     levels = dict.fromkeys(LOOPS, 0.0)
     ninja = world.ninja
     vx, vy = ninja.x - ninja.prev_x, ninja.y - ninja.prev_y
-    if ninja.state == SKIDDING:
+    if ninja.state == states.SKIDDING:
         levels["skid"] = _percent(100 * abs(vx * -ninja.floor_y + vy * ninja.floor_x))
-    elif ninja.state == SLIDING:
+    elif ninja.state == states.SLIDING:
         levels["slide"] = _percent(70 * abs(vy))
     for thing in machines:
         routine, name = _LASTING[thing.kind]

@@ -8,20 +8,12 @@ from random import Random
 
 from ninja_game.play.view.effects.particles import Particle, Particles
 from ninja_game.sim import events as ev
+from ninja_game.sim import states
 from ninja_game.sim.collision.rays import ray_tiles
 from ninja_game.sim.kinds import DRONE, LAUNCHER
 from ninja_game.sim.memory.schema import Event, TileMap, World
-from ninja_game.sim.states import (
-    DRONE_FIRING,
-    DRONE_PRE_FIRE,
-    ELECTRIC,
-    EXPLOSIVE,
-    FALL,
-    LAUNCHER_FLIGHT,
-    SKIDDING,
-    SLIDING,
-    WEAPON_LASER,
-)
+
+_CHARGED = {states.DRONE_PRE_FIRE, states.DRONE_FIRING}
 
 
 class Effects:
@@ -50,9 +42,9 @@ class Effects:
         self._wall_and_floor(world)
         for slot in range(1, world.id_count + 1):
             o = world.objects[slot]
-            if o.kind == LAUNCHER and o.routine == LAUNCHER_FLIGHT:
+            if o.kind == LAUNCHER and o.routine == states.LAUNCHER_FLIGHT:
                 self._smoke(o.x, o.y, o.heading_x, o.heading_y)
-            elif o.kind == DRONE and o.weapon == WEAPON_LASER and o.routine in {DRONE_PRE_FIRE, DRONE_FIRING}:
+            elif o.kind == DRONE and o.weapon == states.WEAPON_LASER and o.routine in _CHARGED:
                 self._charge(o.x, o.y)
 
     # --- building blocks ---
@@ -108,13 +100,13 @@ class Effects:
     def _wall_and_floor(self, world: World) -> None:
         n = world.ninja
         vx, vy = n.x - n.prev_x, n.y - n.prev_y
-        if n.state not in {SKIDDING, SLIDING}:
+        if n.state not in {states.SKIDDING, states.SLIDING}:
             return
         self._skid_count += 1
         if self._skid_count < 3:
             return
         self._skid_count = self.chance.randrange(2)
-        if n.state == SKIDDING and abs(vx) > 0.4:
+        if n.state == states.SKIDDING and abs(vx) > 0.4:
             self.add(
                 "dust",
                 n.x - n.floor_x * 10,
@@ -125,7 +117,7 @@ class Effects:
                 size=0.8,
                 rear=True,
             )
-        elif n.state == SLIDING and abs(vy) > 0.3:
+        elif n.state == states.SLIDING and abs(vy) > 0.3:
             y = n.y + self.chance.uniform(-8, 8)
             self.add("dust", n.x - n.wall_x * 10, y, n.wall_x * 4, -vy * 3, life=32, size=0.7, rear=True)
 
@@ -156,14 +148,14 @@ def _landed(e: Effects, level: TileMap, world: World, event: Event) -> None:
 
 def _died(e: Effects, level: TileMap, world: World, event: Event) -> None:
     n = world.ninja
-    if event.cause == ELECTRIC:
+    if event.cause == states.ELECTRIC:
         for _ in range(6):
             angle = e.chance.uniform(0, 2 * pi)
             e.add("zap", event.x, event.y, 34 * cos(angle), 34 * sin(angle), life=e.chance.uniform(12, 24))
         e.spread("bolt", event.x, event.y, 8, 40, life=22)
-    elif event.cause == EXPLOSIVE:
+    elif event.cause == states.EXPLOSIVE:
         e.spread("spark", n.x, n.y, 8, 42, life=26)
-    elif event.cause == FALL:
+    elif event.cause == states.FALL:
         e.puffs(n.x, n.y + 9, 0, -1, 40, 14)
     e.blood(event.x, event.y, event.dx, event.dy, e.chance.randint(8, 14))
 

@@ -7,23 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ninja_game.sim.collision.tiles import (
-    ANCHOR_X,
-    ANCHOR_Y,
-    CENTRE_X,
-    CENTRE_Y,
-    CONCAVE,
-    CONVEX,
-    EMPTY,
-    FULL,
-    HALF_TILE,
-    NORMAL_X,
-    NORMAL_Y,
-    SHAPE,
-    SIGN_X,
-    SIGN_Y,
-    UNDEFINED,
-)
+from ninja_game.sim.collision import tiles
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import DOWN, LEFT, OFF, RIGHT, SOLID, STRIDE, UP
@@ -48,7 +32,7 @@ def tile_pushes(level: TileMap, world: World, box: Box) -> Iterator[Push]:
     cell = cell_at(box.x, box.y)
     if not cell:
         return
-    cx, cy, half = CENTRE_X[cell], CENTRE_Y[cell], box.half
+    cx, cy, half = tiles.CENTRE_X[cell], tiles.CENTRE_Y[cell], box.half
     if level.tiles[cell]:
         dx, dy = box.x - cx, box.y - cy
         ox, oy = 12 + half - abs(dx), 12 + half - abs(dy)
@@ -96,21 +80,22 @@ def _push(box: Box, a: float, b: float, nx: float, ny: float) -> Push:
 def _narrow(level: TileMap, box: Box, cell: int, a: float, b: float) -> Iterator[Push]:
     """One tile: out along its surface, or along the axis (a, b) if that is shorter."""
     tile = level.tiles[cell]
-    shape = SHAPE[tile]
-    if shape in {EMPTY, UNDEFINED}:
+    shape = tiles.SHAPE[tile]
+    if shape in {tiles.EMPTY, tiles.UNDEFINED}:
         return
     m = (a * a + b * b) ** 0.5
     axis = a, b, (a > 0) - (a < 0), (b > 0) - (b < 0)
-    sx, sy = SIGN_X[tile], SIGN_Y[tile]
+    sx, sy = tiles.SIGN_X[tile], tiles.SIGN_Y[tile]
     kx, ky = box.x - sx * box.half, box.y - sy * box.half
-    if shape == FULL:
+    if shape == tiles.FULL:
         yield _push(box, *axis)
         return
-    if shape in {CONCAVE, CONVEX}:
-        out = _round_push(shape, kx, ky, CENTRE_X[cell], CENTRE_Y[cell], sx, sy)
+    if shape in {tiles.CONCAVE, tiles.CONVEX}:
+        out = _round_push(shape, kx, ky, tiles.CENTRE_X[cell], tiles.CENTRE_Y[cell], sx, sy)
     else:
-        nx, ny = (sx, sy) if shape == HALF_TILE else (NORMAL_X[tile], NORMAL_Y[tile])
-        depth = (kx - CENTRE_X[cell] - ANCHOR_X[tile]) * nx + (ky - CENTRE_Y[cell] - ANCHOR_Y[tile]) * ny
+        nx, ny = (sx, sy) if shape == tiles.HALF_TILE else (tiles.NORMAL_X[tile], tiles.NORMAL_Y[tile])
+        dx, dy = kx - tiles.CENTRE_X[cell] - tiles.ANCHOR_X[tile], ky - tiles.CENTRE_Y[cell] - tiles.ANCHOR_Y[tile]
+        depth = dx * nx + dy * ny
         out = (-depth, nx, ny) if depth < 0 else None
     if out is not None:
         depth, nx, ny = out
@@ -121,9 +106,9 @@ def _round_push(
     shape: int, kx: float, ky: float, cx: float, cy: float, sx: float, sy: float
 ) -> tuple[float, float, float] | None:
     """Depth and normal in a quarter arc; a depth without end where only the axis will do."""
-    sign = 1.0 if shape == CONCAVE else -1.0
+    sign = 1.0 if shape == tiles.CONCAVE else -1.0
     dx, dy = sign * (cx + sign * sx * 12 - kx), sign * (cy + sign * sy * 12 - ky)
-    if shape == CONVEX and (sx * dx < 0 or sy * dy < 0):
+    if shape == tiles.CONVEX and (sx * dx < 0 or sy * dy < 0):
         return float("inf"), 0.0, 0.0
     length = (dx * dx + dy * dy) ** 0.5
     depth = sign * (length - 24)

@@ -8,21 +8,7 @@ import pygame
 
 from ninja_game.play.ui.canvas import Point
 from ninja_game.play.view.sprites.sketch import FINE
-from ninja_game.sim.collision.tiles import (
-    CONCAVE,
-    CONVEX,
-    EMPTY,
-    FULL,
-    HALF_TILE,
-    S_X,
-    S_Y,
-    SHAPE,
-    SIGN_X,
-    SIGN_Y,
-    T_X,
-    T_Y,
-    UNDEFINED,
-)
+from ninja_game.sim.collision import tiles
 
 H = 12.0
 _ARC_STEPS = 24
@@ -34,31 +20,31 @@ def outline(tile: int) -> list[Point]:
     >>> outline(2)
     [(-12.0, 12.0), (-12.0, -12.0), (12.0, 12.0)]
     """
-    shape = SHAPE[tile]
-    if shape in {EMPTY, UNDEFINED}:
+    shape = tiles.SHAPE[tile]
+    if shape in {tiles.EMPTY, tiles.UNDEFINED}:
         return []
-    if shape == FULL:
+    if shape == tiles.FULL:
         return [(-H, -H), (H, -H), (H, H), (-H, H)]
-    sx, sy = SIGN_X[tile], SIGN_Y[tile]
-    if shape == HALF_TILE:
+    sx, sy = tiles.SIGN_X[tile], tiles.SIGN_Y[tile]
+    if shape == tiles.HALF_TILE:
         # The half against the open side: cut the square at its middle.
         left, right = (-H if sx >= 0 else 0.0), (H if sx <= 0 else 0.0)
         top, bottom = (-H if sy >= 0 else 0.0), (H if sy <= 0 else 0.0)
         return [(left, top), (right, top), (right, bottom), (left, bottom)]
     corner = (-H * sx, -H * sy)
-    if shape in {CONCAVE, CONVEX}:
+    if shape in {tiles.CONCAVE, tiles.CONVEX}:
         # A quarter of a circle about the open (concave) or the solid corner, from one end of the surface to the other.
-        about = 1.0 if shape == CONCAVE else -1.0
+        about = 1.0 if shape == tiles.CONCAVE else -1.0
         quarter = [pi / 2 * k / _ARC_STEPS for k in range(_ARC_STEPS + 1)]
         return [
             corner,
             *(((about - about * 2 * sin(a)) * sx * H, (about - about * 2 * cos(a)) * sy * H) for a in quarter),
         ]
-    points = [corner, (T_X[tile], T_Y[tile]), (S_X[tile], S_Y[tile])]
+    points = [corner, (tiles.T_X[tile], tiles.T_Y[tile]), (tiles.S_X[tile], tiles.S_Y[tile])]
     # The thick wedges reach a second corner of the cell, next to the end of the surface that is in a side's middle.
-    if T_X[tile] == 0.0:
+    if tiles.T_X[tile] == 0.0:
         points.insert(1, (-H * sx, H * sy))
-    if S_Y[tile] == 0.0:
+    if tiles.S_Y[tile] == 0.0:
         points.append((H * sx, -H * sy))
     return points
 
@@ -74,7 +60,7 @@ def tile_picture(
     fine = pygame.Surface((size[0] * FINE, size[1] * FINE), pygame.SRCALPHA)
     # Drawing includes the px of the last corner: half a fine px less keeps the shape inside its cell.
     wide, high = size[0] * FINE, size[1] * FINE
-    if scale and SHAPE[tile] not in _FITTED:
+    if scale and tiles.SHAPE[tile] not in _FITTED:
         zoom = scale * FINE
         corners = [((x + H) * zoom + shift[0] * FINE, (y + H) * zoom + shift[1] * FINE) for x, y in _overlong(tile)]
     else:
@@ -85,13 +71,13 @@ def tile_picture(
     return pygame.transform.smoothscale(fine, size)
 
 
-_FITTED = {EMPTY, UNDEFINED, FULL, HALF_TILE, CONCAVE, CONVEX}
+_FITTED = {tiles.EMPTY, tiles.UNDEFINED, tiles.FULL, tiles.HALF_TILE, tiles.CONCAVE, tiles.CONVEX}
 """Shapes that are stretched to the px of their cell."""
 
 
 def _overlong(tile: int) -> list[Point]:
     """The outline of a slope that reaches beyond its cell, so that no side of the cell has a gap."""
-    start, end = (T_X[tile], T_Y[tile]), (S_X[tile], S_Y[tile])
+    start, end = (tiles.T_X[tile], tiles.T_Y[tile]), (tiles.S_X[tile], tiles.S_Y[tile])
     dx, dy = end[0] - start[0], end[1] - start[1]
     longer = {
         start: (start[0] - dx / 12, start[1] - dy / 12),
