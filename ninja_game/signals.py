@@ -35,6 +35,7 @@ def end_on_signals() -> None:
     if sys.platform == "win32" or signal.getsignal(signal.SIGTERM) is _raise_terminated:
         return
     signal.signal(signal.SIGTERM, _raise_terminated)
+    sys.unraisablehook = _forget_signals
     arrivals, announce = os.pipe()
     os.set_blocking(announce, False)
     # Written by the handler in C, also while the main thread is in compiled code.
@@ -44,6 +45,12 @@ def end_on_signals() -> None:
 
 def _raise_terminated(*_: object) -> NoReturn:
     raise Terminated
+
+
+def _forget_signals(lost: sys.UnraisableHookArgs) -> None:
+    """Say nothing of a signal that came where Python loses exceptions: the thread ends the program."""
+    if not isinstance(lost.exc_value, (Terminated, KeyboardInterrupt)):
+        sys.__unraisablehook__(lost)
 
 
 def _end_by_force(arrivals: int) -> None:

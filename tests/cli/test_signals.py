@@ -6,83 +6,23 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
 from ninja_game.compile_cache import compiled_available
 from ninja_game.runs import benchmark
-from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records
+from tests.support.samples import WALK, WALK_END, running, write_records
+from tests.support.stopping import COMMANDS, LIMIT, ended, make_work
 
 if sys.platform == "win32":
     pytest.skip("signals are another thing there", allow_module_level=True)
-
-LIMIT = 2.0
-"""Seconds."""
-
-FAR = "0" * 713 + "|5^100,566!11^700,30,700,60!0^115,566"
-"""Nothing that the ninja can reach ends a run here."""
-
-COMMANDS = {
-    "verify on processes": "verify archive.txt --memory plain --jobs 2 -q --report out/report.json --resume out/log",
-    "verify in one process": "verify archive.txt --memory plain --jobs 1 --workers threads -q",
-    "verify by both memories": "verify archive.txt --memory both --jobs 2 -q",
-    "verify on threads": "verify archive.txt --memory compiled --jobs 2 -q --report out/report.txt",
-    "trace": "trace archive.txt --memory plain --jobs 2 -o out/trace.csv",
-    "solve": "solve far.txt --seconds 100 --jobs 2 -o out/run.replay.txt",
-    "improve": "improve walk.replay.txt --seconds 100 --jobs 1 -o out/run.replay.txt",
-    "check": "check far.txt --seconds 100 --replays out",
-    "bench": "bench walk.replay.txt",
-    "play": "play --replay archive.txt --size 132x100",
-    "export": "export archive.txt -o out/film.gif",
-}
 
 
 @pytest.fixture(scope="module")
 def work(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder of work for minutes."""
-    folder = tmp_path_factory.mktemp("work")
-    write_records(folder / "archive.txt", *((f"run {k}", FAR, running(20_000)) for k in range(500)))
-    (folder / "far.txt").write_text(FAR)
-    (folder / "walk.replay.txt").write_text(replay_of_walk())
-    return folder
-
-
-def ended(words: str, number: signal.Signals, after: float, folder: Path) -> tuple[int, float, list[str]]:
-    """Exit code, seconds until the end, and what is left, of a command that gets a signal while it works."""
-    (folder / "out").mkdir(exist_ok=True)
-    for file in (folder / "out").iterdir():
-        file.unlink()
-    program = [sys.executable, "-m", "ninja_game", *words.split()]
-    environment = {**os.environ, "TMPDIR": str(folder / "out"), "NINJA_GAME_HOME": str(folder / "home")}
-    with subprocess.Popen(
-        program, cwd=folder, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True
-    ) as running_program:
-        time.sleep(after)
-        assert running_program.poll() is None, "it was done before the signal came"
-        start = time.monotonic()
-        running_program.send_signal(number)
-        _, errors = running_program.communicate(timeout=60)
-        took = time.monotonic() - start
-    assert b"Traceback" not in errors, errors.decode()
-    left = [file.name for file in (folder / "out").iterdir() if file.name.startswith((".", "tmp"))]
-    deadline = time.monotonic() + LIMIT
-    while _group_lives(running_program.pid):
-        if time.monotonic() > deadline:
-            os.killpg(running_program.pid, signal.SIGKILL)
-            left.append("a process")
-            break
-        time.sleep(0.02)
-    return running_program.returncode, took, left
-
-
-def _group_lives(group: int) -> bool:
-    try:
-        os.killpg(group, 0)
-    except ProcessLookupError:
-        return False
-    return True
+    return make_work(tmp_path_factory.mktemp("work"))
 
 
 @pytest.mark.parametrize("name", COMMANDS)
@@ -105,6 +45,18 @@ def test_workers_do_not_outlive_a_killed_parent(work: Path) -> None:
     code, _, left = ended(COMMANDS["verify on processes"], signal.SIGKILL, 2.5, work)
     assert code == -signal.SIGKILL
     assert "a process" not in left
+
+
+def test_a_signal_in_the_depths_of_python_leaves_no_traceback() -> None:
+    """As while Numba compiles, whose calls from C lose exceptions."""
+    code = (
+        "import os, signal, time\n"
+        "from ninja_game.signals import end_on_signals\n"
+        "class Deep:\n    def __del__(self): os.kill(os.getpid(), signal.SIGTERM)\n"
+        "end_on_signals()\ndel [Deep()][0]\ntime.sleep(30)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (143, "ninja-game: terminated\n")
 
 
 # --- nothing of the current folder runs ---

@@ -1,0 +1,78 @@
+"""Long commands that are stopped while they work: what they leave, and how soon they end."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from tests.support.samples import replay_of_walk, running, write_records
+
+LIMIT = 2.0
+"""Seconds."""
+
+FAR = "0" * 713 + "|5^100,566!11^700,30,700,60!0^115,566"
+"""Nothing that the ninja can reach ends a run here."""
+
+COMMANDS = {
+    "verify on processes": "verify archive.txt --memory plain --jobs 2 -q --report out/report.json --resume out/log",
+    "verify in one process": "verify archive.txt --memory plain --jobs 1 --workers threads -q",
+    "verify by both memories": "verify archive.txt --memory both --jobs 2 -q",
+    "verify on threads": "verify archive.txt --memory compiled --jobs 2 -q --report out/report.txt",
+    "trace": "trace archive.txt --memory plain --jobs 2 -o out/trace.csv",
+    "solve": "solve far.txt --seconds 100 --jobs 2 -o out/run.replay.txt",
+    "improve": "improve walk.replay.txt --seconds 100 --jobs 1 -o out/run.replay.txt",
+    "check": "check far.txt --seconds 100 --replays out",
+    "bench": "bench walk.replay.txt",
+    "play": "play --replay archive.txt --size 132x100",
+    "export": "export archive.txt -o out/film.gif",
+    "convert": "convert archive.txt out/replays",
+}
+
+
+def make_work(folder: Path, runs: int = 500) -> Path:
+    """A folder with work for minutes."""
+    write_records(folder / "archive.txt", *((f"run {k}", FAR, running(20_000)) for k in range(runs)))
+    (folder / "far.txt").write_text(FAR)
+    (folder / "walk.replay.txt").write_text(replay_of_walk())
+    return folder
+
+
+def ended(words: str, number: signal.Signals, after: float, folder: Path) -> tuple[int, float, list[str]]:
+    """Exit code, seconds until the end, and what is left, of a command that gets a signal while it works."""
+    shutil.rmtree(folder / "out", ignore_errors=True)
+    (folder / "out").mkdir()
+    program = [sys.executable, "-m", "ninja_game", *words.split()]
+    environment = {**os.environ, "TMPDIR": str(folder / "out"), "NINJA_GAME_HOME": str(folder / "home")}
+    with subprocess.Popen(
+        program, cwd=folder, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True
+    ) as running_program:
+        time.sleep(after)
+        assert running_program.poll() is None, "it was done before the signal came"
+        start = time.monotonic()
+        running_program.send_signal(number)
+        _, errors = running_program.communicate(timeout=60)
+        took = time.monotonic() - start
+    # Python itself, stopped before the program has begun, leaves a traceback.
+    assert b"Traceback" not in errors or running_program.returncode < 0, errors.decode()
+    left = [file.name for file in (folder / "out").rglob("*") if file.name.startswith((".", "tmp"))]
+    deadline = time.monotonic() + LIMIT
+    while _group_lives(running_program.pid):
+        if time.monotonic() > deadline:
+            os.killpg(running_program.pid, signal.SIGKILL)
+            left.append("a process")
+            break
+        time.sleep(0.02)
+    return running_program.returncode, took, left
+
+
+def _group_lives(group: int) -> bool:
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False
+    return True

@@ -1,0 +1,182 @@
+"""Run hostile levels on checked kernels, and ordinary ones for very many ticks: no index out of range, no odd state.
+
+    python3 tools/dev.py tool soak.worlds [--worlds 1000000] [--ticks 1000000000] [--seed 1]
+
+Hostile: random kinds and counts of values, NaN, infinities, any tile numbers, random keys; kernels that refuse indices
+out of range run them, before and after death. Ordinary: crowded levels on all cores; links, counts and places are
+looked at every so often, and one world of each batch is run on the plain memory too. Exit code 0: nothing found; 1:
+something was, printed with the seed that makes it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import random
+import sys
+import time
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.batch.batch import Batch
+from ninja_game.kernel_cache import keep
+from ninja_game.sim.kinds import GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS
+from ninja_game.sim.level import TILES, Level, ObjectSpec
+from ninja_game.sim.memory.compiled import CompiledMemory
+from ninja_game.sim.memory.compiler import Compiler
+from ninja_game.sim.memory.schema import MAX_EVENTS
+from ninja_game.simulation import BODIES, Simulation
+from tests.support.crowded import crowded_level
+
+ODD = (math.nan, math.inf, -math.inf, 1e300, -1e300, 5e-324, -0.0, 2.0**31, 2.0**63, 0.5, 24.0, 768.0, 792.0, -1.0)
+LEVELS, WORLDS, TICKS, LOOKS = 32, 1024, 1200, 8
+"""Of one batch: its levels, worlds, ticks, and how often its worlds are looked at."""
+
+
+def hostile_level(rng: random.Random) -> Level:
+    """A level that no editor makes."""
+    low, high = rng.choice(((0, 34), (-300, 70_000), (-3, 40)))
+    solid = rng.random()
+    numbers = [rng.randrange(low, high) if rng.random() < solid else 0 for _ in range(64)]
+    tiles = tuple(numbers[byte & 63] for byte in rng.randbytes(TILES))
+    records = [ObjectSpec(NINJA, (rng.uniform(-30, 820), rng.uniform(-30, 630)))]
+    records += [_record(rng) for _ in range(rng.choice((0, 3, 12, 40)))]
+    rng.shuffle(records)
+    return Level(tiles, tuple(records))
+
+
+def _record(rng: random.Random) -> ObjectSpec:
+    kind = rng.randrange(13) if rng.random() < 0.95 else rng.choice((-3, -1, 13, 99, 10**18))
+    count = VALUE_COUNTS[kind] if 0 <= kind < 13 and rng.random() < 0.95 else rng.randrange(12)
+    return ObjectSpec(kind, tuple(_number(rng) for _ in range(count)))
+
+
+def _number(rng: random.Random) -> float:
+    kind = rng.random()
+    if kind < 0.5:
+        return rng.uniform(0, 792)
+    if kind < 0.85:
+        return float(rng.randrange(-2, 34))
+    return rng.choice(ODD)
+
+
+def out_of_range(count: int, seed: int) -> Iterator[str]:
+    """Reports of hostile levels that lead out of range, or to any other error."""
+    checked = Compiler(checked=True, keep=keep)
+    for number in range(seed, seed + count):
+        rng = random.Random(number)
+        try:
+            world = CompiledMemory(checked, hostile_level(rng), box=rng.random() < 0.3)
+            keys = bytes(rng.choices(range(16), k=rng.choice((4, 12, 40))))
+            world.trace(keys, range(1, world.id_count + 1), events=True)
+        except Exception as error:  # noqa: BLE001 - this is what is searched
+            yield f"hostile level {number}: {error!r}"
+
+
+def odd_states(ticks: int, seed: int) -> Iterator[str]:
+    """Reports of batches whose worlds are not as they must be."""
+    done = 0
+    while done < ticks:
+        for problem in _batch_problems(seed):
+            yield f"batch {seed}: {problem}"
+        done += WORLDS * TICKS
+        seed += 1
+
+
+def _batch_problems(seed: int) -> Iterator[str]:
+    rng = np.random.default_rng(seed)
+    levels = [crowded_level(seed * LEVELS + number) for number in range(LEVELS)]
+    body = BODIES[seed % len(BODIES)]
+    batch = Batch(levels, WORLDS, body=body, memory="compiled")
+    spans = rng.integers(0, 8, (TICKS // 6, WORLDS), dtype=np.uint8)
+    keys = np.repeat(spans, 6, axis=0)
+    watched = int(rng.integers(WORLDS))
+    plain = Simulation(levels[watched % LEVELS], body=body, memory="plain")
+    before = batch.outcomes.copy(), batch.gold.copy(), batch.used.copy()
+    held = 0
+    for look in range(1, LOOKS + 1):
+        part = keys[(look - 1) * TICKS // LOOKS : look * TICKS // LOOKS]
+        batch.run(part, press=True)
+        outcomes, gold, used = before
+        if not ((batch.outcomes == outcomes) | (outcomes == 0)).all():
+            yield "an outcome changed after it was told"
+        if (batch.gold < gold).any() or (batch.used != used).any() or (batch.ticks != look * TICKS // LOOKS).any():
+            yield "gold, slots or ticks are counted wrong"
+        before = batch.outcomes.copy(), batch.gold.copy(), used
+        yield from _state_problems(batch)
+        if look <= 2:  # the plain memory is slow
+            for pressed in part[:, watched].tolist():
+                jump = pressed >> 2 & 1
+                plain.step_keys(pressed | 8 * (jump & ~held))
+                held = jump
+            if plain.digest() != batch.digest(watched):
+                yield f"world {watched} differs between the memories after {plain.tick} ticks"
+
+
+def _state_problems(batch: Batch) -> Iterator[str]:
+    """What is wrong with the worlds as they are now."""
+    records, objects, used = batch.records, batch.objects, batch.used[:, np.newaxis]
+    numbers = np.arange(objects.shape[1])
+    inside = (numbers > 0) & (numbers < used)
+    pads = [any(record.kind == LAUNCH_PAD for record in level.objects) for level in batch.levels]
+    calm = ~np.array(pads)[batch.levels_now]
+    golds = [sum(record.kind == GOLD for record in level.objects) for level in batch.levels]
+    places = batch.positions
+    if not np.isfinite(places).all() or not np.isfinite(batch.velocities()).all():
+        yield "a ninja's place is no number"
+    if (calm & ((places < 24.0) | (places > (768.0, 576.0))).any(axis=1)).any():
+        yield "a ninja left the room without a launch pad"
+    if ((batch.outcomes < 0) | (batch.outcomes > 2)).any() or (batch.gold > np.array(golds)[batch.levels_now]).any():
+        yield "an outcome or the gold is out of range"
+    if ((records["event_count"] < 0) | (records["event_count"] > MAX_EVENTS)).any():
+        yield "events are out of range"
+    for name in ("next", "prev", "newer", "older", "ring_next", "ring_prev"):
+        links = objects[name]
+        if (inside & ((links < 0) | (links >= used))).any():
+            yield f"a link ({name}) leads out of the world"
+    yield from _grid_problems(records["heads"], objects, inside & (objects["in_grid"] == 1) & (objects["cell"] > 0))
+
+
+def _grid_problems(heads: NDArray[np.int16], objects: NDArray[np.void], there: NDArray[np.bool_]) -> Iterator[str]:
+    """What is wrong with the lists of the cells: each filed object is linked, from both sides, in its cell."""
+    worlds, slots = np.nonzero(there)
+    filed = objects[worlds, slots]
+    if (filed["cell"] >= heads.shape[1]).any():
+        yield "an object is filed in a cell that there is not"
+        return
+    followed = np.where(filed["next"] > 0, objects["prev"][worlds, filed["next"]], slots)
+    leading = np.where(
+        filed["prev"] > 0, objects["next"][worlds, filed["prev"]], heads[worlds, filed["cell"]].astype(np.int32)
+    )
+    if (followed != slots).any() or (leading != slots).any():
+        yield "a cell's list is broken"
+
+
+def main() -> int:
+    """Run both trials, print what was found."""
+    parser = argparse.ArgumentParser(description="Run hostile levels on checked kernels, ordinary ones for long.")
+    parser.add_argument("--worlds", type=int, default=10_000, help="hostile worlds (default 10000)")
+    parser.add_argument("--ticks", type=int, default=10_000_000, help="ordinary ticks (default 10 million)")
+    parser.add_argument("--seed", type=int, default=1, help="of the first level (default 1)")
+    options = parser.parse_args()
+    wrong = 0
+    for words, reports in (
+        (f"{options.worlds} hostile worlds", out_of_range(options.worlds, options.seed)),
+        (f"{options.ticks} ordinary ticks", odd_states(options.ticks, options.seed)),
+    ):
+        started = time.perf_counter()
+        found = 0
+        for report in reports:
+            print(report, flush=True)
+            found += 1
+            if found >= 20:
+                break
+        print(f"{words} in {time.perf_counter() - started:.0f} s, {found} wrong", flush=True)
+        wrong += found
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
