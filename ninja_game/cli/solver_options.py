@@ -128,8 +128,7 @@ def time_text(end_tick: int) -> str:
 
 def smoothed_run(run: VerifiedRun, price: int) -> VerifiedRun:
     """The run with fewer key changes, verified; at most ``price`` ticks longer and with no less gold."""
-    from ninja_game.solver.certificate import verified_run
-    from ninja_game.solver.smoothing import smoothed
+    from ninja_game.solver.certificate import smoothed, verified_run
 
     inputs = smoothed(run.level, run.inputs, body=run.body, gold=run.gold, price=price)
     return verified_run(run.level, inputs, body=run.body, gold=run.gold)

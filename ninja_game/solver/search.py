@@ -35,8 +35,7 @@ from ninja_game.solver.search_memory import (
     WAITING,
     WEIGHT,
 )
-from ninja_game.solver.state_abstraction import find, is_news, key_of
-from ninja_game.solver.switch_states import estimate, gold_hash, switch_state_of
+from ninja_game.solver.state_abstraction import estimate, find, gold_hash, is_news, key_of, switch_state_of
 
 CHOICES = 10
 """Macros to choose from: three directions by three modes of the jump key, and waiting."""

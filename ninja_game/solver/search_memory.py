@@ -6,6 +6,7 @@ pool; a node that has been expanded gives its chunks back.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 from ninja_game.compile_cache import compiled
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.compiled import load_worlds
+from ninja_game.sim.memory.declare import entry_point
 from ninja_game.sim.memory.layout import STATE_START, Records, new_worlds, used_bytes
 from ninja_game.solver.distance_field import POINTS
 
@@ -57,6 +59,27 @@ COUNTERS = 24
 CELL_PX, SHIFT_X, SHIFT_Y, SPEED_STEP, SHIFT_VX, SHIFT_VY, MACRO_TICKS, MACRO_JITTER = range(8)
 WEIGHT, PATIENCE, REVISITS, SLACK, OFF_GUIDE = range(8, 13)
 PARAMETERS = 16
+
+
+@dataclass(frozen=True)
+class Resolution:
+    """How finely a search looks: size of a place (px), of a velocity (px/tick), length of a macro (ticks).
+
+    ``weight``: of the estimated ticks to go against those run; ``patience``: ticks after which the same place counts
+    as new, at most ``visits`` times; guided searches only: ``slack``: ticks by
+    which an estimate may exceed the best run, in a plan as a share of it; ``off_guide``: how much a tick counts where
+    the guide knows nothing.
+    """
+
+    cell: float = 12.0
+    speed: float = 1.0
+    macro: int = 5
+    jitter: int = 0
+    weight: float = 2.0
+    patience: int = 40
+    visits: int = 1
+    slack: float = 0.0
+    off_guide: float = 1.0
 
 
 class Start:
@@ -120,3 +143,29 @@ class SearchMemory:
 
 def _power_of_two(count: int) -> int:
     return 1 << (count - 1).bit_length()
+
+
+UNKNOWN = 1.0e9
+
+
+@entry_point
+def back_up_values(table: Any, links: Any, count: int, sweeps: int) -> int:
+    """Set ``value`` of all entries to the least ticks to the exit over the first ``count`` links; the sweeps made.
+
+    Places that count as the same are not quite the same, so values are estimates, on the whole too low.
+    """
+    for slot in range(len(table)):
+        table[slot].value = UNKNOWN
+    for sweep in range(sweeps):
+        changed = False
+        for index in range(count - 1, -1, -1):
+            link = links[index]
+            value = 0.0 + link.ticks
+            if link.target >= 0:
+                value += table[link.target].value
+            if value < table[link.source].value - 0.5:
+                table[link.source].value = value
+                changed = True
+        if not changed:
+            return sweep + 1
+    return sweeps

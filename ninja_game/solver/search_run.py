@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -35,36 +34,16 @@ from ninja_game.solver.search_memory import (
     SWITCH_STATES,
     TICKS,
     WEIGHT,
+    Resolution,
     SearchMemory,
     Start,
+    back_up_values,
 )
-from ninja_game.solver.value_backup import back_up_values
 
 MORE, EXHAUSTED, NO_ROOM = 0, 1, 2
 """How a slice of a search ended."""
 
 NO_GUIDE = np.zeros(1, ENTRY)
-
-
-@dataclass(frozen=True)
-class Resolution:
-    """How finely a search looks: size of a place (px), of a velocity (px/tick), length of a macro (ticks).
-
-    ``weight``: of the estimated ticks to go against those run; ``patience``: ticks after which the same place counts
-    as new, at most ``visits`` times; guided searches only: ``slack``: ticks by
-    which an estimate may exceed the best run, in a plan as a share of it; ``off_guide``: how much a tick counts where
-    the guide knows nothing.
-    """
-
-    cell: float = 12.0
-    speed: float = 1.0
-    macro: int = 5
-    jitter: int = 0
-    weight: float = 2.0
-    patience: int = 40
-    visits: int = 1
-    slack: float = 0.0
-    off_guide: float = 1.0
 
 
 class Search:

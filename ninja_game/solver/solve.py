@@ -14,11 +14,21 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.inputs import press_jumps
 from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, verified_run
 from ninja_game.solver.heuristics import Heuristics
-from ninja_game.solver.local_search_driver import LocalSearch
-from ninja_game.solver.plan import COOLING, SEARCH_COST, VARY, VARY_TICKS, Shares, find_order
-from ninja_game.solver.search_memory import SearchMemory, Start
-from ninja_game.solver.search_run import MORE, Resolution, Search
-from ninja_game.solver.task import Progress, Report, SearchState, Task
+from ninja_game.solver.local_search import LocalSearch
+from ninja_game.solver.search_memory import Resolution, SearchMemory, Start
+from ninja_game.solver.search_run import MORE, Search
+from ninja_game.solver.task import (
+    COOLING,
+    SEARCH_COST,
+    VARY,
+    VARY_TICKS,
+    Progress,
+    Report,
+    SearchState,
+    Shares,
+    Task,
+    find_order,
+)
 
 __all__ = ["Progress", "Task", "compile_solver", "solve"]
 

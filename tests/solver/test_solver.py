@@ -14,8 +14,7 @@ if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED
-from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, replay_of, verified_run
-from ninja_game.solver.smoothing import rows_of, smoothed
+from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, replay_of, rows_of, smoothed, verified_run
 from ninja_game.solver.solve import Progress, Task, solve
 
 OPEN = "0" * 713 + "|"
