@@ -92,6 +92,23 @@ def try_run(
     return limit - start
 
 
+@fast
+def make_trial(keys: Any, room: int, ticks: int, counters: Any) -> tuple[int, int]:
+    """Make the trial run of the current one by mutations near each other: the first changed tick, ticks of delay."""
+    for k in range(room):
+        keys[TRIAL_ROW, k] = keys[CURRENT_ROW, k]
+    first = random_below(counters, ticks)
+    tick, shift = mutate(keys[TRIAL_ROW], room, first, counters)
+    while random_below(counters, 2):
+        near = max(0, min(first + random_below(counters, 80) - 40, ticks - 1))
+        again, more = mutate(keys[TRIAL_ROW], room, near, counters)
+        tick = min(tick, again)
+        shift += more
+    while tick < ticks and keys[TRIAL_ROW, tick] == keys[CURRENT_ROW, tick]:
+        tick += 1
+    return tick, shift
+
+
 @entry_point
 def local_search(
     levels: Any, worlds: Any, words: Any, keys: Any, path: Any, checkpoints: Any, counters: Any, scores: Any,
@@ -110,17 +127,7 @@ def local_search(
         counters[TRIALS] += 1
         ticks = counters[CURRENT_TICKS]
         room = min(ticks + 4, keys.shape[1])
-        for k in range(room):
-            keys[TRIAL_ROW, k] = keys[CURRENT_ROW, k]
-        first = random_below(counters, ticks)
-        tick, shift = mutate(keys[TRIAL_ROW], room, first, counters)
-        while random_below(counters, 2):
-            near = max(0, min(first + random_below(counters, 80) - 40, ticks - 1))
-            again, more = mutate(keys[TRIAL_ROW], room, near, counters)
-            tick = min(tick, again)
-            shift += more
-        while tick < ticks and keys[TRIAL_ROW, tick] == keys[CURRENT_ROW, tick]:
-            tick += 1
+        tick, shift = make_trial(keys, room, ticks, counters)
         if tick >= ticks:
             counters[PLAYED] += 2
             continue
