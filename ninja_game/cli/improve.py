@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli import solver_options as options
-from ninja_game.cli.run_options import level_given, level_option
+from ninja_game.cli.run_options import choose, level_given, level_option
 
 if TYPE_CHECKING:
     from ninja_game.solver.certificate import VerifiedRun
@@ -52,13 +52,7 @@ def command(
     from ninja_game.solver.solve import Task, solve
 
     recordings = load_replays(replay, level=level_given(level_path))
-    if record is not None:
-        recordings = [recording for recording in recordings if recording.record == record]
-        if not recordings:
-            raise click.UsageError(f"{replay}: there is no record {record}")
-    if len(recordings) > 1:
-        raise click.UsageError(f"{replay} holds {len(recordings)} recordings; choose one with --record")
-    recording = recordings[0]
+    recording = choose(recordings, "recordings", replay, record)
     body = recording.replay.body if recording.replay else "circle"
     first = recording.playback(recording.ticks)
     task = Task(recording.level, body=body, first=first, jobs=options.default_threads(jobs), **task_options)  # type: ignore[arg-type]

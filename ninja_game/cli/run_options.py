@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -14,9 +14,11 @@ from click.shell_completion import CompletionItem
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
+    from ninja_game.formats.recording import Recording
     from ninja_game.sim.level import Level
 
 T = TypeVar("T")
+N = TypeVar("N", "NamedLevel", "Recording")
 
 PATIENCE = 1.0
 """Seconds after which work is long enough for a progress bar."""
@@ -67,17 +69,21 @@ level_option = click.option(
 
 
 def choose_level(path: Path, record: int | None) -> NamedLevel:
-    """The level of a file; of several the one with that record number. Usage error if that is none or not one."""
+    """The level of a file; of several the one with that record number. Usage error as in ``choose``."""
     from ninja_game.formats.load import load_levels
 
-    levels = load_levels(path)
+    return choose(load_levels(path), "levels", path, record)
+
+
+def choose(found: Sequence[N], what: str, path: Path, record: int | None) -> N:
+    """The only level or recording of those in a file, or that with a record number. Usage error if it is not there."""
     if record is not None:
-        levels = [level for level in levels if level.record == record]
-        if not levels:
+        found = [each for each in found if each.record == record]
+        if not found:
             raise click.UsageError(f"{path}: there is no record {record}")
-    if len(levels) > 1:
-        raise click.UsageError(f"{path} holds {len(levels)} levels; choose one with --record")
-    return levels[0]
+    if len(found) > 1:
+        raise click.UsageError(f"{path} holds {len(found)} {what}; choose one with --record")
+    return found[0]
 
 
 def level_given(path: Path | None) -> Level | None:

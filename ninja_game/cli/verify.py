@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import IO, TYPE_CHECKING
+from typing import IO, TYPE_CHECKING, Any
 
 import click
 
@@ -54,17 +54,14 @@ FAILED = 1
 @click.pass_context
 def command(
     ctx: click.Context,
+    /,
     files: Sequence[Path],
-    memory: str,
     level: Path | None,
-    strict: bool,
-    jobs: int | None,
     workers: str | None,
-    cluster: str,
-    resume: Path | None,
     report: Path | None,
     as_json: bool,
     quiet: bool,
+    **options: Any,
 ) -> None:
     """Run recordings again and judge them.
 
@@ -91,16 +88,7 @@ def command(
     tally = Tally()
     processes = None if workers is None else workers == "processes"
     with ExitStack() as stack:
-        results = verify_all(
-            files,
-            memory=memory,
-            jobs=jobs,
-            processes=processes,
-            cluster=cluster,
-            resume=resume,
-            levels=load_levels(level) if level else (),
-            strict=strict,
-        )
+        results = verify_all(files, processes=processes, levels=load_levels(level) if level else (), **options)
         if report:
             results = _reported(results, report, files, stack)
         for result in with_progress(results, "runs"):
