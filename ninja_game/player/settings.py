@@ -16,7 +16,7 @@ MOST_INPUTS = 16
 
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
-Bindings = Mapping[str, tuple[str, ...]]
+InputNames = Mapping[str, tuple[str, ...]]
 """Action to the names of its inputs (``play/input/bindings.py``)."""
 
 
@@ -43,8 +43,8 @@ class Settings:
     practice: bool = False
     name: str = ""
     dead_zone: float = 0.35
-    keys: Bindings = field(default_factory=dict)
-    pad: Bindings = field(default_factory=dict)
+    keys: InputNames = field(default_factory=dict)
+    pad: InputNames = field(default_factory=dict)
 
     def changed(self, **values: Any) -> Settings:
         """These settings with some of them changed. Raises ValueError for a value that a setting cannot have."""

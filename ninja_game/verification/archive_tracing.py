@@ -30,7 +30,6 @@ class Traced(NamedTuple):
     trace: FiledTrace
 
 
-Result: TypeAlias = Traced | Unreadable
 Job: TypeAlias = list[Recording | Unreadable]
 
 
@@ -42,7 +41,7 @@ def trace_all(
     jobs: int | None = None,
     memory: str = "auto",
     **options: Any,
-) -> Iterator[Result]:
+) -> Iterator[Traced | Unreadable]:
     """A trace of every recording in files and folders, in order; what cannot be read is told and stops nothing.
 
     ``level``: what recordings that do not hold their level are played on; ``record``: only this one of each file.
@@ -71,11 +70,11 @@ def _batches(items: Iterator[Recording | Unreadable]) -> Iterator[Job]:
         yield batch
 
 
-def _trace_job(trace: Callable[[Recording | Unreadable], Result], job: Job) -> list[Result]:
+def _trace_job(trace: Callable[[Recording | Unreadable], Traced | Unreadable], job: Job) -> list[Traced | Unreadable]:
     return [trace(item) for item in job]
 
 
-def _trace(options: dict[str, Any], recording: Recording | Unreadable) -> Result:
+def _trace(options: dict[str, Any], recording: Recording | Unreadable) -> Traced | Unreadable:
     if isinstance(recording, Unreadable):
         return recording
     try:

@@ -31,9 +31,6 @@ _SHORTEST_MS = 20
 _LONG_FILM = 600
 """Ticks beyond which a film leaves every second one out."""
 
-Report = Callable[[int], bool]
-"""Told how many ticks are done; False stops the film."""
-
 
 class _StoppedError(Exception):
     """The film is not wanted any more."""
@@ -65,12 +62,12 @@ def film_length(run: RecordedRun) -> int:
 
 def export_film(
     run: RecordedRun, path: Path, *, size: tuple[int, int] = FILM_SIZE, speed: float = 1.0,
-    settings: Settings | None = None, report: Report = lambda _: True,
+    settings: Settings | None = None, report: Callable[[int], bool] = lambda _: True,
 ) -> bool:  # fmt: skip
     """Write a film to ``path``: a GIF, or a folder of PNG pictures, one a tick, for a path without suffix.
 
-    ``size``: px. ``speed``: 1 is that of the game. Gives False, and leaves no GIF, where ``report`` stopped it.
-    Raises NinjaGameError for another suffix, OSError.
+    ``size``: px. ``speed``: 1 is that of the game. ``report`` is told how many ticks are done; where it gives False,
+    the film is given up: then this gives False and leaves no GIF. Raises NinjaGameError for another suffix, OSError.
     """
 
     def pictures() -> Iterator[pygame.Surface]:
