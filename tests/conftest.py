@@ -1,4 +1,4 @@
-"""What all tests share: no real screen, no sound card."""
+"""What all tests share: no real screen, no sound card, examples without a time limit."""
 
 from __future__ import annotations
 
@@ -6,6 +6,11 @@ import os
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
+
+# Speed is no business of tests on a loaded machine; the automatic check always tries the same examples.
+settings.register_profile("ninja-game", deadline=None, derandomize="CI" in os.environ)
+settings.load_profile("ninja-game")
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")

@@ -99,3 +99,12 @@ def test_the_page_of_the_api_tells_every_public_name_with_its_signature() -> Non
     page = PAGE.read_text("utf-8")
     assert page.partition(HEADING)[2] == reference().partition(HEADING)[2], "write it anew: python3 tools/dev.py golden"
     assert all(line.partition(": ")[2] for line in reference().splitlines()[2:] if line), "something has no docstring"
+
+
+def test_documents_that_sources_name_exist() -> None:
+    named_pages = {
+        page
+        for path in SOURCES
+        for page in re.findall(r"\bdocs/[\w./-]*\w\.(?:md|svg|png|gif)", path.read_text("utf-8"))
+    }
+    assert not [page for page in named_pages if not (ROOT / page).is_file()]

@@ -71,13 +71,13 @@ few = st.sampled_from((36.0, 60.0))
 random_levels = st.builds(Level, tiles, st.lists(records(), max_size=25).map(tuple))
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(random_levels)
 def test_random_levels_come_back_to_the_bit(level: Level) -> None:
     assert_round_trip(level)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(st.lists(st.tuples(records(), few, few), max_size=12))
 def test_objects_that_crowd_few_cells_come_back_in_order(drawn: list[tuple[ObjectSpec, float, float]]) -> None:
     crowded = [
@@ -140,7 +140,7 @@ def test_long_rubbish_is_told_shortly(number: int) -> None:
     assert len(str(caught.value)) < 5000
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(random_levels, st.lists(st.tuples(st.integers(0, 5000), st.integers(0, 40), st.text(max_size=6)), max_size=4))
 def test_mutated_text_gives_a_level_or_an_error_of_ours(level: Level, edits: list[tuple[int, int, str]]) -> None:
     text = write_ascii_level(level, name="mutant")

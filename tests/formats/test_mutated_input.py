@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Callable
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from ninja_game.errors import FormatError
@@ -34,7 +34,6 @@ def reads(reader: Callable[[str], object], text: str) -> None:
         reader(text)
 
 
-@settings(deadline=None)
 @given(mutations_of((LEVEL,)))
 def test_levels(text: str) -> None:
     with contextlib.suppress(FormatError):
@@ -43,7 +42,6 @@ def test_levels(text: str) -> None:
         assert parse_level_string(write_level_string(level, exact=True)) == level
 
 
-@settings(deadline=None)
 @given(mutations_of((FILE, f"##{DEMO}#", LEVEL, REPLAY)))
 def test_files(text: str) -> None:
     reads(read_level_file, text)

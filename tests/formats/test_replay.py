@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from ninja_game.errors import DemoError, ReplayError
@@ -51,7 +51,6 @@ def test_ticks_beyond_the_inputs_have_no_key() -> None:
     assert REPLAY.ticks == 10
 
 
-@settings(deadline=None)
 @given(replays())
 def test_replays_read_back_equal(replay: Replay) -> None:
     assert parse_replay(write_replay(replay)) == replay

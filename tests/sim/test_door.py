@@ -72,7 +72,7 @@ tiles = st.lists(st.integers(-5, 50), min_size=TILES, max_size=TILES).map(tuple)
 
 
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(tiles, st.lists(specs, max_size=12), st.binary(min_size=40, max_size=40), st.booleans())
 def test_no_hostile_level_leads_out_of_bounds(
     ids: tuple[int, ...], records: list[ObjectSpec], keys: bytes, box: bool

@@ -21,7 +21,7 @@ bodies = st.sampled_from(BODIES)
 
 
 @pytest.mark.parametrize("memory", BOTH)
-@settings(deadline=None, max_examples=40)
+@settings(max_examples=40)
 @given(seed=seeds, body=bodies, start=st.integers(0, 120), span=st.integers(1, 120))
 def test_a_restored_run_goes_on_as_if_nothing_had_been(
     memory: str, seed: int, body: Body, start: int, span: int
@@ -43,7 +43,7 @@ def test_a_restored_run_goes_on_as_if_nothing_had_been(
 
 
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(seed=seeds, body=bodies)
 def test_plain_and_compiled_worlds_are_equal_in_every_field_and_event(seed: int, body: Body) -> None:
     plain, compiled = (Simulation(crowded_level(seed), body=body, memory=memory) for memory in ("plain", "compiled"))
@@ -79,7 +79,7 @@ odd_levels = st.builds(
 
 
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(level=odd_levels, seed=seeds)
 def test_odd_numbers_neither_stop_the_world_nor_part_the_memories(level: Level, seed: int) -> None:
     plain, compiled = (Simulation(level, memory=memory) for memory in ("plain", "compiled"))
@@ -89,7 +89,7 @@ def test_odd_numbers_neither_stop_the_world_nor_part_the_memories(level: Level, 
     assert plain.digest() == compiled.digest(), plain.first_difference(compiled)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 @given(seed=seeds, body=bodies)
 def test_the_ninja_never_leaves_the_interior(seed: int, body: Body) -> None:
     level = crowded_level(seed)
