@@ -97,7 +97,7 @@ class CompiledWorlds:
         return self._bytes[worlds]
 
     def restore(self, worlds: Numbers, states: Any, levels: Numbers) -> None:  # noqa: ARG002
-        """Put worlds back to states that ``save`` gave for as many; the bytes know their levels' things."""
+        """Put worlds back to states that ``save`` gave for as many; a state holds its level's objects."""
         self._put(worlds, states)
 
     def _put(self, worlds: Numbers, states: NDArray[np.uint8]) -> None:

@@ -17,7 +17,7 @@ from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
 from ninja_game.sim.level import TILES, Level
 
-# What the object half of an in-game string is made of, odd numbers included.
+# What the object half of an in-game string is made of, numbers that no object can have included.
 _OBJECTS = re.compile(r"[0-9.,^!+\-xeENa \t]+")
 _TILE = re.compile(r"[0-Q]")
 

@@ -152,7 +152,7 @@ class _ReadFile(NamedTuple):
 def read_episodes(listing: Path, levels: dict[str, NamedLevel]) -> list[Episode]:
     """The episodes that ``episodes.toml`` lists, made of ``levels`` by file name.
 
-    Raises LevelError for a listing that is wrong: unknown file, odd number, too many levels.
+    Raises LevelError for a listing that is wrong: unknown file, number out of range, too many levels.
     """
     try:
         tables = tomllib.loads(read_utf8(listing)).get("episode", [])

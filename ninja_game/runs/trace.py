@@ -73,10 +73,10 @@ def trace_digests(trace: RunTrace) -> TraceDigests:
 
 @dataclass(frozen=True)
 class Difference:
-    """Where two traces part: the first tick, and in it the first thing and field."""
+    """Where two traces part: the first tick, and in it the first object and field."""
 
     tick: int
-    thing: str
+    subject: str
     field: str
     ours: object
     theirs: object
@@ -84,26 +84,26 @@ class Difference:
 
     def __str__(self) -> str:
         about = f" (specification: {self.section})" if self.section else ""
-        return f"tick {self.tick}: {self.thing}: {self.field} is {self.ours}, expected {self.theirs}{about}"
+        return f"tick {self.tick}: {self.subject}: {self.field} is {self.ours}, expected {self.theirs}{about}"
 
 
 def first_difference(ours: RunTrace, theirs: RunTrace, section: str = "") -> Difference | None:
-    """The first tick, thing and field that differ, None if nothing does.
+    """The first tick, object and field that differ, None if nothing does.
 
     Objects are compared where both traces have objects at all; ``section`` of the specification is carried into the
     report.
     """
-    with_things = bool(ours.ids and theirs.ids)
-    if with_things and (ours.ids, ours.kinds) != (theirs.ids, theirs.kinds):
+    with_objects = bool(ours.ids and theirs.ids)
+    if with_objects and (ours.ids, ours.kinds) != (theirs.ids, theirs.kinds):
         mine, other = dict(zip(ours.ids, ours.kinds, strict=True)), dict(zip(theirs.ids, theirs.kinds, strict=True))
         id_ = min(key for key in mine.keys() | other.keys() if mine.get(key) != other.get(key))
         return Difference(0, f"object {id_}", "kind", mine.get(id_, "missing"), other.get(id_, "missing"), section)
     shared = min(len(ours.ninja), len(theirs.ninja))
     found = _first_unequal(ours.ninja[:shared, np.newaxis], theirs.ninja[:shared, np.newaxis], (NINJA_NAME,))
-    if with_things:
+    if with_objects:
         names = tuple(f"object {id_} ({kind})" for id_, kind in zip(ours.ids, ours.kinds, strict=True))
-        thing = _first_unequal(ours.objects[:shared], theirs.objects[:shared], names)
-        found = thing if found is None or (thing and thing[0] < found[0]) else found
+        in_objects = _first_unequal(ours.objects[:shared], theirs.objects[:shared], names)
+        found = in_objects if found is None or (in_objects and in_objects[0] < found[0]) else found
     if found:
         return Difference(*found, section)
     if len(ours.ninja) != len(theirs.ninja):

@@ -10,7 +10,10 @@ from ninja_game.sim.rules import CELL, GRID_COLUMNS, GRID_ROWS, STRIDE, WORLD_HE
 
 @fast
 def cell_at(x: float, y: float) -> int:
-    """Grid index of the cell that holds a point; 0 outside the world and for NaN. Lines belong right of / below."""
+    """Grid index of the cell that holds a point; 0 outside the world and for NaN.
+
+    A point on the line between two cells is in the right one, or the lower one.
+    """
     if 0.0 <= x < WORLD_WIDTH and 0.0 <= y < WORLD_HEIGHT:
         return int(y / CELL) * STRIDE + int(x / CELL) + (STRIDE + 1)
     return 0
@@ -56,14 +59,14 @@ def unlink(w: World, o: Header) -> None:
 
 @fast
 def grid_insert(w: World, o: Header, slot: int) -> None:
-    """File under the cell of the object's position and mark it as filed."""
+    """Put an object into the list of the cell that holds its centre."""
     link(w, o, slot, cell_at(o.x, o.y))
     o.in_grid = 1
 
 
 @fast
 def grid_remove(w: World, o: Header) -> None:
-    """Take a filed object out of the grid for good; nothing for one that is not filed."""
+    """Take an object out of the grid; nothing for one that is not in it."""
     if o.in_grid:
         unlink(w, o)
         o.in_grid = 0

@@ -62,21 +62,21 @@ class Heuristics:
         self._waiting = np.zeros(POINTS, np.uint8)
         exits, doors, gold = [], [], []
         for slot in range(1, used):
-            thing = objects[slot]
-            kind = int(thing["kind"])
-            x, y = float(thing["x"]), float(thing["y"])
+            record = objects[slot]
+            kind = int(record["kind"])
+            x, y = float(record["x"]), float(record["y"])
             if kind == kinds.EXIT:
-                switch = objects[int(thing["partner"])]
+                switch = objects[int(record["partner"])]
                 exits.append(Switchable(slot, False, False, x, y, float(switch["x"]), float(switch["y"]), ()))
-            elif kind == kinds.DOOR and int(thing["mechanism"]) != AUTOMATIC:
-                trap = int(thing["mechanism"]) != LOCKED
-                doors.append(Switchable(slot, True, trap, x, y, x, y, _bars(int(thing["edge_1"]))))
+            elif kind == kinds.DOOR and int(record["mechanism"]) != AUTOMATIC:
+                trap = int(record["mechanism"]) != LOCKED
+                doors.append(Switchable(slot, True, trap, x, y, x, y, _bars(int(record["edge_1"]))))
             elif kind == kinds.GOLD:
                 gold.append((slot, x, y))
             elif kind == kinds.MINE:
                 self._avoid(x, y)
             elif kind == kinds.ONE_WAY:
-                self._bar_one_way(x, y, float(thing["face_x"]), float(thing["face_y"]))
+                self._bar_one_way(x, y, float(record["face_x"]), float(record["face_y"]))
         self.exits = exits
         self.switches = (exits + doors)[:MAX_BITS]
         self.slots = np.array([switch.slot for switch in self.switches] or [0], np.int64)
@@ -118,7 +118,7 @@ class Heuristics:
     def _field(self, costs: Costs, sources: list[tuple[float, float, float]]) -> Field:
         field = np.full(POINTS, UNREACHED, np.float32)
         for x, y, value in sources:
-            # The ninja touches a thing from up to 16 px away: any free point about it will do.
+            # The ninja touches an object from up to 16 px away: any free point about it will do.
             near = [
                 point_at(x + dx * SPACING, y + dy * SPACING) for dx in (-2, -1, 0, 1, 2) for dy in (-2, -1, 0, 1, 2)
             ]

@@ -24,7 +24,7 @@ from ninja_game.solver.search_memory import Start
 CHECKPOINT = 8
 """Ticks between the save-states of the current run."""
 
-# Counters (int64) of a climb; index 0 is the random state.
+# Counters (int64) of a local search; index 0 is the random state.
 CURRENT_TICKS, SHORTEST, TRIALS, PLAYED, GOLD_WANTED = range(1, 6)
 # Scores (float64): of the current and of the best run; how much longer (ticks) a kept run may be.
 CURRENT_SCORE, BEST_SCORE, TEMPERATURE, LEASH = range(4)

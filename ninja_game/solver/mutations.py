@@ -13,7 +13,7 @@ from ninja_game.sim.memory.declare import fast
 
 ALL_KEYS = 7
 RANDOM_STATE = 0
-"""Index of the random state among a climb's counters."""
+"""Index of the random state among a local search's counters."""
 
 
 @fast

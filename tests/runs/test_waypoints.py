@@ -47,7 +47,11 @@ def test_other_inputs_are_noticed_where_they_lead_elsewhere() -> None:
 
 @pytest.mark.parametrize(
     "line, message",
-    [("x 1 2 running", "no waypoint"), ("3 1 2", "no waypoint"), ("1 1 2 running\n  1 1 2 running", "out of order")],
+    [
+        ("x 1 2 running", "not a waypoint"),
+        ("3 1 2", "not a waypoint"),
+        ("1 1 2 running\n  1 1 2 running", "out of order"),
+    ],
 )
 def test_a_broken_waypoint_is_named_with_its_line(line: str, message: str) -> None:
     text = write_replay(replace(running(), waypoints=(), level=None)).rstrip() + f"\nwaypoints:\n  {line}\n"

@@ -172,7 +172,7 @@ def read_waypoints(lines: Sequence[Line], file: str) -> tuple[Waypoint, ...]:
             waypoint = Waypoint(int(tick), float(x), float(y), state)
         except ValueError:
             expected = "tick, x, y and state, such as 39 166.5 563.0 jumping"
-            raise ReplayError("no waypoint", file, number, 3, repr(line.strip()[:40]), expected) from None
+            raise ReplayError("not a waypoint", file, number, 3, repr(line.strip()[:40]), expected) from None
         if waypoint.tick <= (waypoints[-1].tick if waypoints else -1):
             raise ReplayError("waypoints out of order", file, number, 3, words[0], "ticks that grow")
         waypoints.append(waypoint)
@@ -184,7 +184,9 @@ def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
     counts = {"rules": replay.rules, "final-tick": replay.final_tick, "gold": replay.gold}
     for key, count in (counts | {"level-record": replay.level_record}).items():
         if not 0 <= count < COUNT_LIMIT:
-            return key, ReplayError(f"an odd number in '{key}'", found=str(count), expected="a whole number from 0")
+            return key, ReplayError(
+                f"a number that '{key}' cannot have", found=str(count), expected="a whole number from 0"
+            )
     for key, word, words in (("body", replay.body, BODIES), ("outcome", replay.outcome, OUTCOMES)):
         if word not in words:
             return key, ReplayError(f"an unknown {key}", found=repr(word), expected=" or ".join(words))

@@ -58,7 +58,7 @@ class AudioPlayer:
             return
         if world is not self._world:
             self._world = world
-            self._machines = [thing for thing in world.objects[1:] if _has_loop(thing)]
+            self._machines = [o for o in world.objects[1:] if _has_loop(o)]
         heard = set()
         for event in world.events[: world.event_count]:
             names = BY_DEATH.get(event.cause, OTHER_DEATH) if event.kind == DIED else BY_EVENT.get(event.kind, ())
@@ -133,9 +133,9 @@ class AudioPlayer:
             self._sound(name)
 
 
-def _has_loop(thing: Object) -> bool:
-    """Whether a thing makes a lasting sound at times."""
-    return thing.kind in (LAUNCHER, FLOOR_GUARD) or (thing.kind == DRONE and thing.weapon == WEAPON_LASER)
+def _has_loop(o: Object) -> bool:
+    """Whether an object makes a lasting sound at times."""
+    return o.kind in (LAUNCHER, FLOOR_GUARD) or (o.kind == DRONE and o.weapon == WEAPON_LASER)
 
 
 @contextmanager

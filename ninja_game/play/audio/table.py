@@ -71,9 +71,9 @@ def loop_levels(world: World, machines: Iterable[Object]) -> dict[str, float]:
         levels["skid"] = _percent(100 * abs(vx * -ninja.floor_y + vy * ninja.floor_x))
     elif ninja.state == states.SLIDING:
         levels["slide"] = _percent(70 * abs(vy))
-    for thing in machines:
-        routine, name = _LASTING[thing.kind]
-        if thing.routine == routine:
+    for machine in machines:
+        routine, name = _LASTING[machine.kind]
+        if machine.routine == routine:
             levels[name] = 1.0
     return levels
 

@@ -1,4 +1,4 @@
-"""The shapes with which things and the ninja touch each other (objects.md §8), for the overlay that shows them."""
+"""The shapes with which objects and the ninja touch each other (objects.md §8), for the overlay that shows them."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _SMALLEST = 1.0
 
 
 def hit_shapes(world: World) -> Iterator[HitShape]:
-    """Of everything that is filed in the grid, and so can be touched; the ninja's last."""
+    """Of every object in the grid, which is what can be touched; the ninja's last."""
     for slot in range(1, world.slots_used):
         o = world.objects[slot]
         if o.in_grid or (o.kind == SWITCH and not world.objects[o.partner].is_open):

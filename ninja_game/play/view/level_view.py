@@ -186,7 +186,7 @@ class LevelView:
         return None if whole else changed
 
     def _restore(self, surface: pygame.Surface, whole: bool, fraction: float) -> list[pygame.Rect]:
-        """Put the backdrop where things were drawn last time, and where it changed."""
+        """Put the backdrop where something was drawn last time, and where it changed."""
         origin = self.canvas.origin
         mended = [r.move(origin) for r in self._backdrop.update(self.simulation.world, self.object_animation, fraction)]
         if whole:

@@ -24,7 +24,7 @@ class RenderContext(Protocol):
 
 
 class OffscreenContext:
-    """A silent scene without a window, for pictures and films. ``size``: px."""
+    """A silent context without a window, for pictures and films. ``size``: px."""
 
     def __init__(self, size: tuple[int, int], settings: Settings | None = None) -> None:
         self.settings = settings or Settings()

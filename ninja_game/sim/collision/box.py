@@ -84,7 +84,7 @@ def collide_box(level: TileMap, w: World) -> None:
 def collide_corner(
     level: TileMap, w: World, cell: int, edge_h: int, edge_v: int, push_h: float, hx: float, push_v: float, hy: float
 ) -> None:
-    """The diagonal stage. ``push_h`` and ``push_v`` are the reports of the sides as they would be on solid edges.
+    """The diagonal stage. ``push_h`` and ``push_v``: how far a solid edge on each side would push the box, px.
 
     There is no test that the renewed overlaps are still positive: a box that a slope has pushed clear is pulled back.
     """

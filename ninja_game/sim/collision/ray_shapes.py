@@ -43,59 +43,64 @@ def ray_tile(tile: int, cx: float, cy: float, x: float, y: float, dx: float, dy:
         return ray_convex(sx, sy, cx, cy, x, y, dx, dy)
     ex = cx - x
     ey = cy - y
-    ux = -sy * HALF
-    uy = sx * HALF
-    mx = cx
-    my = cy
     if shape == SLOPE_45:
         if not sx * dx + sy * dy < 0.0:
             return False, 0.0, 0.0
-        ux = sx * HALF
-        uy = -sy * HALF
-    elif shape == HALF_TILE:
+        return ray_surface(cx, cy, ex, ey, sx * HALF, -sy * HALF, dx, dy)
+    if shape == HALF_TILE:
         if not ex * sx + ey * sy < 0.0:
             return True, x, y
         if not sx * dx + sy * dy < 0.0:
             return False, 0.0, 0.0
-        ux = sy * HALF
-    else:
-        inside = False
-        if shape == THIN_22:
-            ex = (cx - sx * HALF) - x
-            inside = not ex * sx < 0.0 and not ey * sy < 0.0
-        elif shape == THICK_22:
-            inside = not 0.0 < ex * sx and not ey * sy < 0.0
-        elif shape == THIN_67:
-            ey = (cy - sy * HALF) - y
-            inside = not ex * sx < 0.0 and not ey * sy < 0.0
-        elif shape == THICK_67:
-            inside = not 0.0 < ey * sy and not ex * sx < 0.0
-        if inside:
-            return True, x, y
-        if not NORMAL_X[tile] * dx + NORMAL_Y[tile] * dy < 0.0:
-            return False, 0.0, 0.0
-        if shape == THIN_22:
-            ex = ex + sx * HALF
-            ey = ey - sy * QUARTER
-            my = cy - sy * QUARTER
-            uy = sx * HALF / 2.0
-        elif shape == THICK_22:
-            ey = ey + sy * QUARTER
-            my = cy + sy * QUARTER
-            uy = sx * HALF / 2.0
-        elif shape == THIN_67:
-            ey = ey + sy * HALF
-            ex = ex - sx * QUARTER
-            mx = cx - sx * QUARTER
-            ux = -sy * HALF / 2.0
-        else:
-            ex = ex + sx * QUARTER
-            mx = cx + sx * QUARTER
-            ux = -sy * HALF / 2.0
+        return ray_surface(cx, cy, ex, ey, sy * HALF, sx * HALF, dx, dy)
+    return ray_wedge(tile, cx, cy, x, y, dx, dy)
+
+
+@fast
+def ray_surface(
+    mx: float, my: float, ex: float, ey: float, ux: float, uy: float, dx: float, dy: float
+) -> tuple[bool, float, float]:
+    """Against a straight surface: its middle, the way there from the ray's start, and half of it as a vector, px."""
     kappa = ieee_divide(dy * ex - dx * ey, dx * uy - dy * ux)
     if 1.0 < abs(kappa):
         return False, 0.0, 0.0
     return True, mx + kappa * ux, my + kappa * uy
+
+
+@fast
+def ray_wedge(tile: int, cx: float, cy: float, x: float, y: float, dx: float, dy: float) -> tuple[bool, float, float]:
+    """Against a wedge, thin or thick: a start within its box is stopped at once."""
+    shape = SHAPE[tile]
+    sx = SIGN_X[tile]
+    sy = SIGN_Y[tile]
+    ex = cx - x
+    ey = cy - y
+    inside = False
+    if shape == THIN_22:
+        ex = (cx - sx * HALF) - x
+        inside = not ex * sx < 0.0 and not ey * sy < 0.0
+    elif shape == THICK_22:
+        inside = not 0.0 < ex * sx and not ey * sy < 0.0
+    elif shape == THIN_67:
+        ey = (cy - sy * HALF) - y
+        inside = not ex * sx < 0.0 and not ey * sy < 0.0
+    elif shape == THICK_67:
+        inside = not 0.0 < ey * sy and not ex * sx < 0.0
+    if inside:
+        return True, x, y
+    if not NORMAL_X[tile] * dx + NORMAL_Y[tile] * dy < 0.0:
+        return False, 0.0, 0.0
+    if shape == THIN_22:
+        my = cy - sy * QUARTER
+        return ray_surface(cx, my, ex + sx * HALF, ey - sy * QUARTER, -sy * HALF, sx * HALF / 2.0, dx, dy)
+    if shape == THICK_22:
+        my = cy + sy * QUARTER
+        return ray_surface(cx, my, ex, ey + sy * QUARTER, -sy * HALF, sx * HALF / 2.0, dx, dy)
+    if shape == THIN_67:
+        mx = cx - sx * QUARTER
+        return ray_surface(mx, cy, ex - sx * QUARTER, ey + sy * HALF, -sy * HALF / 2.0, sx * HALF, dx, dy)
+    mx = cx + sx * QUARTER
+    return ray_surface(mx, cy, ex + sx * QUARTER, ey, -sy * HALF / 2.0, sx * HALF, dx, dy)
 
 
 @fast

@@ -1,4 +1,4 @@
-"""Bounce block (objects.md §8.3). Tested where its anchor is filed, wherever it has been pushed."""
+"""Bounce block (objects.md §8.3). It stays in its anchor's cell, wherever it has been pushed."""
 
 from __future__ import annotations
 

@@ -78,9 +78,9 @@ def create(level: TileMap, w: World, o: Object, slot: int, p: Sequence[float]) -
 
 @fast
 def touch_objects(w: World) -> None:
-    """Test the ninja against everything filed in the nine cells about its registered cell.
+    """Test the ninja against every object in the nine cells about its own.
 
-    The link to the next object is read after the contact: one that unfiles itself ends the walk of its list (quirk).
+    The link to the next object is read after the contact: one that leaves the grid ends the walk of its list (quirk).
     """
     centre = w.ninja.cell
     if centre == 0:

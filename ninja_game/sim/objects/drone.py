@@ -81,7 +81,7 @@ def create_drone(w: World, o: Drone, slot: int, p: Sequence[float]) -> None:
 
 @fast
 def direction_code(value: float) -> int:
-    """A drone's first direction as a small number that behaves the same: 0-3, else outside but equal modulo 4.
+    """A drone's first direction as a small number that behaves the same: 0 to 3, or one beyond with the same remainder.
 
     The remainder of the original has the sign of the dividend; -4…-7 stand for everything below -3.
     """

@@ -1,4 +1,4 @@
-"""What the corpse bumps into among the things. It only reads them: nothing is moved, sprung or set off by it."""
+"""What the corpse bumps into among the objects. It only reads them: nothing is moved, sprung or set off by it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _PAD_KICK, _ZAP_KICK, _GUARD_KICK, _THWUMP_KICK = 6.0, 5.0, 6.0, 4.0
 
 
 def thing_pushes(world: World, box: Box) -> Iterator[tuple[float, float, float]]:
-    """Normals of the things that a box touches, and how hard (px/tick) they kick it; it is pushed out as they come."""
+    """Normals of the objects that a box touches, and how hard (px/tick) they kick it; it is pushed out as they come."""
     for slot in range(1, world.id_count + 1):
         o = world.objects[slot]
         if o.kind in CONTACTS and abs(o.x - box.x) < 26 and abs(o.y - box.y) < 26:

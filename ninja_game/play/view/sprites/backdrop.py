@@ -73,7 +73,7 @@ class Backdrop:
         self._mend(self.picture.get_rect())
 
     def _place(self, slot: int, sprites: list[PlacedSprite]) -> pygame.Rect:
-        """Take down and put up the drawings of a thing; the px that it covered and covers."""
+        """Take down and put up the drawings of an object; the px that it covered and covers."""
         old = self._rects.pop(slot, None)
         blits = []
         rect: pygame.Rect | None = None

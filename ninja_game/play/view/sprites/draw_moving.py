@@ -1,4 +1,4 @@
-"""Drawing of the things that move, between two ticks."""
+"""Drawing of the objects that move, between two ticks."""
 
 from __future__ import annotations
 

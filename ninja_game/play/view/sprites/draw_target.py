@@ -1,4 +1,4 @@
-"""What moving things are drawn with: sprites and lines in logical px, and a list of what they covered."""
+"""What moving objects are drawn with: sprites and lines in logical px, and a list of what they covered."""
 
 from __future__ import annotations
 

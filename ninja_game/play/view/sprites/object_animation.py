@@ -1,4 +1,4 @@
-"""What the picture remembers of the things between ticks: where they were, since when they are as they are.
+"""What the picture remembers of the objects between ticks: where they were, since when they are as they are.
 
 Reads the world after each tick and never writes to it.
 """
@@ -21,7 +21,7 @@ _FLAGS = {
 """The field that tells whether an object has changed for good or for a while, where a kind has one."""
 LONG_AGO = -100_000
 _JUMP = 30.0
-"""A thing that is farther away than this (px) after a tick was put there, it did not move."""
+"""An object that is farther away than this (px) after a tick was put there, it did not move."""
 _EYE_TURN = 0.66
 """Share of the remaining angle that a drone's eye turns in a tick (0.3 a picture at the classic 120 a second)."""
 _DIRECTIONS = (0.0, pi / 2, pi, -pi / 2)
@@ -38,7 +38,7 @@ def state_of(world: World, o: Object) -> tuple[int, int, int]:
 
 
 def drawn_place(o: Object) -> Place:
-    """The place of a thing that moves; of a turret its crosshair."""
+    """The place of an object that moves; of a turret its crosshair."""
     return (o.aim_x, o.aim_y) if o.kind == kinds.TURRET else (o.x, o.y)
 
 
@@ -102,7 +102,7 @@ class ObjectAnimation:
             del trail[0]
 
     def place(self, slot: int, fraction: float) -> Place:
-        """Where to draw a thing, ``fraction`` of a tick after the last but one."""
+        """Where to draw an object, ``fraction`` of a tick after the last but one."""
         x, y = self.now[slot]
         bx, by = self.before.get(slot, (x, y))
         if abs(x - bx) > _JUMP or abs(y - by) > _JUMP:
@@ -115,7 +115,7 @@ class ObjectAnimation:
         return bx + (x - bx) * fraction, by + (y - by) * fraction
 
     def age(self, slot: int, fraction: float) -> float:
-        """Ticks since a thing last changed."""
+        """Ticks since an object last changed."""
         return self.tick + fraction - 1 - self.since[slot]
 
     def step(self, slot: int, fraction: float, frames: float) -> int:

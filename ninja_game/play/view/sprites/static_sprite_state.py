@@ -1,4 +1,4 @@
-"""Which drawing shows a thing that stays in its place, in its present state."""
+"""Which drawing shows an object that stays in its place, in its present state."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ _EXIT_FRAMES, _PAD_FRAMES, _LOCK_FRAMES, _TRAP_FRAMES = 30, 18, 18, 18
 _DOOR_OPENING, _DOOR_CLOSING, _AIM_FRAMES, _PREPARE_FRAMES = 15, 16, 15, 30
 LONGEST_FRAMES = 30
 SETTLED_TICKS = LONGEST_FRAMES / 3
-"""After so many ticks without change a fixture sprites the same for ever."""
+"""After so many ticks without change a static sprite stays the same."""
 
 
 def static_sprites_of(world: World, slot: int, animation: ObjectAnimation, fraction: float) -> list[PlacedSprite]:
-    """The drawings of one thing; [] if nothing of it is fixed to the walls, or it is gone."""
+    """The drawings of one object; [] if nothing of it is fixed to the walls, or it is gone."""
     o = world.objects[slot]
     kind = o.kind
     if kind == kinds.GOLD:
