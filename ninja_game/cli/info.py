@@ -101,11 +101,17 @@ def _counts(level: NamedLevel) -> Counter[str]:
 
 
 def _sorts(level: NamedLevel) -> Counter[str]:
-    """How many objects of each sort that a level's file has a word for: zap drones apart from laser drones."""
+    """How many objects of each sort that a level's file has a word for: zap drones apart from laser drones.
+
+    Of more objects than can be played, which take long, how many of each kind.
+    """
     from ninja_game.formats.ascii.object_writer import best_form
     from ninja_game.sim.kinds import KIND_NAMES
+    from ninja_game.sim.memory.schema import CAPACITY
 
-    specs = filter(makes_object, level.level.objects)
+    specs = list(filter(makes_object, level.level.objects))
+    if len(specs) >= CAPACITY:
+        return _counts(level)
     return Counter(best_form(spec)[0] or KIND_NAMES[spec.kind] for spec in specs)
 
 

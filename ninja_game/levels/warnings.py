@@ -12,6 +12,7 @@ from ninja_game.levels.reach import Ground
 from ninja_game.sim import kinds
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import ROWS, Level, ObjectSpec, makes_object, well_formed
+from ninja_game.sim.memory.schema import CAPACITY
 from ninja_game.sim.rules import MINE_RADIUS, RADIUS
 
 MANY_OBJECTS = 2000
@@ -25,6 +26,8 @@ def level_warnings(level: Level) -> list[str]:
     "Cannot be reached" is said only where it is certain: by cells and closed sides, whatever the ninja could jump.
     """
     objects = list(filter(makes_object, level.objects))
+    if len(objects) >= CAPACITY:
+        return [f"there are {len(objects)} objects, more than {CAPACITY - 1}: the level cannot be played"]
     ground = Ground(level)
     odd: dict[str, list[tuple[ObjectSpec, int]]] = {}
     first: dict[ObjectSpec, int] = {}

@@ -297,6 +297,14 @@ def test_many_locked_doors_behind_each_other_take_no_time() -> None:
     assert time.process_time() - started < 2
 
 
+def test_a_flood_of_objects_is_told_in_one_warning_and_takes_no_time() -> None:
+    doors = tuple(ObjectSpec(kinds.DOOR, (number / 1e3, 300.0, 0, 0, 9, 9, 1, 0, 0)) for number in range(100_000))
+    started = time.process_time()
+    (warning,) = level_warnings(Level(objects=PROPER + doors))
+    assert warning.endswith("more than 12287: the level cannot be played")
+    assert time.process_time() - started < 1
+
+
 def test_names_say_where_an_object_is_in_its_file() -> None:
     assert object_name(ObjectSpec(kinds.GOLD, (36.0, 42.0)), 3) == "gold at 1,1.25 (object 3)"
     assert object_name(ObjectSpec(kinds.GOLD, (math.nan, 42.0)), 3) == "gold at nan,42px (object 3)"

@@ -55,7 +55,11 @@ def ended(words: str, number: signal.Signals, after: float, folder: Path) -> tup
         assert running_program.poll() is None, "it was done before the signal came"
         start = time.monotonic()
         running_program.send_signal(number)
-        _, errors = running_program.communicate(timeout=60)
+        try:
+            _, errors = running_program.communicate(timeout=20)
+        except subprocess.TimeoutExpired:
+            os.killpg(running_program.pid, signal.SIGKILL)
+            raise AssertionError("it did not end") from None
         took = time.monotonic() - start
     # Python itself, stopped before the program has begun, leaves a traceback.
     assert b"Traceback" not in errors or running_program.returncode < 0, errors.decode()
