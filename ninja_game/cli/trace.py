@@ -81,10 +81,7 @@ def command(
     """
     if ticks is not None and after is not None:
         raise click.UsageError("--ticks and --after exclude each other")
-    if against_record is not None and not against:
-        raise click.UsageError("--against-record needs --against")
-    if digests + bool(against) + bool(output) > 1:
-        raise click.UsageError("--digests, --against and --output exclude each other")
+    _check_output(digests, against, against_record, output)
     table = not digests and not against
     options = {
         "level": level_given(level_path), "jobs": jobs, "ticks": ticks, "after": after or 0, "memory": memory,
@@ -96,14 +93,21 @@ def command(
         for traced in traces:
             click.echo(json.dumps(_digests(traced)))
     elif against:
-        there = _expected(against, against_record, options)
-        different = _compare(traces, there, against, against_record)
+        different = _compare(traces, _expected(against, against_record, options), against, against_record)
     else:
         _write(traces, output, [*files, level_path] if level_path else files)
     if not traces.count and not traces.unreadable:
         there_is_no = "recordings here" if record is None else f"record {record}"
         raise click.UsageError(f"{', '.join(map(str, files))}: no {there_is_no}")
     ctx.exit(2 if traces.unreadable else 1 if different else 0)
+
+
+def _check_output(digests: bool, against: Path | None, against_record: int | None, output: Path | None) -> None:
+    """Usage error for options that ask for more than one sort of output."""
+    if against_record is not None and not against:
+        raise click.UsageError("--against-record needs --against")
+    if digests + bool(against) + bool(output) > 1:
+        raise click.UsageError("--digests, --against and --output exclude each other")
 
 
 class Traces:
@@ -117,15 +121,15 @@ class Traces:
         self.unreadable = 0
 
     def __iter__(self) -> Iterator[Traced]:
-        from ninja_game.verification.archive_tracing import Traced
+        from ninja_game.runs.recording_reader import Unreadable
 
         for item in self.items:
-            if isinstance(item, Traced):
-                self.count += 1
-                yield item
-            else:
+            if isinstance(item, Unreadable):
                 self.unreadable += 1
                 complain(item.message)
+            else:
+                self.count += 1
+                yield item
 
 
 def _digests(traced: Traced) -> dict[str, Any]:
