@@ -19,7 +19,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any
 
 from ninja_game.compile_cache import open_memory
 from ninja_game.errors import ArgumentError
@@ -28,12 +28,11 @@ from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, KEY_LEFT, KEY_RIGHT, pressed
 from ninja_game.sim.kinds import KIND_OF
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.interface import MemoryName
+from ninja_game.sim.memory.interface import BODIES, Body, MemoryName
 from ninja_game.sim.memory.schema import Event, TileMap, World
 from ninja_game.sim.states import CAUSE_NAMES, NO_CAUSE, OUTCOME_NAMES, STATE_NAMES
 
-Body = Literal["circle", "box"]
-BODIES: tuple[Body, ...] = ("circle", "box")
+__all__ = ["BODIES", "Body", "EventView", "NinjaView", "ObjectView", "SaveState", "Simulation", "is_box"]
 
 
 @dataclass(frozen=True)

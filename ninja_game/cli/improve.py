@@ -53,9 +53,8 @@ def command(
 
     recordings = load_replays(replay, level=level_given(level_path))
     recording = choose(recordings, "recordings", replay, record)
-    body = recording.replay.body if recording.replay else "circle"
     first = recording.playback(recording.ticks)
-    task = Task(recording.level, body=body, first=first, jobs=options.default_threads(jobs), **task_options)  # type: ignore[arg-type]
+    task = Task(recording.level, body=recording.body, first=first, jobs=options.default_threads(jobs), **task_options)
     options.check_gold(task)
     before: list[int] = []
     save = options.saver(output, recording, recording.author)

@@ -15,6 +15,7 @@ from ninja_game.formats.named_level import is_level_file, level_of_replay
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
 from ninja_game.sim.inputs import Demo
 from ninja_game.sim.level import Level
+from ninja_game.sim.memory.interface import Body
 
 
 @dataclass(frozen=True)
@@ -40,6 +41,11 @@ class Recording:
         """How many ticks to run it at most: those of our replay; N + 1 for a demo of length N."""
         return self.replay.ticks if self.replay else self.demo.end + 1
 
+    @property
+    def body(self) -> Body:
+        """The ninja's body: as a replay of ours says, else the circle of the classic rules."""
+        return self.replay.body if self.replay else "circle"
+
     def playback(self, ticks: int) -> bytes:
         """The input of each of the first ``ticks`` ticks."""
         return self.replay.playback(ticks) if self.replay else self.demo.playback(ticks)
@@ -51,8 +57,8 @@ def record_of(recording: Recording) -> LevelRecord:
     Raises LevelError, DemoError or ReplayError for what such a record cannot hold.
     """
     demo = recording.demo
-    if recording.replay and recording.replay.body != "circle":
-        raise ReplayError("a run with another body is no demo of N", recording.file, found=recording.replay.body)
+    if recording.body != "circle":
+        raise ReplayError("a run with another body is no demo of N", recording.file, found=recording.body)
     if recording.replay:
         # A demo of length N runs N + 1 ticks, the last one without inputs of its own (game.md §4.4).
         inputs = recording.playback(recording.ticks)

@@ -10,10 +10,11 @@ from typing import NamedTuple
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
-from ninja_game.formats.replay.text import BODIES, OUTCOMES, Replay
+from ninja_game.formats.replay.text import OUTCOMES, Replay
 from ninja_game.player.scoring import level_score
 from ninja_game.player.store import Store
 from ninja_game.sim.level import Level
+from ninja_game.sim.memory.interface import BODIES
 
 NEWEST_SHOWN = 500
 """Replays listed at most, the newest first."""

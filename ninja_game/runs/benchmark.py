@@ -18,7 +18,6 @@ import numpy as np
 from ninja_game.compile_cache import compiled, compiled_available
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
-from ninja_game.runs.recording_reader import body_of
 from ninja_game.runs.trace import trace_digests, trace_recording
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.kernels import race_world
@@ -74,7 +73,7 @@ def _objects(level: Level) -> int:
 def corpus_digest(recordings: Sequence[Recording]) -> str:
     """Sha256 (hex) of all levels, bodies and inputs."""
     parts = (
-        f"{level_digest(recording.level)} {body_of(recording)} {recording.playback(recording.ticks).hex()}\n"
+        f"{level_digest(recording.level)} {recording.body} {recording.playback(recording.ticks).hex()}\n"
         for recording in recordings
     )
     return sha256("".join(parts).encode()).hexdigest()
@@ -89,7 +88,7 @@ def plain_speed(recordings: Sequence[Recording]) -> float:
     """Ticks a second on the plain memory, one thread."""
 
     def race(recording: Recording) -> tuple[int, float]:
-        level, world = load_plain(recording.level, body_of(recording) == "box")
+        level, world = load_plain(recording.level, recording.body == "box")
         inputs = recording.playback(recording.ticks)
         start = time.perf_counter()
         for keys in inputs:
@@ -106,7 +105,7 @@ def compiled_speed(recordings: Sequence[Recording]) -> float:
     from ninja_game.sim.memory.compiled import load_worlds
 
     def race(recording: Recording) -> tuple[int, float]:
-        levels, worlds = load_worlds(compiled, [recording.level], box=body_of(recording) == "box")
+        levels, worlds = load_worlds(compiled, [recording.level], box=recording.body == "box")
         inputs = np.frombuffer(recording.playback(recording.ticks), np.uint8)
         start = time.perf_counter()
         ticks = kernel(levels, worlds, 0, inputs)

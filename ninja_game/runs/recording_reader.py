@@ -18,7 +18,6 @@ from ninja_game.formats.named_level import is_level_file, parse_levels
 from ninja_game.formats.recording import Recording, parse_replays, recording_of
 from ninja_game.formats.replay.text import is_replay
 from ninja_game.sim.level import Level
-from ninja_game.simulation import Body
 
 LEVELS_KEPT = 512
 """Levels that are kept read, some 10 MB: recordings of one level often stand near each other."""
@@ -127,8 +126,3 @@ def named_errors(recording: Recording) -> Iterator[None]:
     except LevelError as error:
         what = f"record {recording.record}: {error.what}"
         raise replace(error, file=recording.file, line=recording.line, what=what) from None
-
-
-def body_of(recording: Recording) -> Body:
-    """The ninja's body: as a replay of ours says, else the circle of the classic rules."""
-    return "box" if recording.replay and recording.replay.body == "box" else "circle"

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.formats.recording import Recording
-from ninja_game.runs.recording_reader import body_of, named_errors
+from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import NINJA_RECORD, OBJECT_RECORD, RunTrace, run_level, trace_level
 
 Records: TypeAlias = NDArray[np.void]
@@ -38,7 +38,7 @@ def trace_recording(
 
     ``events`` runs on the plain memory. Raises LevelError naming file and record for a level that cannot be played.
     """
-    body = body_of(recording)
+    body = recording.body
     with named_errors(recording):
         if ticks is None:
             inputs = recording.playback(recording.ticks)

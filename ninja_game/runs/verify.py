@@ -13,7 +13,7 @@ from typing import Any
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import RULES_VERSION, Replay
-from ninja_game.runs.recording_reader import body_of, named_errors
+from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import RunResult, run_level, trace_level
 from ninja_game.sim.inputs import press_jumps
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
@@ -84,7 +84,7 @@ def verify_recording(recording: Recording, memory: str = "auto") -> Verdict:
 
     Raises LevelError naming file and record for a level that cannot be played.
     """
-    replay, body = recording.replay, body_of(recording)
+    replay, body = recording.replay, recording.body
     one_memory = "plain" if memory == "both" else memory
     with named_errors(recording):
         claims_digest = bool(replay and replay.digest)
@@ -157,7 +157,7 @@ def _in_time(recording: Recording, run: RunResult, memory: str) -> bool:
     if run.ticks <= LIFETIME:
         return True
     inputs = recording.playback(run.ticks)
-    trace = trace_level(recording.level, inputs, body=body_of(recording), memory=memory, with_objects=False)
+    trace = trace_level(recording.level, inputs, body=recording.body, memory=memory, with_objects=False)
     # After each tick but that of the end one tick of lifetime is gone; none may be the last.
     lived = run.ticks - (run.outcome != "running")
     gold = trace.ninja["gold"][:lived].tolist()
@@ -204,7 +204,7 @@ def memory_difference(recording: Recording) -> str:
     Raises MemoryUnavailableError without Numba.
     """
     plain, compiled = (
-        Simulation(recording.level, body=body_of(recording), memory=memory) for memory in ("plain", "compiled")
+        Simulation(recording.level, body=recording.body, memory=memory) for memory in ("plain", "compiled")
     )
     for keys in recording.playback(recording.ticks):
         plain.step_keys(keys)

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import write_replay
-from ninja_game.runs.recording_reader import body_of
 from ninja_game.runs.run import record_replay, trace_level
 from ninja_game.runs.trace import trace_digests
 from ninja_game.sim.level import Level
@@ -107,8 +106,7 @@ def replay_runs() -> Iterator[GoldenRun]:
     for path in sorted(REPLAYS.glob("*.replay.txt")):
         for recording in load_replays(path):
             inputs = recording.playback(recording.ticks + AFTERMATH)
-            body: Body = "box" if recording.replay and recording.replay.body == "box" else "circle"
-            yield GoldenRun(path.name, recording.level, inputs, body)
+            yield GoldenRun(path.name, recording.level, inputs, recording.body)
 
 
 FILES = {"crowded": crowded_runs, "replays": replay_runs, "scenes": scene_runs}
@@ -160,7 +158,7 @@ def write_golden_files() -> None:
     for path in sorted(REPLAYS.glob("*.replay.txt")):
         (old,) = load_replays(path)
         assert old.replay, f"{path.name} is no replay of ours"
-        body, ticks = body_of(old), old.replay.ticks
+        body, ticks = old.body, old.replay.ticks
         new = record_replay(old.level, old.replay.inputs, ticks=ticks, body=body, name=old.name, author=old.author)
         path.write_text(write_replay(new), "utf-8")
     for name, runs in FILES.items():

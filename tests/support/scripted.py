@@ -13,7 +13,7 @@ import pygame
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App, build_app
-from ninja_game.play.audio.output import NullAudio
+from ninja_game.play.audio.output import AudioOutput
 from ninja_game.play.input.actions import MENU_KEYS
 from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.input.events import InputEvent
@@ -97,7 +97,7 @@ def scripted_app(size: tuple[int, int] = (792, 600), **settings: object) -> Iter
     """An app without a display or sound, with a player who has chosen these settings and has played nothing."""
     with tempfile.TemporaryDirectory() as folder:
         controls = ScriptedControls()
-        app = build_app(Path(folder), size=size, controls=controls, audio_output=NullAudio())
+        app = build_app(Path(folder), size=size, controls=controls, audio_output=AudioOutput())
         if settings:
             app.change_settings(**settings)
         pygame.event.clear()

@@ -6,10 +6,11 @@ from hypothesis import strategies as st
 
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import NAN, parse_number
-from ninja_game.formats.replay.text import BODIES, OUTCOMES, Replay
+from ninja_game.formats.replay.text import OUTCOMES, Replay
 from ninja_game.sim.inputs import Demo
 from ninja_game.sim.kinds import VALUE_COUNTS
 from ninja_game.sim.level import TILES, Level, ObjectSpec
+from ninja_game.sim.memory.interface import BODIES
 
 # Decimals of at most 15 digits, as they stand in levels, read by the game's rule.
 decimal_texts = st.one_of(

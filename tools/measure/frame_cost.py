@@ -26,7 +26,7 @@ import pygame
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.play.app import App, build_app
-from ninja_game.play.audio.output import NullAudio
+from ninja_game.play.audio.output import AudioOutput
 from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
@@ -176,7 +176,7 @@ def main() -> int:
     arguments = parser.parse_args()
     level = load_levels(arguments.level)[0].level if arguments.level else busy_level()
     home = tempfile.TemporaryDirectory()
-    app = build_app(Path(home.name), size=SIZE, controls=Restless(), audio_output=NullAudio())
+    app = build_app(Path(home.name), size=SIZE, controls=Restless(), audio_output=AudioOutput())
     app.change_settings(show_keys=True)
     run = BusyRun(app.player, Entry(NamedLevel("busy", "", "", level, ""), "yours"))
     started = time.perf_counter()

@@ -6,9 +6,12 @@ import json
 import re
 from collections.abc import Sequence
 from difflib import get_close_matches
+from typing import TypeVar
 
 from ninja_game.errors import ReplayError
 from ninja_game.formats.lines import Line
+
+W = TypeVar("W", bound=str)
 
 REQUIRED = ("rules", "body", "final-tick", "outcome", "gold", "inputs")
 SECTIONS = ("inputs", "level-data", "waypoints")
@@ -101,11 +104,12 @@ class Headers:
             raise self.error(key, f"no number in '{key}'", "a whole number from 0")
         return int(self.raw(key))
 
-    def choice(self, key: str, choices: Sequence[str]) -> str:
+    def choice(self, key: str, choices: Sequence[W]) -> W:
         """One of a few words."""
-        if self.raw(key) not in choices:
-            raise self.error(key, f"an unknown {key}", " or ".join(choices))
-        return self.raw(key)
+        for word in choices:
+            if word == self.raw(key):
+                return word
+        raise self.error(key, f"an unknown {key}", " or ".join(choices))
 
     def digest(self, key: str) -> str:
         """64 hex digits; '' without the header."""

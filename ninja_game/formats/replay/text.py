@@ -18,6 +18,7 @@ from ninja_game.formats.replay.headers import COUNT_LIMIT, Headers
 from ninja_game.formats.replay.input_runs import read_inputs, write_inputs
 from ninja_game.sim.inputs import MAX_TICKS, first_ticks
 from ninja_game.sim.level import Level
+from ninja_game.sim.memory.interface import BODIES, Body
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 MAGIC = "ninja-game replay"
@@ -26,7 +27,6 @@ VERSION = 2
 RULES_VERSION = 1
 """The rules that replays are recorded under; a change of the world that changes any replay raises it."""
 
-BODIES = ("circle", "box")
 OUTCOMES = ("exit", "dead", "running")
 
 
@@ -62,7 +62,7 @@ class Replay:
     digest: str = ""
     name: str = ""
     author: str = ""
-    body: str = "circle"
+    body: Body = "circle"
     rules: int = RULES_VERSION
     level_digest: str = ""
     level_path: str = ""

@@ -1,14 +1,12 @@
-"""What screens ask of sound, and its form without any."""
+"""What screens ask of sound."""
 
 from __future__ import annotations
-
-from typing import Protocol
 
 from ninja_game.sim.memory.schema import World
 
 
-class AudioOutput(Protocol):
-    """Plays what happens. Presentation only: it reads the world."""
+class AudioOutput:
+    """Plays what happens; this one is silent. Presentation only: it reads the world."""
 
     def play_events(self, world: World) -> None:
         """Called after every tick that is seen: its events, and loops by state and speed."""
@@ -24,22 +22,3 @@ class AudioOutput(Protocol):
 
     def quiet(self) -> None:
         """End all sounds."""
-
-
-class NullAudio:
-    """No sound."""
-
-    def play_events(self, world: World) -> None:
-        """Nothing."""
-
-    def corpse(self, speed: float) -> None:
-        """Nothing."""
-
-    def play(self, name: str) -> None:
-        """Nothing."""
-
-    def set_volumes(self, volume: int, loop_volume: int) -> None:
-        """Nothing."""
-
-    def quiet(self) -> None:
-        """Nothing."""

@@ -12,6 +12,7 @@ from time import monotonic
 
 import pygame
 
+from ninja_game.play.audio.output import AudioOutput
 from ninja_game.play.audio.table import BY_DEATH, BY_EVENT, CORPSE, LOOPS, OTHER_DEATH, loop_levels
 from ninja_game.sim.events import DIED
 from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
@@ -32,7 +33,7 @@ CORPSE_PAUSE = 0.06
 """Seconds between two thuds of a corpse."""
 
 
-class AudioPlayer:
+class AudioPlayer(AudioOutput):
     """Plays what happens. ``volume`` and ``loop_volume``: 0 to 99. Without a sound device it is silent.
 
     ``folder``: where the WAV files are; missing ones are silent.

@@ -27,11 +27,10 @@ class RecordedRun:
 
 def recorded_run(recording: Recording) -> RecordedRun:
     """A recording of any format, with the title under which it is shown."""
-    body: Body = "box" if recording.replay and recording.replay.body == "box" else "circle"
     title = recording.name or "replay"
     if recording.author:
         title += f" - {recording.author}"
-    return RecordedRun(title, recording.level, recording.playback(recording.ticks), body)
+    return RecordedRun(title, recording.level, recording.playback(recording.ticks), recording.body)
 
 
 class Playback:

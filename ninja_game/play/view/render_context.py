@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from ninja_game.play.audio.output import AudioOutput, NullAudio
+from ninja_game.play.audio.output import AudioOutput
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.palette import palette_named
 from ninja_game.play.ui.theme import Theme
@@ -30,4 +30,4 @@ class OffscreenContext:
         self.settings = settings or Settings()
         self.canvas = Canvas(size)
         self.theme = Theme(palette_named(self.settings.palette), self.canvas)
-        self.audio_output: AudioOutput = NullAudio()
+        self.audio_output = AudioOutput()

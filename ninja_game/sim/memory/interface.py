@@ -8,6 +8,10 @@ from typing import Any, Literal, NamedTuple, Protocol
 from ninja_game.sim.memory.schema import TileMap, World
 
 MemoryName = Literal["plain", "compiled"]
+Body = Literal["circle", "box"]
+
+BODIES: tuple[Body, ...] = ("circle", "box")
+"""The shapes that the ninja can have: the circle of the classic rules, and a box of the same size."""
 
 
 class RunRecord(NamedTuple):
