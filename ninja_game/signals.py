@@ -6,14 +6,12 @@ waits for, can hold that up for long; a thread of ours then ends the process.
 
 from __future__ import annotations
 
-import multiprocessing
 import os
 import signal
 import sys
 import threading
-from typing import NoReturn
-
-from ninja_game.files.writing import discard_unfinished
+from collections.abc import Callable
+from typing import Any, NoReturn
 
 GRACE = 1.2
 """Seconds that a command has to end by itself after a signal."""
@@ -59,9 +57,16 @@ def _end_by_force(arrivals: int) -> None:
     while number not in {signal.SIGINT, signal.SIGTERM}:
         number = os.read(arrivals, 1)[0]
     threading.Event().wait(GRACE)
-    for child in multiprocessing.active_children():
+    # What is not loaded has nothing to end; to load it now might wait for the main thread.
+    for child in _known("multiprocessing", "active_children")() or ():
         child.kill()
-    discard_unfinished()
+    _known("ninja_game.files.writing", "discard_unfinished")()
     if not told.is_set():
         os.write(2, b"ninja-game: interrupted\n" if number == signal.SIGINT else b"ninja-game: terminated\n")
     os._exit(128 + number)
+
+
+def _known(module: str, name: str) -> Callable[[], Any]:
+    """A function of a module if that is loaded, else one that does nothing."""
+    found: Callable[[], Any] = getattr(sys.modules.get(module), name, lambda: None)
+    return found

@@ -47,16 +47,28 @@ def test_workers_do_not_outlive_a_killed_parent(work: Path) -> None:
     assert "a process" not in left
 
 
-def test_a_signal_in_the_depths_of_python_leaves_no_traceback() -> None:
-    """As while Numba compiles, whose calls from C lose exceptions."""
-    code = (
-        "import os, signal, time\n"
-        "from ninja_game.signals import end_on_signals\n"
-        "class Deep:\n    def __del__(self): os.kill(os.getpid(), signal.SIGTERM)\n"
-        "end_on_signals()\ndel [Deep()][0]\ntime.sleep(30)\n"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
-    assert (done.returncode, done.stderr) == (143, "ninja-game: terminated\n")
+DEEP = """
+import os, signal, sys, time
+class Deep:
+    def __del__(self): os.kill(os.getpid(), number)
+"""
+COMPILING = "from ninja_game.signals import end_on_signals; end_on_signals(); number = signal.SIGTERM; Deep()"
+LOADING = """
+class Finder:
+    def find_spec(name, *_):
+        if name == "click": Deep(); time.sleep(30)
+number = signal.SIGINT; sys.meta_path.insert(0, Finder)
+from ninja_game.__main__ import main
+main()
+"""
+
+
+@pytest.mark.parametrize("code, end", [(COMPILING, (143, "terminated")), (LOADING, (130, "interrupted"))])
+def test_a_signal_in_the_depths_of_python_is_neither_lost_nor_a_traceback(code: str, end: tuple[int, str]) -> None:
+    """As while Numba compiles or a module is loaded, where C calls functions whose exceptions are lost."""
+    program = [sys.executable, "-c", f"{DEEP}{code}\ntime.sleep(30)"]
+    done = subprocess.run(program, capture_output=True, text=True, timeout=25, check=False)
+    assert (done.returncode, done.stderr) == (end[0], f"ninja-game: {end[1]}\n")
 
 
 # --- nothing of the current folder runs ---

@@ -50,6 +50,8 @@ def main() -> int:
     parser.add_argument("--times", type=int, default=20, help="each command by each signal (default 20)")
     parser.add_argument("--seed", type=int, default=1, help="of the random moments (default 1)")
     options = parser.parse_args()
+    # What a shell starts in the background ignores Ctrl-C, and so would all that it starts.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     found = 0
     with tempfile.TemporaryDirectory() as folder:
         make_work(Path(folder), 1500)
