@@ -87,7 +87,8 @@ def install(names: Sequence[str]) -> None:
         return
     make_environment()
     wanted = sorted({*names, *before[1:]})
-    print(f"Installing ninja-game [{', '.join(wanted)}] into {VENV} ...", flush=True)
+    extras = f" with {', '.join(wanted)}" if wanted else ""
+    print(f"Installing ninja-game{extras} into {VENV}; this can take a minute ...", flush=True)
     if not (uv_sync(wanted) or pip_install(wanted)):
         # The newest Python may be too new for Numba; everything but speed works without it.
         if "fast" not in wanted or not pip_install([name for name in wanted if name != "fast"]):

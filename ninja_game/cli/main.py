@@ -164,5 +164,5 @@ def _announce_compiling() -> None:
     """Say it before the rules are compiled, since that takes a while."""
     from ninja_game.kernel_cache import before_compiling
 
-    text = "ninja-game: compiling the rules for this machine, the first time only; it takes up to a minute"
+    text = "ninja-game: compiling the rules for this machine, the first time only; it takes a minute or two"
     before_compiling[:] = [lambda: click.echo(text, err=True)]

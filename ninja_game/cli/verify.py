@@ -145,6 +145,6 @@ def _summary(tally: Tally) -> str:
     """All recordings in a line."""
     counts = ", ".join(f"{count} {outcome}" for outcome, count in sorted(tally.outcomes.items()))
     total = tally.recordings
-    runs = f"{total} run{'s' * (total != 1)} of {tally.ticks} ticks: {counts or 'nothing'}"
+    runs = f"{total} run{'s' * (total != 1)} of {tally.ticks} ticks{': ' * bool(counts)}{counts}"
     text = f"{runs}; {tally.failed or 'none'} failed"
     return text + (f"; {tally.unreadable} unreadable" if tally.unreadable else "")

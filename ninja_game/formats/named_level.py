@@ -120,7 +120,7 @@ def level_of_replay(replay: Replay, file: str, level: Level | None = None) -> Le
         if path is not None and path.is_file():
             level = _level_at(path, replay.level_record, file)
     if level is None:
-        hint = "give the level, or record the replay with its level inside"
+        hint = "give it with --level, or record the replay with its level inside"
         found = shown(replay.level_path) if replay.level_path else f"level-digest {replay.level_digest[:12]}…"
         if replay.level_path and path is None:
             hint = "'level:' leads to a file in the replay's folder or below it only"

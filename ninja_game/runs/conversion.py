@@ -25,19 +25,21 @@ _COMMENT = re.compile(r"(?![^;]*:)[^|;]*;.*")
 
 
 def replay_texts(recordings: Iterable[Recording]) -> Iterator[str]:
-    """Each recording as a replay text of ours with its level inside; one of N is run to see what comes of it.
+    """Each recording as a replay text of ours with its level inside, run to see what comes of it.
 
     Raises LevelError for a level that cannot be played.
     """
     for recording in recordings:
-        if recording.replay:
-            replay = replace(recording.replay, level=recording.level, level_path="", level_record=0)
-        else:
-            with named_errors(recording):
-                inputs = recording.playback(recording.ticks)
-                replay = record_replay(recording.level, inputs, name=recording.name, author=recording.author)
-            replay = replace(replay, level_name=recording.name)
-        yield write_replay(replay)
+        ours = recording.replay
+        body, name, author, practice = (
+            (ours.body, ours.level_name, ours.level_author, ours.practice)
+            if ours
+            else ("circle", recording.name, "", False)
+        )
+        with named_errors(recording):
+            inputs = recording.playback(recording.ticks)
+            new = record_replay(recording.level, inputs, body=body, name=recording.name, author=recording.author)
+        yield write_replay(replace(new, level_name=name, level_author=author, practice=practice))
 
 
 def level_file_text(files: Iterable[Path], level: Level | None = None) -> str:

@@ -106,6 +106,20 @@ def test_a_run_that_goes_on_keeps_its_length_there_and_back(tmp_path: Path) -> N
     assert first.read_text() == second.read_text()
 
 
+def test_a_replay_edited_by_hand_is_recorded_anew(tmp_path: Path) -> None:
+    source = write_records(tmp_path / "tas.txt", ("Walk", WALK, running(60)))
+    edited, new = tmp_path / "edited.replay.txt", tmp_path / "new.replay.txt"
+    assert convert(source, edited).exit_code == 0
+    text = edited.read_text().replace(f"final-tick: {WALK_END}", "final-tick: 500").replace("  R*", "  .*10 R*")
+    edited.write_text(text.replace("level-digest", "practice: yes\nlevel-digest", 1))
+    assert not verify_recording(load_replays(edited)[0]).good
+    assert convert(edited, new).exit_code == 0
+    (recording,) = load_replays(new)
+    assert recording.replay
+    assert (recording.replay.final_tick, recording.replay.practice) == (WALK_END + 10, True)
+    assert verify_recording(recording).good
+
+
 def test_many_recordings_become_a_folder_of_replays(tmp_path: Path) -> None:
     source = write_records(tmp_path / "two.txt", ("A", WALK, running(60)), ("B", WALK, running(30)))
     assert convert(source, tmp_path / "out", "--to", "replay").exit_code == 0

@@ -137,7 +137,7 @@ def test_recordings_without_level_need_one(tmp_path: Path) -> None:
     for text in (f"##{DEMO}#", DEMO + "\n"):
         path = saved(tmp_path, text)
         assert load_replays(path, level=LEVEL)[0].level is LEVEL
-        with pytest.raises(ReplayError, match=":1: record 0 leaves its level out; give the level"):
+        with pytest.raises(ReplayError, match=":1: record 0 leaves its level out; give it with --level"):
             load_replays(path)
 
 

@@ -68,7 +68,7 @@ def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> st
 def _cause_of_death(play: LevelPlay) -> str:
     """What happened, in a few words."""
     if play.attempt.own_hand:
-        return "As you wish."
+        return "You gave up."
     if play.killer != SELF:
         return f"Killed by a {play.killer}."
     return "Out of time." if play.attempt.lifetime <= 0 else "That was too hard a landing."
