@@ -122,7 +122,9 @@ def recording_of(record: LevelRecord, file: str, level: Level | None) -> Recordi
             expected="$name#author#comment#level#demo#",
         )
     if level is None:
-        raise ReplayError(f"record {record.number} leaves its level out", file, record.line, hint="give it with --level")
+        raise ReplayError(
+            f"record {record.number} leaves its level out", file, record.line, hint="give it with --level"
+        )
     try:
         demo = parse_demo(record.demo)
     except DemoError as error:
