@@ -84,9 +84,8 @@ def command(
     if not as_json:
         solved = len(chosen) - missing - broken
         unplayable = f", {broken} cannot be played" if broken else ""
-        click.echo(
-            f"{len(chosen)} level{'s' * (len(chosen) != 1)}, {solved} solvable, {missing} not solved in the time{unplayable}"
-        )
+        levels = f"{len(chosen)} level{'s' * (len(chosen) != 1)}"
+        click.echo(f"{levels}, {solved} solvable, {missing} not solved in the time{unplayable}")
     ctx.exit(BAD_INPUT if broken else options.NOT_FOUND if missing else 0)
 
 

@@ -312,21 +312,21 @@ MISTAKES = {
     "exit without switch": (
         level_text(rows={1: "X"}),
         (
-            "broken.txt:3:2: exits and switches that no line mentions, and that are not one of each; found 1 X and 0 x; "
+            "broken.txt:3:2: exits and switches that no line mentions and that make no pair; found 1 X and 0 x; "
             "draw x, its switch, or add a line such as: exit 29,21 switch 3.5,4"
         ),
     ),
     "switch without exit": (
         level_text(rows={1: "xx"}),
         (
-            "broken.txt:3:2: exits and switches that no line mentions, and that are not one of each; found 0 X and 2 x; "
+            "broken.txt:3:2: exits and switches that no line mentions and that make no pair; found 0 X and 2 x; "
             "draw X, its exit, or add a line such as: exit 29,21 switch 3.5,4"
         ),
     ),
     "several pairs": (
         level_text(rows={1: "XX", 3: "xx"}),
         (
-            "broken.txt:3:2: exits and switches that no line mentions, and that are not one of each; found 2 X and 2 x; "
+            "broken.txt:3:2: exits and switches that no line mentions and that make no pair; found 2 X and 2 x; "
             "say which belong together in lines such as: exit 29,21 switch 3,4"
         ),
     ),

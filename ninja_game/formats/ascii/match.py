@@ -105,7 +105,7 @@ def _drawn_records(picture: Picture, drawn: Sequence[tuple[Cell, Symbol]], probl
     if (len(exits), len(switches)) not in ((0, 0), (1, 1)):
         first, other = (exits, "x, its switch") if exits else (switches, "X, its exit")
         problems.add(
-            "exits and switches that no line mentions, and that are not one of each",
+            "exits and switches that no line mentions and that make no pair",
             *picture.where(first[0]),
             found=f"{len(exits)} X and {len(switches)} x",
             hint="say which belong together in lines such as: exit 29,21 switch 3,4"
