@@ -84,8 +84,8 @@ def command(
     if not as_json:
         solved = len(chosen) - missing - broken
         unplayable = f", {broken} cannot be played" if broken else ""
-        levels = f"{len(chosen)} level{'s' * (len(chosen) != 1)}"
-        click.echo(f"{levels}, {solved} solvable, {missing} not solved in the time{unplayable}")
+        counted = f"{len(chosen)} level{'s' * (len(chosen) != 1)}"
+        click.echo(f"{counted}, {solved} solvable, {missing} not solved in the time{unplayable}")
     ctx.exit(BAD_INPUT if broken else options.NOT_FOUND if missing else 0)
 
 

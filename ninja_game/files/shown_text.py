@@ -8,7 +8,7 @@ LONGEST = 200
 """How many characters of a text are shown; no name of a level or player comes near."""
 
 _LONGEST_STEM = 50
-_NOT_IN_NAMES = re.compile(r"[^\w.-]+")
+_NOT_IN_NAMES = re.compile(r"[^\w.]+")
 
 
 def shown_text(text: str, longest: int = LONGEST) -> str:
@@ -34,7 +34,7 @@ def _shown_character(character: str) -> str:
 def file_stem(text: str, otherwise: str = "") -> str:
     """The text as the first part of a file's name: small letters, digits, ``_ . -``; ``otherwise`` if none is left.
 
-    >>> file_stem("Über / the hill?"), file_stem("../..", "replay")
+    >>> file_stem("Über - the hill?"), file_stem("../..", "replay")
     ('über-the-hill', 'replay')
     """
     return _NOT_IN_NAMES.sub("-", text[:LONGEST].lower())[:_LONGEST_STEM].strip("-.") or otherwise
