@@ -16,7 +16,7 @@ from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.named_level import NamedLevel, is_level_file, parse_levels
 from ninja_game.formats.recording import Recording, holds_recordings, parse_replays, record_of
 from ninja_game.formats.replay.text import is_replay, write_replay
-from ninja_game.runs.recording_reader import body_of, named_errors
+from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.level import Level
 
@@ -29,16 +29,14 @@ def replay_texts(recordings: Iterable[Recording]) -> Iterator[str]:
 
     Raises LevelError for a level that cannot be played.
     """
-    for recording in recordings:
-        ours = recording.replay
-        about = (ours.level_name, ours.level_author, ours.practice) if ours else (recording.name, "", False)
-        with named_errors(recording):
-            inputs = recording.playback(recording.ticks)
-            new = record_replay(
-                recording.level, inputs, body=body_of(recording), name=recording.name, author=recording.author
-            )
-        level_name, level_author, practice = about
-        yield write_replay(replace(new, level_name=level_name, level_author=level_author, practice=practice))
+    for each in recordings:
+        with named_errors(each):
+            inputs = each.playback(each.ticks)
+            new = record_replay(each.level, inputs, body=each.body, name=each.name, author=each.author)
+        level_name, author, practice = each.name, "", False
+        if each.replay:
+            level_name, author, practice = each.replay.level_name, each.replay.level_author, each.replay.practice
+        yield write_replay(replace(new, level_name=level_name, level_author=author, practice=practice))
 
 
 def level_file_text(files: Iterable[Path], level: Level | None = None) -> str:
