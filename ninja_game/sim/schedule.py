@@ -22,7 +22,7 @@ def start_update(w: World, o: Header, slot: int) -> None:
 
 @fast
 def end_update(w: World, o: Header, slot: int) -> None:
-    """Take an object out of the update set. The pass keeps its place in ``w.cursor``; a removal moves it along."""
+    """Take an object out of the update set. ``w.update_cursor``, where the pass is, moves along."""
     if not o.updating:
         return
     o.updating = 0

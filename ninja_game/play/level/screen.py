@@ -166,13 +166,13 @@ class LevelScreen(Screen):
     def _dispatch_action(self, pressed: tuple[str, ...]) -> None:
         """Do the first thing that the pressed actions mean in this phase."""
         for action in pressed:
-            deed = ACTIONS_BY_PHASE[self.phase].get(action)
+            method = ACTIONS_BY_PHASE[self.phase].get(action)
             if action == "ghost":
                 self.app.change_settings(show_ghost=not self.app.settings.show_ghost)
             elif self.overlays.toggle(action):
                 self.redraw = True
-            elif deed is not None:
-                deed(self)
+            elif method is not None:
+                method(self)
             else:
                 continue
             return
@@ -209,15 +209,15 @@ class LevelScreen(Screen):
         return None if changed is None else changed + written
 
 
-Deeds = dict[str, Callable[[LevelScreen], None]]
+PhaseActions = dict[str, Callable[[LevelScreen], None]]
 
-_END: Deeds = {
+_END: PhaseActions = {
     "retry": LevelScreen.retry, "replay": LevelScreen.watch_replay, "export": LevelScreen.keep_replay,
     "back": LevelScreen.back, "quit": LevelScreen.quit,
 }  # fmt: skip
 """What dead and passed have in common."""
 
-ACTIONS_BY_PHASE: dict[Phase, Deeds] = {
+ACTIONS_BY_PHASE: dict[Phase, PhaseActions] = {
     Phase.READY: {
         "confirm": LevelScreen.begin, "retry": LevelScreen.retry, "back": LevelScreen.back, "quit": LevelScreen.quit,
         "skip": LevelScreen.skip,
