@@ -28,14 +28,6 @@ class Canvas:
         self.size = (max(1, round(WIDTH * self.scale)), max(1, round(HEIGHT * self.scale)))
         self.origin = ((self.window[0] - self.size[0]) // 2, (self.window[1] - self.size[1]) // 2)
 
-    @classmethod
-    def inside(cls, rect: pygame.Rect) -> Canvas:
-        """A canvas that shows the stage in a rectangle of a window, px: a thumbnail, a page of help."""
-        canvas = cls(rect.size)
-        canvas.window = (rect.right, rect.bottom)
-        canvas.origin = (rect.left + canvas.origin[0], rect.top + canvas.origin[1])
-        return canvas
-
     @property
     def stage(self) -> pygame.Rect:
         """The stage in the window, px."""

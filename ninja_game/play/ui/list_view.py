@@ -22,12 +22,12 @@ class ListView(Widget):
     """
 
     def __init__(
-        self, area: Area, cell_height: float, draw_row: DrawRow, choose: Callable[[int], object], *, columns: int = 1,
+        self, area: Area, cell_height: float, draw_row: DrawRow, choose: Callable[[int], object], *,
         selected: Callable[[int], object] = lambda _: None, empty: str = "", hint: str = "",
     ) -> None:  # fmt: skip
         super().__init__(area, hint=hint)
         self.cell_height = cell_height
-        self.columns = columns
+        self.columns = 1
         self.draw_row = draw_row
         self.choose = choose
         self.selected = selected

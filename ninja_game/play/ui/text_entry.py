@@ -10,6 +10,9 @@ from ninja_game.play.input.scancodes import key_name, scancode_of
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import PAD, TEXT, Widget
 
+LONGEST = 40
+"""How many characters can be typed."""
+
 
 class TextEntry(Widget):
     """A text field. With the focus it takes what is typed; left, right, Home, End, Backspace and Delete edit.
@@ -17,14 +20,11 @@ class TextEntry(Widget):
     ``prompt``: shown while it is empty. ``put`` is called at every change.
     """
 
-    def __init__(
-        self, area: Area, prompt: str, text: str, put: Callable[[str], object], *, longest: int = 40, hint: str = ""
-    ) -> None:
-        super().__init__(area, hint=hint)
+    def __init__(self, area: Area, prompt: str, text: str, put: Callable[[str], object]) -> None:
+        super().__init__(area)
         self.prompt = prompt
         self.text = text
         self.put = put
-        self.longest = longest
         self.cursor = len(text)
 
     def text_event(self, event: pygame.Event) -> bool:
@@ -48,7 +48,7 @@ class TextEntry(Widget):
         return True
 
     def _insert(self, typed: str) -> None:
-        typed = "".join(char for char in typed if char.isprintable())[: self.longest - len(self.text)]
+        typed = "".join(char for char in typed if char.isprintable())[: LONGEST - len(self.text)]
         self.text = self.text[: self.cursor] + typed + self.text[self.cursor :]
         self.cursor += len(typed)
         self.put(self.text)

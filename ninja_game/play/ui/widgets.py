@@ -79,38 +79,29 @@ class Label(Widget):
 
     focusable = False
 
-    def __init__(
-        self, area: Area, text: str | Callable[[], str], *, size: float = TEXT, faint: bool = False,
-        align: str = "left", bold: bool = False,
-    ) -> None:  # fmt: skip
+    def __init__(self, area: Area, text: str, *, size: float = TEXT, faint: bool = False) -> None:
         super().__init__(area)
         self.text = text
         self.size = size
         self.faint = faint
-        self.align = align
-        self.bold = bold
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         """The text, its top at the area's."""
-        x, y, w, _ = self.area
-        x += {"left": 0.0, "centre": w / 2, "right": w}[self.align]
-        text = self.text() if callable(self.text) else self.text
+        x, y, _, _ = self.area
         colour = theme.palette.faint if self.faint else theme.palette.text
-        theme.text(surface, text, x, y, size=self.size, colour=colour, align=self.align, bold=self.bold)
+        theme.text(surface, self.text, x, y, size=self.size, colour=colour)
 
 
 class Button(Widget):
     """A text that does something."""
 
     def __init__(
-        self, area: Area, text: str | Callable[[], str], action: Callable[[], object], *, hint: str = "",
-        size: float = TEXT, align: str = "centre",
-    ) -> None:  # fmt: skip
+        self, area: Area, text: str, action: Callable[[], object], *, hint: str = "", size: float = TEXT
+    ) -> None:
         super().__init__(area, hint=hint)
         self.text = text
         self.action = action
         self.size = size
-        self.align = align
 
     def confirm(self) -> bool:
         """Do it."""
@@ -122,12 +113,18 @@ class Button(Widget):
         """The text in its panel."""
         self.draw_base(surface, theme, focused=focused)
         x, y, w, h = self.area
-        x += {"left": PAD, "centre": w / 2, "right": w - PAD}[self.align]
-        text = self.text() if callable(self.text) else self.text
         colour = theme.palette.text if self.enabled else theme.palette.faint
-        top = y + (h - self.size) / 2
+        middle, top = x + w / 2, y + (h - self.size) / 2
         theme.text(
-            surface, text, x, top, size=self.size, colour=colour, align=self.align, bold=focused, width=w - 2 * PAD
+            surface,
+            self.text,
+            middle,
+            top,
+            size=self.size,
+            colour=colour,
+            align="centre",
+            bold=focused,
+            width=w - 2 * PAD,
         )
 
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.view.effects.effects import Effects
 from ninja_game.play.view.effects.particles import Particles
 from ninja_game.play.view.ninja.appearance import draw_ghost, draw_ninja, draw_ragdoll
@@ -29,11 +28,9 @@ if TYPE_CHECKING:
     from ninja_game.play.level.ghosts import Ghost
     from ninja_game.play.view.overlays import Overlays
 
-Area = tuple[float, float, float, float]
-
 
 class LevelView:
-    """Draws a world, in the whole window or in an ``area`` of it (logical px x, y, width, height).
+    """Draws a world in the whole window.
 
     Call ``on_tick`` after every tick of the simulation, ``on_seek`` after any other change of it (restart, restore).
     ``chance``: seed of what is drawn at random. ``audible``: whether its events are played as sounds.
@@ -44,14 +41,12 @@ class LevelView:
         app: RenderContext,
         simulation: Simulation,
         *,
-        area: Area | None = None,
         chance: int = 0,
         audible: bool = True,
     ) -> None:
         self.app = app
         self.simulation = simulation
         self.audible = audible
-        self._area = area
         self._chance = Random(chance)  # noqa: S311 - presentation
         self.ghosts: Sequence[Ghost] = ()
         self.overlays: Overlays | None = None
@@ -141,8 +136,7 @@ class LevelView:
 
     def _layout(self) -> None:
         """Make what depends on the window's size and the palette."""
-        canvas = self.app.canvas
-        self.canvas = canvas if self._area is None else Canvas.inside(canvas.rect(*self._area))
+        self.canvas = self.app.canvas
         palette = self.app.theme.palette
         book = SpriteBook(self.canvas.scale, palette)
         self.target = DrawTarget(self.canvas, palette, book)
@@ -190,8 +184,7 @@ class LevelView:
         origin = self.canvas.origin
         mended = [r.move(origin) for r in self._backdrop.update(self.simulation.world, self.object_animation, fraction)]
         if whole:
-            if self._area is None:
-                surface.fill(self.target.palette.tile)
+            surface.fill(self.target.palette.tile)
             surface.blit(self._backdrop.picture, origin)
             return mended
         for rect in self._covered + mended:

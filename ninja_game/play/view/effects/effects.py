@@ -19,10 +19,10 @@ _CHARGED = {states.DRONE_PRE_FIRE, states.DRONE_FIRING}
 class Effects:
     """Makes the particles of a view. ``gore``: whether blood is shown; without it deaths throw sparks of dust."""
 
-    def __init__(self, particles: Particles, chance: Random, *, gore: bool = True) -> None:
+    def __init__(self, particles: Particles, chance: Random) -> None:
         self.particles = particles
         self.chance = chance
-        self.gore = gore
+        self.gore = True
         self._skid_count = 0
         self.now = 0.0
 

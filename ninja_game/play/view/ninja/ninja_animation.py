@@ -33,7 +33,6 @@ class NinjaAnimation:
         self.since = 100.0
         self.velocity = (0.0, 0.0)
         self.dance = -1
-        self.still = False
         self._from = STAND
         self._face(n)
 
