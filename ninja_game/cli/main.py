@@ -116,19 +116,29 @@ class Commands(click.Group):
             code = complain(str(error))
         except OSError as error:
             code = complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
-        except (click.Abort, KeyboardInterrupt):
-            complain("interrupted")
-            told.set()
-            code = INTERRUPTED
-        except Terminated:
-            complain("terminated")
-            told.set()
-            code = TERMINATED
-        except Exception:  # noqa: BLE001 - nothing may end like a run that failed
-            traceback.print_exc()
-            complain("this is a fault of ninja-game, not of your input; please report it with the lines above")
-            code = INTERNAL_ERROR
+        except (click.Abort, KeyboardInterrupt, Terminated) as error:
+            code = _stopped(error)
+        except Exception as error:  # noqa: BLE001 - nothing may end like a run that failed
+            code = _stopped(error)
+            if not code:
+                traceback.print_exc()
+                complain("this is a fault of ninja-game, not of your input; please report it with the lines above")
+                code = INTERNAL_ERROR
         sys.exit(code)
+
+
+def _stopped(error: BaseException | None) -> int:
+    """Say that a signal has stopped the command, and its exit code; 0 where no signal is behind the error.
+
+    Python makes another error of one that comes while it makes a class.
+    """
+    while error and not isinstance(error, (click.Abort, KeyboardInterrupt, Terminated)):
+        error = error.__cause__ or error.__context__
+    if error:
+        complain("terminated" if isinstance(error, Terminated) else "interrupted")
+        told.set()
+        return TERMINATED if isinstance(error, Terminated) else INTERRUPTED
+    return 0
 
 
 def complain(message: str) -> int:

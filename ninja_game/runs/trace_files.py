@@ -6,6 +6,7 @@ The columns and arrays are described in docs/replay-format.md, "Traces".
 from __future__ import annotations
 
 import csv
+import errno
 import struct
 import zlib
 from collections.abc import Iterable, Iterator, Mapping
@@ -151,7 +152,10 @@ def read_npz(path: Path) -> Iterator[FiledTrace]:
                 yield _read_arrays(archive, found, number)
     except FormatError:
         raise
-    except _UNREADABLE as error:
+    except (*_UNREADABLE, OSError) as error:
+        # A damaged index sends the reader to places before the file's beginning.
+        if isinstance(error, OSError) and error.errno != errno.EINVAL:
+            raise
         raise FormatError(f"this is no trace ({error})", file=str(path)) from None
 
 

@@ -15,6 +15,7 @@ from ninja_game.cli.completion import STARTUP_FILES
 from ninja_game.cli.main import COMMANDS, cli
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.resources import bundled_levels, data_folder
+from ninja_game.signals import Terminated
 
 
 def ninja_game(*words: str | Path) -> subprocess.CompletedProcess[str]:
@@ -133,6 +134,15 @@ def test_missing_file_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_interrupt_ends_quietly(monkeypatch: pytest.MonkeyPatch) -> None:
     code, text = failing(monkeypatch, KeyboardInterrupt())
     assert (code, text.strip()) == (130, "ninja-game: interrupted")
+
+
+@pytest.mark.parametrize("signal, code", [(KeyboardInterrupt(), 130), (Terminated(), 143)])
+def test_a_signal_that_python_turns_into_another_error_is_still_one(
+    signal: BaseException, code: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    error = RuntimeError("Error calling __set_name__")
+    error.__cause__ = signal
+    assert failing(monkeypatch, error)[0] == code
 
 
 def test_reader_that_leaves_early_is_no_error() -> None:

@@ -176,6 +176,14 @@ def test_a_damaged_zip_is_an_error_of_ours(name: str, value: int, tmp_path: Path
         list(read_traces(_zip_of(tmp_path, _header("(3,)") + bytes(24), **{name: value})))
 
 
+def test_a_zip_whose_index_leads_before_its_beginning_is_an_error_of_ours(tmp_path: Path) -> None:
+    path = tmp_path / "cut.npz"
+    write_npz(TWICE, whole := io.BytesIO())
+    path.write_bytes(b"PK" + whole.getvalue()[40:])
+    with pytest.raises(FormatError, match="this is no trace"):
+        list(read_traces(path))
+
+
 def test_damaged_bytes_of_a_trace_never_escape_as_other_errors(tmp_path: Path) -> None:
     whole = io.BytesIO()
     write_npz(TWICE, whole)
