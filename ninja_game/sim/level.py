@@ -41,10 +41,10 @@ class Level:
 
     ``tiles``: 713 ids, column by column, 31 columns of 23 rows, top to bottom (world.md §2.3). 0…33 are the shapes;
     above 33 is an odd half tile, below 0 a tile that is never solid (both occur only in malformed levels).
-    ``records``: in creation order; the order matters (ids, update order, list order).
+    ``objects``: in creation order; the order matters (ids, update order, list order).
     """
 
-    tiles: tuple[int, ...] = field(default=(0,) * TILES)
+    tiles: tuple[int, ...] = field(default=(0,) * TILES, repr=False)
     objects: tuple[ObjectSpec, ...] = ()
 
     def tile(self, column: int, row: int) -> int:

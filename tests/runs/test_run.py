@@ -27,6 +27,7 @@ def test_equal_runs_and_traces_are_equal(memory: str) -> None:
     assert trace_level(LEVEL, same, memory=memory) == trace_level(LEVEL, same, memory="plain")
     assert len({run_level(LEVEL, same), run_level(LEVEL, same)}) == 1
     assert len(repr(run_level(LEVEL, same))) < 100
+    assert "0, 0, 0" not in repr(LEVEL)
 
 
 @pytest.mark.parametrize("memory", BOTH)

@@ -126,4 +126,4 @@ class Gamepads:
 
 def pad_label(name: str) -> str:
     """What to call an input of a pad when talking to the player."""
-    return LABELS.get(name) or name.replace("-", " ").capitalize()
+    return LABELS.get(name) or name[:-1].replace("-", " ").capitalize() + name[-1:]

@@ -10,7 +10,7 @@ import pytest
 from ninja_game.play.app import build_app
 from ninja_game.play.input.actions import ACTIONS, MENU_KEYS
 from ninja_game.play.input.bindings import Bindings
-from ninja_game.play.input.gamepad import FULL_AXIS, Gamepads
+from ninja_game.play.input.gamepad import FULL_AXIS, Gamepads, pad_label
 from ninja_game.play.input.scancodes import SCANCODES, key_label, key_name, learn_label, scancode_named
 
 
@@ -130,3 +130,7 @@ def test_labels_follow_the_device_used_last(bindings: Bindings) -> None:
     assert bindings.name("jump") == "A"
     bindings.decode(key("z"))
     assert bindings.name("jump") == "Shift"
+
+
+def test_the_two_directions_of_an_axis_have_names_of_their_own() -> None:
+    assert [pad_label(name) for name in ("axis-0-", "axis-0+", "button-3")] == ["Axis 0-", "Axis 0+", "Button 3"]
