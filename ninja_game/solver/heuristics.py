@@ -79,14 +79,15 @@ class Heuristics:
                 self._bar_one_way(x, y, float(record["face_x"]), float(record["face_y"]))
         self.exits = exits
         self.switches = (exits + doors)[:MAX_BITS]
-        self.slots = np.array([switch.slot for switch in self.switches] or [0], np.int64)
-        self.gold_slots = np.array([slot for slot, _, _ in gold] or [0], np.int64)
+        self.slots = np.array([switch.slot for switch in self.switches], np.int64)
+        self.gold_slots = np.array([slot for slot, _, _ in gold], np.int64)
         self.gold_places = [(x, y) for _, x, y in gold]
 
     def gold_fields(self) -> Field:
         """For each piece of gold its field (gold x points); doors count as passable but dear."""
         costs = self._closed(0, DOOR_COST / 4)
-        return np.array([widened(self._field(costs, [(x, y, 0.0)])) for x, y in self.gold_places], np.float32)
+        fields = [widened(self._field(costs, [(x, y, 0.0)])) for x, y in self.gold_places]
+        return np.array(fields, np.float32).reshape(-1, POINTS)
 
     def field(self, switch_state: int, x: float, y: float) -> Field:
         """Ticks from every point to what a ninja at (x, y) should do next in this switch state, and on to the exit."""

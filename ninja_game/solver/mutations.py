@@ -6,36 +6,27 @@ answers (first changed tick, by how many ticks what follows has moved forward).
 
 from __future__ import annotations
 
-from typing import Any
+import numpy as np
+from numpy.typing import NDArray
 
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN
 from ninja_game.sim.memory.declare import fast
+from ninja_game.solver.search_memory import RandomState, random_below
+
+Keys = NDArray[np.uint8]
 
 ALL_KEYS = 7
-RANDOM_STATE = 0
-"""Index of the random state among a local search's counters."""
 
 
 @fast
-def random_below(counters: Any, limit: int) -> int:
-    """A pseudo-random number from 0 to limit - 1 (xorshift)."""
-    x = counters[RANDOM_STATE]
-    x ^= x << 13
-    x ^= (x >> 7) & 0x01FFFFFFFFFFFFFF
-    x ^= x << 17
-    counters[RANDOM_STATE] = x
-    return int(((x >> 20) & 0x7FFFFFFF) % limit)
-
-
-@fast
-def cut(keys: Any, length: int, tick: int, count: int) -> None:
+def cut(keys: Keys, length: int, tick: int, count: int) -> None:
     """Leave ticks out; what follows moves forward, the last input is repeated at the end."""
     for k in range(tick, length):
         keys[k] = keys[min(k + count, length - 1)]
 
 
 @fast
-def stretch(keys: Any, length: int, tick: int, count: int) -> None:
+def stretch(keys: Keys, length: int, tick: int, count: int) -> None:
     """Repeat the input of a tick; what follows moves back."""
     for k in range(length - 1, tick + count - 1, -1):
         keys[k] = keys[k - count]
@@ -44,14 +35,14 @@ def stretch(keys: Any, length: int, tick: int, count: int) -> None:
 
 
 @fast
-def overwrite(keys: Any, length: int, start: int, end: int, mask: int, value: int) -> None:
+def overwrite(keys: Keys, length: int, start: int, end: int, mask: int, value: int) -> None:
     """Set some keys in the ticks from start to before end."""
     for k in range(max(start, 0), min(end, length)):
         keys[k] = (keys[k] & (ALL_KEYS - mask)) | value
 
 
 @fast
-def next_change(keys: Any, length: int, tick: int, mask: int) -> int:
+def next_change(keys: Keys, length: int, tick: int, mask: int) -> int:
     """The first tick after ``tick`` whose keys under the mask differ from the tick before; ``length`` if none."""
     for k in range(tick + 1, length):
         if (keys[k] ^ keys[k - 1]) & mask:
@@ -60,7 +51,7 @@ def next_change(keys: Any, length: int, tick: int, mask: int) -> int:
 
 
 @fast
-def shift_boundary(keys: Any, length: int, tick: int, mask: int, by: int) -> int:
+def shift_boundary(keys: Keys, length: int, tick: int, mask: int, by: int) -> int:
     """Move the next change of some keys earlier or later; the first changed tick."""
     change = next_change(keys, length, tick, mask)
     if change >= length:
@@ -75,7 +66,7 @@ def shift_boundary(keys: Any, length: int, tick: int, mask: int, by: int) -> int
 
 
 @fast
-def shift_pulse(keys: Any, length: int, tick: int, by: int) -> int:
+def shift_pulse(keys: Keys, length: int, tick: int, by: int) -> int:
     """Move the next jump as a whole; the first changed tick."""
     start = next_change(keys, length, tick, JUMP_HELD)
     if start < length and not keys[start] & JUMP_HELD:
@@ -89,11 +80,11 @@ def shift_pulse(keys: Any, length: int, tick: int, by: int) -> int:
 
 
 @fast
-def mutate(keys: Any, length: int, tick: int, counters: Any) -> tuple[int, int]:
+def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int, int]:
     """One random edit at or after a tick."""
-    kind = random_below(counters, 12)
-    by = 1 + random_below(counters, 2 if random_below(counters, 2) else 8)
-    sign = 1 if random_below(counters, 2) else -1
+    kind = random_below(source, 12)
+    by = 1 + random_below(source, 2 if random_below(source, 2) else 8)
+    sign = 1 if random_below(source, 2) else -1
     if kind == 0:
         cut(keys, length, tick, min(by, 3))
         return tick, min(by, 3)
@@ -102,7 +93,7 @@ def mutate(keys: Any, length: int, tick: int, counters: Any) -> tuple[int, int]:
         return tick, -min(by, 3)
     if kind == 2:
         # Some ticks less here, as many more a little later: what lies between comes earlier.
-        other = min(tick + 1 + random_below(counters, 60), length - 1)
+        other = min(tick + 1 + random_below(source, 60), length - 1)
         if sign > 0:
             cut(keys, length, tick, by)
             stretch(keys, length, other, by)
@@ -116,11 +107,11 @@ def mutate(keys: Any, length: int, tick: int, counters: Any) -> tuple[int, int]:
         return shift_boundary(keys, length, tick, JUMP_HELD, sign * by), 0
     if kind <= 8:
         return shift_pulse(keys, length, tick, sign * by), 0
-    span = 1 + random_below(counters, 4 if random_below(counters, 2) else 24)
+    span = 1 + random_below(source, 4 if random_below(source, 2) else 24)
     if kind == 9:
-        overwrite(keys, length, tick, tick + span, 3, random_below(counters, 3))
+        overwrite(keys, length, tick, tick + span, 3, random_below(source, 3))
     elif kind == 10:
-        overwrite(keys, length, tick, tick + span, JUMP_HELD, JUMP_HELD * random_below(counters, 2))
+        overwrite(keys, length, tick, tick + span, JUMP_HELD, JUMP_HELD * random_below(source, 2))
     else:
         overwrite(
             keys,
@@ -128,6 +119,6 @@ def mutate(keys: Any, length: int, tick: int, counters: Any) -> tuple[int, int]:
             tick,
             tick + span,
             KEYS_DOWN,
-            random_below(counters, 3) + JUMP_HELD * random_below(counters, 2),
+            random_below(source, 3) + JUMP_HELD * random_below(source, 2),
         )
     return tick, 0

@@ -2,79 +2,57 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from ninja_game.sim.memory.declare import fast
-from ninja_game.solver.search_memory import (
-    BUCKETS,
-    CHUNK,
-    FREE_CHUNK,
-    HIGHEST,
-    LOWEST,
-    RANDOM,
-    WAITING,
-)
+from ninja_game.solver.search_memory import BUCKETS, CHUNK, Node, SearchMemory, Words
 
 
 @fast
-def draw(counters: Any) -> int:
-    """A pseudo-random number, 0 to 2^31 - 1 (xorshift)."""
-    x = counters[RANDOM]
-    x ^= x << 13
-    x ^= (x >> 7) & 0x01FFFFFFFFFFFFFF
-    x ^= x << 17
-    counters[RANDOM] = x
-    return int((x >> 20) & 0x7FFFFFFF)
-
-
-@fast
-def keep_state(words: Any, base: Any, node: Any, pool: Any, counters: Any) -> bool:
+def keep_state(words: Words, base: Words, node: Node, memory: SearchMemory) -> bool:
     """Store the first word and those that differ from the start; False, and nothing stored, if the pool is empty."""
-    chunk_next, chunk_index, chunk_value = pool
+    counters = memory.counters[0]
     first = -1
     chunk = -1
     count = 0
     for k in range(len(words)):
         if words[k] != base[k] or k == 0:
             if count % CHUNK == 0:
-                free = counters[FREE_CHUNK]
+                free = counters.free_chunk
                 if free < 0:
                     if first >= 0:
-                        chunk_next[chunk] = -1
-                        free_state(first, pool, counters)
+                        memory.chunk_next[chunk] = -1
+                        free_state(first, memory)
                     return False
-                counters[FREE_CHUNK] = chunk_next[free]
+                counters.free_chunk = memory.chunk_next[free]
                 if first < 0:
                     first = free
                 else:
-                    chunk_next[chunk] = free
+                    memory.chunk_next[chunk] = free
                 chunk = free
             place = chunk * CHUNK + count % CHUNK
-            chunk_index[place] = k
-            chunk_value[place] = words[k]
+            memory.chunk_index[place] = k
+            memory.chunk_value[place] = words[k]
             count += 1
     if first >= 0:
-        chunk_next[chunk] = -1
+        memory.chunk_next[chunk] = -1
     node.chunk = first
     node.words = count
     return True
 
 
 @fast
-def free_state(first: int, pool: Any, counters: Any) -> None:
+def free_state(first: int, memory: SearchMemory) -> None:
     """Give a chain of chunks back."""
-    chunk_next = pool[0]
+    counters = memory.counters[0]
     last = first
-    while chunk_next[last] >= 0:
-        last = chunk_next[last]
-    chunk_next[last] = counters[FREE_CHUNK]
-    counters[FREE_CHUNK] = first
+    while memory.chunk_next[last] >= 0:
+        last = memory.chunk_next[last]
+    memory.chunk_next[last] = counters.free_chunk
+    counters.free_chunk = first
 
 
 @fast
-def load_state(words: Any, base: Any, node: Any, pool: Any) -> None:
+def load_state(words: Words, base: Words, node: Node, memory: SearchMemory) -> None:
     """Make the world of a node: the start with the node's words."""
-    chunk_next, chunk_index, chunk_value = pool
     for k in range(len(base)):
         words[k] = base[k]
     chunk = node.chunk
@@ -82,53 +60,58 @@ def load_state(words: Any, base: Any, node: Any, pool: Any) -> None:
     while left > 0:
         place = chunk * CHUNK
         for k in range(place, place + min(left, CHUNK)):
-            words[chunk_index[k]] = chunk_value[k]
+            words[memory.chunk_index[k]] = memory.chunk_value[k]
         left -= CHUNK
-        chunk = chunk_next[chunk]
+        chunk = memory.chunk_next[chunk]
 
 
 @fast
-def push(nodes: Any, index: int, priority: float, buckets: Any, counters: Any) -> None:
+def push(index: int, priority: float, memory: SearchMemory) -> None:
     """Put a node into its bucket."""
+    counters = memory.counters[0]
     bucket = int(priority)
     bucket = 0 if bucket < 0 else min(bucket, BUCKETS - 1)
-    nodes[index].priority = bucket
-    nodes[index].next = buckets[bucket]
-    buckets[bucket] = index
-    counters[WAITING] += 1
-    if bucket < counters[LOWEST]:
-        counters[LOWEST] = bucket
-    if bucket > counters[HIGHEST]:
-        counters[HIGHEST] = bucket
+    memory.nodes[index].priority = bucket
+    memory.nodes[index].next = memory.buckets[bucket]
+    memory.buckets[bucket] = index
+    counters.waiting += 1
+    if bucket < counters.lowest:
+        counters.lowest = bucket
+    if bucket > counters.highest:
+        counters.highest = bucket
 
 
 @fast
-def pop_lowest(nodes: Any, buckets: Any, counters: Any) -> int:
+def pop_lowest(memory: SearchMemory) -> int:
     """Take the most promising node; -1 if there is none."""
-    bucket = counters[LOWEST]
-    while bucket < BUCKETS and buckets[bucket] < 0:
+    counters = memory.counters[0]
+    bucket = counters.lowest
+    while bucket < BUCKETS and memory.buckets[bucket] < 0:
         bucket += 1
-    counters[LOWEST] = bucket
-    if bucket >= BUCKETS:
-        return -1
-    index = buckets[bucket]
-    buckets[bucket] = nodes[index].next
-    counters[WAITING] -= 1
-    return int(index)
+    counters.lowest = bucket
+    return take_first(bucket, memory) if bucket < BUCKETS else -1
 
 
 @fast
-def drop_highest(nodes: Any, buckets: Any, pool: Any, counters: Any) -> None:
+def drop_highest(memory: SearchMemory) -> None:
     """Give up the least promising node, for the sake of its memory."""
-    bucket = counters[HIGHEST]
-    while bucket >= 0 and buckets[bucket] < 0:
+    counters = memory.counters[0]
+    bucket = counters.highest
+    while bucket >= 0 and memory.buckets[bucket] < 0:
         bucket -= 1
-    counters[HIGHEST] = bucket
+    counters.highest = bucket
     if bucket < 0:
         return
-    index = buckets[bucket]
-    buckets[bucket] = nodes[index].next
-    counters[WAITING] -= 1
-    if nodes[index].chunk >= 0:
-        free_state(nodes[index].chunk, pool, counters)
-        nodes[index].chunk = -1
+    node = memory.nodes[take_first(bucket, memory)]
+    if node.chunk >= 0:
+        free_state(node.chunk, memory)
+        node.chunk = -1
+
+
+@fast
+def take_first(bucket: int, memory: SearchMemory) -> int:
+    """Take the first node out of a bucket that has one."""
+    index = memory.buckets[bucket]
+    memory.buckets[bucket] = memory.nodes[index].next
+    memory.counters[0].waiting -= 1
+    return int(index)

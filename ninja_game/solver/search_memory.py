@@ -1,4 +1,6 @@
-"""What a search holds: nodes, the table of places seen, compact save-states, buckets - plain arrays, no Python objects.
+"""What a search holds: plain arrays and records under names, no Python objects inside.
+
+The groups are named tuples, which compiled code takes as they are; what it counts is a record, alone in its array.
 
 A node's save-state is kept as the words (8 bytes) in which it differs from the start of the level, in chunks from a
 pool; a node that has been expanded gives its chunks back.
@@ -6,8 +8,8 @@ pool; a node that has been expanded gives its chunks back.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,60 +17,98 @@ from numpy.typing import NDArray
 from ninja_game.compile_cache import compiled
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.compiled import load_worlds
-from ninja_game.sim.memory.declare import entry_point
-from ninja_game.sim.memory.layout import STATE_START, Records, new_worlds, used_bytes
-from ninja_game.solver.distance_field import POINTS
+from ninja_game.sim.memory.declare import entry_point, f4, fast, i4, i8, part, struct
+from ninja_game.sim.memory.layout import STATE_START, Records, dtype_of, new_worlds, used_bytes
 
-NODE = np.dtype(
-    [
-        ("parent", "<i4"),  # index of the node it came from, -1: the root
-        ("tick", "<i4"),  # ticks run
-        ("action", "<i4"),  # see macro_actions.py
-        ("chunk", "<i4"),  # first chunk of its save-state, -1: none (any more)
-        ("words", "<i4"),  # words in it
-        ("next", "<i4"),  # next node of its bucket, -1: last
-        ("priority", "<i4"),  # its bucket
-        ("switch_state", "<i4"),  # index of its switch state (heuristics.py)
-        ("entry", "<i4"),  # its place in the table
-        ("ahead", "<f4"),  # estimated ticks to the exit
-    ]
-)
-ENTRY = np.dtype(
-    [
-        ("key", "<i8"),  # 0: empty
-        ("first", "<i4"),  # earliest tick at which it was reached
-        ("last", "<i4"),  # latest accepted tick
-        ("visits", "<i4"),
-        ("value", "<f4"),  # ticks from here to the exit, as far as known
-    ]
-)
-LINK = np.dtype([("source", "<i4"), ("target", "<i4"), ("ticks", "<i4")])
-"""One macro played: from table entry to table entry (-1: the exit)."""
+Words = NDArray[np.int64]
+Indices = NDArray[np.int32]
 
 CHUNK = 32
 """Words in a chunk."""
 BUCKETS = 1 << 14
-MAX_SWITCH_STATES = 512
-
-# Counters (int64) of a search: what the kernel and its caller tell each other.
-NODES, FREE_CHUNK, LOWEST, HIGHEST, BEST_TICKS, BEST_NODE, TICKS, EXPANDED, SWITCH_STATES, NEW_SWITCH_STATES = range(10)
-ENTRIES, LINKS, RANDOM, GOLD_NEEDED, WAITING = range(10, 15)
-COUNTERS = 24
-
-# Parameters (float64) of a search.
-CELL_PX, SHIFT_X, SHIFT_Y, SPEED_STEP, SHIFT_VX, SHIFT_VY, MACRO_TICKS, MACRO_JITTER = range(8)
-WEIGHT, PATIENCE, REVISITS, SLACK, OFF_GUIDE = range(8, 13)
-PARAMETERS = 16
+UNKNOWN = 1.0e9
+"""Value of an entry from which no way to the exit is known."""
 
 
-@dataclass(frozen=True)
-class Resolution:
+@part
+class RandomState:
+    """A stream of pseudo-random numbers."""
+
+    random: i8  #: never 0
+
+
+@fast
+def random_below(source: RandomState, limit: int) -> int:
+    """A pseudo-random number from 0 to limit - 1 (xorshift)."""
+    x = source.random
+    x ^= x << 13
+    x ^= (x >> 7) & 0x01FFFFFFFFFFFFFF
+    x ^= x << 17
+    source.random = x
+    return int(((x >> 20) & 0x7FFFFFFF) % limit)
+
+
+@struct
+class Node:
+    """A moment that a search has reached."""
+
+    parent: i4  #: index of the node it came from, -1: the root
+    tick: i4  #: ticks run
+    action: i4  #: see macro_actions.py
+    chunk: i4  #: first chunk of its save-state, -1: none (any more)
+    words: i4  #: words in it
+    next: i4  #: next node of its bucket, -1: last
+    priority: i4  #: its bucket
+    switch_state: i4  #: index of its switch state (heuristics.py)
+    entry: i4  #: its place in the table
+    ahead: f4  #: estimated ticks to the exit
+
+
+@struct
+class Entry:
+    """What the table knows of the moments that count as the same."""
+
+    key: i8  #: 0: empty
+    first: i4  #: earliest tick at which it was reached
+    last: i4  #: latest accepted tick
+    visits: i4  #: how many were accepted
+    value: f4  #: ticks from here to the exit, as far as known
+
+
+@struct
+class Link:
+    """One macro played: from table entry to table entry (-1: the exit)."""
+
+    source: i4
+    target: i4
+    ticks: i4
+
+
+@struct
+class Counters(RandomState):
+    """What a search counts, and what its kernels and their caller tell each other."""
+
+    nodes: i8  #: made so far
+    entries: i8  #: of the table, in use
+    links: i8  #: noted so far
+    free_chunk: i8  #: the first, -1: none
+    waiting: i8  #: nodes in buckets
+    lowest: i8  #: no node waits in a bucket below it
+    highest: i8  #: nor above it
+    ticks: i8  #: simulated
+    expanded: i8  #: nodes
+    best_ticks: i8  #: of the shortest run; at first the bound, 0: none
+    best_node: i8  #: its last node, -1: none found
+    new_switch_states: i8  #: found since their fields were made last
+
+
+class Resolution(NamedTuple):
     """How finely a search looks: size of a place (px), of a velocity (px/tick), length of a macro (ticks).
 
     ``weight``: of the estimated ticks to go against those run; ``patience``: ticks after which the same place counts
     as new, at most ``visits`` times; guided searches only: ``slack``: ticks by
     which an estimate may exceed the best run, in a plan as a share of it; ``off_guide``: how much a tick counts where
-    the guide knows nothing.
+    the guide knows nothing. The shifts move the cells of places and velocities; each search draws its own.
     """
 
     cell: float = 12.0
@@ -80,79 +120,100 @@ class Resolution:
     visits: int = 1
     slack: float = 0.0
     off_guide: float = 1.0
+    shift_x: float = 0.0
+    shift_y: float = 0.0
+    shift_vx: float = 0.0
+    shift_vy: float = 0.0
 
 
-class Start:
-    """A level at tick 0 and two more worlds to work in; views of their states as words."""
+class Start(NamedTuple):
+    """A level at tick 0 and two more worlds: of the node that is expanded, and to work in.
 
-    def __init__(self, level: Level, *, box: bool) -> None:
-        self.levels, first = load_worlds(compiled, [level], box=box)
-        used = int(first["slots_used"][0])
-        self.size = (used_bytes(used) - STATE_START) // 8
-        self.base = _words(first, 0, self.size).copy()
-        self.worlds = new_worlds(2, used)
-        self.node_words = _words(self.worlds, 0, self.size)
-        self.work_words = _words(self.worlds, 1, self.size)
-        self.node_words[:] = self.base
-        self.work_words[:] = self.base
+    The words are views of the states of all three; those of the level at tick 0 never change.
+    """
+
+    levels: Any
+    worlds: Any
+    base: Words
+    node_words: Words
+    work_words: Words
 
 
-def _words(worlds: Records, index: int, size: int) -> NDArray[np.int64]:
+class SearchMemory(NamedTuple):
+    """The arrays of one search: nodes and what links them, the pool of save-states, the open list."""
+
+    nodes: Sequence[Node]
+    table: Sequence[Entry]
+    links: Sequence[Link]
+    chunk_next: Indices
+    chunk_index: Indices
+    chunk_value: Words
+    buckets: Indices
+    counters: Sequence[Counters]
+
+
+class Guide(NamedTuple):
+    """The table of an earlier search, whose values are the estimates (length 1: none), and how finely that looked."""
+
+    table: Sequence[Entry]
+    resolution: Resolution
+
+
+def open_start(level: Level, *, box: bool) -> Start:
+    """Load a level. Raises LevelError for one that cannot be played."""
+    levels, first = load_worlds(compiled, [level], box=box)
+    used = int(first["slots_used"][0])
+    size = (used_bytes(used) - STATE_START) // 8
+    base = _words(first, 0, size).copy()
+    worlds = new_worlds(2, used)
+    start = Start(levels, worlds, base, _words(worlds, 0, size), _words(worlds, 1, size))
+    start.node_words[:] = base
+    start.work_words[:] = base
+    return start
+
+
+def _words(worlds: Records, index: int, size: int) -> Words:
     """The state of a world as words, as a view."""
     return np.ndarray((size,), np.int64, worlds.base, index * worlds.strides[0] + STATE_START)
 
 
-class SearchMemory:
-    """The arrays of one search. ``nodes``, ``chunks``: capacities; memory is only touched as it is used."""
-
-    def __init__(self, nodes: int, chunks: int) -> None:
-        self.nodes: Any = np.empty(nodes, NODE)
-        self.table: Any = np.zeros(_power_of_two(2 * nodes), ENTRY)
-        self.guide: Any = np.zeros(_power_of_two(2 * nodes), ENTRY)
-        self.guided_by = np.zeros(PARAMETERS)
-        self.links: Any = np.empty(6 * nodes, LINK)
-        self.chunk_next = np.empty(chunks, np.int32)
-        self.chunk_index = np.empty(chunks * CHUNK, np.int32)
-        self.chunk_value = np.empty(chunks * CHUNK, np.int64)
-        self.buckets = np.empty(BUCKETS, np.int32)
-        self.counters = np.zeros(COUNTERS, np.int64)
-        self.parameters = np.zeros(PARAMETERS)
-        self.switch_states = np.zeros(MAX_SWITCH_STATES, np.int64)
-        self.switch_state_places = np.zeros((MAX_SWITCH_STATES, 2))
-        self.fields = np.zeros((MAX_SWITCH_STATES, POINTS), np.float32)
-        self.fields[:, 0] = -1.0
-
-    def clear(self) -> None:
-        """Forget everything but the switch states and their fields."""
-        self.table[:] = 0
-        self.chunk_next[:] = np.arange(1, len(self.chunk_next) + 1, dtype=np.int32)
-        self.chunk_next[-1] = -1
-        self.buckets[:] = -1
-        switch_states = self.counters[SWITCH_STATES]
-        self.counters[:] = 0
-        self.counters[SWITCH_STATES] = switch_states
-        self.counters[LOWEST] = BUCKETS
-        self.counters[BEST_NODE] = -1
-
-    def keep_as_guide(self, settle: Any) -> None:
-        """Turn the table of the search just made into the guide of the next one."""
-        settle(self.table, self.links, int(self.counters[LINKS]), 40)
-        self.table, self.guide = self.guide, self.table
-        self.guided_by[:] = self.parameters
+def zeroed(kind: type, count: int) -> Any:
+    """Records of a kind, all zero; memory is only touched as it is used."""
+    return np.zeros(count, dtype_of(kind)).view(np.recarray)
 
 
-def _power_of_two(count: int) -> int:
-    return 1 << (count - 1).bit_length()
+def new_table(nodes: int) -> Any:
+    """An empty table for so many nodes; its length is a power of two."""
+    return zeroed(Entry, 1 << (2 * nodes - 1).bit_length())
 
 
-UNKNOWN = 1.0e9
+def new_memory(nodes: int) -> SearchMemory:
+    """The arrays of a search of at most so many nodes, with as many chunks. To be cleared before each search."""
+    return SearchMemory(
+        nodes=zeroed(Node, nodes), table=new_table(nodes), links=zeroed(Link, 6 * nodes),
+        chunk_next=np.empty(nodes, np.int32), chunk_index=np.empty(nodes * CHUNK, np.int32),
+        chunk_value=np.empty(nodes * CHUNK, np.int64), buckets=np.empty(BUCKETS, np.int32),
+        counters=zeroed(Counters, 1),
+    )  # fmt: skip
+
+
+def clear(memory: Any) -> None:
+    """Forget all nodes, entries, links and save-states."""
+    memory.table[:] = 0
+    memory.chunk_next[:] = np.arange(1, len(memory.chunk_next) + 1, dtype=np.int32)
+    memory.chunk_next[-1] = -1
+    memory.buckets[:] = -1
+    memory.counters[:] = 0
+    memory.counters[0].lowest = BUCKETS
+    memory.counters[0].best_node = -1
 
 
 @entry_point
-def back_up_values(table: Any, links: Any, count: int, sweeps: int) -> int:
+def back_up_values(table: Sequence[Entry], links: Sequence[Link], count: int, sweeps: int) -> int:
     """Set ``value`` of all entries to the least ticks to the exit over the first ``count`` links; the sweeps made.
 
-    Places that count as the same are not quite the same, so values are estimates, on the whole too low.
+    The macros that were played link the entries; values spread backwards over them from the exit. Places that count as
+    the same are not quite the same, so values are estimates, on the whole too low.
     """
     for slot in range(len(table)):
         table[slot].value = UNKNOWN

@@ -7,16 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
-from dataclasses import replace
 from functools import cache
 
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.inputs import press_jumps
 from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, verified_run
-from ninja_game.solver.heuristics import Heuristics
 from ninja_game.solver.local_search import LocalSearch
-from ninja_game.solver.search_memory import Resolution, SearchMemory, Start
-from ninja_game.solver.search_run import MORE, Search
+from ninja_game.solver.search import MORE
+from ninja_game.solver.search_memory import Resolution, open_start
+from ninja_game.solver.search_run import Search
 from ninja_game.solver.task import (
     COOLING,
     SEARCH_COST,
@@ -46,7 +45,7 @@ class _Job:
         self.seed = task.seed * 1000 + number
         self.work = 0.0
         self.shares = Shares()
-        self.start = Start(task.level, box=task.body == "box")
+        self.start = open_start(task.level, box=task.body == "box")
         self._search: Search | None = None
         self._turn = 2 * number
         self._local_searches = 0
@@ -76,9 +75,7 @@ class _Job:
         if self._search is None:
             task = self.state.task
             nodes = int(min(1_500_000, max(100_000, task.work_planned / 40)))
-            heuristics = Heuristics(self.start.levels, self.start.worlds)
-            memory = SearchMemory(nodes, nodes)
-            self._search = Search(self.start, heuristics, memory, task.gold_wanted)
+            self._search = Search(self.start, nodes=nodes, gold=task.gold_wanted)
         return self._search
 
     def _find(self) -> None:
@@ -95,7 +92,7 @@ class _Job:
         guided = resolution.slack > 0.0
         with self.state.lock:
             shortest = len(self.state.runs[0])
-        resolution = replace(resolution, slack=resolution.slack * shortest)
+        resolution = resolution._replace(slack=resolution.slack * shortest)
         bound = shortest + max(4, shortest // 20)
         found = self._search_once(resolution, VARY_TICKS, seed=100 + turn, bound=bound, guided=guided)
         self._shorten(found or self.state.runs[0], self.shares.first_climb)

@@ -13,12 +13,12 @@ if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
 from ninja_game.sim.inputs import press_jumps
-from ninja_game.solver import search as _search  # noqa: F401 - registers the kernels
 from ninja_game.solver.distance_field import UNREACHED, point_at
 from ninja_game.solver.heuristics import Heuristics
+from ninja_game.solver.local_search import LocalCounters
 from ninja_game.solver.macro_actions import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_inputs
 from ninja_game.solver.mutations import cut, mutate, overwrite, shift_boundary, shift_pulse, stretch
-from ninja_game.solver.search_memory import Start
+from ninja_game.solver.search_memory import open_start
 
 OPEN = "0" * 713 + "|"
 CORRIDOR = ("0" * 10 + "1" * 12 + "0") * 10 + "0" * 23 * 21
@@ -27,7 +27,7 @@ CORRIDOR = ("0" * 10 + "1" * 12 + "0") * 10 + "0" * 23 * 21
 def heuristics_of(text: str) -> Heuristics:
     """The distance fields of a level."""
     level: Level = parse_level_string(text)
-    start = Start(level, box=False)
+    start = open_start(level, box=False)
     return Heuristics(start.levels, start.worlds)
 
 
@@ -112,12 +112,13 @@ def test_overwriting_stays_within_the_run() -> None:
 
 def test_random_mutations_leave_what_lies_before_and_make_keys_only() -> None:
     """The plain form of the compiled mutations; a mask on the random state keeps numbers small enough for Python."""
-    counters = [12345]
+    counters = LocalCounters()
+    counters.random = 12345
     for trial in range(500):
         keys = keys_of(*([2] * 10 + [6] * 10 + [1] * 10 + [5] * 10))
         before = keys.copy()
         tick = trial % 40
-        counters[0] &= (1 << 63) - 1
+        counters.random &= (1 << 63) - 1
         first, shift = mutate(keys, 40, tick, counters)
         assert keys.max() <= 7
         assert abs(shift) <= 3

@@ -87,7 +87,8 @@ def code_digest(entry: Callable[..., Any], compiler: str) -> str:
     """A digest of all that goes into the machine code of an entry point.
 
     That is ``compiler`` (what compiles it, with its options), the code of the function and of all registered functions
-    that it reaches, and the values of the constants that they name, wherever those are defined.
+    that it reaches, the fields of the named tuples that they take, and the values of the constants that they name,
+    wherever those are defined.
     """
     digest = sha256(compiler.encode())
     waiting: list[Any] = [entry]
@@ -100,6 +101,9 @@ def code_digest(entry: Callable[..., Any], compiler: str) -> str:
             constants = [value for value in code.co_consts if not isinstance(value, CodeType)]
             digest.update(code.co_code + f"{code.co_names} {constants}\n".encode())
             names.update(code.co_names)
+        for annotation in rule.__annotations__.values():
+            if fields := getattr(rule.__globals__.get(annotation), "_fields", ()):
+                digest.update(f"{annotation}: {fields}\n".encode())
         for name in sorted(names & rule.__globals__.keys()):
             value = rule.__globals__[name]
             if _is_plain(value):

@@ -15,6 +15,8 @@ from inspect import get_annotations
 from typing import Annotated, Any, NamedTuple, TypeVar, get_args, get_origin, get_type_hints
 
 f8 = Annotated[float, "f8"]
+f4 = Annotated[float, "f4"]
+i8 = Annotated[int, "i8"]
 i4 = Annotated[int, "i4"]
 i2 = Annotated[int, "i2"]
 u1 = Annotated[int, "u1"]
@@ -99,7 +101,7 @@ def struct(cls: type[C]) -> type[C]:
             count = 1 if name == fields[-1].name else length
             value = f"[{kind.__name__}() for _ in range({count})]" if length else f"{kind.__name__}()"
         else:
-            value = "0.0" if kind == "f8" else "0"
+            value = "0.0" if kind.startswith("f") else "0"
             value = f"[{value}] * {length}" if length else value
         lines.append(f"    self.{name} = {value}")
     exec("\n".join(lines), names)  # noqa: S102 - generated from the schema above, not from input

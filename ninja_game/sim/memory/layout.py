@@ -16,7 +16,7 @@ from ninja_game.sim.memory.declare import Field, fields_of
 from ninja_game.sim.memory.object_fields import Header, Object
 from ninja_game.sim.memory.schema import TileMap, World
 
-_SIZES = {"f8": 8, "i4": 4, "i2": 2, "u1": 1}
+_SIZES = {"f8": 8, "f4": 4, "i8": 8, "i4": 4, "i2": 2, "u1": 1}
 _REFUSED = set(dir(np.recarray)) | set(dir(np.record))
 """Names that NumPy's record types answer themselves: such a field would silently read something else."""
 
