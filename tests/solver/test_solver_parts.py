@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.compile_cache import compiled, compiled_available
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.level import Level
 
@@ -13,12 +13,12 @@ if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
 from ninja_game.sim.inputs import press_jumps
-from ninja_game.solver.distance_field import UNREACHED, point_at
+from ninja_game.solver.distance_field import POINTS, UNREACHED, point_at
 from ninja_game.solver.heuristics import Heuristics
 from ninja_game.solver.local_search import LocalCounters
 from ninja_game.solver.macro_actions import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_inputs
 from ninja_game.solver.mutations import cut, mutate, overwrite, shift_boundary, shift_pulse, stretch
-from ninja_game.solver.search_memory import open_start
+from ninja_game.solver.search_memory import UNKNOWN, Entry, Link, back_up_values, open_start, zeroed
 
 OPEN = "0" * 713 + "|"
 CORRIDOR = ("0" * 10 + "1" * 12 + "0") * 10 + "0" * 23 * 21
@@ -124,3 +124,20 @@ def test_random_mutations_leave_what_lies_before_and_make_keys_only() -> None:
         assert abs(shift) <= 3
         first = max(first, 0)
         assert keys[: min(first, tick)].tolist() == before[: min(first, tick)].tolist()
+
+
+@pytest.mark.parametrize("memory", ["plain", "compiled"])
+def test_values_spread_backwards_from_the_exit(memory: str) -> None:
+    """Three entries in a row, 5 and 7 ticks apart, the last one 3 ticks from the exit; a fourth leads nowhere."""
+    table, links = ([Entry() for _ in range(4)], [Link() for _ in range(3)])
+    if memory == "compiled":
+        table, links = zeroed(Entry, 4), zeroed(Link, 3)
+    for link, (source, target, ticks) in zip(links, ((0, 1, 5), (1, 2, 7), (2, -1, 3)), strict=True):
+        link.source, link.target, link.ticks = source, target, ticks
+    settle = compiled(back_up_values) if memory == "compiled" else back_up_values
+    assert settle(table, links, 3, 40) == 2
+    assert [float(entry.value) for entry in table] == [15.0, 10.0, 3.0, UNKNOWN]
+
+
+def test_no_gold_to_fetch_leaves_no_fields() -> None:
+    assert heuristics_of(OPEN + "5^100,300!11^700,300,400,300").gold_fields().shape == (0, POINTS)
