@@ -28,8 +28,8 @@ def query_every_thing(worlds: Any, rounds: int) -> int:
     w = worlds[0]
     for _ in range(rounds):
         for slot in range(1, w.slots_used):
-            if w.objects[slot].filed:
-                touch(w, slot)
+            if w.objects[slot].in_grid:
+                touch(w, w.objects[slot])
     return int(w.gold)
 
 

@@ -21,7 +21,7 @@ def _made_door(world: World, record: ObjectSpec) -> Object:
     """The door that the game makes of a well-formed record."""
     door = Object()
     door.x, door.y = record.values[:2]
-    create_door(world, door, 0, record.values)
+    create_door(world, door, record.values)
     grid_remove(world, door)
     return door
 

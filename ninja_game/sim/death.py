@@ -12,6 +12,7 @@ from ninja_game.sim import kinds
 from ninja_game.sim.events import WON, emit, emit_death
 from ninja_game.sim.grid import grid_remove
 from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.object_fields import Header
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.objects.drone import stop_firing
 from ninja_game.sim.rules import RADIUS, ZAP_IMPULSE
@@ -50,11 +51,11 @@ def kill(w: World, cause: int, slot: int, fx: float, fy: float, cx: float, cy: f
 
 
 @fast
-def zap(w: World, x: float, y: float, radius: float, slot: int) -> None:
-    """The electric disc of guards and zap drones about (x, y), px: kill if it touches the ninja."""
+def zap(w: World, o: Header, radius: float) -> None:
+    """The electric disc of guards and zap drones, ``radius`` in px: kill if it touches the ninja."""
     n = w.ninja
-    dx = x - n.x
-    dy = y - n.y
+    dx = o.x - n.x
+    dy = o.y - n.y
     length = sqrt(dx * dx + dy * dy)
     if length < radius + RADIUS:
         a = 0.0
@@ -62,7 +63,7 @@ def zap(w: World, x: float, y: float, radius: float, slot: int) -> None:
         if length > 0.0:
             a = dx / length
             b = dy / length
-        kill(w, ELECTRIC, slot, (-a) * ZAP_IMPULSE, (-b) * ZAP_IMPULSE, n.x + RADIUS * a, n.y + RADIUS * b)
+        kill(w, ELECTRIC, o.slot, (-a) * ZAP_IMPULSE, (-b) * ZAP_IMPULSE, n.x + RADIUS * a, n.y + RADIUS * b)
 
 
 @fast
@@ -100,15 +101,15 @@ def idle_event(w: World) -> None:
             grid_remove(w, o)
         elif kind == kinds.LAUNCHER:
             if o.routine == LAUNCHER_IDLE:
-                end_think(w, o, slot)
+                end_think(w, o)
         elif kind == kinds.TURRET:
-            end_update(w, o, slot)
+            end_update(w, o)
             o.think = TURRET_WAITING
-            end_think(w, o, slot)
+            end_think(w, o)
         elif kind == kinds.FLOOR_GUARD:
             o.routine = GUARD_IDLE
-            end_update(w, o, slot)
+            end_update(w, o)
         elif kind == kinds.DRONE:
             o.chasing = 0
             if o.routine == DRONE_FIRING:
-                stop_firing(w, o, slot)
+                stop_firing(w, o)

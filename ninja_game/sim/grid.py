@@ -31,7 +31,7 @@ def cell_index(column: float, row: float) -> int:
 
 
 @fast
-def link(w: World, o: Header, slot: int, cell: int) -> None:
+def link(w: World, o: Header, cell: int) -> None:
     """Insert at the head of a cell's list (newest first)."""
     o.cell = cell
     if cell:
@@ -39,8 +39,8 @@ def link(w: World, o: Header, slot: int, cell: int) -> None:
         o.prev = 0
         o.next = head
         if head:
-            w.objects[head].prev = slot
-        w.heads[cell] = slot
+            w.objects[head].prev = o.slot
+        w.heads[cell] = o.slot
 
 
 @fast
@@ -58,9 +58,9 @@ def unlink(w: World, o: Header) -> None:
 
 
 @fast
-def grid_insert(w: World, o: Header, slot: int) -> None:
+def grid_insert(w: World, o: Header) -> None:
     """Put an object into the list of the cell that holds its centre."""
-    link(w, o, slot, cell_at(o.x, o.y))
+    link(w, o, cell_at(o.x, o.y))
     o.in_grid = 1
 
 
@@ -73,7 +73,7 @@ def grid_remove(w: World, o: Header) -> None:
 
 
 @fast
-def grid_move(w: World, o: Header, slot: int) -> int:
+def grid_move(w: World, o: Header) -> int:
     """Re-register an object that moved; 1 if its cell changed. In the same cell it keeps its place in the list."""
     # cell_at, written out: moving drones come here every tick, and a call costs the plain memory 3 % of its speed.
     x = o.x
@@ -84,5 +84,5 @@ def grid_move(w: World, o: Header, slot: int) -> int:
     if cell == o.cell:
         return 0
     unlink(w, o)
-    link(w, o, slot, cell)
+    link(w, o, cell)
     return 1

@@ -93,6 +93,7 @@ def populate(
         kind = kinds[index]
         o = w.objects[index + 1]
         o.id = index
+        o.slot = index + 1
         o.kind = INERT
         p = values[index]
         if kind == NINJA:
@@ -109,7 +110,7 @@ def populate(
             o.kind = kind
             o.x = p[0]
             o.y = p[1]
-            create(level, w, o, index + 1, p)
+            create(level, w, o, p)
 
 
 @fast

@@ -8,7 +8,7 @@ from ninja_game.sim.memory.schema import World
 
 
 @fast
-def start_update(w: World, o: Header, slot: int) -> None:
+def start_update(w: World, o: Header) -> None:
     """Make an object the newest member of the update set, if it is not in it."""
     if o.updating:
         return
@@ -16,17 +16,17 @@ def start_update(w: World, o: Header, slot: int) -> None:
     o.newer = 0
     o.older = w.update_head
     if w.update_head:
-        w.objects[w.update_head].newer = slot
-    w.update_head = slot
+        w.objects[w.update_head].newer = o.slot
+    w.update_head = o.slot
 
 
 @fast
-def end_update(w: World, o: Header, slot: int) -> None:
+def end_update(w: World, o: Header) -> None:
     """Take an object out of the update set. ``w.update_cursor``, where the pass is, moves along."""
     if not o.updating:
         return
     o.updating = 0
-    if w.update_cursor == slot:
+    if w.update_cursor == o.slot:
         w.update_cursor = o.older
     if o.newer:
         w.objects[o.newer].older = o.older
@@ -37,7 +37,7 @@ def end_update(w: World, o: Header, slot: int) -> None:
 
 
 @fast
-def start_think(w: World, o: Header, slot: int) -> None:
+def start_think(w: World, o: Header) -> None:
     """Insert an object right before the cursor of the thinker ring and move the cursor onto it: it thinks next."""
     if o.thinking:
         return
@@ -46,24 +46,24 @@ def start_think(w: World, o: Header, slot: int) -> None:
         successor = w.objects[w.think_cursor]
         o.ring_prev = successor.ring_prev
         o.ring_next = w.think_cursor
-        w.objects[o.ring_prev].ring_next = slot
-        successor.ring_prev = slot
+        w.objects[o.ring_prev].ring_next = o.slot
+        successor.ring_prev = o.slot
     else:
-        o.ring_prev = slot
-        o.ring_next = slot
-    w.think_cursor = slot
+        o.ring_prev = o.slot
+        o.ring_next = o.slot
+    w.think_cursor = o.slot
 
 
 @fast
-def end_think(w: World, o: Header, slot: int) -> None:
+def end_think(w: World, o: Header) -> None:
     """Take an object out of the thinker ring; if the cursor was on it, the cursor goes to its successor."""
     if not o.thinking:
         return
     o.thinking = 0
-    if o.ring_next == slot:
+    if o.ring_next == o.slot:
         w.think_cursor = 0
     else:
         w.objects[o.ring_prev].ring_next = o.ring_next
         w.objects[o.ring_next].ring_prev = o.ring_prev
-        if w.think_cursor == slot:
+        if w.think_cursor == o.slot:
             w.think_cursor = o.ring_next

@@ -21,7 +21,7 @@ def step(level: TileMap, w: World, keys: int) -> None:
     if w.think_cursor:
         if w.think_counter >= THINK_PAUSE:
             w.think_counter = 0
-            think(level, w, w.think_cursor)
+            think(level, w, w.objects[w.think_cursor])
             if w.think_cursor:
                 w.think_cursor = w.objects[w.think_cursor].ring_next
         else:

@@ -12,6 +12,7 @@ class Header:
     x: f8  #: place, px
     y: f8
     kind: i4  #: number in kinds.py
+    slot: i4  #: its index in ``World.objects``
     id: i4  #: index of its record among those that create something; -1: none
     cell: i4  #: grid index of the cell in whose list it is, 0: none
     in_grid: i4  #: 1: in the grid, so that it can be touched

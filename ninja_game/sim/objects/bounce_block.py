@@ -13,15 +13,15 @@ from ninja_game.sim.schedule import end_think, end_update, start_think, start_up
 
 
 @fast
-def create_block(w: World, o: BounceBlock, slot: int) -> None:
+def create_block(w: World, o: BounceBlock) -> None:
     """At rest on its anchor, asleep."""
     o.anchor_x = o.prev_x = o.x
     o.anchor_y = o.prev_y = o.y
-    grid_insert(w, o, slot)
+    grid_insert(w, o)
 
 
 @fast
-def touch_block(w: World, o: BounceBlock, slot: int) -> None:
+def touch_block(w: World, o: BounceBlock) -> None:
     """Box contact: four fifths of the overlap move the block, one fifth the ninja.
 
     The block's old place stays, so that its displacement is velocity in the next update.
@@ -47,9 +47,9 @@ def touch_block(w: World, o: BounceBlock, slot: int) -> None:
         push(n, NINJA_SHARE * depth, 0.0, sign, 0.0)
     o.counter = 0
     if not o.updating:
-        start_update(w, o, slot)
-        start_think(w, o, slot)
-        emit(w, BLOCK_WOKEN, slot, o.x, o.y, 0.0, 0.0)
+        start_update(w, o)
+        start_think(w, o)
+        emit(w, BLOCK_WOKEN, o.slot, o.x, o.y, 0.0, 0.0)
 
 
 @fast
@@ -70,10 +70,10 @@ def update_block(o: BounceBlock) -> None:
 
 
 @fast
-def think_block(w: World, o: BounceBlock, slot: int) -> None:
+def think_block(w: World, o: BounceBlock) -> None:
     """Fall asleep after a second without contact, where it is: it is not re-centred."""
     if o.counter > BLOCK_SLEEP:
-        end_update(w, o, slot)
-        end_think(w, o, slot)
+        end_update(w, o)
+        end_think(w, o)
         o.prev_x = o.x
         o.prev_y = o.y

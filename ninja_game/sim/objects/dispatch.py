@@ -47,33 +47,33 @@ NINE_CELLS = [0, STRIDE, STRIDE + 1, STRIDE - 1, -1, -STRIDE - 1, 1, -STRIDE + 1
 
 
 @fast
-def create(level: TileMap, w: World, o: Object, slot: int, p: Sequence[float]) -> None:
+def create(level: TileMap, w: World, o: Object, p: Sequence[float]) -> None:
     """What an object does at load; its kind and place are set. ``p``: the nine values of its record."""
     kind = o.kind
     if kind == GOLD:
-        create_gold(w, o, slot)
+        create_gold(w, o)
     elif kind == MINE:
-        create_mine(w, o, slot)
+        create_mine(w, o)
     elif kind == BOUNCE_BLOCK:
-        create_block(w, o, slot)
+        create_block(w, o)
     elif kind == LAUNCH_PAD:
-        create_pad(w, o, slot, p)
+        create_pad(w, o, p)
     elif kind == ONE_WAY:
-        create_one_way(w, o, slot, p)
+        create_one_way(w, o, p)
     elif kind == EXIT:
-        create_exit(w, o, slot, p)
+        create_exit(w, o, p)
     elif kind == TURRET:
-        create_turret(w, o, slot)
+        create_turret(w, o)
     elif kind == LAUNCHER:
-        create_launcher(w, o, slot)
+        create_launcher(w, o)
     elif kind == DOOR:
-        create_door(w, o, slot, p)
+        create_door(w, o, p)
     elif kind == THWUMP:
-        create_thwump(level, w, o, slot, p[2])
+        create_thwump(level, w, o, p[2])
     elif kind == FLOOR_GUARD:
-        create_guard(level, w, o, slot)
+        create_guard(level, w, o)
     elif kind == DRONE:
-        create_drone(w, o, slot, p)
+        create_drone(w, o, p)
 
 
 @fast
@@ -89,35 +89,35 @@ def touch_objects(w: World) -> None:
     for offset in NINE_CELLS:
         slot = heads[centre + offset]
         while slot:
-            touch(w, slot)
-            slot = w.objects[slot].next
+            o = w.objects[slot]
+            touch(w, o)
+            slot = o.next
 
 
 @fast
-def touch(w: World, slot: int) -> None:
+def touch(w: World, o: Object) -> None:
     """The contact of one object with the ninja."""
-    o = w.objects[slot]
     kind = o.kind
     if kind == GOLD:
-        touch_gold(w, o, slot)
+        touch_gold(w, o)
     elif kind == MINE:
-        touch_mine(w, o, slot)
+        touch_mine(w, o)
     elif kind == DRONE:
-        touch_drone(w, o, slot)
+        touch_drone(w, o)
     elif kind == DOOR:
-        touch_door(w, o, slot)
+        touch_door(w, o)
     elif kind == ONE_WAY:
         touch_one_way(w, o)
     elif kind == LAUNCH_PAD:
-        touch_pad(w, o, slot)
+        touch_pad(w, o)
     elif kind == FLOOR_GUARD:
-        touch_guard(w, o, slot)
+        touch_guard(w, o)
     elif kind == THWUMP:
-        touch_thwump(w, o, slot)
+        touch_thwump(w, o)
     elif kind == BOUNCE_BLOCK:
-        touch_block(w, o, slot)
+        touch_block(w, o)
     elif kind == LAUNCHER:
-        touch_rocket(w, o, slot)
+        touch_rocket(w, o)
     elif kind == SWITCH:
         touch_switch(w, o)
     elif kind == EXIT:
@@ -134,34 +134,33 @@ def update_objects(level: TileMap, w: World) -> None:
         kind = o.kind
         if kind == DRONE:
             if o.routine == DRONE_MOVE:
-                move_drone(w, o, slot)
+                move_drone(w, o)
             else:
-                update_weapon(level, w, o, slot)
+                update_weapon(level, w, o)
         elif kind == THWUMP:
-            update_thwump(w, o, slot)
+            update_thwump(w, o)
         elif kind == FLOOR_GUARD:
-            update_guard(w, o, slot)
+            update_guard(w, o)
         elif kind == TURRET:
-            update_turret(level, w, o, slot)
+            update_turret(level, w, o)
         elif kind == LAUNCHER:
-            update_launcher(level, w, o, slot)
+            update_launcher(level, w, o)
         elif kind == BOUNCE_BLOCK:
             update_block(o)
         elif kind == DOOR:
-            update_door(w, o, slot)
+            update_door(w, o)
         slot = w.update_cursor
 
 
 @fast
-def think(level: TileMap, w: World, slot: int) -> None:
+def think(level: TileMap, w: World, o: Object) -> None:
     """The think of one object."""
-    o = w.objects[slot]
     kind = o.kind
     if kind == DRONE:
-        think_drone(level, w, o, slot)
+        think_drone(level, w, o)
     elif kind == TURRET:
-        think_turret(level, w, o, slot)
+        think_turret(level, w, o)
     elif kind == LAUNCHER:
-        think_launcher(level, w, o, slot)
+        think_launcher(level, w, o)
     elif kind == BOUNCE_BLOCK:
-        think_block(w, o, slot)
+        think_block(w, o)

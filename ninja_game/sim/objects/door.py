@@ -30,7 +30,7 @@ from ninja_game.sim.states import AUTOMATIC, LOCKED, TRAP
 
 
 @fast
-def create_door(w: World, o: Door, slot: int, p: Sequence[float]) -> None:
+def create_door(w: World, o: Door, p: Sequence[float]) -> None:
     """Find the two edges, remember what they are, file, then close (a trap door: leave open)."""
     cell_1 = cell_index(p[4] + p[7], p[5] + p[8])
     cell_2 = 0
@@ -58,7 +58,7 @@ def create_door(w: World, o: Door, slot: int, p: Sequence[float]) -> None:
         if cell_1:
             o.x = CENTRE_X[cell_1] + (0.0 if p[2] == 1.0 else HALF)
             o.y = CENTRE_Y[cell_1] + (HALF if p[2] == 1.0 else 0.0)
-    grid_insert(w, o, slot)
+    grid_insert(w, o)
     write_edges(w, o, o.mechanism != TRAP)
 
 
@@ -72,7 +72,7 @@ def write_edges(w: World, o: Door, closed: bool) -> None:
 
 
 @fast
-def touch_door(w: World, o: Door, slot: int) -> None:
+def touch_door(w: World, o: Door) -> None:
     """Disc contact at the switch; of an automatic door at its middle."""
     n = w.ninja
     dx = o.x - n.x
@@ -85,26 +85,26 @@ def touch_door(w: World, o: Door, slot: int) -> None:
         if not o.switched:
             o.switched = 1
             write_edges(w, o, False)
-            start_update(w, o, slot)
-            emit(w, DOOR_OPENED, slot, o.x, o.y, 0.0, 0.0)
+            start_update(w, o)
+            emit(w, DOOR_OPENED, o.slot, o.x, o.y, 0.0, 0.0)
     elif o.mechanism == LOCKED:
         if not o.switched:
             o.switched = 1
             write_edges(w, o, False)
-            emit(w, LOCK_OPENED, slot, o.x, o.y, 0.0, 0.0)
+            emit(w, LOCK_OPENED, o.slot, o.x, o.y, 0.0, 0.0)
     else:
         o.switched = 1
         write_edges(w, o, True)
         grid_remove(w, o)
-        emit(w, TRAP_CLOSED, slot, o.x, o.y, 0.0, 0.0)
+        emit(w, TRAP_CLOSED, o.slot, o.x, o.y, 0.0, 0.0)
 
 
 @fast
-def update_door(w: World, o: Door, slot: int) -> None:
+def update_door(w: World, o: Door) -> None:
     """An open automatic door closes in the sixth update after the last contact, also with something in it."""
     o.counter += 1
     if o.counter > AUTOMATIC_DOOR_OPEN:
-        end_update(w, o, slot)
+        end_update(w, o)
         o.switched = 0
         write_edges(w, o, True)
-        emit(w, DOOR_CLOSED, slot, o.x, o.y, 0.0, 0.0)
+        emit(w, DOOR_CLOSED, o.slot, o.x, o.y, 0.0, 0.0)

@@ -47,12 +47,12 @@ FIRST_LIST, SECOND_LIST = WANDER_CW, WANDER_CCW
 
 
 @fast
-def create_drone(w: World, o: Drone, slot: int, p: Sequence[float]) -> None:
+def create_drone(w: World, o: Drone, p: Sequence[float]) -> None:
     """Filed where the record says, then snapped to that cell's centre; the first update chooses a goal."""
     cell = cell_at(o.x, o.y)
-    link(w, o, slot, cell)
+    link(w, o, cell)
     o.in_grid = 1
-    start_update(w, o, slot)
+    start_update(w, o)
     o.x = o.goal_x = CENTRE_X[cell]
     o.y = o.goal_y = CENTRE_Y[cell]
     o.end_x = DRONE_END_X
@@ -72,11 +72,11 @@ def create_drone(w: World, o: Drone, slot: int, p: Sequence[float]) -> None:
     elif p[4] == WEAPON_LASER:
         o.weapon = WEAPON_LASER
         o.speed = DRONE_SPEED * LASER_PACE
-        start_think(w, o, slot)
+        start_think(w, o)
     elif p[4] == WEAPON_CHAINGUN:
         o.weapon = WEAPON_CHAINGUN
         o.speed = DRONE_SPEED * CHAINGUN_PACE
-        start_think(w, o, slot)
+        start_think(w, o)
 
 
 @fast
@@ -96,7 +96,7 @@ def direction_code(value: float) -> int:
 
 
 @fast
-def move_drone(w: World, o: Drone, slot: int) -> None:
+def move_drone(w: World, o: Drone) -> None:
     """One step towards the goal; a tick of arrival chooses the next goal and does not move."""
     o.move_ticks += 1
     dx = o.goal_x - o.x
@@ -106,7 +106,7 @@ def move_drone(w: World, o: Drone, slot: int) -> None:
         o.y = o.goal_y
         if chase(w, o):
             if not o.chasing:
-                emit(w, CHASE_STARTED, slot, o.x, o.y, 0.0, 0.0)
+                emit(w, CHASE_STARTED, o.slot, o.x, o.y, 0.0, 0.0)
             o.chasing = 1
         else:
             turn(w, o)
@@ -115,7 +115,7 @@ def move_drone(w: World, o: Drone, slot: int) -> None:
         step = o.speed * CHASE_PACE if o.chasing else o.speed
         o.x = o.x + UNIT_X[o.direction] * step
         o.y = o.y + UNIT_Y[o.direction] * step
-    grid_move(w, o, slot)
+    grid_move(w, o)
 
 
 @fast
@@ -209,8 +209,8 @@ def chase(w: World, o: Drone) -> bool:
 
 
 @fast
-def stop_firing(w: World, o: Drone, slot: int) -> None:
+def stop_firing(w: World, o: Drone) -> None:
     """A weapon drone's beam or burst ends; it cools down before it moves on."""
     o.routine = DRONE_POST_FIRE
     o.counter = 0
-    emit(w, LASER_OFF if o.weapon == WEAPON_LASER else CHAINGUN_OFF, slot, o.x, o.y, 0.0, 0.0)
+    emit(w, LASER_OFF if o.weapon == WEAPON_LASER else CHAINGUN_OFF, o.slot, o.x, o.y, 0.0, 0.0)

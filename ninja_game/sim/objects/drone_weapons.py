@@ -42,14 +42,14 @@ from ninja_game.sim.states import (
 
 
 @fast
-def touch_drone(w: World, o: Drone, slot: int) -> None:
+def touch_drone(w: World, o: Drone) -> None:
     """Zap drones are lethal to touch; the others are armed, but not solid."""
     if o.weapon == WEAPON_ZAP:
-        zap(w, o.x, o.y, DRONE_RADIUS, slot)
+        zap(w, o, DRONE_RADIUS)
 
 
 @fast
-def think_drone(level: TileMap, w: World, o: Drone, slot: int) -> None:
+def think_drone(level: TileMap, w: World, o: Drone) -> None:
     """A weapon drone that sees the ninja stops and prepares to fire."""
     if w.round_over:
         return
@@ -57,40 +57,40 @@ def think_drone(level: TileMap, w: World, o: Drone, slot: int) -> None:
     hit, hit_x, hit_y = sees(level, w, o.x, o.y, n.x, n.y)
     if not hit:
         return
-    end_think(w, o, slot)
+    end_think(w, o)
     o.counter = 0
     o.routine = DRONE_PRE_FIRE
     if o.weapon == WEAPON_LASER:
-        emit(w, LASER_CHARGING, slot, o.x, o.y, 0.0, 0.0)
-        aim_beam(level, w, o, slot, hit_x, hit_y)
+        emit(w, LASER_CHARGING, o.slot, o.x, o.y, 0.0, 0.0)
+        aim_beam(level, w, o, hit_x, hit_y)
     else:
-        emit(w, CHAINGUN_CHARGING, slot, o.x, o.y, 0.0, 0.0)
+        emit(w, CHAINGUN_CHARGING, o.slot, o.x, o.y, 0.0, 0.0)
 
 
 @fast
-def update_weapon(level: TileMap, w: World, o: Drone, slot: int) -> None:
+def update_weapon(level: TileMap, w: World, o: Drone) -> None:
     """Go on with the weapon of a drone that does not move: prepare, fire or cool down."""
     routine = o.routine
     if routine == DRONE_POST_FIRE:
         o.counter += 1
         if o.counter >= (LASER_COOL if o.weapon == WEAPON_LASER else CHAINGUN_COOL):
-            start_think(w, o, slot)
+            start_think(w, o)
             o.routine = DRONE_MOVE
     elif o.weapon == WEAPON_LASER:
         if routine == DRONE_PRE_FIRE:
-            prepare_beam(w, o, slot)
+            prepare_beam(w, o)
         else:
-            burn(w, o, slot)
+            burn(w, o)
     elif routine == DRONE_PRE_FIRE:
         o.counter += 1
         if o.counter >= CHAINGUN_PREPARE:
-            open_fire(w, o, slot)
+            open_fire(w, o)
     else:
-        shoot(level, w, o, slot)
+        shoot(level, w, o)
 
 
 @fast
-def aim_beam(level: TileMap, w: World, o: Drone, slot: int, hit_x: float, hit_y: float) -> None:
+def aim_beam(level: TileMap, w: World, o: Drone, hit_x: float, hit_y: float) -> None:
     """Fix the beam when the ninja is sighted: a door that closes later does not shorten it."""
     stopped, end_x, end_y = ray_tiles(level, w, o.x, o.y, hit_x, hit_y)
     if stopped:
@@ -100,21 +100,21 @@ def aim_beam(level: TileMap, w: World, o: Drone, slot: int, hit_x: float, hit_y:
     o.beam_y = o.end_y - o.y
     o.beam_length = sqrt(o.beam_x * o.beam_x + o.beam_y * o.beam_y)
     if o.beam_length == 0.0:
-        stop_firing(w, o, slot)
+        stop_firing(w, o)
 
 
 @fast
-def prepare_beam(w: World, o: Drone, slot: int) -> None:
+def prepare_beam(w: World, o: Drone) -> None:
     """The warning time."""
     o.counter += 1
     if o.counter >= LASER_PREPARE:
         o.timer = 0
         o.routine = DRONE_FIRING
-        emit(w, LASER_ON, slot, o.x, o.y, o.beam_x, o.beam_y)
+        emit(w, LASER_ON, o.slot, o.x, o.y, o.beam_x, o.beam_y)
 
 
 @fast
-def burn(w: World, o: Drone, slot: int) -> None:
+def burn(w: World, o: Drone) -> None:
     """The beam kills what its segment touches."""
     n = w.ninja
     wx = n.x - o.x
@@ -132,18 +132,18 @@ def burn(w: World, o: Drone, slot: int) -> None:
     dx = zx - n.x
     dy = zy - n.y
     if sqrt(dx * dx + dy * dy) < RADIUS:
-        stop_firing(w, o, slot)
+        stop_firing(w, o)
         a = o.beam_x / o.beam_length
         b = o.beam_y / o.beam_length
-        kill(w, LASER, slot, LASER_IMPULSE * a, LASER_IMPULSE * b, zx, zy)
+        kill(w, LASER, o.slot, LASER_IMPULSE * a, LASER_IMPULSE * b, zx, zy)
         return
     o.timer += 1
     if o.timer >= LASER_BEAM:
-        stop_firing(w, o, slot)
+        stop_firing(w, o)
 
 
 @fast
-def open_fire(w: World, o: Drone, slot: int) -> None:
+def open_fire(w: World, o: Drone) -> None:
     """Fix direction, sweep and length of the burst; it sweeps towards the side to which the ninja was moving."""
     n = w.ninja
     o.timer = 0
@@ -155,7 +155,7 @@ def open_fire(w: World, o: Drone, slot: int) -> None:
     dy = n.y - o.y
     length = sqrt(dx * dx + dy * dy)
     if length == 0.0:
-        stop_firing(w, o, slot)
+        stop_firing(w, o)
         return
     o.aim_x = dx / length
     o.aim_y = dy / length
@@ -165,25 +165,25 @@ def open_fire(w: World, o: Drone, slot: int) -> None:
     else:
         o.sweep_x = -o.aim_y
         o.sweep_y = o.aim_x
-    emit(w, CHAINGUN_ON, slot, o.x, o.y, o.aim_x, o.aim_y)
+    emit(w, CHAINGUN_ON, o.slot, o.x, o.y, o.aim_x, o.aim_y)
 
 
 @fast
-def shoot(level: TileMap, w: World, o: Drone, slot: int) -> None:
+def shoot(level: TileMap, w: World, o: Drone) -> None:
     """A shot every sixth tick."""
     o.timer += 1
     if o.timer < CHAINGUN_PAUSE:
         return
     o.timer = 0
     if o.last_shot < o.shot:
-        stop_firing(w, o, slot)
+        stop_firing(w, o)
         return
     s = (o.shot / o.last_shot - 0.5) * o.spread
     gx = o.aim_x + s * o.sweep_x
     gy = o.aim_y + s * o.sweep_y
     hit, hit_x, hit_y = sees(level, w, o.x, o.y, o.x + gx, o.y + gy)
-    emit(w, CHAINGUN_SHOT, slot, o.x, o.y, gx, gy)
+    emit(w, CHAINGUN_SHOT, o.slot, o.x, o.y, gx, gy)
     if hit:
-        stop_firing(w, o, slot)
-        kill(w, BULLET, slot, gx * BULLET_IMPULSE, gy * BULLET_IMPULSE, hit_x, hit_y)
+        stop_firing(w, o)
+        kill(w, BULLET, o.slot, gx * BULLET_IMPULSE, gy * BULLET_IMPULSE, hit_x, hit_y)
     o.shot += 1

@@ -16,18 +16,18 @@ from ninja_game.sim.rules import EXIT_RADIUS, RADIUS, SWITCH_RADIUS
 
 
 @fast
-def create_exit(w: World, o: Exit, slot: int, p: Sequence[float]) -> None:
+def create_exit(w: World, o: Exit, p: Sequence[float]) -> None:
     """An exit files only its switch, which has no id: it takes a slot behind those of the ids."""
-    switch_slot = w.slots_used
-    w.slots_used = switch_slot + 1
-    switch = w.objects[switch_slot]
+    o.partner = w.slots_used
+    w.slots_used += 1
+    switch = w.objects[o.partner]
+    switch.slot = o.partner
     switch.kind = SWITCH
     switch.id = -1
     switch.x = p[2]
     switch.y = p[3]
-    switch.partner = slot
-    o.partner = switch_slot
-    grid_insert(w, switch, switch_slot)
+    switch.partner = o.slot
+    grid_insert(w, switch)
 
 
 @fast
@@ -41,7 +41,7 @@ def touch_switch(w: World, o: Switch) -> None:
     dy = o.y - n.y
     if sqrt(dx * dx + dy * dy) < SWITCH_RADIUS + RADIUS:
         door.is_open = 1
-        grid_insert(w, door, o.partner)
+        grid_insert(w, door)
         emit(w, EXIT_OPENED, o.partner, o.x, o.y, 0.0, 0.0)
 
 

@@ -22,7 +22,7 @@ def empty_for_guard(level: TileMap, cell: int) -> bool:
 
 
 @fast
-def create_guard(level: TileMap, w: World, o: FloorGuard, slot: int) -> None:
+def create_guard(level: TileMap, w: World, o: FloorGuard) -> None:
     """Scan the corridor (floor edges as they are at this moment of loading) and the sight range along the row.
 
     In column 0 or 32 or outside the grid the original hangs while loading; here such a guard is inert.
@@ -31,8 +31,8 @@ def create_guard(level: TileMap, w: World, o: FloorGuard, slot: int) -> None:
     if cell == 0 or COLUMN[cell] == 0 or COLUMN[cell] == 32:
         o.kind = INERT
         return
-    grid_insert(w, o, slot)
-    start_update(w, o, slot)
+    grid_insert(w, o)
+    start_update(w, o)
     o.facing = 1.0
     o.y = CENTRE_Y[cell] + HALF - GUARD_RADIUS
     k = cell + 1
@@ -54,10 +54,10 @@ def create_guard(level: TileMap, w: World, o: FloorGuard, slot: int) -> None:
 
 
 @fast
-def update_guard(w: World, o: FloorGuard, slot: int) -> None:
+def update_guard(w: World, o: FloorGuard) -> None:
     """Idle: look along the row, start from the next tick on. Chase: always run to the corridor's end."""
     if o.routine == GUARD_CHASE:
-        chase_to_end(w, o, slot)
+        chase_to_end(w, o)
         return
     cell = w.ninja.cell
     if ROW[cell] != ROW[o.cell]:
@@ -66,11 +66,11 @@ def update_guard(w: World, o: FloorGuard, slot: int) -> None:
     if o.low <= column <= o.high and column != COLUMN[o.cell]:
         o.facing = -1.0 if column < COLUMN[o.cell] else 1.0
         o.routine = GUARD_CHASE
-        emit(w, GUARD_STARTED, slot, o.x, o.y, o.facing, 0.0)
+        emit(w, GUARD_STARTED, o.slot, o.x, o.y, o.facing, 0.0)
 
 
 @fast
-def chase_to_end(w: World, o: FloorGuard, slot: int) -> None:
+def chase_to_end(w: World, o: FloorGuard) -> None:
     """One step. A guard outside its corridor by more than a step never stops: it runs through walls (quirk)."""
     goal = o.low_x if o.facing < 0.0 else o.high_x
     if abs(goal - o.x) < GUARD_SPEED:
@@ -78,10 +78,10 @@ def chase_to_end(w: World, o: FloorGuard, slot: int) -> None:
         o.routine = GUARD_IDLE
     else:
         o.x = o.x + o.facing * GUARD_SPEED
-    grid_move(w, o, slot)
+    grid_move(w, o)
 
 
 @fast
-def touch_guard(w: World, o: FloorGuard, slot: int) -> None:
+def touch_guard(w: World, o: FloorGuard) -> None:
     """Disc contact, active or not: lethal."""
-    zap(w, o.x, o.y, GUARD_RADIUS, slot)
+    zap(w, o, GUARD_RADIUS)

@@ -13,13 +13,13 @@ from ninja_game.sim.rules import GOLD_RADIUS, RADIUS
 
 
 @fast
-def create_gold(w: World, o: Gold, slot: int) -> None:
+def create_gold(w: World, o: Gold) -> None:
     """In the grid, to be found."""
-    grid_insert(w, o, slot)
+    grid_insert(w, o)
 
 
 @fast
-def touch_gold(w: World, o: Gold, slot: int) -> None:
+def touch_gold(w: World, o: Gold) -> None:
     """Disc contact: collected, and gone from the grid."""
     n = w.ninja
     dx = o.x - n.x
@@ -28,4 +28,4 @@ def touch_gold(w: World, o: Gold, slot: int) -> None:
         o.taken = 1
         w.gold += 1
         grid_remove(w, o)
-        emit(w, GOLD_TAKEN, slot, o.x, o.y, 0.0, 0.0)
+        emit(w, GOLD_TAKEN, o.slot, o.x, o.y, 0.0, 0.0)

@@ -15,15 +15,15 @@ from ninja_game.sim.states import FALLING, enter_state
 
 
 @fast
-def create_pad(w: World, o: LaunchPad, slot: int, p: Sequence[float]) -> None:
+def create_pad(w: World, o: LaunchPad, p: Sequence[float]) -> None:
     """With the normal of its record."""
     o.face_x = p[2]
     o.face_y = p[3]
-    grid_insert(w, o, slot)
+    grid_insert(w, o)
 
 
 @fast
-def touch_pad(w: World, o: LaunchPad, slot: int) -> None:
+def touch_pad(w: World, o: LaunchPad) -> None:
     """Disc contact, and the ninja's point facing the pad on or behind the pad's plane. No cooldown."""
     n = w.ninja
     dx = o.x - n.x
@@ -36,11 +36,11 @@ def touch_pad(w: World, o: LaunchPad, slot: int) -> None:
             m = 1.0
             if o.face_y < 0.0:
                 m = 1.0 + abs(o.face_y)
-            launch(w, slot, o.face_x * PAD_STRENGTH, o.face_y * PAD_STRENGTH * m)
+            launch(w, o, o.face_x * PAD_STRENGTH, o.face_y * PAD_STRENGTH * m)
 
 
 @fast
-def launch(w: World, slot: int, lx: float, ly: float) -> None:
+def launch(w: World, o: LaunchPad, lx: float, ly: float) -> None:
     """Replace the ninja's velocity. Leaves whatever state it was in, so the dead come back to life (objects.md §3)."""
     n = w.ninja
     n.prev_x = n.x
@@ -48,4 +48,4 @@ def launch(w: World, slot: int, lx: float, ly: float) -> None:
     n.x = n.x + lx
     n.y = n.y + ly
     enter_state(w, FALLING)
-    emit(w, LAUNCHED, slot, n.prev_x, n.prev_y, lx, ly)
+    emit(w, LAUNCHED, o.slot, n.prev_x, n.prev_y, lx, ly)

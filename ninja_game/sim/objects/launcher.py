@@ -31,46 +31,46 @@ from ninja_game.sim.states import EXPLOSIVE, LAUNCHER_FLIGHT, LAUNCHER_IDLE, LAU
 
 
 @fast
-def create_launcher(w: World, o: Launcher, slot: int) -> None:
+def create_launcher(w: World, o: Launcher) -> None:
     """Waiting; in no cell: it cannot be touched."""
     o.base_x = o.x
     o.base_y = o.y
     o.heading_x = ROCKET_HEADING_X
     o.heading_y = ROCKET_HEADING_Y
-    start_think(w, o, slot)
+    start_think(w, o)
 
 
 @fast
-def think_launcher(level: TileMap, w: World, o: Launcher, slot: int) -> None:
+def think_launcher(level: TileMap, w: World, o: Launcher) -> None:
     """Prepare a rocket when the ninja is in sight."""
     n = w.ninja
     if sees(level, w, o.base_x, o.base_y, n.x, n.y)[0]:
-        end_think(w, o, slot)
-        start_update(w, o, slot)
+        end_think(w, o)
+        start_update(w, o)
         o.counter = 0
         o.routine = LAUNCHER_PREPARE
 
 
 @fast
-def update_launcher(level: TileMap, w: World, o: Launcher, slot: int) -> None:
+def update_launcher(level: TileMap, w: World, o: Launcher) -> None:
     """Count down to the launch, then fly."""
     if o.routine == LAUNCHER_PREPARE:
         o.counter += 1
         if o.counter >= ROCKET_PREPARE:
-            fire_rocket(w, o, slot)
+            fire_rocket(w, o)
     elif o.routine == LAUNCHER_FLIGHT:
-        fly(level, w, o, slot)
+        fly(level, w, o)
 
 
 @fast
-def fire_rocket(w: World, o: Launcher, slot: int) -> None:
+def fire_rocket(w: World, o: Launcher) -> None:
     """The rocket appears at the base, heading for the ninja; it does not move in this tick."""
     n = w.ninja
     o.acceleration = ROCKET_ACCELERATION
     o.speed = 0.0
     o.x = o.base_x
     o.y = o.base_y
-    grid_insert(w, o, slot)
+    grid_insert(w, o)
     o.routine = LAUNCHER_FLIGHT
     dx = n.x - o.base_x
     dy = n.y - o.base_y
@@ -78,11 +78,11 @@ def fire_rocket(w: World, o: Launcher, slot: int) -> None:
     if length != 0.0:
         o.heading_x = dx / length
         o.heading_y = dy / length
-    emit(w, ROCKET_LAUNCHED, slot, o.x, o.y, o.heading_x, o.heading_y)
+    emit(w, ROCKET_LAUNCHED, o.slot, o.x, o.y, o.heading_x, o.heading_y)
 
 
 @fast
-def fly(level: TileMap, w: World, o: Launcher, slot: int) -> None:
+def fly(level: TileMap, w: World, o: Launcher) -> None:
     """Accelerate, move, explode in a tile or on a solid edge, and turn towards where the ninja will be."""
     if o.speed < ROCKET_SPEED:
         o.acceleration = o.acceleration * ROCKET_GROWTH
@@ -92,11 +92,11 @@ def fly(level: TileMap, w: World, o: Launcher, slot: int) -> None:
     o.x = o.x + o.speed * o.heading_x
     o.y = o.y + o.speed * o.heading_y
     if solid_at(level, o.x, o.y):
-        explode(w, o, slot)
+        explode(w, o)
         return
     old = o.cell
-    if grid_move(w, o, slot) and edge_between(w, old, o.cell) == SOLID:
-        explode(w, o, slot)
+    if grid_move(w, o) and edge_between(w, old, o.cell) == SOLID:
+        explode(w, o)
         return
     steer(w, o)
 
@@ -132,22 +132,22 @@ def steer(w: World, o: Launcher) -> None:
 
 
 @fast
-def touch_rocket(w: World, o: Launcher, slot: int) -> None:
+def touch_rocket(w: World, o: Launcher) -> None:
     """The rocket's tip inside the ninja: kill, then explode."""
     n = w.ninja
     dx = n.x - o.x
     dy = n.y - o.y
     if sqrt(dx * dx + dy * dy) < ROCKET_RADIUS + RADIUS:
-        kill(w, EXPLOSIVE, slot, dx, dy, o.x, o.y)
-        explode(w, o, slot)
+        kill(w, EXPLOSIVE, o.slot, dx, dy, o.x, o.y)
+        explode(w, o)
 
 
 @fast
-def explode(w: World, o: Launcher, slot: int) -> None:
+def explode(w: World, o: Launcher) -> None:
     """The rocket is gone; the launcher thinks again, unless the ninja has died or won."""
-    end_update(w, o, slot)
+    end_update(w, o)
     grid_remove(w, o)
     o.routine = LAUNCHER_IDLE
     if not w.round_over:
-        start_think(w, o, slot)
-    emit(w, ROCKET_EXPLODED, slot, o.x, o.y, 0.0, 0.0)
+        start_think(w, o)
+    emit(w, ROCKET_EXPLODED, o.slot, o.x, o.y, 0.0, 0.0)

@@ -15,19 +15,19 @@ from ninja_game.sim.states import EXPLOSIVE
 
 
 @fast
-def create_mine(w: World, o: Mine, slot: int) -> None:
+def create_mine(w: World, o: Mine) -> None:
     """In the grid, to be met."""
-    grid_insert(w, o, slot)
+    grid_insert(w, o)
 
 
 @fast
-def touch_mine(w: World, o: Mine, slot: int) -> None:
+def touch_mine(w: World, o: Mine) -> None:
     """Disc contact: the ninja dies and the mine is gone, in that order."""
     n = w.ninja
     dx = o.x - n.x
     dy = o.y - n.y
     if sqrt(dx * dx + dy * dy) < MINE_RADIUS + RADIUS:
-        kill(w, EXPLOSIVE, slot, -dx, -dy, o.x, o.y)
+        kill(w, EXPLOSIVE, o.slot, -dx, -dy, o.x, o.y)
         o.exploded = 1
         grid_remove(w, o)
-        emit(w, MINE_EXPLODED, slot, o.x, o.y, 0.0, 0.0)
+        emit(w, MINE_EXPLODED, o.slot, o.x, o.y, 0.0, 0.0)

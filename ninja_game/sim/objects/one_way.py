@@ -14,7 +14,7 @@ from ninja_game.sim.rules import ONE_WAY_HALF, RADIUS
 
 
 @fast
-def create_one_way(w: World, o: OneWay, slot: int, p: Sequence[float]) -> None:
+def create_one_way(w: World, o: OneWay, p: Sequence[float]) -> None:
     """Facing its direction; down if that is none."""
     o.face_x = 0.0
     o.face_y = 1.0
@@ -22,7 +22,7 @@ def create_one_way(w: World, o: OneWay, slot: int, p: Sequence[float]) -> None:
         if p[2] == direction:
             o.face_x = UNIT_X[direction]
             o.face_y = UNIT_Y[direction]
-    grid_insert(w, o, slot)
+    grid_insert(w, o)
 
 
 @fast

@@ -27,10 +27,10 @@ from ninja_game.sim.states import ELECTRIC, THWUMP_MOVE, THWUMP_REST
 
 
 @fast
-def create_thwump(level: TileMap, w: World, o: Thwump, slot: int, direction: float) -> None:
+def create_thwump(level: TileMap, w: World, o: Thwump, direction: float) -> None:
     """Scan the free cells ahead: the goal is 9 px beyond the centre of the last one. Edges and doors are ignored."""
-    grid_insert(w, o, slot)
-    start_update(w, o, slot)
+    grid_insert(w, o)
+    start_update(w, o)
     o.anchor_x = o.x
     o.anchor_y = o.y
     o.speed = THWUMP_FALL
@@ -67,10 +67,10 @@ def create_thwump(level: TileMap, w: World, o: Thwump, slot: int, direction: flo
 
 
 @fast
-def update_thwump(w: World, o: Thwump, slot: int) -> None:
+def update_thwump(w: World, o: Thwump) -> None:
     """At rest: look for the ninja. Otherwise fall to the goal, then rise to the anchor, without a pause."""
     if o.routine == THWUMP_MOVE:
-        move_thwump(w, o, slot)
+        move_thwump(w, o)
     elif not w.round_over:
         n = w.ninja
         if o.face_x == 0.0:
@@ -83,11 +83,11 @@ def update_thwump(w: World, o: Thwump, slot: int) -> None:
             o.goal_x = o.fall_x
             o.goal_y = o.fall_y
             o.routine = THWUMP_MOVE
-            emit(w, THWUMP_FELL, slot, o.x, o.y, o.face_x, o.face_y)
+            emit(w, THWUMP_FELL, o.slot, o.x, o.y, o.face_x, o.face_y)
 
 
 @fast
-def move_thwump(w: World, o: Thwump, slot: int) -> None:
+def move_thwump(w: World, o: Thwump) -> None:
     """One step; the tick that snaps to the goal does not also move."""
     dx = o.goal_x - o.x
     dy = o.goal_y - o.y
@@ -99,17 +99,17 @@ def move_thwump(w: World, o: Thwump, slot: int) -> None:
             o.sign = -1.0
             o.goal_x = o.anchor_x
             o.goal_y = o.anchor_y
-            emit(w, THWUMP_LANDED, slot, o.x, o.y, o.face_x, o.face_y)
+            emit(w, THWUMP_LANDED, o.slot, o.x, o.y, o.face_x, o.face_y)
         else:
             o.routine = THWUMP_REST
     else:
         o.x = o.x + o.sign * o.face_x * o.speed
         o.y = o.y + o.sign * o.face_y * o.speed
-    grid_move(w, o, slot)
+    grid_move(w, o)
 
 
 @fast
-def touch_thwump(w: World, o: Thwump, slot: int) -> None:
+def touch_thwump(w: World, o: Thwump) -> None:
     """Box contact: the leading face kills, the others push."""
     n = w.ninja
     dy = n.y - o.y
@@ -123,19 +123,19 @@ def touch_thwump(w: World, o: Thwump, slot: int) -> None:
     if overlap_y < overlap_x:
         if dy < 0.0:
             if o.face_y < 0.0:
-                kill(w, ELECTRIC, slot, 0.0, THWUMP_UP_IMPULSE, n.x, n.y - 0.5 * RADIUS)
+                kill(w, ELECTRIC, o.slot, 0.0, THWUMP_UP_IMPULSE, n.x, n.y - 0.5 * RADIUS)
             else:
                 push(n, 0.0, -overlap_y, 0.0, -1.0)
         elif o.face_y > 0.0:
-            kill(w, ELECTRIC, slot, 0.0, THWUMP_DOWN_IMPULSE, n.x, n.y + 0.5 * RADIUS)
+            kill(w, ELECTRIC, o.slot, 0.0, THWUMP_DOWN_IMPULSE, n.x, n.y + 0.5 * RADIUS)
         else:
             push(n, 0.0, overlap_y, 0.0, 1.0)
     elif dx < 0.0:
         if o.face_x < 0.0:
-            kill(w, ELECTRIC, slot, -THWUMP_SIDE_IMPULSE, THWUMP_SIDE_LIFT, n.x - 0.5 * RADIUS, n.y)
+            kill(w, ELECTRIC, o.slot, -THWUMP_SIDE_IMPULSE, THWUMP_SIDE_LIFT, n.x - 0.5 * RADIUS, n.y)
         else:
             push(n, -overlap_x, 0.0, -1.0, 0.0)
     elif o.face_x > 0.0:
-        kill(w, ELECTRIC, slot, THWUMP_SIDE_IMPULSE, THWUMP_SIDE_LIFT, n.x + 0.5 * RADIUS, n.y)
+        kill(w, ELECTRIC, o.slot, THWUMP_SIDE_IMPULSE, THWUMP_SIDE_LIFT, n.x + 0.5 * RADIUS, n.y)
     else:
         push(n, overlap_x, 0.0, 1.0, 0.0)

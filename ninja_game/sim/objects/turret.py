@@ -38,11 +38,11 @@ from ninja_game.sim.states import (
 
 
 @fast
-def create_turret(w: World, o: Turret, slot: int) -> None:
+def create_turret(w: World, o: Turret) -> None:
     """Waiting, aimed at itself; in no cell: it cannot be touched."""
     o.aim_x = o.x
     o.aim_y = o.y
-    start_think(w, o, slot)
+    start_think(w, o)
 
 
 @fast
@@ -52,7 +52,7 @@ def sees_ninja(level: TileMap, w: World, o: Turret) -> bool:
 
 
 @fast
-def think_turret(level: TileMap, w: World, o: Turret, slot: int) -> None:
+def think_turret(level: TileMap, w: World, o: Turret) -> None:
     """Waiting: start targeting what is seen. Targeting: stop when it is out of sight."""
     seen = sees_ninja(level, w, o)
     if o.think == TURRET_WAITING:
@@ -60,49 +60,49 @@ def think_turret(level: TileMap, w: World, o: Turret, slot: int) -> None:
             o.aim_factor = AIM_FAR
             o.aim_x = o.x
             o.aim_y = o.y
-            keep_targeting(w, o, slot)
+            keep_targeting(w, o)
     elif not seen:
-        stop_targeting(w, o, slot)
+        stop_targeting(w, o)
 
 
 @fast
-def keep_targeting(w: World, o: Turret, slot: int) -> None:
+def keep_targeting(w: World, o: Turret) -> None:
     """(Re)start the count to the shot; aim point and factor carry on."""
     o.shot_counter = TURRET_SHOT
     o.routine = TURRET_TARGET
     o.think = TURRET_TARGETING
-    start_update(w, o, slot)
+    start_update(w, o)
 
 
 @fast
-def stop_targeting(w: World, o: Turret, slot: int) -> None:
+def stop_targeting(w: World, o: Turret) -> None:
     """Wait for the ninja to come in sight."""
-    end_update(w, o, slot)
+    end_update(w, o)
     o.think = TURRET_WAITING
 
 
 @fast
-def update_turret(level: TileMap, w: World, o: Turret, slot: int) -> None:
+def update_turret(level: TileMap, w: World, o: Turret) -> None:
     """Target, then stand still before the shot, then after it."""
     if o.routine == TURRET_TARGET:
-        target(w, o, slot)
+        target(w, o)
     elif o.routine == TURRET_PRE_FIRE:
         o.counter += 1
         if o.counter >= TURRET_DELAY:
             if sees_ninja(level, w, o):
-                fire(level, w, o, slot)
-            end_shot(w, o, slot)
+                fire(level, w, o)
+            end_shot(w, o)
     elif o.routine == TURRET_POST_FIRE:
         o.counter += 1
         if o.counter >= TURRET_DELAY:
             if sees_ninja(level, w, o):
-                keep_targeting(w, o, slot)
+                keep_targeting(w, o)
             else:
-                stop_targeting(w, o, slot)
+                stop_targeting(w, o)
 
 
 @fast
-def target(w: World, o: Turret, slot: int) -> None:
+def target(w: World, o: Turret) -> None:
     """Move the crosshair towards where the ninja will be; near it the shot comes sooner."""
     n = w.ninja
     ex = o.aim_x - (2.0 * n.x - n.prev_x)
@@ -122,17 +122,17 @@ def target(w: World, o: Turret, slot: int) -> None:
         o.aim_factor = AIM_MID
         o.shot_counter -= FAR_STEP
     if o.shot_counter < 0.0:
-        end_think(w, o, slot)
+        end_think(w, o)
         o.counter = 0
         o.routine = TURRET_PRE_FIRE
-        emit(w, TURRET_LOCKED, slot, o.aim_x, o.aim_y, 0.0, 0.0)
+        emit(w, TURRET_LOCKED, o.slot, o.aim_x, o.aim_y, 0.0, 0.0)
 
 
 @fast
-def fire(level: TileMap, w: World, o: Turret, slot: int) -> None:
+def fire(level: TileMap, w: World, o: Turret) -> None:
     """Shoot through the crosshair: kills if that ray meets the ninja before any tile."""
     hit, hit_x, hit_y = sees(level, w, o.x, o.y, o.aim_x, o.aim_y)
-    emit(w, TURRET_FIRED, slot, o.x, o.y, o.aim_x - o.x, o.aim_y - o.y)
+    emit(w, TURRET_FIRED, o.slot, o.x, o.y, o.aim_x - o.x, o.aim_y - o.y)
     if hit:
         dx = o.aim_x - o.x
         dy = o.aim_y - o.y
@@ -142,13 +142,13 @@ def fire(level: TileMap, w: World, o: Turret, slot: int) -> None:
         if length != 0.0:
             a = dx / length
             b = dy / length
-        kill(w, HARD_BULLET, slot, a * TURRET_IMPULSE, b * TURRET_IMPULSE, hit_x, hit_y)
+        kill(w, HARD_BULLET, o.slot, a * TURRET_IMPULSE, b * TURRET_IMPULSE, hit_x, hit_y)
 
 
 @fast
-def end_shot(w: World, o: Turret, slot: int) -> None:
+def end_shot(w: World, o: Turret) -> None:
     """Think again and cool down. Runs also when the shot killed and so idled the turret during it (objects.md §4.1)."""
-    start_think(w, o, slot)
+    start_think(w, o)
     o.think = TURRET_TARGETING
     o.counter = 0
     o.routine = TURRET_POST_FIRE
