@@ -1,6 +1,6 @@
 """What the ninja does with the keys, state by state: the tables of ninja.md §7, top to bottom.
 
-"Store vx" means px := x - vx: the velocity lives in the difference of the positions.
+"Store vx" means prev_x := x - vx: the velocity lives in the difference of the positions.
 """
 
 from __future__ import annotations

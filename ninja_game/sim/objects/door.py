@@ -31,33 +31,35 @@ from ninja_game.sim.states import AUTOMATIC, LOCKED, TRAP
 
 @fast
 def create_door(w: World, o: Door, p: Sequence[float]) -> None:
-    """Find the two edges, remember what they are, file, then close (a trap door: leave open)."""
-    cell_1 = cell_index(p[4] + p[7], p[5] + p[8])
+    """Find the two edges, remember what they are, enter the grid, then close (a trap door: leave open)."""
+    vertical, trap, locked = p[2], p[3], p[6]
+    column, row, column_offset, row_offset = p[4], p[5], p[7], p[8]
+    cell_1 = cell_index(column + column_offset, row + row_offset)
     cell_2 = 0
     if cell_1:
-        cell_2 = cell_1 + STRIDE if p[2] == 1.0 else cell_1 + 1
+        cell_2 = cell_1 + STRIDE if vertical == 1.0 else cell_1 + 1
         if not EXISTS[cell_2]:
             cell_2 = 0
-    side_1 = DOWN if p[2] == 1.0 else RIGHT
-    side_2 = UP if p[2] == 1.0 else LEFT
+    side_1 = DOWN if vertical == 1.0 else RIGHT
+    side_2 = UP if vertical == 1.0 else LEFT
     if cell_1:
         o.stored_1 = w.edges[4 * cell_1 + side_1]
         # An odd "vertical" flag stores the right side's states but writes P1's lower and P2's upper edge (quirk).
-        o.edge_1 = 4 * cell_1 + (RIGHT if p[2] == 0.0 else DOWN)
+        o.edge_1 = 4 * cell_1 + (RIGHT if vertical == 0.0 else DOWN)
     if cell_2:
         o.stored_2 = w.edges[4 * cell_2 + side_2]
-        o.edge_2 = 4 * cell_2 + (LEFT if p[2] == 0.0 else UP)
+        o.edge_2 = 4 * cell_2 + (LEFT if vertical == 0.0 else UP)
     o.mechanism = AUTOMATIC
-    if is_set(p[6]):
+    if is_set(locked):
         o.mechanism = LOCKED
-    elif is_set(p[3]):
+    elif is_set(trap):
         o.mechanism = TRAP
     if o.mechanism == AUTOMATIC:
         o.x = 0.0
         o.y = 0.0
         if cell_1:
-            o.x = CENTRE_X[cell_1] + (0.0 if p[2] == 1.0 else HALF)
-            o.y = CENTRE_Y[cell_1] + (HALF if p[2] == 1.0 else 0.0)
+            o.x = CENTRE_X[cell_1] + (0.0 if vertical == 1.0 else HALF)
+            o.y = CENTRE_Y[cell_1] + (HALF if vertical == 1.0 else 0.0)
     grid_insert(w, o)
     write_edges(w, o, o.mechanism != TRAP)
 

@@ -48,7 +48,8 @@ FIRST_LIST, SECOND_LIST = WANDER_CW, WANDER_CCW
 
 @fast
 def create_drone(w: World, o: Drone, p: Sequence[float]) -> None:
-    """Filed where the record says, then snapped to that cell's centre; the first update chooses a goal."""
+    """Registered where the record says, then snapped to that cell's centre; the first update chooses a goal."""
+    movement_number, seeker, weapon, direction = p[2], p[3], p[4], p[5]
     cell = cell_at(o.x, o.y)
     link(w, o, cell)
     o.in_grid = 1
@@ -57,23 +58,23 @@ def create_drone(w: World, o: Drone, p: Sequence[float]) -> None:
     o.y = o.goal_y = CENTRE_Y[cell]
     o.end_x = DRONE_END_X
     o.end_y = DRONE_END_Y
-    o.direction = direction_code(p[5])
-    o.movement = MOVEMENT_BELOW if p[2] < 2.0 else MOVEMENT_BEYOND
+    o.direction = direction_code(direction)
+    o.movement = MOVEMENT_BELOW if movement_number < 2.0 else MOVEMENT_BEYOND
     for movement in range(6):
-        if p[2] == movement:
+        if movement_number == movement:
             o.movement = movement
     o.weapon = WEAPON_UNKNOWN
     o.speed = DRONE_SPEED
-    if p[4] == WEAPON_ZAP:
+    if weapon == WEAPON_ZAP:
         o.weapon = WEAPON_ZAP
         o.speed = DRONE_SPEED * ZAP_PACE
-        if is_set(p[3]):
+        if is_set(seeker):
             o.seeker = 1
-    elif p[4] == WEAPON_LASER:
+    elif weapon == WEAPON_LASER:
         o.weapon = WEAPON_LASER
         o.speed = DRONE_SPEED * LASER_PACE
         start_think(w, o)
-    elif p[4] == WEAPON_CHAINGUN:
+    elif weapon == WEAPON_CHAINGUN:
         o.weapon = WEAPON_CHAINGUN
         o.speed = DRONE_SPEED * CHAINGUN_PACE
         start_think(w, o)

@@ -17,7 +17,7 @@ from ninja_game.sim.rules import EXIT_RADIUS, RADIUS, SWITCH_RADIUS
 
 @fast
 def create_exit(w: World, o: Exit, p: Sequence[float]) -> None:
-    """An exit files only its switch, which has no id: it takes a slot behind those of the ids."""
+    """An exit enters only its switch into the grid; that has no id and takes a slot behind those of the ids."""
     o.partner = w.slots_used
     w.slots_used += 1
     switch = w.objects[o.partner]
@@ -32,7 +32,7 @@ def create_exit(w: World, o: Exit, p: Sequence[float]) -> None:
 
 @fast
 def touch_switch(w: World, o: Switch) -> None:
-    """Open and file the exit. The switch itself is never unfiled: it stays in its list, inert (objects.md §2.2)."""
+    """Open the exit and enter it into the grid. The switch stays in its list for ever, inert (objects.md §2.2)."""
     door = w.objects[o.partner]
     if door.is_open:
         return
