@@ -1,12 +1,29 @@
-"""How the ninja takes a contact: the push at once, then what it notes about floor and wall (ninja.md §5)."""
+"""Contacts of the ninja: with a solid box, and how it takes one: pushed, then noted as floor or wall (ninja.md §5)."""
 
 from __future__ import annotations
 
 from ninja_game.sim.death import kill
 from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.object_fields import Header
 from ninja_game.sim.memory.schema import Ninja, World
-from ninja_game.sim.rules import CRUSH
+from ninja_game.sim.rules import CRUSH, RADIUS
 from ninja_game.sim.states import CRUSHED
+
+
+@fast
+def box_contact(n: Ninja, o: Header, half: float) -> tuple[float, float, float]:
+    """How deep the ninja is in a box about an object, px, and the normal of the nearest side; all 0: it is outside."""
+    dy = n.y - o.y
+    overlap_y = half + RADIUS - abs(dy)
+    if not 0.0 < overlap_y:
+        return 0.0, 0.0, 0.0
+    dx = n.x - o.x
+    overlap_x = half + RADIUS - abs(dx)
+    if not 0.0 < overlap_x:
+        return 0.0, 0.0, 0.0
+    if overlap_y < overlap_x:
+        return overlap_y, 0.0, -1.0 if dy < 0.0 else 1.0
+    return overlap_x, -1.0 if dx < 0.0 else 1.0, 0.0
 
 
 @fast

@@ -7,8 +7,8 @@ from ninja_game.sim.grid import grid_insert
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.object_fields import BounceBlock
 from ninja_game.sim.memory.schema import World
-from ninja_game.sim.ninja.contact_response import push
-from ninja_game.sim.rules import BLOCK_DRAG, BLOCK_HALF, BLOCK_SHARE, BLOCK_SLEEP, BLOCK_SPRING, NINJA_SHARE, RADIUS
+from ninja_game.sim.ninja.contact_response import box_contact, push
+from ninja_game.sim.rules import BLOCK_DRAG, BLOCK_HALF, BLOCK_SHARE, BLOCK_SLEEP, BLOCK_SPRING, NINJA_SHARE
 from ninja_game.sim.schedule import end_think, end_update, start_think, start_update
 
 
@@ -27,24 +27,12 @@ def touch_block(w: World, o: BounceBlock) -> None:
     The block's old place stays, so that its displacement is velocity in the next update.
     """
     n = w.ninja
-    dy = n.y - o.y
-    overlap_y = BLOCK_HALF + RADIUS - abs(dy)
-    if not 0.0 < overlap_y:
+    depth, mx, my = box_contact(n, o, BLOCK_HALF)
+    if depth == 0.0:
         return
-    dx = n.x - o.x
-    overlap_x = BLOCK_HALF + RADIUS - abs(dx)
-    if not 0.0 < overlap_x:
-        return
-    if overlap_y < overlap_x:
-        sign = -1.0 if dy < 0.0 else 1.0
-        depth = sign * overlap_y
-        o.y = o.y - BLOCK_SHARE * depth
-        push(n, 0.0, NINJA_SHARE * depth, 0.0, sign)
-    else:
-        sign = -1.0 if dx < 0.0 else 1.0
-        depth = sign * overlap_x
-        o.x = o.x - BLOCK_SHARE * depth
-        push(n, NINJA_SHARE * depth, 0.0, sign, 0.0)
+    o.x = o.x - BLOCK_SHARE * (mx * depth)
+    o.y = o.y - BLOCK_SHARE * (my * depth)
+    push(n, NINJA_SHARE * (mx * depth), NINJA_SHARE * (my * depth), mx, my)
     o.counter = 0
     if not o.updating:
         start_update(w, o)

@@ -9,7 +9,7 @@ from ninja_game.sim.grid import grid_insert
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.object_fields import OneWay
 from ninja_game.sim.memory.schema import World
-from ninja_game.sim.ninja.contact_response import push
+from ninja_game.sim.ninja.contact_response import box_contact, push
 from ninja_game.sim.rules import ONE_WAY_HALF, RADIUS
 
 
@@ -29,9 +29,7 @@ def create_one_way(w: World, o: OneWay, p: Sequence[float]) -> None:
 def touch_one_way(w: World, o: OneWay) -> None:
     """Hold the ninja if it comes from the facing side and was on or outside the face in the last tick."""
     n = w.ninja
-    if not 0.0 < ONE_WAY_HALF + RADIUS - abs(n.y - o.y):
-        return
-    if not 0.0 < ONE_WAY_HALF + RADIUS - abs(n.x - o.x):
+    if box_contact(n, o, ONE_WAY_HALF)[0] == 0.0:
         return
     if o.face_x == 0.0:
         face = o.face_y

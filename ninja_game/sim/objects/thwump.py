@@ -9,7 +9,7 @@ from ninja_game.sim.grid import cell_at, grid_insert, grid_move
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.object_fields import Thwump
 from ninja_game.sim.memory.schema import TileMap, World
-from ninja_game.sim.ninja.contact_response import push
+from ninja_game.sim.ninja.contact_response import box_contact, push
 from ninja_game.sim.rules import (
     CELL,
     RADIUS,
@@ -112,30 +112,16 @@ def move_thwump(w: World, o: Thwump) -> None:
 def touch_thwump(w: World, o: Thwump) -> None:
     """Box contact: the leading face kills, the others push."""
     n = w.ninja
-    dy = n.y - o.y
-    overlap_y = THWUMP_HALF + RADIUS - abs(dy)
-    if not 0.0 < overlap_y:
+    depth, mx, my = box_contact(n, o, THWUMP_HALF)
+    if depth == 0.0:
         return
-    dx = n.x - o.x
-    overlap_x = THWUMP_HALF + RADIUS - abs(dx)
-    if not 0.0 < overlap_x:
+    if mx * o.face_x + my * o.face_y <= 0.0:
+        push(n, mx * depth, my * depth, mx, my)
         return
-    if overlap_y < overlap_x:
-        if dy < 0.0:
-            if o.face_y < 0.0:
-                kill(w, ELECTRIC, o.slot, 0.0, THWUMP_UP_IMPULSE, n.x, n.y - 0.5 * RADIUS)
-            else:
-                push(n, 0.0, -overlap_y, 0.0, -1.0)
-        elif o.face_y > 0.0:
-            kill(w, ELECTRIC, o.slot, 0.0, THWUMP_DOWN_IMPULSE, n.x, n.y + 0.5 * RADIUS)
-        else:
-            push(n, 0.0, overlap_y, 0.0, 1.0)
-    elif dx < 0.0:
-        if o.face_x < 0.0:
-            kill(w, ELECTRIC, o.slot, -THWUMP_SIDE_IMPULSE, THWUMP_SIDE_LIFT, n.x - 0.5 * RADIUS, n.y)
-        else:
-            push(n, -overlap_x, 0.0, -1.0, 0.0)
-    elif o.face_x > 0.0:
-        kill(w, ELECTRIC, o.slot, THWUMP_SIDE_IMPULSE, THWUMP_SIDE_LIFT, n.x + 0.5 * RADIUS, n.y)
+    if my == 0.0:
+        fx = mx * THWUMP_SIDE_IMPULSE
+        fy = THWUMP_SIDE_LIFT
     else:
-        push(n, overlap_x, 0.0, 1.0, 0.0)
+        fx = 0.0
+        fy = THWUMP_UP_IMPULSE if my < 0.0 else THWUMP_DOWN_IMPULSE
+    kill(w, ELECTRIC, o.slot, fx, fy, n.x + mx * 0.5 * RADIUS, n.y + my * 0.5 * RADIUS)
