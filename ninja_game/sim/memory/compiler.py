@@ -39,6 +39,7 @@ class Compiler:
         options: dict[str, Any] = {"nogil": True, "error_model": "python", "boundscheck": checked}
         self._inner = jit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)
         self._outer = jit(**options)
+        self._types: Any = numba.types
         self._keep = keep
         self._compiler = f"{sys.version} {numba.__version__} {np.__version__} {options}"
         self._twins: dict[Callable[..., Any], Any] = {}
@@ -59,12 +60,24 @@ class Compiler:
             twin.__module__ = rule.__module__
             twin.__qualname__ = rule.__qualname__
             entry = rule in ENTRY_POINTS
-            self._twins[rule] = compiled = (self._outer if entry else self._inner)(twin)
+            self._twins[rule] = compiled = self._outer(twin) if entry else self._one_for_all_integers(self._inner(twin))
             if entry and self._keep:
                 self._keep(compiled, code_digest(rule, self._compiler))
             if len(namespace) == 1:
                 self._fill(namespace, vars(sys.modules[rule.__module__]))
         return self._twins[rule]
+
+    def _one_for_all_integers(self, compiled: Any) -> Any:
+        """Have a function take any integer as int64: Numba would compile it for each type and each constant anew."""
+        template, types = compiled.get_call_template, self._types
+
+        def widened(args: Iterable[Any], names: dict[str, Any]) -> Any:
+            return template(
+                [types.int64 if isinstance(kind, types.Integer) else types.unliteral(kind) for kind in args], names
+            )
+
+        compiled.get_call_template = widened
+        return compiled
 
     def _fill(self, namespace: dict[str, Any], source: dict[str, Any]) -> None:
         """Give a namespace what its module has: twins for rules, arrays for lists of numbers, the rest as it is."""
