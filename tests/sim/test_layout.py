@@ -7,6 +7,7 @@ from itertools import combinations
 import pytest
 
 from ninja_game.compile_cache import compiled_available
+from ninja_game.sim.events import emit
 from ninja_game.sim.memory.compiled import CompiledMemory
 from ninja_game.sim.memory.compiler import Compiler
 from ninja_game.sim.memory.declare import ENTRY_POINTS, REGISTERED, entry_point, f8, fields_of, part
@@ -102,3 +103,10 @@ def test_entry_points_are_registered_rules_with_names_of_their_own() -> None:
 
     with pytest.raises(TypeError, match="another entry point of the name step_world"):
         entry_point(step_world)
+
+
+@needs_numba
+def test_a_rule_is_compiled_once_whatever_constants_its_callers_write() -> None:
+    compiler = Compiler()
+    CompiledMemory(compiler, crowded_level(0), box=False).kill(0, 0.0, 0.0)
+    assert len(compiler._twin(emit).signatures) == 1
