@@ -72,8 +72,10 @@ class Compiler:
         template, types = compiled.get_call_template, self._types
 
         def widened(args: Iterable[Any], names: dict[str, Any]) -> Any:
+            kinds = [types.unliteral(kind) for kind in args]
+            small = [isinstance(kind, types.Integer) and kind.bitwidth < types.int64.bitwidth for kind in kinds]
             return template(
-                [types.int64 if isinstance(kind, types.Integer) else types.unliteral(kind) for kind in args], names
+                [types.int64 if is_small else kind for is_small, kind in zip(small, kinds, strict=True)], names
             )
 
         compiled.get_call_template = widened
