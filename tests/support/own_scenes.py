@@ -81,6 +81,7 @@ SCENES = (
         RIGHT * 30,
     ),
     Scene("a-pad-without-number", room({}, ninja(), ObjectSpec(LAUNCH_PAD, (84.0, 234.0, math.nan, -1.0))), RIGHT * 40),
+    Scene("onto-a-rising-thwump", room({}, ninja(84.0, 110.0), ObjectSpec(THWUMP, (84.0, 200.0, 3.0))), STILL * 60),
     Scene("a-thwump-that-faces-nowhere", room({}, ninja(), ObjectSpec(THWUMP, (120.0, 230.0, 7.0))), RIGHT * 60),
     Scene("a-one-way-faces-down", room({}, ninja(130.0, 60.0), ObjectSpec(ONE_WAY, (132.0, 132.0, 9.0))), STILL * 90),
     Scene("a-drone-closed-in", room(
