@@ -156,7 +156,7 @@ def read_episodes(listing: Path, levels: dict[str, NamedLevel]) -> list[Episode]
     """
     try:
         tables = tomllib.loads(read_utf8(listing)).get("episode", [])
-    except (tomllib.TOMLDecodeError, ValueError) as error:
+    except (ValueError, RecursionError) as error:
         raise LevelError(f"not a list of episodes: {error}", str(listing)) from None
     if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
         raise LevelError("not a list of episodes", str(listing), expected="a table [[episode]] for each")

@@ -72,6 +72,7 @@ def test_unchanged_file_is_read_once_and_a_changed_one_again(tmp_path: Path) -> 
     "text",
     [
         "not [ toml",
+        "a = " + "[" * 5000,
         '[[episode]]\nnumber = 100\nlevels = ["a.txt"]',
         "[[episode]]\nnumber = 0\nlevels = []",
         '[[episode]]\nnumber = 0\nlevels = ["unknown.txt"]',
