@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,9 @@ from hypothesis import settings
 # Speed is no business of tests on a loaded machine; the automatic check always tries the same examples.
 settings.register_profile("ninja-game", deadline=None, derandomize="CI" in os.environ)
 settings.load_profile("ninja-game")
+
+# A shell lets what it starts in the background ignore Ctrl-C; the programs that tests start must hear it.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
