@@ -30,7 +30,7 @@ COMMANDS = {
     "bench": "bench walk.replay.txt",
     "play": "play --replay archive.txt --size 132x100",
     "export": "export archive.txt -o out/film.gif",
-    "convert": "convert archive.txt out/replays",
+    "convert": "convert archive.txt out/replays --to replay",
 }
 
 
