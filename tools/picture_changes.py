@@ -9,14 +9,14 @@ from tools.changes import Change
 CHANGES = (
     # What moves.
     Change("drone-eye", "view/sprites/draw_moving.py", "    target.sprite(drawings.eye(mood)", "    (drawings.eye(mood)"),
-    Change("rocket", "view/sprites/draw_moving.py", "if m.o.routine == LAUNCHER_FLIGHT:", "if False:"),
+    Change("rocket", "view/sprites/draw_moving.py", "if m.o.routine == states.LAUNCHER_FLIGHT:", "if False:"),
     Change("rocket-trail", "view/sprites/draw_moving.py", "enumerate(trail[:-1])", "enumerate(trail[:0])"),
     Change("laser-beam", "view/sprites/draw_moving.py", "            _beam(target, m)", "            pass"),
     Change("laser-before-the-shot", "view/sprites/draw_moving.py", "palette.warning, o.x", "palette.laser, o.x"),
     Change("crosshair", "view/sprites/draw_moving.py", "TURRET: _crosshair,", "TURRET: lambda *_: None,"),
-    Change("chaingun-barrel", "view/sprites/draw_moving.py", "if o.weapon == WEAPON_CHAINGUN:", "if False:"),
+    Change("chaingun-barrel", "view/sprites/draw_moving.py", "if o.weapon == states.WEAPON_CHAINGUN:", "if False:"),
     Change("seeker-antenna", "view/sprites/draw_moving.py", "seeker = 1 if o.seeker", "seeker = 1 if not o.seeker"),
-    Change("thwump-face", "view/sprites/draw_moving.py", "mood = 0 if o.routine == THWUMP_REST", "mood = 1 if o.routine"),
+    Change("thwump-face", "view/sprites/draw_moving.py", "mood = 0 if o.routine == states.THWUMP_REST", "mood = 1 if o.routine"),
     Change("guard", "view/sprites/draw_moving.py", "FLOOR_GUARD: _guard,", "FLOOR_GUARD: lambda *_: None,"),
     Change("block", "view/sprites/draw_moving.py", "BOUNCE_BLOCK: _block,", "BOUNCE_BLOCK: lambda *_: None,"),
     Change("smooth-motion", "view/sprites/object_animation.py", "return x, y\n        return bx + (x - bx) * fraction", "return x, y\n        return bx + (x - bx)"),
