@@ -12,7 +12,7 @@ from ninja_game.formats.ascii.legend import legend_text
 from ninja_game.formats.ascii.reader import is_ascii_level
 from ninja_game.formats.ascii.writer import RULER
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file, write_level_file
-from ninja_game.formats.n14.level_string import write_level_string
+from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.named_level import NamedLevel, is_level_file, parse_levels
 from ninja_game.formats.recording import Recording, holds_recordings, parse_replays, record_of
 from ninja_game.formats.replay.text import is_replay, write_replay
@@ -84,6 +84,4 @@ def _own_comments(text: str) -> bool:
 
 def _rounded(level: Level) -> bool:
     """Whether a level changes on its way through the in-game string."""
-    from ninja_game.formats.n14.level_string import level_digest, parse_level_string
-
     return level_digest(parse_level_string(write_level_string(level, exact=True))) != level_digest(level)
