@@ -1,0 +1,92 @@
+"""Levels with the routes of their certificates: `python3 tools/dev.py tool draw.level_sheet LEVEL… --out FILE`.
+
+Red: the run to the exit; yellow: the run with all gold. `--certificates FOLDER` says where they are (default: beside
+the levels). Look at the picture with the list of questions in levels/README.md.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
+os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+
+import pygame
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.formats.load import load_levels, load_replays
+from ninja_game.formats.named_level import NamedLevel
+from ninja_game.play.ui.canvas import WIDTH, Canvas
+from ninja_game.play.ui.palette import PALETTES
+from ninja_game.play.view.sprites.thumbnail import thumbnail
+from ninja_game.runs.run import run_level
+
+ROUTES = {"exit": pygame.Color(220, 40, 40), "gold": pygame.Color(235, 180, 0)}
+CAPTION = 26
+
+
+def route(named: NamedLevel, certificate: Path) -> list[tuple[float, float]]:
+    """The ninja's positions, px, in a certificate; empty if there is none or if it is of another level."""
+    try:
+        recording = load_replays(certificate, level=named.level)[0]
+        return [(x, y) for x, y in run_level(named.level, recording.playback(recording.ticks)).positions.tolist()]
+    except (NinjaGameError, OSError):
+        return []
+
+
+def draw_level(named: NamedLevel, width: int, certificates: Path | None) -> tuple[pygame.Surface, str]:
+    """A level with its routes, ``width`` px wide, and what they take as words."""
+    picture = thumbnail(named.level, PALETTES["classic"], width)
+    canvas = Canvas(picture.get_size())
+    words = []
+    for name, colour in ROUTES.items():
+        points = certificates and route(named, certificates / f"{Path(named.file).stem}.{name}.replay.txt")
+        if points and len(points) > 1:
+            pygame.draw.lines(picture, colour, False, [canvas.exact(x, y) for x, y in points], max(1, width // 400))
+            words.append(f"{name} {len(points) / 40:.1f} s")
+    return picture, ", ".join(words) if words or not certificates else "no certificates"
+
+
+def sheet(
+    levels: list[NamedLevel], columns: int, width: int, certificates: Path | None, *, named: bool
+) -> pygame.Surface:
+    """All levels in rows of ``columns``, with names below, or numbers where names would tell too much."""
+    pygame.font.init()
+    font = pygame.font.Font(None, 22)
+    height = round(width * 25 / 33) + CAPTION
+    rows = -(-len(levels) // columns)
+    picture = pygame.Surface((columns * (width + 8) + 8, rows * (height + 8) + 8))
+    picture.fill((40, 40, 44))
+    for number, level in enumerate(levels):
+        x, y = 8 + number % columns * (width + 8), 8 + number // columns * (height + 8)
+        drawn, words = draw_level(level, width, certificates)
+        picture.blit(drawn, (x, y))
+        text = f"{Path(level.file).stem}: {level.name}  {words}" if named else f"{number + 1}"
+        picture.blit(font.render(text, True, (230, 230, 230)), (x, y + height - CAPTION + 5))
+    return picture
+
+
+def main(argv: list[str]) -> int:
+    """Write the picture."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("levels", nargs="+", type=Path)
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--columns", type=int, default=2)
+    parser.add_argument("--width", type=int, default=WIDTH, help="of one level, px")
+    parser.add_argument("--certificates", type=Path)
+    parser.add_argument("--without-routes", action="store_true")
+    parser.add_argument("--unnamed", action="store_true", help="numbers instead of names, for blind comparisons")
+    args = parser.parse_args(argv)
+    levels = [level for path in args.levels for level in load_levels(path)]
+    folder = args.certificates or args.levels[0].parent / "certificates"
+    picture = sheet(levels, args.columns, args.width, None if args.without_routes else folder, named=not args.unnamed)
+    pygame.image.save(picture, args.out)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
