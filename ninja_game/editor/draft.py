@@ -1,0 +1,108 @@
+"""A level at one moment of its editing, and the difference between two such moments."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
+
+Cell = tuple[int, int]
+"""Column 1…31, row 1…23."""
+
+Tiles = dict[Cell, int]
+"""Tile ids by cell."""
+
+
+@dataclass(frozen=True)
+class Draft:
+    """A level and what its file says about it. It never changes: every operation gives another draft."""
+
+    level: Level
+    name: str = ""
+    author: str = ""
+    comment: str = ""
+
+    @property
+    def objects(self) -> tuple[ObjectSpec, ...]:
+        """The records, in order."""
+        return self.level.objects
+
+    @property
+    def about(self) -> tuple[str, str, str]:
+        """Name, author, comment."""
+        return self.name, self.author, self.comment
+
+    def tile(self, cell: Cell) -> int:
+        """The tile of a cell; a full one in the border."""
+        return self.level.tile(*cell) if is_inside(cell) else 1
+
+    def with_tiles(self, tiles: Tiles) -> Draft:
+        """Other tiles in some cells; what lies outside the level is left out."""
+        ids = list(self.level.tiles)
+        for (column, row), tile in tiles.items():
+            if is_inside((column, row)):
+                ids[(column - 1) * ROWS + row - 1] = tile
+        return replace(self, level=Level(tuple(ids), self.objects))
+
+    def with_objects(self, objects: tuple[ObjectSpec, ...]) -> Draft:
+        """Other records."""
+        return replace(self, level=Level(self.level.tiles, objects))
+
+
+def is_inside(cell: Cell) -> bool:
+    """Whether a cell has a tile of the level's own: the border has not."""
+    return 1 <= cell[0] <= COLUMNS and 1 <= cell[1] <= ROWS
+
+
+def cell_of(x: float, y: float) -> Cell:
+    """Column and row of the cell that holds a point, the border's 0 and 32, 24 included.
+
+    >>> cell_of(24, 47.5)
+    (1, 1)
+    """
+    return int(x // 24), int(y // 24)
+
+
+class Edit(NamedTuple):
+    """What turns one draft into another, and back.
+
+    ``tiles``: index, id before, id after. ``at``: where in the records ``removed`` gave way to ``added``. ``before``,
+    ``after``: name, author, comment.
+    """
+
+    tiles: tuple[tuple[int, int, int], ...]
+    at: int
+    removed: tuple[ObjectSpec, ...]
+    added: tuple[ObjectSpec, ...]
+    before: tuple[str, str, str]
+    after: tuple[str, str, str]
+
+    def inverse(self) -> Edit:
+        """What takes this back, to the last bit."""
+        tiles = tuple((index, after, before) for index, before, after in self.tiles)
+        return Edit(tiles, self.at, self.added, self.removed, self.after, self.before)
+
+    def applied(self, draft: Draft) -> Draft:
+        """The draft after this edit; ``draft`` must be the one from before it."""
+        ids = list(draft.level.tiles)
+        for index, _, after in self.tiles:
+            ids[index] = after
+        rest = draft.objects[self.at + len(self.removed) :]
+        return Draft(Level(tuple(ids), draft.objects[: self.at] + self.added + rest), *self.after)
+
+
+def difference(before: Draft, after: Draft) -> Edit | None:
+    """The edit from one draft to another; None if they are equal."""
+    if before == after:
+        return None
+    pairs = enumerate(zip(before.level.tiles, after.level.tiles, strict=True))
+    tiles = tuple((index, old, new) for index, (old, new) in pairs if old != new)
+    old, new = before.objects, after.objects
+    at, least = 0, min(len(old), len(new))
+    while at < least and old[at] == new[at]:
+        at += 1
+    end = 0
+    while end < least - at and old[-1 - end] == new[-1 - end]:
+        end += 1
+    return Edit(tiles, at, old[at : len(old) - end], new[at : len(new) - end], before.about, after.about)
