@@ -59,3 +59,7 @@ class DemoError(FormatError):
 
 class ReplayError(FormatError):
     """A replay text of ours that cannot be read, or does not fit its level."""
+
+
+class PackError(FormatError):
+    """A pack of levels whose index is missing or wrong."""

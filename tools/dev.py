@@ -4,7 +4,7 @@
 usage: python3 tools/dev.py COMMAND ...
 
   play             the game, in a window; words after it go to `ninja-game play`
-  run              any `ninja-game` command: `run info levels/01-first-steps.txt`
+  run              any `ninja-game` command: `run info levels/00-0-first-steps.txt`
   test             `lint`, then all tests; with words of your own (a file, `-k NAME`) pytest alone, with them
   lint             style, format, types, import contract; `lint --fix` mends what a program can mend
   golden           write the golden files of the tests anew, after a change of the rules that is meant

@@ -8,4 +8,5 @@ from tests.support.golden_runs import GOLDEN, write_golden_files
 if __name__ == "__main__":
     write_golden_files()
     write_api_page()
-    print(f"wrote tests/replays and {', '.join(sorted(path.name for path in GOLDEN.glob('*.tsv')))}")
+    tables = ", ".join(sorted(path.name for path in GOLDEN.glob("*.tsv")))
+    print(f"wrote the replays of tests/pack and levels, {tables}")

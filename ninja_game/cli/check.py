@@ -55,7 +55,7 @@ def command(
 
     \b
     Examples:
-      ninja-game check 01-first-steps
+      ninja-game check 00-0-first-steps
       ninja-game check my-levels/
       ninja-game check my-level.txt --seconds 60 --replays certificates/
     """

@@ -42,7 +42,7 @@ def command(
 
     \b
     Examples:
-      ninja-game info 01-first-steps
+      ninja-game info 00-0-first-steps
       ninja-game info my-levels/
       ninja-game info userlevels.txt --record 17
       ninja-game info userlevels.txt --json

@@ -156,7 +156,7 @@ def cli() -> None:
     \b
     Examples:
       ninja-game play
-      ninja-game info 01-first-steps
+      ninja-game info 00-0-first-steps
       ninja-game convert level.nlevel level.txt
     """
 

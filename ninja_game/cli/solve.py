@@ -45,7 +45,7 @@ def command(
 
     \b
     Examples:
-      ninja-game solve 01-first-steps -o first.replay.txt
+      ninja-game solve 00-0-first-steps -o first.replay.txt
       ninja-game solve userlevels.txt --record 17 --gold all --seconds 300 -o gold.replay.txt
     """
     from ninja_game.solver.solve import Task, solve

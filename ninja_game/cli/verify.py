@@ -74,7 +74,7 @@ def command(
 
     \b
     Examples:
-      ninja-game verify tests/replays/
+      ninja-game verify levels/certificates/
       ninja-game verify demos.txt --json
       ninja-game verify run.replay.txt --strict --level the-level.txt
       ninja-game verify demos.txt --memory both

@@ -68,6 +68,15 @@ def _is_folder(entry: os.DirEntry[str]) -> bool:
         return False
 
 
+def files_in(folder: Path) -> list[str]:
+    """The names of the regular files in a folder, sorted, hidden ones apart; none where there is no folder."""
+    try:
+        with os.scandir(folder) as entries:
+            return sorted(each.name for each in entries if each.is_file() and not each.name.startswith("."))
+    except OSError:
+        return []
+
+
 def text_files(path: Path) -> list[Path]:
     """The file itself, or ``files_below`` a folder without what had to be left out."""
     if not path.is_dir():
@@ -108,11 +117,15 @@ def read_utf8(path: Path, limit: int = MAX_BYTES) -> str:
 
 
 def read_text(path: Path) -> str:
-    """A text file's content with plain line ends: UTF-8, UTF-16 with its mark, or else Latin-1.
+    """A text file's content as ``decoded`` gives it; else as ``read_bytes``."""
+    return decoded(read_bytes(path), str(path))
 
-    Raises FileError for a file that is no text; else as ``read_bytes``.
+
+def decoded(data: bytes, file: str) -> str:
+    """A file's content as text with plain line ends: UTF-8, UTF-16 with its mark, or else Latin-1.
+
+    Raises FileError for a file that is no text.
     """
-    data = read_bytes(path)
     try:
         if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
             text = data.decode("utf-16")
@@ -122,7 +135,7 @@ def read_text(path: Path) -> str:
         text = data.decode("latin-1")
     text = text.replace("\r\n", "\n").replace("\r", "\n")
     if "\0" in text:
-        raise FileError("not a text file", str(path), text[: text.index("\0")].count("\n") + 1, found="a zero byte")
+        raise FileError("not a text file", file, text[: text.index("\0")].count("\n") + 1, found="a zero byte")
     return text
 
 

@@ -6,14 +6,14 @@ import sys
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent.parent
-CHECKOUT = {"levels": "levels", "assets": "assets", "replays": "tests/replays"}
+CHECKOUT = {name: PACKAGE.parent / name for name in ("levels", "assets")}
 """Where a checkout has what an installed package has in its folder ``data``."""
 
 
 def data_folder(name: str) -> Path:
-    """The folder of the bundled ``levels``, ``replays`` or ``assets``."""
+    """The folder of the bundled ``levels`` or ``assets``."""
     inside = PACKAGE / "data" / name
-    return inside if inside.is_dir() else PACKAGE.parent / CHECKOUT[name]
+    return inside if inside.is_dir() else CHECKOUT[name]
 
 
 def bundled_levels() -> list[Path]:
@@ -26,8 +26,8 @@ def bundled_levels() -> list[Path]:
 
 
 def bundled_replays() -> list[Path]:
-    """The files of the replays that pass the game's own levels, in the levels' order."""
-    return sorted(data_folder("replays").glob("*.replay.txt"))
+    """The certificates of the game's own levels, replays that pass them, in the levels' order."""
+    return sorted(data_folder("levels").glob("certificates/*.replay.txt"))
 
 
 def how_to_install(extra: str) -> str:

@@ -8,6 +8,7 @@ from pathlib import Path
 from ninja_game.errors import LevelError, ReplayError
 from ninja_game.files.reading import SUFFIXES, read_text, text_files
 from ninja_game.formats.named_level import NamedLevel, parse_levels
+from ninja_game.formats.pack.files import PackFiles, is_pack
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.sim.level import Level
 
@@ -17,10 +18,16 @@ __all__ = ["NamedLevel", "Recording", "load_level", "load_levels", "load_replays
 def load_levels(path: Path | str) -> list[NamedLevel]:
     """All levels of a file or folder: our ASCII levels, N level files, in-game strings, levels of recordings.
 
+    Of a pack, a folder or zip with ``pack.toml``, its level files only.
+
     Raises LevelError (or ReplayError for a broken replay) naming the file; OSError for a file that cannot be opened.
     """
-    files = text_files(Path(path))
-    levels = [level for file in files for level in parse_levels(read_text(file), file=str(file))]
+    if is_pack(Path(path)):
+        pack = PackFiles(Path(path))
+        levels = [level for name in pack.levels for level in parse_levels(pack.text(name), file=pack.place(name))]
+    else:
+        files = text_files(Path(path))
+        levels = [level for file in files for level in parse_levels(read_text(file), file=str(file))]
     if not levels:
         raise LevelError("no levels here", str(path), expected=f"files *{', *'.join(SUFFIXES)}")
     return levels

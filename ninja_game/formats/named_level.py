@@ -91,7 +91,7 @@ def _level_strings(text: str, file: str) -> Iterator[tuple[int, str]]:
                 number,
                 found=repr(line[:40]),
                 expected="an ASCII level, a level file of N or an in-game string",
-                hint="'ninja-game convert 01-first-steps - --to ascii --legend' shows how to write a level",
+                hint="'ninja-game convert 00-0-first-steps - --to ascii --legend' shows how to write a level",
             )
         yield number, line
     if not lines:

@@ -1,27 +1,25 @@
-"""The levels there are: the game's own, in episodes, and those that the player has put into a folder.
+"""The levels there are: the game's own pack, in episodes, and those that the player has put into a folder.
 
-The game's episodes are listed in ``levels/episodes.toml``; bundled levels that no episode names are single levels.
+Levels of the pack that no episode has are single levels.
 """
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
-from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.reading import LeftOut, files_below, read_utf8
-from ninja_game.files.resources import bundled_levels
+from ninja_game.errors import NinjaGameError
+from ninja_game.files.reading import LeftOut, files_below
+from ninja_game.files.resources import data_folder
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.player.progress import COLUMNS, EPISODES_PER_COLUMN, LEVELS_PER_EPISODE
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
+from ninja_game.formats.pack.pack import Pack
 from ninja_game.player.records import episode_key
-
-EPISODES_FILE = "episodes.toml"
 
 
 @dataclass(frozen=True)
@@ -75,28 +73,32 @@ class Catalogue:
         self._read: dict[Path, _ReadFile] = {}
 
     @cached_property
-    def bundled(self) -> dict[str, NamedLevel]:
-        """The game's own levels by file name; broken files become ``problems``."""
-        return {Path(named.file).name: named for named in self._load(bundled_levels())}
+    def pack(self) -> Pack | None:
+        """The game's own pack; None, and a problem, where it cannot be read."""
+        try:
+            return Pack(data_folder("levels"))
+        except (NinjaGameError, OSError) as error:
+            self.problems.append(str(error))
+            return None
 
     @cached_property
     def episodes(self) -> dict[int, Episode]:
-        """The episodes by number."""
-        files = bundled_levels()
-        listing = files[0].parent / EPISODES_FILE if files else None
-        if listing is None or not listing.is_file():
+        """The episodes that have levels, by number; what is wrong with their files becomes ``problems``."""
+        if self.pack is None:
             return {}
-        try:
-            return {episode.number: episode for episode in read_episodes(listing, self.bundled)}
-        except NinjaGameError as error:
-            self.problems.append(str(error))
-            return {}
+        found = {}
+        for index, levels in self.pack.episodes.items():
+            entries = [Entry(level, "game", f"{index.number:02d}-{place}") for place, level in enumerate(levels)]
+            found[index.number] = Episode(index.number, index.name, tuple(entries))
+        self.problems += self.pack.problems
+        return found
 
     def singles(self) -> list[Entry]:
         """Every level as a single one: the episodes' first, then the other bundled ones, then the player's."""
         entries = [entry for number in sorted(self.episodes) for entry in self.episodes[number].levels]
         named = {entry.named.file for entry in entries}
-        entries += [Entry(level, "game") for level in self.bundled.values() if level.file not in named]
+        bundled = self.pack.levels.values() if self.pack else ()
+        entries += [Entry(level, "game") for level in bundled if level.file not in named]
         return entries + self.own()
 
     def own(self) -> list[Entry]:
@@ -147,30 +149,3 @@ class _ReadFile(NamedTuple):
     stamp: tuple[int, int]
     entries: list[Entry]
     problems: list[str]
-
-
-def read_episodes(listing: Path, levels: dict[str, NamedLevel]) -> list[Episode]:
-    """The episodes that ``episodes.toml`` lists, made of ``levels`` by file name.
-
-    Raises LevelError for a listing that is wrong: unknown file, number out of range, too many levels.
-    """
-    try:
-        tables = tomllib.loads(read_utf8(listing)).get("episode", [])
-    except (ValueError, RecursionError) as error:
-        raise LevelError(f"not a list of episodes: {error}", str(listing)) from None
-    if not isinstance(tables, list) or not all(isinstance(table, dict) for table in tables):
-        raise LevelError("not a list of episodes", str(listing), expected="a table [[episode]] for each")
-    episodes = []
-    for table in tables:
-        number, files = table.get("number"), table.get("levels", [])
-        if not isinstance(number, int) or not 0 <= number < COLUMNS * EPISODES_PER_COLUMN:
-            raise LevelError("an episode's number", str(listing), found=repr(number), expected="a number from 0 to 99")
-        named = isinstance(files, list) and all(isinstance(file, str) for file in files)
-        if not named or not 1 <= len(files) <= LEVELS_PER_EPISODE:
-            raise LevelError(f"the levels of episode {number}", str(listing), expected="one to five file names")
-        missing = [file for file in files if file not in levels]
-        if missing:
-            raise LevelError(f"episode {number} names a level that is not here", str(listing), found=str(missing[0]))
-        entries = [Entry(levels[file], "game", f"{number:02d}-{place}") for place, file in enumerate(files)]
-        episodes.append(Episode(number, str(table.get("name", "")), tuple(entries)))
-    return sorted(episodes, key=lambda episode: episode.number)

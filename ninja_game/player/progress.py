@@ -9,11 +9,10 @@ import re
 from collections.abc import Collection
 from typing import NamedTuple
 
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN, LEVELS_PER_EPISODE
 from ninja_game.player.store import Store
 
 COLUMNS = 10
-EPISODES_PER_COLUMN = 10
-LEVELS_PER_EPISODE = 5
 
 COLOURS = 9
 """Colours of the ninja beyond the first one; each complete column unlocks one (presentation.md §3)."""

@@ -3,7 +3,7 @@
 >>> from pathlib import Path
 >>> from ninja_game.files.resources import data_folder
 >>> tally = Tally()
->>> for result in verify_all([data_folder("replays")], jobs=2):
+>>> for result in verify_all([data_folder("levels") / "certificates"], jobs=2):
 ...     tally.add(result)
 >>> tally.failed, tally.unreadable
 (0, 0)

@@ -110,15 +110,15 @@ def test_numbers_without_measure_are_wrong_usage(words: tuple[str, ...]) -> None
 
 
 def test_the_names_of_our_levels_stand_for_their_files_and_are_completed() -> None:
-    result = CliRunner().invoke(cli, ["info", "01-first-steps"])
+    result = CliRunner().invoke(cli, ["info", "00-0-first-steps"])
     assert result.exit_code == 0
     assert str(bundled_levels()[0]) in result.stdout.replace("\n", "")
-    assert "the game's own levels: 01-first-steps" in CliRunner().invoke(cli, ["solve", "no-such-level"]).stderr
-    asked = {"_NINJA_GAME_COMPLETE": "bash_complete", "COMP_WORDS": "ninja-game info 01-", "COMP_CWORD": "2"}
+    assert "the game's own levels: 00-0-first-steps" in CliRunner().invoke(cli, ["solve", "no-such-level"]).stderr
+    asked = {"_NINJA_GAME_COMPLETE": "bash_complete", "COMP_WORDS": "ninja-game info 00-", "COMP_CWORD": "2"}
     completed = subprocess.run(
         [sys.executable, "-m", "ninja_game"], env=os.environ | asked, capture_output=True, text=True, check=False
     )
-    assert "plain,01-first-steps" in completed.stdout
+    assert "plain,00-0-first-steps" in completed.stdout
 
 
 def test_bad_input_names_the_place(monkeypatch: pytest.MonkeyPatch) -> None:

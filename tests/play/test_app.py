@@ -22,7 +22,7 @@ from tests.support.menu_driver import MenuDriver
 from tests.support.samples import NO_NINJA
 from tests.support.scripted import frames, press, scripted_app
 
-LEVEL = Path(__file__).parent.parent.parent / "levels" / "01-first-steps.txt"
+LEVEL = Path(__file__).parent.parent.parent / "levels" / "00-0-first-steps.txt"
 
 
 def start_level(app: App) -> None:

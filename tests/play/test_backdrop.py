@@ -16,8 +16,9 @@ from ninja_game.play.view.sprites.sprite_book import SpriteBook
 from ninja_game.sim.events import EXIT_OPENED
 from ninja_game.sim.kinds import SWITCH
 from ninja_game.simulation import Simulation
+from tests.support.own_pack import PACK
 
-REPLAYS = sorted((Path(__file__).parent.parent / "replays").glob("*.replay.txt"))
+REPLAYS = sorted(PACK.glob("certificates/*.replay.txt"))
 CANVAS = Canvas((396, 300))
 
 

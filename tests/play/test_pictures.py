@@ -24,6 +24,7 @@ from ninja_game.player.settings import Settings
 from ninja_game.sim.death import kill
 from ninja_game.sim.states import ELECTRIC, EXPLOSIVE
 from ninja_game.simulation import Simulation
+from tests.support.own_pack import PACK
 from tools.draw.contact_sheet import THINGS, paint_things
 
 HERE = Path(__file__).parent
@@ -40,7 +41,7 @@ def scene(
     number: int, ticks: int, settings: Settings | None = None, *, overlays: bool = False, fatal: int = -1
 ) -> pygame.Surface:
     """A bundled replay after some ticks; with ``fatal`` the ninja is killed and seen 5 ticks later."""
-    path = sorted((ROOT / "tests" / "replays").glob("*.replay.txt"))[number]
+    path = sorted(PACK.glob("certificates/*.replay.txt"))[number]
     recording = load_replays(path)[0]
     run = Simulation(recording.level)
     view = LevelView(OffscreenContext(SIZE, settings), run, chance=7)
@@ -75,9 +76,7 @@ SCENES = {
     "death-electric": lambda: scene(0, 60, fatal=ELECTRIC),
     "death-without-gore": lambda: scene(0, 60, Settings(reduced_gore=True, reduced_motion=True), fatal=EXPLOSIVE),
     "drawings": lambda: paint_things(PALETTES["classic"], THINGS),
-    "thumbnail": lambda: thumbnail(
-        load_levels(ROOT / "levels" / "08-the-works.txt")[0].level, PALETTES["classic"], 264
-    ),
+    "thumbnail": lambda: thumbnail(load_levels(PACK / "01-2-the-works.txt")[0].level, PALETTES["classic"], 264),
 }
 
 
@@ -129,7 +128,7 @@ def test_comparison_sees_that_the_ninja_is_missing(monkeypatch: pytest.MonkeyPat
 
 def test_tiles_cover_what_moves() -> None:
     """An explosion inside a wall is not seen."""
-    recording = load_replays(min((ROOT / "tests" / "replays").glob("*.replay.txt")))[0]
+    recording = load_replays(min(PACK.glob("certificates/*.replay.txt")))[0]
     view = LevelView(OffscreenContext(SIZE), Simulation(recording.level), chance=7)
     surface = pygame.Surface(SIZE)
     view.draw(surface, whole=True)

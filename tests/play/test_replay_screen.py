@@ -15,10 +15,10 @@ from ninja_game.play.replay.playback import RecordedRun, recorded_run
 from ninja_game.play.replay.screen import AFTERMATH, SPEEDS, ReplayScreen
 from ninja_game.play.ui.theme import Theme
 from ninja_game.simulation import Simulation
+from tests.support.own_pack import PACK
 from tests.support.scripted import frames, press, scripted_app
 
-REPLAYS = Path(__file__).parent.parent / "replays"
-TAKE = recorded_run(load_replays(REPLAYS / "08-the-works.replay.txt")[0])
+TAKE = recorded_run(load_replays(PACK / "certificates" / "01-2-the-works.exit.replay.txt")[0])
 
 
 def straight_digests(take: RecordedRun, ticks: int) -> list[str]:

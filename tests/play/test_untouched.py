@@ -14,9 +14,10 @@ from ninja_game.play.view.overlays import OVERLAY_ACTIONS
 from ninja_game.play.view.render_context import OffscreenContext
 from ninja_game.player.level_context import GhostRun
 from ninja_game.simulation import Simulation
+from tests.support.own_pack import PACK
 from tests.support.scripted import frames, level_run, press, release, scripted_app
 
-REPLAYS = sorted((Path(__file__).parent.parent / "replays").glob("*.replay.txt"))
+REPLAYS = sorted(PACK.glob("certificates/*.replay.txt"))
 AFTER = 60
 
 

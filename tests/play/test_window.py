@@ -20,7 +20,7 @@ from ninja_game.play.window import fitting_size
 from tests.support.scripted import frames, scripted_app
 
 ROOT = Path(__file__).parent.parent.parent
-LEVEL = str(ROOT / "levels" / "01-first-steps.txt")
+LEVEL = str(ROOT / "levels" / "00-0-first-steps.txt")
 
 
 @pytest.fixture(autouse=True)
@@ -41,7 +41,7 @@ def test_any_size(tmp_path: Path) -> None:
 
 
 def test_a_replay_is_watched(tmp_path: Path) -> None:
-    replay = str(ROOT / "tests" / "replays" / "01-first-steps.replay.txt")
+    replay = str(ROOT / "levels" / "certificates" / "00-0-first-steps.exit.replay.txt")
     assert main(replay_path=replay, frames=60, screenshot=str(tmp_path / "picture.png")) == 0
 
 

@@ -5,13 +5,9 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-import pytest
-
-from ninja_game.errors import LevelError
 from ninja_game.files.resources import bundled_levels
 from ninja_game.formats.n14.level_string import write_level_string
-from ninja_game.player.catalogue import Catalogue, read_episodes
-from ninja_game.player.progress import LEVELS_PER_EPISODE
+from ninja_game.player.catalogue import Catalogue
 from tests.support.players import short_level
 
 
@@ -22,10 +18,6 @@ def test_bundled_episodes_can_be_read_and_name_each_level_once() -> None:
     listed = [entry.named.file for episode in catalogue.episodes.values() for entry in episode.levels]
     assert len(listed) == len(set(listed))
     assert {entry.named.file for entry in catalogue.singles()} == {str(path) for path in bundled_levels()}
-
-
-def test_first_episode_is_whole() -> None:
-    assert len(Catalogue().episodes[0].levels) == LEVELS_PER_EPISODE
 
 
 def test_files_in_the_players_folder_are_offered_as_they_come(tmp_path: Path) -> None:
@@ -66,24 +58,3 @@ def test_unchanged_file_is_read_once_and_a_changed_one_again(tmp_path: Path) -> 
     assert len(catalogue.problems) == 2
     file.write_text(write_level_string(short_level(1, gold=1)))
     assert catalogue.own()[0].digest != first[0].digest
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "not [ toml",
-        "a = " + "[" * 5000,
-        '[[episode]]\nnumber = 100\nlevels = ["a.txt"]',
-        "[[episode]]\nnumber = 0\nlevels = []",
-        '[[episode]]\nnumber = 0\nlevels = ["unknown.txt"]',
-        '[[episode]]\nlevels = ["a.txt"]',
-        "episode = 5",
-        "episode = [5]",
-        "[[episode]]\nnumber = 0\nlevels = [[]]",
-    ],
-)
-def test_wrong_list_of_episodes_is_an_error_that_names_the_file(tmp_path: Path, text: str) -> None:
-    listing = tmp_path / "episodes.toml"
-    listing.write_text(text)
-    with pytest.raises(LevelError, match=r"episodes\.toml"):
-        read_episodes(listing, {})

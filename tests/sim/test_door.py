@@ -45,7 +45,7 @@ def test_an_odd_type_number_in_a_level_file_harms_nobody(kind: str, memory: str)
 @pytest.mark.parametrize(
     "level, message",
     [
-        ("levels/01-first-steps.txt", "this is no level"),
+        ("levels/00-0-first-steps.txt", "this is no level"),
         (Level(tiles=(0,) * 12, objects=(NINJA_SPEC,)), "713 whole numbers"),
         (Level(tiles=(0.5,) * TILES, objects=(NINJA_SPEC,)), "713 whole numbers"),  # type: ignore[arg-type]
         (Level(objects=(NINJA_SPEC, ObjectSpec(0, ("x", 2.0)))), "object 1 of the level is none"),  # type: ignore[arg-type]

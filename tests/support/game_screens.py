@@ -16,6 +16,7 @@ from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.menus.settings.screen import PAGES
 from tests.support.menu_driver import MenuDriver
+from tests.support.own_pack import instead_of_ours
 
 RANGE = """ninja-game level 1
 name: Target practice
@@ -57,9 +58,9 @@ DATE = "2026-02-03T04:05:06+00:00"
 
 
 def always_alike() -> list[object]:
-    """Patches that take chance and the date out of the screens; start them before the program, stop them after."""
+    """Patches that take chance, the date and our levels out of the screens; start them before the program."""
     patches = [patch(name, lambda seed=None: Random(seed or 1)) for name in WITHOUT_CHANCE]
-    return [*patches, patch("ninja_game.player.records.now_text", lambda: DATE)]
+    return [instead_of_ours(), *patches, patch("ninja_game.player.records.now_text", lambda: DATE)]
 
 
 def tour(driver: MenuDriver) -> Iterator[str]:

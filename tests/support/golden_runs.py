@@ -18,11 +18,12 @@ from ninja_game.runs.trace import trace_digests
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Body, Simulation
 from tests.support.crowded import TICKS, crowded_inputs, crowded_level
+from tests.support.own_pack import PACK
 from tests.support.own_scenes import SCENES
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 GOLDEN = ROOT / "tests" / "golden"
-REPLAYS = ROOT / "tests" / "replays"
+REPLAYS = PACK / "certificates"
 
 INTERVAL = 40
 """Ticks between two checkpoints (1 s): a failing test names the interval in which the difference begins."""
@@ -102,7 +103,7 @@ def scene_runs() -> Iterator[GoldenRun]:
 
 
 def replay_runs() -> Iterator[GoldenRun]:
-    """Our own replays, each carried on for a while after its end."""
+    """The replays of the tests' pack, each carried on for a while after its end."""
     for path in sorted(REPLAYS.glob("*.replay.txt")):
         for recording in load_replays(path):
             inputs = recording.playback(recording.ticks + AFTERMATH)
@@ -155,7 +156,7 @@ def _compared(ours: dict[str, str], golden: dict[str, str]) -> Iterator[tuple[st
 
 def write_golden_files() -> None:
     """Write the golden files and our replays anew from what the world does now (plain memory)."""
-    for path in sorted(REPLAYS.glob("*.replay.txt")):
+    for path in sorted([*REPLAYS.glob("*.replay.txt"), *ROOT.glob("levels/certificates/*.replay.txt")]):
         (old,) = load_replays(path)
         assert old.replay, f"{path.name} is no replay of ours"
         body, ticks = old.body, old.replay.ticks

@@ -102,7 +102,7 @@ class MenuDriver:
         return screen
 
     def play_replay(self, number: int) -> None:
-        """Feed the bundled replay of a level (from 1) to the level on top; it runs to its end and a little on."""
+        """Feed the certificate of a bundled level (from 1) to the level on top; it runs to its end and a little on."""
         recording = load_replays(bundled_replays()[number - 1])[0]
         self.keys.script = [keys & 7 for keys in recording.playback(recording.ticks)]
         self.frames(len(self.keys.script) + 10)

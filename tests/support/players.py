@@ -43,7 +43,7 @@ def player_data(folder: Path, *episodes: Episode) -> PlayerData:
     data = PlayerData(folder)
     catalogue = Catalogue(folder / "levels")
     catalogue.__dict__["episodes"] = {each.number: each for each in episodes}
-    catalogue.__dict__["bundled"] = {}
+    catalogue.__dict__["pack"] = None
     data.catalogue = catalogue
     return data
 

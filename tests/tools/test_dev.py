@@ -12,7 +12,7 @@ import pytest
 from tools import ROOT, dev
 
 MODULES = ("click", "json", "numba", "numpy", "pathlib", "rich", "socket", "tomllib")
-LEVEL = str(ROOT / "levels" / "01-first-steps.txt")
+LEVEL = str(ROOT / "levels" / "00-0-first-steps.txt")
 
 
 @pytest.fixture

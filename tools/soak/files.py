@@ -1,4 +1,4 @@
-"""Feed mutated files to what reads them by path: settings, logs, traces, episodes, packs and rows of records.
+"""Feed mutated files to what reads them by path: settings, logs, traces, packs, recordings and rows of records.
 
     python3 tools/dev.py tool soak.files [--count 1000000] [--seed 1]
 
@@ -19,12 +19,15 @@ from collections import Counter
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
+from zipfile import ZipFile
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.reading import read_utf8
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.pack.index import parse_index
+from ninja_game.formats.pack.pack import Pack
 from ninja_game.levels.warnings import level_warnings
-from ninja_game.player.catalogue import read_episodes
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.records import SavedReplay
 from ninja_game.player.settings import Settings
@@ -84,7 +87,8 @@ READERS: dict[str, Callable[[Path], object]] = {
     "checkpoint log": read_log,
     "trace.csv": lambda path: list(read_traces(path)),
     "trace.npz": lambda path: list(read_traces(path)),
-    "episodes": lambda path: read_episodes(path, {level.file: level for level in load_levels(ROOT / "levels")}),
+    "pack.toml": lambda path: parse_index(read_utf8(path), file=path.name),
+    "pack.zip": lambda path: Pack(path).episodes,
     "pack": read_pack,
 }
 
@@ -102,7 +106,10 @@ def seeds(folder: Path) -> dict[str, str]:
         write_csv(traces, text)
     with (folder / "trace.npz").open("wb") as file:
         write_npz(traces, file)
-    (folder / "episodes").write_bytes((ROOT / "levels" / "episodes.toml").read_bytes())
+    (folder / "pack.toml").write_bytes((ROOT / "levels" / "pack.toml").read_bytes())
+    with ZipFile(folder / "pack.zip", "w") as packed:
+        packed.write(folder / "pack.toml", "pack.toml")
+        packed.writestr("00-0-walk.txt", WALK)
     return {name: (folder / name).read_bytes().decode("latin-1") for name in READERS}
 
 

@@ -136,7 +136,7 @@ def seeds(*, reference: bool) -> list[str]:
         " -0x1.5e+2",
         trace.getvalue(),
         *[path.read_text(encoding="utf-8") for path in sorted(ROOT.glob("levels/*.txt"))],
-        *[path.read_text(encoding="utf-8") for path in sorted(ROOT.glob("tests/replays/*.txt"))],
+        *[path.read_text(encoding="utf-8") for path in sorted(ROOT.glob("levels/certificates/*.txt"))],
     ]
     if reference:
         from tests.support import reference as data

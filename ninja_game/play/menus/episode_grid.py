@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.settings.screen import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
@@ -16,7 +17,7 @@ from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Choice, Widget
 from ninja_game.player.catalogue import Episode
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
-from ninja_game.player.progress import CHEATED, EPISODES_PER_COLUMN, LOCKED
+from ninja_game.player.progress import CHEATED, LOCKED
 from ninja_game.player.scoring import seconds_text
 
 if TYPE_CHECKING:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from itertools import combinations
-from pathlib import Path
 
 import pytest
 
@@ -19,6 +18,7 @@ from ninja_game.play.ui.theme import Area
 from ninja_game.play.ui.widgets import Widget
 from ninja_game.simulation import Simulation
 from tests.support.menu_driver import MenuDriver
+from tests.support.own_pack import PACK
 
 
 def lies_in(inner: Area, outer: Area) -> bool:
@@ -125,7 +125,7 @@ def test_file_that_cannot_be_read_is_named(driver: MenuDriver) -> None:
 
 @pytest.mark.parametrize("name", ["x" * 8000, "nul \x00 here", "日本語 with ascii", "\u202e turned \x1b[31m"])
 def test_any_name_of_a_level_is_shown(driver: MenuDriver, name: str) -> None:
-    text = (Path(__file__).parents[3] / "levels" / "01-first-steps.txt").read_text("utf-8")
+    text = (PACK / "00-0-first-steps.txt").read_text("utf-8")
     named = text.replace("name: First Steps", f"name: {name}", 1)
     assert named != text
     (driver.player.folder / "levels" / "odd.txt").write_text(named, "utf-8")

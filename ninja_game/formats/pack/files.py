@@ -1,0 +1,90 @@
+"""The files of a pack, a folder or a zip. A zip is read in memory; nothing of it is ever written to the disk."""
+
+from __future__ import annotations
+
+import re
+import zlib
+from io import BytesIO
+from pathlib import Path, PurePosixPath
+from zipfile import BadZipFile, ZipFile, ZipInfo
+
+from ninja_game.errors import FileError
+from ninja_game.files.reading import decoded, files_in, read_bytes
+
+INDEX, PARS, CERTIFICATES = "pack.toml", "pars.toml", "certificates"
+"""The index, the table of par times, the folder of replays."""
+
+MOST_FILES, MOST_BYTES = 4096, 4 * 2**20
+"""Limits of a zip: files in it, and bytes of one of them."""
+
+LEVEL_FILES = re.compile(r"[^/\\:]+\.txt", re.IGNORECASE)
+_UNREADABLE = (BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, ValueError, OSError)
+"""What a broken, encrypted or oddly packed zip raises."""
+
+
+class PackFiles:
+    """What lies in a pack: ``names``, as "pack.toml" or "certificates/a.exit.replay.txt", sorted.
+
+    Raises FileError for what is no zip, or a zip beyond the limits; OSError as it comes.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._zip: ZipFile | None = None
+        self._entries: dict[str, ZipInfo] = {}
+        if path.is_dir():
+            inside = [*files_in(path), *(f"{CERTIFICATES}/{name}" for name in files_in(path / CERTIFICATES))]
+            self.names = tuple(sorted(inside))
+        else:
+            self._open_zip(read_bytes(path))
+            self.names = tuple(sorted(self._entries))
+
+    def _open_zip(self, data: bytes) -> None:
+        try:
+            self._zip = ZipFile(BytesIO(data))
+        except _UNREADABLE:
+            raise FileError("neither a folder nor a zip", str(self.path), expected=f"a pack, with {INDEX}") from None
+        entries = [entry for entry in self._zip.infolist() if not entry.is_dir()]
+        if len(entries) > MOST_FILES:
+            raise FileError("too many files in a zip", str(self.path), 0, 0, f"{len(entries)}", f"at most {MOST_FILES}")
+        # Zips are often made of the folder, not of what is in it.
+        indexes = [name for entry in entries if PurePosixPath(name := entry.filename).name == INDEX]
+        top = min(indexes, key=lambda name: name.count("/"), default=INDEX).removesuffix(INDEX)
+        for entry in entries:
+            name = entry.filename.removeprefix(top)
+            parts = PurePosixPath(name).parts
+            plain = "\\" not in name and ".." not in parts and not name.startswith("/")
+            if entry.filename.startswith(top) and plain and (len(parts) == 1 or parts[:-1] == (CERTIFICATES,)):
+                self._entries[name] = entry
+
+    @property
+    def levels(self) -> list[str]:
+        """The names of the level files."""
+        return [name for name in self.names if LEVEL_FILES.fullmatch(name)]
+
+    def place(self, name: str) -> str:
+        """The path of a file, as errors name it; a file's own path in a folder."""
+        return str(self.path / name)
+
+    def text(self, name: str) -> str:
+        """A file's text with plain line ends. Raises FileError; OSError as it comes."""
+        return decoded(self._bytes(name), self.place(name))
+
+    def _bytes(self, name: str) -> bytes:
+        if self._zip is None:
+            return read_bytes(self.path / name)
+        if name not in self._entries:
+            raise FileError("not in the pack", self.place(name))
+        try:
+            with self._zip.open(self._entries[name]) as file:
+                data = file.read(MOST_BYTES + 1)
+        except _UNREADABLE as error:
+            raise FileError("cannot be read from the zip", self.place(name), found=str(error)) from None
+        if len(data) > MOST_BYTES:
+            raise FileError("the file is too large", self.place(name), expected=f"at most {MOST_BYTES >> 20} MiB")
+        return data
+
+
+def is_pack(path: Path) -> bool:
+    """Whether a path looks like a pack: a folder with an index, or a file that is called a zip."""
+    return (path / INDEX).is_file() if path.is_dir() else path.suffix.lower() == ".zip"

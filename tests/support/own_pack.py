@@ -1,0 +1,16 @@
+"""The tests' own pack of levels (tests/pack), and how it takes the place of the game's."""
+
+from __future__ import annotations
+
+from contextlib import AbstractContextManager
+from pathlib import Path
+from unittest.mock import patch
+
+from ninja_game.files.resources import CHECKOUT
+
+PACK = Path(__file__).resolve().parent.parent / "pack"
+
+
+def instead_of_ours() -> AbstractContextManager[object]:
+    """While it is entered, the game's levels and replays are those of the tests' pack."""
+    return patch.dict(CHECKOUT, levels=PACK)
