@@ -53,3 +53,17 @@ def _lock(handle: int, seconds: float) -> None:
         except OSError:
             # This disk has no locks.
             return
+
+
+def hold(path: Path) -> int | None:
+    """Lock a file, which is made if it is missing, for as long as its handle stays open; None if another holds it.
+
+    The system frees it when a process dies, however it dies. Raises OSError for a place without files.
+    """
+    handle = os.open(path, os.O_CREAT | os.O_RDWR, 0o666)
+    try:
+        _try_to_lock(handle)
+    except (BlockingIOError, PermissionError):
+        os.close(handle)
+        return None
+    return handle

@@ -47,7 +47,7 @@ def parse_ascii_level(text: str, *, file: str = "") -> AsciiLevel:
     problems = Problems(file)
     lines = list(numbered_lines(text, UNCOMMENTED))
     _check_first(lines, problems)
-    header, rows, listed = _sections(lines[1:], problems)
+    header, rows, listed = sections(lines[1:], problems)
     fields = _read_header(header, problems)
     last = rows[-1][0] if rows else lines[-1][0]
     picture = read_picture(rows, last + 1, problems)
@@ -72,8 +72,8 @@ def _check_first(lines: Sequence[Line], problems: Problems) -> None:
     problems.raise_if_any()
 
 
-def _sections(lines: Sequence[Line], problems: Problems) -> tuple[list[Line], list[Line], list[Line]]:
-    """Header lines, picture rows, lines of the list."""
+def sections(lines: Sequence[Line], problems: Problems) -> tuple[list[Line], list[Line], list[Line]]:
+    """Header lines, picture rows, lines of the list; ``lines``: those behind the first, without comments."""
     header: list[Line] = []
     rows: list[Line] = []
     listed: list[Line] = []

@@ -40,21 +40,22 @@ def write_ascii_level(
     ``legend`` adds the meaning of all characters as comment lines.
     """
     parts = [visible_parts(record) for record in level.objects]
-    drawn_only = _drawn_only(level, parts)
-    rows = _picture(level, parts)
+    drawn = drawn_only(level, parts)
+    rows = picture_rows(level, parts)
     fields = zip(HEADER_KEYS, (name, author, comment), strict=True)
     text = [f"{MAGIC} {VERSION}\n"]
-    text += [f"{key}: {_header_text(value)}".rstrip() + "\n" for key, value in fields if value or key != "comment"]
+    text += [f"{key}: {header_text(value)}".rstrip() + "\n" for key, value in fields if value or key != "comment"]
     text += ["\n", RULER]
     text += [f" {row:2d} {FRAME}{chars}{FRAME}\n" for row, chars in enumerate(rows, 1)]
     text.append(RULER)
-    lines = _tile_lines(level) + write_object_lines(level.objects[drawn_only:])
+    lines = tile_lines(level) + write_object_lines(level.objects[drawn:])
     text += ["\n", *(f"{line}\n" for line in lines)] if lines else []
     text += ["\n", legend_text()] if legend else []
     return "".join(text)
 
 
-def _header_text(value: str) -> str:
+def header_text(value: str) -> str:
+    """A header's value as it is written: in double quotes as JSON where it would not come back otherwise."""
     plain = value == value.strip() and not value.startswith('"') and value.isprintable()
     return value if plain else json.dumps(value)
 
@@ -63,7 +64,7 @@ def _tile_char(number: int) -> str:
     return TILE_CHARS[number] if 0 <= number < len(TILE_CHARS) else ODD_TILE
 
 
-def _picture(level: Level, parts: Sequence[Sequence[Part]]) -> list[str]:
+def picture_rows(level: Level, parts: Sequence[Sequence[Part]]) -> list[str]:
     """Rows of characters; where several objects share a cell the first one shows."""
     cells = {
         (column, row): _tile_char(level.tile(column, row))
@@ -76,7 +77,7 @@ def _picture(level: Level, parts: Sequence[Sequence[Part]]) -> list[str]:
     return ["".join(cells[column, row] for column in range(1, COLUMNS + 1)) for row in range(1, ROWS + 1)]
 
 
-def _tile_lines(level: Level) -> list[str]:
+def tile_lines(level: Level) -> list[str]:
     """A line for each odd tile id, with all its cells."""
     places: dict[int, list[str]] = {}
     for row in range(1, ROWS + 1):
@@ -87,7 +88,7 @@ def _tile_lines(level: Level) -> list[str]:
     return [f"tile {' '.join(cells)} id {number}" for number, cells in places.items()]
 
 
-def _drawn_only(level: Level, parts: Sequence[Sequence[Part]]) -> int:
+def drawn_only(level: Level, parts: Sequence[Sequence[Part]]) -> int:
     """How many of the first records the picture alone creates, in this very order."""
     claims = Counter((column, row, SYMBOL_OF_CHAR[char].kind) for group in parts for char, column, row in group)
     taken: set[Cell] = set()

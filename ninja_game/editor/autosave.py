@@ -1,0 +1,130 @@
+"""What is being edited, kept on the disk while it is edited, and found again after the program was killed."""
+
+from __future__ import annotations
+
+import json
+import os
+import secrets
+import time
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+from ninja_game.editor.ascii_text import ascii_text
+from ninja_game.editor.background import NewestJob
+from ninja_game.editor.draft import Draft
+from ninja_game.editor.files import Source, draft_of, open_source
+from ninja_game.errors import NinjaGameError
+from ninja_game.files.locking import hold
+from ninja_game.files.reading import read_utf8
+from ninja_game.files.writing import write_atomically
+from ninja_game.formats.named_level import parse_levels
+
+FOLDER = "editing"
+"""In the player's folder."""
+
+SPACING = 0.7
+"""Seconds from one autosave to the next, at least."""
+
+_LOCK = ".lock"
+
+
+class Autosave:
+    """Keeps the newest draft of one document. Works in a thread of its own; ``problem``: why it cannot, or ''.
+
+    ``file``: an autosave of an editor that has died, to go on with.
+    """
+
+    def __init__(self, folder: Path, file: Path | None = None) -> None:
+        self.problem = ""
+        self._folder = folder / FOLDER
+        self._file = file or self._folder / f"{secrets.token_hex(6)}.json"
+        self._handle: int | None = None
+        self._job: NewestJob[tuple[Draft, Source] | None, None] = NewestJob(self._work)
+        self._kept: Draft | None = None
+        self._asked_at = 0.0
+
+    def look(self, draft: Draft, source: Source) -> None:
+        """Keep the draft if it has changed and it is time; nothing is kept of one that is as its file has it."""
+        wanted = None if draft == source.draft else draft
+        if wanted is not self._kept and time.monotonic() - self._asked_at >= SPACING and self._job.idle:
+            self._asked_at = time.monotonic()
+            self._kept = wanted
+            self._job.ask((draft, source) if wanted else None)
+
+    def _work(self, job: tuple[Draft, Source] | None) -> None:
+        try:
+            if job is None:
+                self._remove()
+                return
+            if self._handle is None:
+                self._folder.mkdir(parents=True, exist_ok=True)
+                self._handle = hold(self._file.with_suffix(_LOCK))
+            draft, source = job
+            kept = {"path": str(source.path or ""), "digest": source.digest, "level": ascii_text(draft)}
+            write_atomically(self._file, json.dumps(kept, indent=1))
+            self.problem = ""
+        except (OSError, NinjaGameError) as error:
+            self.problem = f"What you edit cannot be kept safe: {getattr(error, 'strerror', '') or error}"
+
+    def _remove(self) -> None:
+        with suppress(OSError):
+            self._file.unlink(missing_ok=True)
+
+    def close(self, *, keep: bool = False) -> None:
+        """End. ``keep``: what is kept stays, to be found by the next editor."""
+        self._job.finish()
+        if not keep:
+            self._remove()
+        if self._handle is not None:
+            os.close(self._handle)
+            self._handle = None
+            if not keep:
+                with suppress(OSError):
+                    self._file.with_suffix(_LOCK).unlink()
+
+
+@dataclass(frozen=True)
+class Recovered:
+    """A draft whose editor has died, where it was at home, and the file in which it was kept."""
+
+    draft: Draft
+    source: Source
+    file: Path
+
+    def forget(self) -> None:
+        """Remove what was kept."""
+        for path in (self.file, self.file.with_suffix(_LOCK)):
+            with suppress(OSError):
+                path.unlink(missing_ok=True)
+
+
+def recovered(folder: Path) -> Iterator[Recovered]:
+    """What editors that have died were editing, the newest first; those of running editors are left out."""
+    with suppress(OSError):
+        files = sorted((folder / FOLDER).glob("*.json"), key=lambda path: -path.stat().st_mtime)
+        for file in files:
+            handle = hold(file.with_suffix(_LOCK))
+            if handle is None:
+                continue
+            try:
+                yield _read(file)
+            except (ValueError, KeyError, TypeError, NinjaGameError):
+                continue
+            finally:
+                os.close(handle)
+
+
+def _read(file: Path) -> Recovered:
+    """What an autosave holds. Raises ValueError, KeyError, TypeError, NinjaGameError for one that is damaged."""
+    kept = json.loads(read_utf8(file))
+    draft = draft_of(parse_levels(kept["level"])[0])
+    source = Source(Draft(draft.level.__class__()))
+    if kept["path"]:
+        with suppress(OSError, NinjaGameError):
+            source = open_source(Path(kept["path"]))
+        if source.digest != kept["digest"]:
+            # Somebody else has changed it since: saving will ask.
+            source = Source(source.draft, Path(kept["path"]), source.text, kept["digest"])
+    return Recovered(draft, source, file)

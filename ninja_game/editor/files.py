@@ -1,0 +1,115 @@
+"""Levels from files and back: nothing is lost, and nothing that somebody else wrote meanwhile is replaced."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from pathlib import Path
+
+from ninja_game.editor.ascii_text import ascii_text, updated_text
+from ninja_game.editor.draft import Draft
+from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.files.reading import read_bytes, read_text
+from ninja_game.files.shown_text import file_stem
+from ninja_game.files.writing import write_atomically
+from ninja_game.formats.n14.level_string import write_level_string
+from ninja_game.formats.named_level import NamedLevel, parse_levels
+from ninja_game.sim.level import Level
+
+SUFFIX = ".txt"
+
+
+class OccupiedError(NinjaGameError):
+    """A file that saving would replace, and that was not made by this document's last save."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where a draft is at home. ``path``: None if it has no file of its own yet. ``text``: what the file says.
+
+    ``draft``: the one that the file holds; ``digest``: of its bytes; ``windows``: whether lines end as on Windows.
+    """
+
+    draft: Draft
+    path: Path | None = None
+    text: str = ""
+    digest: str = ""
+    windows: bool = False
+
+
+def new_source(author: str = "") -> Source:
+    """An empty level that has no file."""
+    return Source(Draft(Level(), author=author))
+
+
+def open_source(path: Path, record: int = 0) -> Source:
+    """The level number ``record`` of a file. Only our readable files, which hold one level, are written back.
+
+    Raises NinjaGameError for what cannot be read, OSError.
+    """
+    data = read_bytes(path)
+    text = read_text(path)
+    levels = parse_levels(text, file=str(path))
+    named = next((each for each in levels if each.record == record), None)
+    if named is None:
+        raise LevelError(f"there is no record {record}", str(path))
+    draft = draft_of(named)
+    if not named.ascii:
+        return Source(draft)
+    return Source(draft, path, text, _digest(data), b"\r\n" in data)
+
+
+def draft_of(named: NamedLevel) -> Draft:
+    """A level of any file as a draft."""
+    return Draft(named.level, named.name, named.author, named.comment)
+
+
+def save(source: Source, draft: Draft, path: Path, *, replacing: bool = False) -> Source:
+    """Write a draft into a file, in the file's own form where it is the source's; the new source.
+
+    Raises OccupiedError where that would replace another file, or one that was changed since it was read, unless
+    ``replacing``; FileError, OSError for what cannot be written.
+    """
+    own = source.path is not None and path == source.path
+    there = _digest(read_bytes(path)) if path.exists() else ""
+    if own and draft == source.draft and there == source.digest:
+        return source
+    if there and not replacing:
+        if not own:
+            raise OccupiedError(f"there is a file {path.name} already")
+        if there != source.digest:
+            raise OccupiedError(f"{path.name} was changed by another program")
+    text = updated_text(source.text, source.draft, draft) if own and source.text else ascii_text(draft)
+    data = (text.replace("\n", "\r\n") if own and source.windows else text).encode("utf-8", "replace")
+    if _digest(data) != there:
+        write_atomically(path, data)
+    return Source(draft, path, text, _digest(data), own and source.windows)
+
+
+def _digest(data: bytes) -> str:
+    return sha256(data).hexdigest()
+
+
+def free_path(folder: Path, name: str) -> Path:
+    """A path for a level of that name in a folder, which no file has yet."""
+    stem = file_stem(name, "level")
+    path, number = folder / f"{stem}{SUFFIX}", 1
+    while path.exists():
+        number += 1
+        path = folder / f"{stem}-{number}{SUFFIX}"
+    return path
+
+
+def level_string(draft: Draft) -> str:
+    """The draft's in-game string, exact. Raises LevelError for a level that none can say."""
+    return write_level_string(draft.level, exact=True)
+
+
+def draft_of_text(text: str, about: Draft) -> Draft:
+    """The first level of a text of any format; name and author are those of ``about`` where the text has none.
+
+    Raises NinjaGameError for a text without a level.
+    """
+    named = parse_levels(text.strip("\0 \r\n\t"))[0]
+    read = draft_of(named)
+    return replace(read, name=read.name or about.name, author=read.author or about.author)
