@@ -137,6 +137,8 @@ def _door(record: ObjectSpec, ground: Ground) -> Iterator[str]:
         yield "it is not between two cells of the grid"
     elif ground.doors_on_side[edges] > 1:
         yield "another door is on the same side: the later one may never open"
+    elif any(ground.edges[edge] == SOLID or SHAPE[ground.level.tiles[edge // 4]] == FULL for edge in edges):
+        yield "the tiles close this side anyway: the door changes nothing"
     if (is_set(trap) or is_set(locked)) and not ground.touchable(x, y, DOOR_SWITCH_RADIUS):
         yield f"the ninja cannot reach its switch at {place_text(x, y)}"
 

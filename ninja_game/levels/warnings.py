@@ -7,15 +7,18 @@ from math import dist
 
 from ninja_game.formats.ascii.object_writer import best_form
 from ninja_game.formats.ascii.places import place_text
+from ninja_game.levels.findings import Finding
 from ninja_game.levels.object_checks import oddities
 from ninja_game.levels.reach import Ground
 from ninja_game.sim import kinds
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import ROWS, Level, ObjectSpec, makes_object, well_formed
 from ninja_game.sim.memory.schema import CAPACITY
-from ninja_game.sim.rules import MINE_RADIUS, RADIUS
+from ninja_game.sim.rules import MINE_RADIUS, RADIUS, THINK_PAUSE, TICKS_PER_SECOND
 
 MANY_OBJECTS = 2000
+MANY_THINKERS = 30
+"""With more enemies than these that think in turn, one waits more than three seconds for its turn."""
 _NAMES_SHOWN = 3
 _AGAIN = "the same object is in this place already"
 
@@ -25,19 +28,28 @@ def level_warnings(level: Level) -> list[str]:
 
     "Cannot be reached" is said only where it is certain: by cells and closed sides, whatever the ninja could jump.
     """
-    objects = list(filter(makes_object, level.objects))
+    return [finding.sentence for finding in level_findings(level)]
+
+
+def level_findings(level: Level) -> list[Finding]:
+    """The same with the places: what concerns the level first, then tiles, then objects."""
+    numbers = [number for number, record in enumerate(level.objects) if makes_object(record)]
+    objects = [level.objects[number] for number in numbers]
     if len(objects) >= CAPACITY:
-        return [f"there are {len(objects)} objects, more than {CAPACITY - 1}: the level cannot be played"]
+        return [Finding(f"there are {len(objects)} objects, more than {CAPACITY - 1}: the level cannot be played")]
     ground = Ground(level)
-    odd: dict[str, list[tuple[ObjectSpec, int]]] = {}
+    odd: dict[str, list[int]] = {}
     first: dict[ObjectSpec, int] = {}
-    for number, record in enumerate(objects):
-        again = [_AGAIN] if first.setdefault(record, number) != number else []
+    for id_, record in enumerate(objects):
+        again = [_AGAIN] if first.setdefault(record, id_) != id_ else []
         for text in (*oddities(record, ground), *again):
-            odd.setdefault(text, []).append((record, number))
-    named = (_some([object_name(*one) for one in some[:_NAMES_SHOWN]], len(some)) + f": {text}"
-             for text, some in odd.items())  # fmt: skip
-    return [*_level_oddities(level, objects), *_odd_tiles(level), *named]
+            odd.setdefault(text, []).append(id_)
+    found = []
+    for text, ids in odd.items():
+        names = _some([object_name(objects[id_], id_) for id_ in ids[:_NAMES_SHOWN]], len(ids))
+        found.append(Finding(text, tuple(numbers[id_] for id_ in ids), names=names))
+    whole = (Finding(text, tuple(numbers[id_] for id_ in ids)) for text, ids in _level_oddities(level, objects))
+    return [*whole, *_odd_tiles(level), *found]
 
 
 def object_name(record: ObjectSpec, number: int) -> str:
@@ -56,39 +68,53 @@ def _some(names: Sequence[str], count: int) -> str:
     return ", ".join(names[:_NAMES_SHOWN]) + (f" and {more} more" if more > 0 else "")
 
 
-def _odd_tiles(level: Level) -> Iterator[str]:
-    """A warning for each sort of odd tile, with its first places."""
-    names: dict[str, list[str]] = {}
+def _odd_tiles(level: Level) -> Iterator[Finding]:
+    """A finding for each sort of odd tile, with its first places by name."""
+    odd: dict[str, list[int]] = {}
     for cell, tile in enumerate(level.tiles):
         if not 0 <= tile <= 33:
             what = "above 33 is a half tile without direction" if tile > 33 else "below 0 is never solid, yet not empty"
-            names.setdefault(what, []).append(f"tile {tile} at {cell // ROWS + 1},{cell % ROWS + 1}")
-    return (f"{_some(places, len(places))}: a tile id {what}" for what, places in names.items())
+            odd.setdefault(what, []).append(cell)
+    for what, some in odd.items():
+        places = [(cell // ROWS + 1, cell % ROWS + 1) for cell in some]
+        names = [f"tile {level.tile(*place)} at {place[0]},{place[1]}" for place in places[:_NAMES_SHOWN]]
+        yield Finding(f"a tile id {what}", cells=tuple(places), names=_some(names, len(places)))
 
 
-def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[str]:
-    """What concerns the level as a whole."""
-    ninjas = [number for number, record in enumerate(objects) if record.kind == kinds.NINJA]
+def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[tuple[str, list[int]]]:
+    """What concerns the level as a whole, and the ids of the objects to look at."""
+    ninjas = [id_ for id_, record in enumerate(objects) if record.kind == kinds.NINJA]
     if not ninjas:
-        yield "there is no ninja: the level cannot be played"
+        yield "there is no ninja: the level cannot be played", []
     elif len(ninjas) > 1:
         last = object_name(objects[ninjas[-1]], ninjas[-1])
-        yield f"there are {len(ninjas)} ninjas: the last one plays, {last}; the others only stand there"
+        yield f"there are {len(ninjas)} ninjas: the last one plays, {last}; the others only stand there", ninjas[:-1]
     yield from _deadly_start(objects)
     if not any(record.kind == kinds.EXIT and well_formed(record) for record in objects):
-        yield "there is no exit: the level cannot be passed"
+        yield "there is no exit: the level cannot be passed", []
     if len(objects) > MANY_OBJECTS:
-        yield f"there are {len(objects)} objects, more than {MANY_OBJECTS}: the game may be slow"
+        yield f"there are {len(objects)} objects, more than {MANY_OBJECTS}: the game may be slow", []
+    waiting = [id_ for id_, record in enumerate(objects) if _waits_for_its_turn(record)]
+    if len(waiting) > MANY_THINKERS:
+        seconds = len(waiting) * (THINK_PAUSE + 1) / TICKS_PER_SECOND
+        yield f"{len(waiting)} enemies look at the ninja in turn: each one only every {seconds:.1f} s", waiting
     ignored = [record.text or str(record.kind) for record in level.objects if not makes_object(record)]
     if ignored:
-        yield f"{len(ignored)} records create nothing (unknown type), the first is {ignored[0][:40]!r}"
+        yield f"{len(ignored)} records create nothing (unknown type), the first is {ignored[0][:40]!r}", []
 
 
-def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[str]:
+def _waits_for_its_turn(record: ObjectSpec) -> bool:
+    """Whether an object looks for the ninja only when its turn in the thinker ring comes."""
+    if record.kind == kinds.DRONE and well_formed(record):
+        return record.values[4] in (1, 2)
+    return record.kind in (kinds.TURRET, kinds.LAUNCHER)
+
+
+def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[tuple[str, list[int]]]:
     """The mine that the ninja touches where it starts."""
     starts = [record.values for record in objects if record.kind == kinds.NINJA and well_formed(record)]
-    for number, record in enumerate(objects):
+    for id_, record in enumerate(objects):
         mine = record.kind == kinds.MINE and well_formed(record)
         if mine and starts and dist(record.values, starts[-1]) < MINE_RADIUS + RADIUS:
-            yield f"{object_name(record, number)}: the ninja touches it where it starts and dies at once"
+            yield f"{object_name(record, id_)}: the ninja touches it where it starts and dies at once", [id_]
             return

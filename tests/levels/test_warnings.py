@@ -9,8 +9,9 @@ import pytest
 
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.levels.findings import Finding
 from ninja_game.levels.reach import Ground
-from ninja_game.levels.warnings import level_warnings, object_name
+from ninja_game.levels.warnings import level_findings, level_warnings, object_name
 from ninja_game.sim import kinds
 from ninja_game.sim.level import TILES, Level, ObjectSpec
 from tests.support.reference import levels
@@ -155,6 +156,16 @@ CASES: dict[str, tuple[list[str], dict[int, str], str]] = {
         {1: ".#", 2: "#Z.", 3: ".#"},
         "zap drone at 2,2 (object 2): it is closed in on all sides: it never moves",
     ),
+    "door over a wall": (
+        ["locked door 5,5 right switch 3,23"],
+        {5: "....##", 23: "@.&.x...X"},
+        "locked door at 5,5 (object 2): the tiles close this side anyway: the door changes nothing",
+    ),
+    "door before a wall": (
+        ["automatic door 5,5 left"],
+        {5: "....#"},
+        "automatic door at 5,5 (object 2): the tiles close this side anyway: the door changes nothing",
+    ),
     "door with an odd side": (
         ["raw 9 100,100,2,0,5,5,1,0,0"],
         {},
@@ -238,6 +249,32 @@ def test_odd_tiles() -> None:
 def test_many_objects() -> None:
     level = Level(objects=(*PROPER, *(ObjectSpec(kinds.MINE, (300.0, 300.0 + number / 100)) for number in range(2000))))
     assert level_warnings(level) == ["there are 2002 objects, more than 2000: the game may be slow"]
+
+
+def test_more_enemies_than_can_react() -> None:
+    turrets = tuple(ObjectSpec(kinds.TURRET, (300.0 + number, 300.0)) for number in range(31))
+    guards = tuple(ObjectSpec(kinds.FLOOR_GUARD, (300.0 + number, 570.0, 1.0)) for number in range(31))
+    assert level_warnings(Level(objects=(*PROPER, *turrets, *guards))) == [
+        "31 enemies look at the ninja in turn: each one only every 3.1 s"
+    ]
+    assert level_warnings(Level(objects=(*PROPER, *turrets[1:]))) == []
+
+
+def test_findings_name_records_and_cells_and_say_how_to_mend_them() -> None:
+    rows = {2: "#Z#", 1: "?#", 3: ".#", 23: "@...x...X"}
+    text = ["ninja-game level 1", *("|" + rows.get(row, "").ljust(31, ".") + "|" for row in range(1, 24))]
+    text += ["tile 1,1 id 70", 'raw "77^1,2"', "zap drone 2,2 wander-cw right", "gold 900,100px 901,100px"]
+    level = parse_ascii_level("\n".join(text)).level
+    found = {finding.text: finding for finding in level_findings(level)}
+    assert found["it is outside the grid"].records == (4, 5)
+    assert found["it is closed in on all sides: it never moves"].records == (3,)
+    assert found["a tile id above 33 is a half tile without direction"].cells == ((1, 1),)
+    assert all(finding.mend for finding in found.values())
+
+
+def test_every_warning_has_advice() -> None:
+    advised = [Finding(text.split(": ", 1)[-1] if " (object" in text else text).mend for _, _, text in CASES.values()]
+    assert all(advised)
 
 
 WALL = dict.fromkeys(range(1, 23), "....#")
