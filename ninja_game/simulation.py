@@ -117,6 +117,9 @@ class Simulation:
         self._memory = open_memory(memory, level, box=is_box(body))
         self._inputs = bytearray()
 
+    def __repr__(self) -> str:
+        return f"<Simulation in tick {self.tick}: {self.outcome}, {self.gold} gold, {self.body}, {self.memory}>"
+
     @property
     def memory(self) -> MemoryName:
         """Which memory it is."""
@@ -184,8 +187,7 @@ class Simulation:
     @property
     def objects(self) -> list[ObjectView]:
         """All objects but ninjas and inert ones, in id order."""
-        seen = (self._seen(id_) for id_ in range(self._memory.id_count))
-        return [o for o in seen if o]
+        return [seen for seen in map(self._seen, range(self._memory.id_count)) if seen]
 
     def object(self, id_: int) -> ObjectView:
         """One object by its id. Raises ArgumentError for an id that no object has, of a ninja or an inert object."""
@@ -212,8 +214,7 @@ class Simulation:
 
     def restore(self, state: SaveState) -> None:
         """Go back to a saved moment. Raises ArgumentError for a state of another level, body or memory."""
-        same_level = state.level is self.level or state.level == self.level
-        if not same_level or (state.body, state.memory) != (self.body, self.memory):
+        if (state.level, state.body, state.memory) != (self.level, self.body, self.memory):
             raise ArgumentError("this save-state is of another level, body or memory")
         self._inputs = bytearray(state.inputs)
         self._memory.restore(state.data)

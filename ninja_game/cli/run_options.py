@@ -92,12 +92,15 @@ def level_given(path: Path | None) -> Level | None:
 
 
 def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
-    """The same items, counted on stderr if they take long: by a bar, or by a line now and then where that is a file."""
+    """The same items, counted on stderr if they take long: by a bar, or by a line now and then where that is a file.
+
+    ``label``: what one of them is.
+    """
     if not sys.stderr.isatty():
         log = ProgressLog()
         for number, item in enumerate(items, 1):
             yield item
-            log.say(f"{number:,} {label}")
+            log.say(f"{number:,} {label}{'s' * (number != 1)}")
         return
     start = time.monotonic()
     with ExitStack() as stack:
@@ -105,7 +108,7 @@ def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
         for number, item in enumerate(items, 1):
             yield item
             if advance is None and time.monotonic() - start > PATIENCE:
-                advance = stack.enter_context(_Counter(label, number))
+                advance = stack.enter_context(_Counter(f"{label}s", number))
             elif advance:
                 advance()
 

@@ -116,7 +116,7 @@ class Traces:
     def __init__(self, files: Sequence[Path], **options: Any) -> None:
         from ninja_game.verification.archive_tracing import trace_all
 
-        self.items = with_progress(trace_all(files, **options), "traces")
+        self.items = with_progress(trace_all(files, **options), "trace")
         self.count = 0
         self.unreadable = 0
 

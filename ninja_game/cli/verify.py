@@ -91,7 +91,7 @@ def command(
         results = verify_all(files, processes=processes, levels=load_levels(level) if level else (), **options)
         if report:
             results = _reported(results, report, files, stack)
-        for result in with_progress(results, "runs"):
+        for result in with_progress(results, "run"):
             tally.add(result)
             if isinstance(result, Unreadable):
                 complain(result.message)

@@ -8,6 +8,7 @@ import stat
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import IO
 
 from ninja_game.errors import FileError
 
@@ -84,11 +85,8 @@ def text_files(path: Path) -> list[Path]:
     return [file for file in files_below(path) if isinstance(file, Path)]
 
 
-def read_bytes(path: Path, limit: int = MAX_BYTES) -> bytes:
-    """A regular file's content.
-
-    Raises FileError for a folder, device or pipe, and for a file of more than ``limit`` bytes; OSError as it comes.
-    """
+def open_regular(path: Path) -> IO[bytes]:
+    """A regular file, open for reading. Raises FileError for a folder, device or pipe; OSError as it comes."""
     try:
         # A pipe that nobody writes would block here without O_NONBLOCK.
         handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
@@ -98,7 +96,12 @@ def read_bytes(path: Path, limit: int = MAX_BYTES) -> bytes:
     if not stat.S_ISREG(mode):
         os.close(handle)
         raise FileError("only a regular file is read", str(path), found=what_it_is(mode))
-    with os.fdopen(handle, "rb") as file:
+    return os.fdopen(handle, "rb")
+
+
+def read_bytes(path: Path, limit: int = MAX_BYTES) -> bytes:
+    """A regular file's content. Raises FileError as ``open_regular``, and for more than ``limit`` bytes; OSError."""
+    with open_regular(path) as file:
         data = file.read(limit + 1)
     if len(data) > limit:
         raise FileError("the file is too large", str(path), expected=f"at most {limit >> 20} MiB")

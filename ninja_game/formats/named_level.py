@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -117,7 +118,7 @@ def level_of_replay(replay: Replay, file: str, level: Level | None = None) -> Le
     if replay.level_path:
         path = _path_below(Path(file).parent, replay.level_path)
         source = str(path)
-        if path is not None and path.is_file():
+        if path is not None and os.path.isfile(path):  # noqa: PTH113 - Path.is_file() fails on long names
             level = _level_at(path, replay.level_record, file)
     if level is None:
         hint = "give it with --level, or record the replay with its level inside"

@@ -7,21 +7,24 @@ from __future__ import annotations
 
 import csv
 import errno
+import os
 import struct
 import zlib
 from collections.abc import Iterable, Iterator, Mapping
-from itertools import groupby
+from io import TextIOWrapper
+from itertools import groupby, pairwise
 from pathlib import Path
 from typing import IO, Any, NamedTuple
 from zipfile import BadZipFile, ZipFile, ZipInfo
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from ninja_game.errors import FileError, FormatError
+from ninja_game.files.reading import open_regular
 from ninja_game.runs.run import NINJA_RECORD, OBJECT_RECORD, RunTrace
 from ninja_game.runs.trace import NINJA_NAME, rows
-from ninja_game.sim.inputs import Input
+from ninja_game.sim.inputs import MAX_TICKS, Input
 
 COLUMNS = (
     "file", "record", "name", "tick", "keys", "id", "kind", "x", "y", "s", "prev_x", "prev_y", "vx", "vy", "gold",
@@ -34,7 +37,7 @@ MOST_BYTES = 2**28
 
 _KEYS = (("L", Input.LEFT), ("R", Input.RIGHT), ("J", Input.JUMP_HELD), ("!", Input.JUMP_PRESSED))
 
-ZIPPED = "PK"
+ZIPPED = b"PK"
 """What a .npz begins with."""
 
 _UNREADABLE = (
@@ -113,7 +116,7 @@ def _read_run(table: Iterable[Mapping[str, str]], record: int, file: str) -> Fil
     if len(objects) != len(columns) * len(events) * OBJECT_RECORD.itemsize:
         raise ValueError("objects are missing in some ticks")
     shape = (len(events), len(columns))
-    run = RunTrace(
+    run = _checked(
         ninja=np.frombuffer(bytes(ninja), NINJA_RECORD),
         objects=np.frombuffer(bytes(objects), OBJECT_RECORD).reshape(shape),
         ids=tuple(id_ for id_, _ in columns),
@@ -121,6 +124,16 @@ def _read_run(table: Iterable[Mapping[str, str]], record: int, file: str) -> Fil
         events=tuple(events),
     )
     return FiledTrace(record, name, run, file, bytes(inputs))
+
+
+def _checked(**fields: Any) -> RunTrace:
+    """The trace of these fields. Raises ValueError where they are not those of one run."""
+    run = RunTrace(**fields)
+    if run.objects.shape != (len(run.ninja), len(run.ids)) or len(run.kinds) != len(run.ids):
+        raise ValueError("arrays that do not fit each other")
+    if any(first >= second for first, second in pairwise(run.ids)):
+        raise ValueError("objects that are not in the order of their ids")
+    return run
 
 
 def write_npz(traces: Iterable[FiledTrace], out: IO[bytes]) -> None:
@@ -134,17 +147,17 @@ def write_npz(traces: Iterable[FiledTrace], out: IO[bytes]) -> None:
             f"kinds_{number}": np.array(run.kinds, np.str_),
             f"events_{number}": np.array(run.events, np.str_),
             f"keys_{number}": np.frombuffer(inputs, np.uint8),
-            f"record_{number}": np.array(record),
+            f"record_{number}": np.array(record, np.int64),
             f"name_{number}": np.array(name),
             f"file_{number}": np.array(file),
         }
     np.savez_compressed(out, **arrays)
 
 
-def read_npz(path: Path) -> Iterator[FiledTrace]:
+def read_npz(data: IO[bytes], path: Path) -> Iterator[FiledTrace]:
     """The traces of a file that ``write_npz`` wrote. Raises FormatError where it is something else."""
     try:
-        with ZipFile(path) as archive:
+        with ZipFile(data) as archive:
             found = {info.filename.removesuffix(".npy"): info for info in archive.infolist()}
             if sum(info.file_size for info in found.values()) > MOST_BYTES:
                 raise _too_large(path)
@@ -162,31 +175,32 @@ def read_npz(path: Path) -> Iterator[FiledTrace]:
 def _read_arrays(archive: ZipFile, found: Mapping[str, ZipInfo], number: int) -> FiledTrace:
     """One run. Raises an error of ``_UNREADABLE`` where its arrays are none or do not fit each other."""
 
-    def array(name: str) -> NDArray[Any]:
-        return _array(archive, found[f"{name}_{number}"])
+    def array(name: str, dtype: DTypeLike = np.str_) -> NDArray[Any]:
+        return _array(archive, found[f"{name}_{number}"], np.dtype(dtype))
 
-    run = RunTrace(
-        ninja=array("ninja").astype(NINJA_RECORD),
-        objects=array("objects").astype(OBJECT_RECORD),
-        ids=tuple(map(int, array("ids").tolist())),
+    run = _checked(
+        ninja=array("ninja", NINJA_RECORD),
+        objects=array("objects", OBJECT_RECORD),
+        ids=tuple(map(int, array("ids", np.int32).tolist())),
         kinds=tuple(map(str, array("kinds").tolist())),
         events=tuple(map(str, array("events").tolist())),
     )
-    ticks, columns = len(run.ninja), len(run.ids)
-    if run.ninja.ndim != 1 or run.objects.shape != (ticks, columns) or len(run.kinds) != columns:
-        raise ValueError("arrays that do not fit each other")
-    inputs = array("keys").astype(np.uint8).tobytes()
-    return FiledTrace(int(array("record")), str(array("name")), run, str(array("file")), inputs)
+    inputs = array("keys", np.uint8).tobytes()
+    return FiledTrace(int(array("record", np.int64)), str(array("name")), run, str(array("file")), inputs)
 
 
-def _array(archive: ZipFile, info: ZipInfo) -> NDArray[Any]:
-    """An array that claims no more memory than its file has bytes."""
+def _array(archive: ZipFile, info: ZipInfo, wanted: np.dtype[Any]) -> NDArray[Any]:
+    """An array of the wanted kind, which claims neither more memory than its file has bytes nor more than a run."""
     with archive.open(info) as file:
         version = np.lib.format.read_magic(file)
         read_header: Any = {
             (1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0
         }[version]  # fmt: skip
         shape, _, dtype = read_header(file)
+        if dtype != wanted and not dtype.kind == wanted.kind == "U":
+            raise ValueError(f"an array of {dtype} instead of {wanted}")
+        if len(shape) > 1 + (wanted == OBJECT_RECORD) or max(shape, default=0) > MAX_TICKS:
+            raise ValueError(f"an array of the shape {shape}")
         if np.prod(shape, dtype=np.float64) * dtype.itemsize > info.file_size:
             raise ValueError("an array that is not all there")
     with archive.open(info) as file:
@@ -199,24 +213,24 @@ def _too_large(path: Path) -> FileError:
 
 
 def is_trace(path: Path) -> bool:
-    """Whether a file is a trace, by what it begins with. Raises OSError."""
-    return _starts_with(path, f"{COLUMNS[0]},") or _starts_with(path, ZIPPED)
-
-
-def _starts_with(path: Path, text: str) -> bool:
-    with path.open("rb") as file:
-        return file.read(len(text)) == text.encode()
+    """Whether a file is a trace, by what it begins with. Raises FileError for what is no regular file; OSError."""
+    with open_regular(path) as file:
+        return file.readline(len(COLUMNS[0]) + 1).startswith((f"{COLUMNS[0]},".encode(), ZIPPED))
 
 
 def read_traces(path: Path) -> Iterator[FiledTrace]:
     """The traces of a CSV or .npz file, by what the file begins with. Raises FormatError, FileError, OSError."""
-    if _starts_with(path, ZIPPED):
-        yield from read_npz(path)
-        return
-    if path.stat().st_size > MOST_BYTES:
-        raise _too_large(path)
-    try:
-        with path.open(encoding="utf-8", newline="") as text:
-            yield from read_csv(text, file=str(path))
-    except UnicodeDecodeError:
-        raise FormatError("this is no trace", file=str(path), expected="CSV or .npz of `ninja-game trace`") from None
+    with open_regular(path) as file:
+        if os.fstat(file.fileno()).st_size > MOST_BYTES:
+            raise _too_large(path)
+        zipped = file.read(len(ZIPPED)) == ZIPPED
+        file.seek(0)
+        if zipped:
+            yield from read_npz(file, path)
+            return
+        try:
+            with TextIOWrapper(file, "utf-8", newline="") as text:
+                yield from read_csv(text, file=str(path))
+        except UnicodeDecodeError:
+            expected = "CSV or .npz of `ninja-game trace`"
+            raise FormatError("this is no trace", file=str(path), expected=expected) from None

@@ -201,5 +201,5 @@ def test_progress_is_told_now_and_then_where_nobody_watches(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(run_options, "EVERY", 0.0)
-    assert list(run_options.with_progress(range(2), "runs")) == [0, 1]
-    assert [line.partition("s: ")[2] for line in capsys.readouterr().err.splitlines()] == ["1 runs", "2 runs"]
+    assert list(run_options.with_progress(range(2), "run")) == [0, 1]
+    assert [line.partition("s: ")[2] for line in capsys.readouterr().err.splitlines()] == ["1 run", "2 runs"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 from pathlib import Path
 
 import numpy as np
@@ -93,6 +94,13 @@ def test_section_of_the_specification_is_told(two: Path, tmp_path: Path) -> None
     assert result.exit_code == 1
     assert "tick 0: ninja: x is " in result.stdout
     assert "(specification: objects 8.12)" in result.stdout
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
+def test_a_pipe_is_no_trace_to_compare_with(two: Path, tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    result = trace(two, "--against", tmp_path / "pipe")
+    assert (result.exit_code, "only a regular file is read; found a pipe" in result.stderr) == (2, True)
 
 
 @pytest.mark.parametrize("name", ["out.csv", "out.npz"])

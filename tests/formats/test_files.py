@@ -223,6 +223,7 @@ def test_megabytes_of_nothing_take_no_time(name: str) -> None:
         (Replay(b"", 0, "dead", level_path="some file"), "a replay as the level of a replay"),
         (Replay(b"", 0, "dead", level_path="."), "is not here"),
         (Replay(b"", 0, "dead", level_path="\0"), "is not here"),
+        (Replay(b"", 0, "dead", level_path="x" * 300), "is not here"),
     ],
 )  # fmt: skip
 def test_a_replay_without_its_level_says_so(tmp_path: Path, replay: Replay, message: str) -> None:

@@ -31,6 +31,13 @@ def test_equal_runs_and_traces_are_equal(memory: str) -> None:
 
 
 @pytest.mark.parametrize("memory", BOTH)
+def test_a_simulation_says_what_it_is_and_how_far(memory: str) -> None:
+    run = Simulation(LEVEL, body="box", memory=memory)
+    run.step(right=True)
+    assert repr(run) == f"<Simulation in tick 1: running, 0 gold, box, {memory}>"
+
+
+@pytest.mark.parametrize("memory", BOTH)
 def test_keys_that_there_are_not_are_refused_at_the_entry(memory: str) -> None:
     for keys in (16, 200, -1):
         with pytest.raises(ArgumentError, match="sum of Input flags"):

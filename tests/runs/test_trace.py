@@ -8,15 +8,18 @@ import random
 import struct
 from hashlib import sha256
 from pathlib import Path
+from typing import Any
 from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from ninja_game.errors import FileError, FormatError
 from ninja_game.runs.run import NINJA_RECORD, OBJECT_RECORD, RunTrace
 from ninja_game.runs.trace import first_difference, rows, trace_digests
 from ninja_game.runs.trace_files import COLUMNS, MOST_BYTES, FiledTrace, read_csv, read_traces, write_csv, write_npz
+from ninja_game.sim.inputs import MAX_TICKS
 from tests.support.reference import scene_traces, scenes
 
 
@@ -182,6 +185,33 @@ def test_a_zip_whose_index_leads_before_its_beginning_is_an_error_of_ours(tmp_pa
     path.write_bytes(b"PK" + whole.getvalue()[40:])
     with pytest.raises(FormatError, match="this is no trace"):
         list(read_traces(path))
+
+
+@pytest.mark.parametrize(
+    "name, array",
+    [
+        ("ninja", np.zeros(1000, np.uint8)), ("ids", np.zeros(1000, np.int8)), ("ids", np.zeros((2, 2), np.int32)),
+        ("ids", np.array([4, 2], np.int32)), ("events", np.zeros(MAX_TICKS + 1, np.str_)), ("keys", np.zeros(3)),
+        ("kinds", np.zeros(2, "S1")), ("record", np.array("1")),
+    ],
+)  # fmt: skip
+def test_arrays_of_another_kind_size_or_order_are_refused(name: str, array: NDArray[Any], tmp_path: Path) -> None:
+    path = tmp_path / "other.npz"
+    with path.open("wb") as file:
+        write_npz(TWICE, file)
+    with np.load(path) as arrays:
+        np.savez(path, **{**arrays, f"{name}_0": array})
+    with pytest.raises(FormatError, match="this is no trace"):
+        list(read_traces(path))
+
+
+def test_objects_of_a_table_stand_in_the_order_of_their_ids() -> None:
+    out = io.StringIO()
+    write_csv(TWICE[:1], out)
+    header, ninja, *objects = out.getvalue().splitlines(keepends=True)
+    assert len(list(read_csv([header, ninja, *objects[:2]]))) == 1
+    with pytest.raises(FormatError, match="not in the order of their ids"):
+        list(read_csv([header, ninja, *objects[1::-1]]))
 
 
 def test_damaged_bytes_of_a_trace_never_escape_as_other_errors(tmp_path: Path) -> None:

@@ -188,17 +188,17 @@ def _read_values(text: str) -> tuple[float, ...]:
 
 
 def read_quoted(text: str) -> str | None:
-    """What stands in double quotes, with JSON's escapes; None if that is not in order or no text for a file."""
+    """What stands in double quotes, with JSON's escapes; None if that is not in order."""
     try:
         value = json.loads(text)
-        return value if isinstance(value, str) and value.encode() is not None else None
     except ValueError:
         return None
+    return value if isinstance(value, str) else None
 
 
 def _read_string(text: str) -> str:
     value = read_quoted(text)
-    if value is None:
+    if value is None or value != value.encode("utf-8", "replace").decode():
         raise LevelError(
             "not a text in double quotes", found=shown(text), expected='"text", with \\" and \\\\ as in JSON'
         )
