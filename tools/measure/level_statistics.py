@@ -1,0 +1,193 @@
+"""Compare levels with the 500 of the reference, whose figures are kept here.
+
+    python3 tools/dev.py tool measure.level_statistics   # our set
+    python3 tools/dev.py tool measure.level_statistics levels/20-0-*.txt   # single levels
+    python3 tools/dev.py tool measure.level_statistics --plots docs/pictures/levels
+
+A figure outside the reference's quartiles is marked: - below, + above. A single level is told what kinds it has, and
+which levels of the set share most of its solid cells. The set is told what it lacks and which levels are too alike.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from ninja_game.formats.ascii.legend import TILE_CHARS
+from ninja_game.formats.load import load_levels, load_replays
+from ninja_game.formats.pack.pack import Pack
+from ninja_game.sim.level import Level
+from ninja_game.sim.rules import TICKS_PER_SECOND
+from tools import ROOT
+from tools.measure.level_figures import (
+    ALL_VARIANTS,
+    NAMES,
+    SHAPES,
+    alike,
+    common_motifs,
+    figures,
+    quartiles,
+    shared_share,
+    solid_cells,
+    variants,
+)  # fmt: skip
+
+
+class Row(NamedTuple):
+    """A figure: what it is called, and the reference's first quartile, median and third quartile."""
+
+    title: str
+    first: float
+    median: float
+    third: float
+
+    def mark(self, value: float) -> str:
+        """Whether a value is below or above the reference's quartiles."""
+        return "-" if value < self.first else "+" if value > self.third else " "
+
+
+ROWS = {
+    "objects": Row("objects", 50, 66, 88),
+    "gold": Row("gold", 24, 36, 49),
+    "enemies": Row("enemies other than mines", 3, 5, 7),
+    "mines": Row("mines", 0, 7, 21),
+    "kinds": Row("kinds besides ninja and exit", 3, 4, 6),
+    "solid": Row("solid share of the cells", 0.13, 0.224, 0.373),
+    "shapes": Row("tiles with a shape", 20, 40, 72.25),
+    "mirror": Row("cells equal to their left-right mirror", 0.736, 0.893, 0.997),
+    "exit_s": Row("best run to the exit, s", 7.156, 11.363, 17.619),
+    "gold_s": Row("best run with (nearly) all gold, s", 16.8, 22.913, 28.694),
+}
+"""The reference: 500 levels, the best recorded runs on them. "Solid" is what is not empty."""
+
+KINDS_OF_REFERENCE = {
+    "bounce block": 41, "launch pad": 30, "gauss turret": 36, "floor guard": 28, "drone": 64, "one-way platform": 12,
+    "thwump": 21, "door": 52, "homing launcher": 20, "mine": 61,
+}  # fmt: skip
+"""In how many of a hundred levels of the reference a kind occurs."""
+
+MOST_SHARED = 0.5
+"""Share of their solid cells that two levels may have in common at most."""
+MOST_WITH_MOTIF = 0.1
+"""Share of the levels that may have a motif in common."""
+
+
+def runs(pack: Pack, file: str) -> dict[str, float]:
+    """The times of a level's certificates, s."""
+    found = {}
+    for kind, name in (("exit", "exit_s"), ("gold", "gold_s")):
+        certificate = pack.certificate(file, kind)
+        if certificate:
+            (recording,) = load_replays(pack.files.path / certificate)
+            found[name] = (recording.ticks - 1) / TICKS_PER_SECOND
+    return found
+
+
+def figures_of_set(pack: Pack) -> dict[str, dict[str, float]]:
+    """The figures of each level file of a pack, with the times of its certificates."""
+    return {file: figures(named.level) | runs(pack, file) for file, named in pack.levels.items()}
+
+
+def number(value: float) -> str:
+    """A figure with as many digits as it needs."""
+    return f"{value:.2f}" if abs(value) < 1.005 and value != int(value) else f"{value:.1f}".removesuffix(".0")
+
+
+def table_of_levels(rows: Mapping[str, Mapping[str, float]]) -> str:
+    """A line for each level."""
+    wide = max([len(name) for name in rows] + [20])
+    lines = [" " * wide + "".join(f"{key:>9}" for key in ROWS)]
+    for place, end in enumerate(("25 %", "median", "75 %")):
+        cells = (f"{number((row.first, row.median, row.third)[place]):>8} " for row in ROWS.values())
+        lines.append(f"{'reference, ' + end:<{wide}}" + "".join(cells))
+    for name, row in rows.items():
+        cells = (f"{number(row[key]):>8}{ROWS[key].mark(row[key])}" if key in row else " " * 9 for key in ROWS)
+        lines.append(f"{name:<{wide}}" + "".join(cells))
+    return "\n".join(lines)
+
+
+def table_of_set(rows: Sequence[Mapping[str, float]]) -> str:
+    """The quartiles of the set beside the reference's, in Markdown."""
+    lines = ["| per level | reference | ours | median within |", "|---|---|---|---|"]
+    for key, row in ROWS.items():
+        ours = quartiles([each[key] for each in rows if key in each])
+        inside = "yes" if row.first <= ours[1] <= row.third else "no"
+        lines.append(f"| {row.title} | {_three(row[1:])} | {_three(ours)} | {inside} |")
+    return "\n".join(lines)
+
+
+def _three(values: Sequence[float]) -> str:
+    return " - ".join(map(number, values))
+
+
+def table_of_kinds(levels: Mapping[str, Level]) -> str:
+    """In how many levels each kind occurs, in Markdown."""
+    found = {name: {NAMES.get(record.kind) for record in level.objects} for name, level in levels.items()}
+    lines = ["| levels with, % | reference | ours |", "|---|---|---|"]
+    for kind, theirs in KINDS_OF_REFERENCE.items():
+        share = 100 * sum(kind in kinds for kinds in found.values()) / max(1, len(found))
+        lines.append(f"| {kind} | {theirs} | {share:.0f} |")
+    return "\n".join(lines)
+
+
+def missing(levels: Mapping[str, Level]) -> tuple[list[str], list[int]]:
+    """The variants of kinds and the tile ids that no level has."""
+    records = [record for level in levels.values() for record in level.objects]
+    seen = set().union(*map(variants, records))
+    tiles = {tile for level in levels.values() for tile in level.tiles}
+    return sorted(ALL_VARIANTS - seen), sorted({0, 1, *SHAPES} - tiles)
+
+
+def motif_text(motif: Sequence[int]) -> str:
+    """A motif's rows in the characters of ASCII levels."""
+    return " ".join("".join(TILE_CHARS[tile] for tile in motif[row::3]) for row in range(3))
+
+
+def tell_set(pack: Pack) -> None:
+    """Print everything about a pack."""
+    rows, levels = figures_of_set(pack), {file: named.level for file, named in pack.levels.items()}
+    print(table_of_levels(rows), table_of_set(list(rows.values())), table_of_kinds(levels), sep="\n\n")
+    absent, tiles = missing(levels)
+    print(f"\n{len(levels)} levels; variants that none has: {', '.join(absent) or 'none'}; tiles: {tiles or 'none'}")
+    for share, first, second in alike(levels, MOST_SHARED):
+        print(f"{first} and {second} share {share:.2f} of their solid cells")
+    for motif, names in common_motifs(levels, max(2, MOST_WITH_MOTIF * len(levels))):
+        print(f"the motif {motif_text(motif)} is in {len(names)} levels: {', '.join(names)}")
+
+
+def tell_levels(paths: Sequence[Path], pack: Pack) -> None:
+    """Print a row for each level of some files, and its nearest neighbours in the set."""
+    chosen = {path.name: load_levels(path)[0].level for path in paths}
+    print(table_of_levels({name: figures(level) | runs(pack, name) for name, level in chosen.items()}))
+    others = {file: solid_cells(named.level) for file, named in pack.levels.items()}
+    for name, level in chosen.items():
+        cells = solid_cells(level)
+        near = sorted(
+            ((shared_share(cells, other), file) for file, other in others.items() if file != name), reverse=True
+        )
+        shares = ", ".join(f"{file} {share:.2f}" for share, file in near[:3])
+        print(f"{name}: {', '.join(sorted(set().union(*map(variants, level.objects))))}\n    shares with: {shares}")
+
+
+def main() -> None:
+    """Tables, or plots."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("levels", nargs="*", type=Path, help="single levels; without them the whole pack")
+    parser.add_argument("--pack", type=Path, default=ROOT / "levels")
+    parser.add_argument("--plots", metavar="FOLDER", type=Path, help="draw the plots into this folder too")
+    arguments: Any = parser.parse_args()
+    pack = Pack(arguments.pack)
+    if arguments.levels:
+        tell_levels(arguments.levels, pack)
+    else:
+        tell_set(pack)
+    if arguments.plots:
+        from tools.draw.level_plots import draw_plots
+
+        draw_plots(list(figures_of_set(pack).values()), arguments.plots)
+
+
+if __name__ == "__main__":
+    main()
