@@ -58,7 +58,7 @@ def command(
     with options.progress_line() as report:
         run = solve(task, report=report, on_better=save)
     if run is None:
-        click.echo("no run to the exit found; more time or another --seed may find one")
+        click.echo(options.not_found_text(task, report.last))
         ctx.exit(options.NOT_FOUND)
     if smooth is not None:
         run = options.smoothed_run(run, smooth)

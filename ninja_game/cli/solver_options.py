@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -15,6 +15,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
     from ninja_game.formats.load import NamedLevel, Recording
+    from ninja_game.sim.level import Level
     from ninja_game.solver.certificate import VerifiedRun
     from ninja_game.solver.solve import Progress, Task
 
@@ -97,12 +98,24 @@ def check_gold(task: Task) -> None:
         raise click.UsageError(f"--gold {task.gold}: the level holds {there} pieces of gold")
 
 
+class ShownProgress:
+    """What a search is told to report to: shows how it stands, and knows that afterwards."""
+
+    def __init__(self, show: Callable[[str], None]) -> None:
+        self.last: Progress | None = None
+        self._show = show
+
+    def __call__(self, progress: Progress) -> None:
+        """Show how the search stands."""
+        self.last = progress
+        self._show(progress_text(progress))
+
+
 @contextmanager
-def progress_line() -> Iterator[Callable[[Progress], None] | None]:
+def progress_line() -> Iterator[ShownProgress]:
     """A line on stderr that says how the search stands: always the present one, or one now and then in a file."""
     if not sys.stderr.isatty():
-        log = ProgressLog()
-        yield lambda progress: log.say(progress_text(progress))
+        yield ShownProgress(ProgressLog().say)
         return
     from rich.console import Console
     from rich.live import Live
@@ -110,7 +123,27 @@ def progress_line() -> Iterator[Callable[[Progress], None] | None]:
 
     starting = Text("starting; the first time it compiles, which takes about a minute")
     with Live(starting, console=Console(stderr=True), transient=True, refresh_per_second=8) as live:
-        yield lambda progress: live.update(Text(progress_text(progress)))
+        yield ShownProgress(lambda text: live.update(Text(text)))
+
+
+def not_found_text(task: Task, progress: Progress | None) -> str:
+    """What a search that found no run says, with the gold that it could not get."""
+    if not task.gold_wanted or not progress or progress.untaken is None:
+        return "no run to the exit found; more time or another --seed may find one"
+    return (
+        f"no run with {task.gold_wanted} gold to the exit found: {progress.gold} at most were collected at once, "
+        f"{never_collected(task.level, progress.untaken)}; more time or another --seed may find one"
+    )
+
+
+def never_collected(level: Level, untaken: Sequence[int]) -> str:
+    """The pieces of gold that no search ever collected, by name."""
+    from ninja_game.levels.warnings import object_name
+    from ninja_game.sim.level import makes_object
+
+    objects = list(filter(makes_object, level.objects))
+    names = [object_name(objects[id_], id_) for id_ in untaken]
+    return f"never {', '.join(names)}" if names else "each piece now and then"
 
 
 def progress_text(progress: Progress) -> str:

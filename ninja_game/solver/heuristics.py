@@ -6,7 +6,8 @@ switch state has a distance field of its own, made when the search first reaches
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -34,6 +35,12 @@ from ninja_game.solver.distance_field import (
 DOOR_COST = 40.0
 """How many times longer a step through a closed door counts where a way through it is imagined."""
 MAX_BITS = 60
+SWITCH_COST = 3.0
+"""How many times longer a step beside a switch counts that is better touched later."""
+
+
+Source = tuple[float, float, float]
+"""Where a field begins (px), and its value there (ticks)."""
 
 
 class Switchable(NamedTuple):
@@ -81,13 +88,25 @@ class Heuristics:
         self.switches = (exits + doors)[:MAX_BITS]
         self.slots = np.array([switch.slot for switch in self.switches], np.int64)
         self.gold_slots = np.array([slot for slot, _, _ in gold], np.int64)
+        self.gold_ids = [int(objects[slot]["id"]) for slot, _, _ in gold]
         self.gold_places = [(x, y) for _, x, y in gold]
 
-    def gold_fields(self) -> Field:
-        """For each piece of gold its field (gold x points); doors count as passable but dear."""
-        costs = self._closed(0, DOOR_COST / 4)
-        fields = [widened(self._field(costs, [(x, y, 0.0)])) for x, y in self.gold_places]
+    def taken(self, world: Any) -> int:
+        """Which pieces of gold a world's ninja has collected, a bit a piece."""
+        bits = world["objects"]["taken"][self.gold_slots] != 0
+        return sum(1 << k for k in np.flatnonzero(bits).tolist())
+
+    def gold_fields(self, switch_state: int, pieces: Sequence[int]) -> Field:
+        """The fields of some pieces of gold (pieces x points); closed locked doors count as passable but dear."""
+        costs = self._careful(self._closed(switch_state, DOOR_COST / 4), switch_state)
+        fields = [widened(self._field(costs, [(*self.gold_places[piece], 0.0)])) for piece in pieces]
         return np.array(fields, np.float32).reshape(-1, POINTS)
+
+    def gold_field(self, piece: int, switch_state: int, x: float, y: float) -> Field:
+        """Ticks from every point to what a ninja at (x, y) should do next to collect a piece, and on to it."""
+        costs = self._careful(self._closed(switch_state, 0.0), switch_state)
+        dear = self._careful(self._closed(switch_state, DOOR_COST), switch_state)
+        return self._toward([(*self.gold_places[piece], 0.0)], costs, dear, switch_state, point_at(x, y))
 
     def field(self, switch_state: int, x: float, y: float) -> Field:
         """Ticks from every point to what a ninja at (x, y) should do next in this switch state, and on to the exit."""
@@ -101,7 +120,10 @@ class Heuristics:
                 home = widened(self._field(dear, [(exit_.x, exit_.y, 0.0)]))
                 rest = min(float(home[point_at(exit_.switch_x, exit_.switch_y)]), 5000.0)
                 sources.append((exit_.switch_x, exit_.switch_y, rest + 30.0))
-        here = point_at(x, y)
+        return self._toward(sources, costs, dear, switch_state, point_at(x, y))
+
+    def _toward(self, sources: list[Source], costs: Costs, dear: Costs, switch_state: int, here: int) -> Field:
+        """The field of some places, by way of the switches of locked doors that are in the way from a point."""
         visited: set[int] = set()
         while True:
             field = widened(self._field(costs, sources))
@@ -116,14 +138,13 @@ class Heuristics:
             rest = min(float(imagined[point_at(door.switch_x, door.switch_y)]), 5000.0)
             sources = [(door.switch_x, door.switch_y, rest)]
 
-    def _field(self, costs: Costs, sources: list[tuple[float, float, float]]) -> Field:
+    def _field(self, costs: Costs, sources: list[Source]) -> Field:
         field = np.full(POINTS, UNREACHED, np.float32)
         for x, y, value in sources:
             # The ninja touches an object from up to 16 px away: any free point about it will do.
-            near = [
-                point_at(x + dx * SPACING, y + dy * SPACING) for dx in (-2, -1, 0, 1, 2) for dy in (-2, -1, 0, 1, 2)
-            ]
-            free = [point for point in near if costs[point] > 0.0] or near
+            near = _points_about(x, y, 15.0)
+            free = [point for point in near if costs[point] > 0.0]
+            free = free or [point for point in _points_about(x, y, 22.0) if costs[point] > 0.0] or near
             field[free] = np.minimum(field[free], np.float32(value))
         compiled(spread)(costs, self.blocked, field, self._queue, self._waiting)
         return field
@@ -135,6 +156,16 @@ class Heuristics:
             if switch.door and switch.trap == bool(switch_state >> bit & 1):
                 bars = [point for point in switch.bars if costs[point] > 0.0]
                 costs[bars] = np.float32(0.0 if switch.trap else door_cost)
+        return costs
+
+    def _careful(self, costs: Costs, switch_state: int) -> Costs:
+        """The cost factors as long as gold is fetched: open exits, and switches of exits and trap doors, are avoided."""
+        for bit, switch in enumerate(self.switches):
+            done = bool(switch_state >> bit & 1)
+            if not switch.door and done:
+                costs[_points_about(switch.x, switch.y, 26.0)] *= np.float32(MINE_COST)
+            elif not done and (switch.trap or not switch.door):
+                costs[_points_about(switch.switch_x, switch.switch_y, 18.0)] *= np.float32(SWITCH_COST)
         return costs
 
     def _first_door(self, field: Field, here: int, switch_state: int) -> Switchable | None:

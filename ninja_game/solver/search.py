@@ -33,37 +33,45 @@ MORE, EXHAUSTED, NO_ROOM = 0, 1, 2
 
 
 @entry_point
-def begin(start: Start, memory: SearchMemory, goals: Goals, resolution: Resolution) -> None:
-    """Make the root, the start of the level."""
-    for k in range(len(start.base)):
-        start.work_words[k] = start.base[k]
+def add_root(start: Start, memory: SearchMemory, goals: Goals, resolution: Resolution) -> None:
+    """Make the working world a node from which the search begins."""
     w = start.worlds[1]
     counters = memory.counters[0]
-    switch_state = switch_state_of(w, goals, counters, 0)
-    key = key_of(w, switch_state, gold_hash(w, goals), resolution)
+    switch_state = max(switch_state_of(w, goals, counters, 0), 0)
+    key = key_of(w, switch_state, 0, resolution)
     slot = find(memory.table, key)
-    memory.table[slot].key = key
-    memory.table[slot].visits = 1
-    counters.entries += 1
-    root = memory.nodes[add_node(-1, 0, 0, memory)]
+    if memory.table[slot].key == 0:
+        memory.table[slot].key = key
+        memory.table[slot].visits = 1
+        memory.table[slot].first = w.tick
+        memory.table[slot].last = w.tick
+        counters.entries += 1
+    index = add_node(-1, 0, w.tick, memory)
+    root = memory.nodes[index]
     root.switch_state = switch_state
     root.entry = slot
     root.ahead = 0.0
     keep_state(start.work_words, start.base, root, memory)
-    push(0, 0.0, memory)
+    push(index, 0.0 + w.tick, memory)
+
+
+@entry_point
+def load_node(start: Start, memory: SearchMemory, index: int) -> None:
+    """Make the save-state of a node that has one the working world."""
+    load_state(start.work_words, start.base, memory.nodes[index], memory)
 
 
 @entry_point
 def expand(start: Start, memory: SearchMemory, goals: Goals, guide: Guide, resolution: Resolution, budget: int) -> int:
-    """Expand nodes until ``budget`` ticks were run, a new switch state wants its field, or nothing is left.
+    """Expand nodes until ``budget`` ticks were run, a switch state wants its field, or enough ends of a leg are found.
 
-    Answers MORE, EXHAUSTED or NO_ROOM (for nodes).
+    Answers MORE, EXHAUSTED (nothing is left) or NO_ROOM (for nodes).
     """
     here = start.worlds[0]
     w = start.worlds[1]
     counters = memory.counters[0]
     stop = counters.ticks + budget
-    while counters.ticks < stop and counters.new_switch_states == 0:
+    while counters.ticks < stop and counters.wanted_fields == 0 and counters.ends < goals.ends:
         full = counters.nodes + 16 > len(memory.nodes) or counters.links + 16 > len(memory.links)
         if full or counters.entries * 4 > len(memory.table) * 3:
             return NO_ROOM
@@ -159,10 +167,11 @@ def keep_child(
         return
     tick = w.tick
     best = counters.best_ticks
-    ahead = estimate(w, goals, switch_state, point_at(w.ninja.x, w.ninja.y), source.ahead)
+    ahead = estimate(goals, switch_state, point_at(w.ninja.x, w.ninja.y), source.ahead)
     if best > 0 and tick + ahead * BOUND_SHARE >= best:
         return
-    gold = gold_hash(w, goals)
+    at_end = goals.leg > 0 and w.gold >= goals.leg
+    gold = gold_hash(w, goals) if at_end else 0
     key = key_of(w, switch_state, gold, resolution)
     slot = find(memory.table, key)
     entry = memory.table[slot]
@@ -194,7 +203,11 @@ def keep_child(
     child.ahead = ahead
     while not keep_state(start.work_words, start.base, child, memory) and counters.waiting > 0:
         drop_highest(memory)
-    push(index, tick + resolution.weight * ahead, memory)
+    if at_end and child.chunk >= 0:
+        memory.ends[counters.ends] = index
+        counters.ends += 1
+    elif not at_end:
+        push(index, tick + resolution.weight * ahead, memory)
 
 
 @fast

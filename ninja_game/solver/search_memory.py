@@ -26,6 +26,8 @@ Indices = NDArray[np.int32]
 CHUNK = 32
 """Words in a chunk."""
 BUCKETS = 1 << 14
+MAX_ENDS = 96
+"""Ends of a leg that are kept, with room for those of a last expansion."""
 UNKNOWN = 1.0e9
 """Value of an entry from which no way to the exit is known."""
 
@@ -99,7 +101,8 @@ class Counters(RandomState):
     expanded: i8  #: nodes
     best_ticks: i8  #: of the shortest run; at first the bound, 0: none
     best_node: i8  #: its last node, -1: none found
-    new_switch_states: i8  #: found since their fields were made last
+    wanted_fields: i8  #: switch states reached that have no field yet
+    ends: i8  #: ends of a leg found so far
 
 
 class Resolution(NamedTuple):
@@ -140,7 +143,7 @@ class Start(NamedTuple):
 
 
 class SearchMemory(NamedTuple):
-    """The arrays of one search: nodes and what links them, the pool of save-states, the open list."""
+    """The arrays of one search: nodes and what links them, the pool of save-states, the open list, a leg's ends."""
 
     nodes: Sequence[Node]
     table: Sequence[Entry]
@@ -149,6 +152,7 @@ class SearchMemory(NamedTuple):
     chunk_index: Indices
     chunk_value: Words
     buckets: Indices
+    ends: Indices
     counters: Sequence[Counters]
 
 
@@ -193,7 +197,7 @@ def new_memory(nodes: int) -> SearchMemory:
         nodes=zeroed(Node, nodes), table=new_table(nodes), links=zeroed(Link, 6 * nodes),
         chunk_next=np.empty(nodes, np.int32), chunk_index=np.empty(nodes * CHUNK, np.int32),
         chunk_value=np.empty(nodes * CHUNK, np.int64), buckets=np.empty(BUCKETS, np.int32),
-        counters=zeroed(Counters, 1),
+        ends=np.zeros(MAX_ENDS, np.int32), counters=zeroed(Counters, 1),
     )  # fmt: skip
 
 

@@ -2,62 +2,110 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
 import numpy as np
 
 from ninja_game.compile_cache import compiled
-from ninja_game.solver.distance_field import POINTS
+from ninja_game.solver.distance_field import POINTS, Field
 from ninja_game.solver.heuristics import Heuristics
 from ninja_game.solver.macro_actions import action_inputs
-from ninja_game.solver.search import MORE, begin, expand
+from ninja_game.solver.search import MORE, add_root, expand, load_node
 from ninja_game.solver.search_memory import (
     Entry,
     Guide,
     Resolution,
     Start,
+    Words,
     back_up_values,
     clear,
     new_memory,
     new_table,
     zeroed,
 )
-from ninja_game.solver.state_abstraction import MAX_SWITCH_STATES, Goals
+from ninja_game.solver.state_abstraction import MAX_SWITCH_STATES, NOT_MADE, WANTED, Goals
 
 NO_GUIDE = Guide(zeroed(Entry, 1), Resolution())
 SWEEPS = 40
 """Most sweeps over all links that make a guide's values."""
 
 
-class Search:
-    """Best-first searches from the start of a level, one after the other, in memory for so many ``nodes``.
+FieldOf = Callable[[int, float, float], Field]
+"""The field of a switch state, for a ninja at (x, y)."""
 
-    ``gold``: pieces that every run must collect.
+
+class Leg(NamedTuple):
+    """From some moments to the next piece of gold, or to the exit.
+
+    ``until``: gold at which it ends, 0: at the exit, with ``gold`` pieces at least; ``ends``: how many are enough;
+    ``field``: what makes the fields.
     """
 
-    def __init__(self, start: Start, *, nodes: int, gold: int) -> None:
+    roots: Sequence[Words]
+    until: int
+    gold: int
+    ends: int
+    field: FieldOf
+
+
+class End(NamedTuple):
+    """A moment at which a leg has ended: from which root, by which inputs, its state, ticks, gold (a bit a piece).
+
+    ``mask``: what is open, ``place``: where the ninja is (px).
+    """
+
+    root: int
+    inputs: bytes
+    words: Words
+    tick: int
+    taken: int
+    mask: int
+    place: tuple[float, float]
+
+
+class Search:
+    """Best-first searches of a level, one after the other, in memory for so many ``nodes``."""
+
+    def __init__(self, start: Start, heuristics: Heuristics, *, nodes: int) -> None:
         self.start = start
-        self.heuristics = heuristics = Heuristics(start.levels, start.worlds)
+        self.heuristics = heuristics
         self.goals = Goals(
-            gold,
-            heuristics.gold_slots,
-            heuristics.gold_fields() if gold else np.zeros((1, 1), np.float32),
-            heuristics.slots,
+            gold=0,
+            leg=0,
+            ends=1,
+            gold_slots=heuristics.gold_slots,
+            switch_slots=heuristics.slots,
             masks=np.full(MAX_SWITCH_STATES, -1, np.int64),
             places=np.zeros((MAX_SWITCH_STATES, 2)),
             fields=np.zeros((MAX_SWITCH_STATES, POINTS), np.float32),
         )
-        self.goals.fields[:, 0] = -1.0
+        self.goals.fields[:, 0] = NOT_MADE
         self.resolution = Resolution()
         self.memory = new_memory(nodes)
         self.counters = self.memory.counters[0]
         self.guide = NO_GUIDE
-        self._other_table = new_table(nodes)
+        self._nodes = nodes
+        self._other_table: Any = None
+        self._field: FieldOf = heuristics.field
 
     def begin(self, resolution: Resolution, *, seed: int, bound: int, guided: bool = False) -> None:
-        """Begin a new search. ``bound``: only runs of fewer ticks count (0: any).
+        """Begin a new search from the start to the exit. ``bound``: only runs of fewer ticks count (0: any).
 
         ``guided``: by what the last search has learned; otherwise that is forgotten.
         """
         self.guide = self._learned() if guided else NO_GUIDE
+        self._begin([self.start.base], resolution, seed, bound)
+
+    def begin_leg(self, leg: Leg, resolution: Resolution, *, seed: int, bound: int) -> None:
+        """Begin a new search from other moments to another goal; ``bound`` as for ``begin``."""
+        self.guide = NO_GUIDE
+        self.goals = self.goals._replace(gold=leg.gold, leg=leg.until, ends=leg.ends)
+        self.goals.fields[:, 0] = NOT_MADE
+        self._field = leg.field
+        self._begin(leg.roots, resolution, seed, bound)
+
+    def _begin(self, roots: Sequence[Words], resolution: Resolution, seed: int, bound: int) -> None:
         clear(self.memory)
         random = np.random.default_rng([seed, 6])
         shifts = random.random(2) * resolution.cell
@@ -70,14 +118,18 @@ class Search:
         )
         self.counters.best_ticks = bound
         self.counters.random = int(random.integers(1, 1 << 62))
-        compiled(begin)(self.start, self.memory, self.goals, self.resolution)
+        for words in roots:
+            self.start.work_words[:] = words
+            compiled(add_root)(self.start, self.memory, self.goals, self.resolution)
         self._fill_fields()
 
     def _learned(self) -> Guide:
         """The table of the search just made, with its values; the next search gets the other table."""
         table = self.memory.table
         compiled(back_up_values)(table, self.memory.links, int(self.counters.links), SWEEPS)
-        self.memory = self.memory._replace(table=self._other_table)
+        self.memory = self.memory._replace(
+            table=new_table(self._nodes) if self._other_table is None else self._other_table
+        )
         self._other_table = table
         return Guide(table, self.resolution)
 
@@ -87,19 +139,41 @@ class Search:
         while self.ticks < end:
             left = end - self.ticks
             ended = compiled(expand)(self.start, self.memory, self.goals, self.guide, self.resolution, left)
-            if self.counters.new_switch_states:
+            if self.counters.wanted_fields:
                 self._fill_fields()
-            elif ended != MORE:
+            elif ended != MORE or self.counters.ends >= self.goals.ends:
                 return int(ended)
         return MORE
 
     def _fill_fields(self) -> None:
-        """Make the distance fields of the switch states that were seen for the first time."""
+        """Make the distance fields that the search wants."""
         goals = self.goals
-        for index in np.flatnonzero((goals.masks >= 0) & (goals.fields[:, 0] < 0.0)):
+        for index in np.flatnonzero(goals.fields[:, 0] == WANTED):
             x, y = goals.places[index]
-            goals.fields[index] = self.heuristics.field(int(goals.masks[index]), float(x), float(y))
-        self.counters.new_switch_states = 0
+            goals.fields[index] = self._field(int(goals.masks[index]), float(x), float(y))
+        self.counters.wanted_fields = 0
+
+    def ends(self) -> list[End]:
+        """The moments at which the leg has ended so far."""
+        found = []
+        for index in self.memory.ends[: int(self.counters.ends)].tolist():
+            compiled(load_node)(self.start, self.memory, index)
+            root, inputs = self._path(index)
+            words = self.start.work_words.copy()
+            world = self.start.worlds[1]
+            place = (float(world["ninja"]["x"]), float(world["ninja"]["y"]))
+            mask = int(self.goals.masks[self.memory.nodes[index].switch_state])
+            found.append(End(root, inputs, words, int(world["tick"]), self.heuristics.taken(world), mask, place))
+        return found
+
+    def _path(self, index: int) -> tuple[int, bytes]:
+        """From which root a node comes, and the inputs from there, one byte a tick."""
+        nodes = self.memory.nodes
+        parts = []
+        while nodes[index].parent >= 0:
+            parts.append(action_inputs(int(nodes[index].action)))
+            index = int(nodes[index].parent)
+        return index, b"".join(reversed(parts))
 
     @property
     def ticks(self) -> int:
@@ -111,12 +185,7 @@ class Search:
         """Save-states expanded since ``begin``."""
         return int(self.counters.expanded)
 
-    def best(self) -> bytes | None:
-        """The inputs of the shortest run to the exit that this search has found, one byte a tick; None if none."""
+    def best(self) -> tuple[int, bytes] | None:
+        """The shortest run to the exit that this search has found: the root it begins at, its inputs; None if none."""
         index = int(self.counters.best_node)
-        parts = []
-        while index >= 0:
-            node = self.memory.nodes[index]
-            parts.append(action_inputs(int(node.action)))
-            index = int(node.parent)
-        return b"".join(reversed(parts)) or None
+        return self._path(index) if index >= 0 else None

@@ -8,10 +8,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from functools import cache
+from math import inf
 
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.inputs import press_jumps
 from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, verified_run
+from ninja_game.solver.gold_route import LEG_NODES, STYLES, GoldRoute, Style
+from ninja_game.solver.heuristics import Heuristics
 from ninja_game.solver.local_search import LocalSearch
 from ninja_game.solver.search import MORE
 from ninja_game.solver.search_memory import Resolution, open_start
@@ -46,9 +49,10 @@ class _Job:
         self.work = 0.0
         self.shares = Shares()
         self.start = open_start(task.level, box=task.body == "box")
+        self.heuristics = Heuristics(self.start.levels, self.start.worlds)
         self._search: Search | None = None
         self._turn = 2 * number
-        self._local_searches = 0
+        self._local_searches = self._routes = 0
 
     def run(self) -> None:
         """Find, vary, local search, until the end."""
@@ -74,16 +78,39 @@ class _Job:
         """The search of this job, made when it is first needed."""
         if self._search is None:
             task = self.state.task
-            nodes = int(min(1_500_000, max(100_000, task.work_planned / 40)))
-            self._search = Search(self.start, nodes=nodes, gold=task.gold_wanted)
+            nodes = LEG_NODES if task.gold_wanted else int(min(1_500_000, max(100_000, task.work_planned / 40)))
+            self._search = Search(self.start, self.heuristics, nodes=nodes)
         return self._search
 
     def _find(self) -> None:
+        if self.state.task.gold_wanted:
+            self._find_gold(Style(), bound=0)
+            return
         for resolution, ticks, turn in find_order(self.number):
             if self._over or self.state.runs:
                 return
-            wanted = ticks * (4 if self.state.task.gold_wanted else 1)
-            self._search_once(resolution, wanted, seed=turn, bound=0, until_found=True)
+            self._search_once(resolution, ticks, seed=turn, bound=0, until_found=True)
+
+    def _find_gold(self, style: Style, *, bound: int, ticks: float = inf) -> bytes | None:
+        """Search a run that collects the gold, for so many ticks; one that is found is submitted."""
+        gold = self.state.task.gold_wanted
+        self._routes += 1
+        seed = self.seed * 1000 + self._routes
+        route = GoldRoute(self._memory(), gold=gold, seed=seed, style=style, bound=bound)
+        until = self.work + ticks * SEARCH_COST
+
+        def over(played: int) -> bool:
+            self.work += played * SEARCH_COST
+            self.state.count(played, 0, f"{route.most} of {gold} gold")
+            return self._over or self.work >= until or bool(self.state.runs and not bound)
+
+        found = None
+        while not found and not over(0):
+            found = route.step(over)
+        self.state.note_gold(route.most, [self.heuristics.gold_ids[piece] for piece in route.never_taken()])
+        if found:
+            self.state.submit(found)
+        return found
 
     def _vary(self) -> None:
         turn = self._turn
@@ -94,7 +121,10 @@ class _Job:
             shortest = len(self.state.runs[0])
         resolution = resolution._replace(slack=resolution.slack * shortest)
         bound = shortest + max(4, shortest // 20)
-        found = self._search_once(resolution, VARY_TICKS, seed=100 + turn, bound=bound, guided=guided)
+        if self.state.task.gold_wanted:
+            found = self._find_gold(STYLES[turn % len(STYLES)], bound=bound, ticks=VARY_TICKS)
+        else:
+            found = self._search_once(resolution, VARY_TICKS, seed=100 + turn, bound=bound, guided=guided)
         self._shorten(found or self.state.runs[0], self.shares.first_climb)
 
     def _search_once(
@@ -112,10 +142,11 @@ class _Job:
             worlds = search.worlds
             if until_found and (self.state.runs or search.best()):
                 break
-        found = search.best()
-        if found:
-            self.state.submit(found)
-        return found
+        best = search.best()
+        if not best:
+            return None
+        self.state.submit(best[1])
+        return best[1]
 
     def _shorten(self, inputs: bytes, ticks: int) -> None:
         self._local_searches += 1
@@ -133,7 +164,7 @@ class _Job:
             local_search.return_to_best()
 
 
-_SMALL = "0" * 713 + "|5^100,566!11^160,564,130,564"
+_SMALL = "0" * 713 + "|5^100,566!11^160,564,130,564!0^115,566"
 
 
 @cache
@@ -142,8 +173,8 @@ def compile_solver() -> None:
 
     Raises MemoryUnavailableError without Numba.
     """
-    task = Task(parse_level_string(_SMALL), work=30_000)
-    _Job(SearchState(task, None), 0).run()
+    for gold in (0, -1):
+        _Job(SearchState(Task(parse_level_string(_SMALL), gold=gold, work=30_000), None), 0).run()
 
 
 def solve(

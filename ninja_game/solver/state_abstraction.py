@@ -16,20 +16,24 @@ from ninja_game.solver.search_memory import Counters, Entry, Resolution
 
 MIX = 0x2545F4914F6CDD1D
 MAX_SWITCH_STATES = 512
-GOLD_STEP = 60.0
-"""Estimated ticks for each further piece of gold."""
+NOT_MADE, WANTED = -1.0, -2.0
+"""What a field has at point 0, outside the world, as long as it is not there."""
 
 
 class Goals(NamedTuple):
-    """Where to go in a level, by switch state (heuristics.py). Masks, places and fields have MAX_SWITCH_STATES rows."""
+    """Where to go in a level, by switch state (heuristics.py). Masks, places and fields have MAX_SWITCH_STATES rows.
 
-    gold: int  #: pieces that a run must collect
+    A search is one for the exit, or one *leg*: it ends at each moment at which another piece of gold is collected.
+    """
+
+    gold: int  #: pieces that a run must have at the exit
+    leg: int  #: a leg ends where this many pieces are collected; 0: only the exit counts
+    ends: int  #: how many ends of a leg are enough
     gold_slots: NDArray[np.int64]
-    gold_fields: NDArray[np.float32]  #: ticks to each piece from each point
     switch_slots: NDArray[np.int64]  #: the slot of each bit of a mask
     masks: NDArray[np.int64]  #: what is open in each switch state, -1: not reached yet
-    places: NDArray[np.float64]  #: where the ninja was when it was reached first
-    fields: NDArray[np.float32]  #: ticks to the exit from each point; -1 at point 0: not made yet
+    places: NDArray[np.float64]  #: where the ninja was when its field was wanted
+    fields: NDArray[np.float32]  #: ticks to the goal from each point; NOT_MADE or WANTED at point 0
 
 
 @fast
@@ -81,46 +85,38 @@ def is_news(entry: Entry, tick: int, resolution: Resolution) -> bool:
 
 @fast
 def switch_state_of(w: World, goals: Goals, counters: Counters, guess: int) -> int:
-    """Index of the present switch state, -1: too many. One that is new is noted for the caller."""
+    """Index of the present switch state, -1: too many. One without a field wants it."""
     mask = 0
     for k in range(len(goals.switch_slots)):
         if w.objects[goals.switch_slots[k]].is_open:
             mask |= 1 << k
-    if goals.masks[guess] == mask:
-        return guess
-    for k in range(MAX_SWITCH_STATES):
-        if goals.masks[k] == mask:
-            return k
-        if goals.masks[k] < 0:
-            goals.masks[k] = mask
-            goals.places[k, 0] = w.ninja.x
-            goals.places[k, 1] = w.ninja.y
-            counters.new_switch_states += 1
-            return k
-    return -1
+    index = guess
+    if goals.masks[guess] != mask:
+        index = 0
+        while index < MAX_SWITCH_STATES and goals.masks[index] != mask and goals.masks[index] >= 0:
+            index += 1
+        if index == MAX_SWITCH_STATES:
+            return -1
+    if goals.fields[index, 0] == NOT_MADE:
+        goals.masks[index] = mask
+        goals.places[index, 0] = w.ninja.x
+        goals.places[index, 1] = w.ninja.y
+        goals.fields[index, 0] = WANTED
+        counters.wanted_fields += 1
+    return index
 
 
 @fast
 def gold_hash(w: World, goals: Goals) -> int:
-    """Sixteen bits that tell which pieces have been collected; 0 for none, and where gold does not matter."""
-    if goals.gold == 0:
-        return 0
+    """Sixteen bits that tell which pieces have been collected."""
     mixed = 0
     for k in range(len(goals.gold_slots)):
         if w.objects[goals.gold_slots[k]].taken:
-            mixed ^= (k + 1) * 40503
-    return mixed & 0xFFFF
+            mixed ^= (k + 1) * MIX
+    return (mixed >> 40) & 0xFFFF
 
 
 @fast
-def estimate(w: World, goals: Goals, switch_state: int, point: int, before: float) -> float:
-    """Ticks to the exit by the fields, while gold is needed to the nearest piece. ``before``: the parent's estimate."""
-    needed = goals.gold - w.gold
-    if needed > 0:
-        nearest = 1.0e9
-        for k in range(len(goals.gold_slots)):
-            if not w.objects[goals.gold_slots[k]].taken and goals.gold_fields[k, point] < nearest:
-                nearest = 0.0 + goals.gold_fields[k, point]
-        return float(nearest + GOLD_STEP * needed)
-    # The field of a switch state that has just been discovered is not there yet.
+def estimate(goals: Goals, switch_state: int, point: int, before: float) -> float:
+    """Ticks to the goal by the field of a switch state; ``before`` (the parent's) where that is not made yet."""
     return float(goals.fields[switch_state, point]) if goals.fields[switch_state, 0] >= 0.0 else before

@@ -25,13 +25,19 @@ Report = Callable[["Progress"], None]
 
 @dataclass
 class Progress:
-    """Where a solver stands. ``best``: end tick of the best run, -1: none yet."""
+    """Where a solver stands. ``best``: end tick of the best run, -1: none yet.
+
+    Where gold is wanted and as long as there is no run: ``gold``, the most pieces that were collected at once, and
+    ``untaken``, ids of those that never were.
+    """
 
     best: int = -1
     worlds: int = 0
     ticks: int = 0
     seconds: float = 0.0
     doing: str = ""
+    gold: int = 0
+    untaken: tuple[int, ...] | None = None
 
 
 @dataclass(frozen=True)
@@ -83,6 +89,15 @@ class SearchState:
                     self.on_better(self.best)
             if inputs not in self.runs:
                 self.runs = sorted([*self.runs, inputs], key=lambda run: (len(run), run))[:CANDIDATES]
+
+    def note_gold(self, most: int, untaken: list[int]) -> None:
+        """Note how far a search for gold has come: pieces at once, and ids of those that it never collected."""
+        with self.lock:
+            self.progress.gold = max(self.progress.gold, most)
+            earlier = self.progress.untaken
+            self.progress.untaken = tuple(id_ for id_ in untaken if earlier is None or id_ in earlier)
+            if self.report:
+                self.report(replace(self.progress))
 
     def count(self, ticks: int, worlds: int, doing: str) -> None:
         """Add to the progress and show it."""

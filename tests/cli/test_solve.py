@@ -25,6 +25,7 @@ if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
 CLOSED_IN = "0" * 23 * 5 + "1" * 23 + "0" * 23 * 25 + "|5^60,566!11^400,566,330,566"
+WALLED_GOLD = "0" * 23 * 20 + "1" * 23 + "0" * 23 * 10 + "|5^60,566!11^400,566,330,566!0^90,566!0^700,300"
 
 
 def command(*words: str | Path) -> Result:
@@ -73,6 +74,15 @@ def test_solve_says_when_it_found_nothing(tmp_path: Path) -> None:
     assert result.exit_code == 1
     assert "no run to the exit found" in result.stdout
     assert not out.exists()
+
+
+def test_solve_names_the_gold_that_it_never_got(tmp_path: Path) -> None:
+    file = level_file(tmp_path, WALLED_GOLD)
+    words = ("--gold", "all", "--ticks", "300000", "--jobs", "1", "-o", tmp_path / "out.replay.txt")
+    result = command("solve", file, *words)
+    assert result.exit_code == 1
+    assert "no run with 2 gold to the exit found: 1 at most were collected at once" in result.stdout
+    assert "never gold at 700,300px (object 3)" in result.stdout
 
 
 def test_improve_shortens_a_recording(tmp_path: Path) -> None:

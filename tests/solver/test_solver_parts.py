@@ -19,6 +19,7 @@ from ninja_game.solver.local_search import LocalCounters
 from ninja_game.solver.macro_actions import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_inputs
 from ninja_game.solver.mutations import cut, mutate, overwrite, shift_boundary, shift_pulse, stretch
 from ninja_game.solver.search_memory import UNKNOWN, Entry, Link, back_up_values, open_start, zeroed
+from ninja_game.solver.tour import short_tour
 
 OPEN = "0" * 713 + "|"
 CORRIDOR = ("0" * 10 + "1" * 12 + "0") * 10 + "0" * 23 * 21
@@ -140,4 +141,35 @@ def test_values_spread_backwards_from_the_exit(memory: str) -> None:
 
 
 def test_no_gold_to_fetch_leaves_no_fields() -> None:
-    assert heuristics_of(OPEN + "5^100,300!11^700,300,400,300").gold_fields().shape == (0, POINTS)
+    assert heuristics_of(OPEN + "5^100,300!11^700,300,400,300").gold_fields(0, []).shape == (0, POINTS)
+
+
+def test_gold_is_approached_away_from_an_open_exit() -> None:
+    """The straight way from the ninja to the gold leads over the exit's disc."""
+    heuristics = heuristics_of(OPEN + "5^100,300!11^200,300,600,500!0^300,300")
+    closed, opened = (heuristics.gold_field(0, state, 100.0, 300.0) for state in (0, 1))
+    here, on_exit = point_at(100, 300), point_at(204, 300)
+    assert closed[on_exit] < 80.0 < opened[on_exit]
+    assert opened[here] < closed[here] + 30.0
+
+
+def test_gold_in_a_wall_is_collected_from_beside_it() -> None:
+    wall = "0" * 23 * 10 + "1" * 22 + "0" + "0" * 23 * 20
+    heuristics = heuristics_of(wall + "|5^60,566!11^200,566,100,566!0^264,300")
+    assert heuristics.gold_fields(0, [0])[0, point_at(60, 566)] < UNREACHED
+
+
+def test_a_tour_goes_to_the_far_end_first_and_back() -> None:
+    """Stops on a line, the start at 42, the end at 0."""
+    places = np.array([10.0, 20.0, 30.0, 40.0, 50.0])
+    between = np.abs(places[:, None] - places[None, :])
+    tour = short_tour(np.abs(places - 42.0), between, places)
+    assert tour == [4, 3, 2, 1, 0]
+
+
+def test_a_tour_heeds_what_lies_only_downhill() -> None:
+    """Three stops one above the other: falling costs 1 a stop, climbing 100."""
+    heights = np.array([2, 0, 1])
+    steps = heights[None, :] - heights[:, None]
+    between = np.where(steps > 0, 100.0 * steps, -1.0 * steps)
+    assert short_tour(np.array([5.0, 5.0, 5.0]), between, np.zeros(3)) == [0, 2, 1]

@@ -1,0 +1,252 @@
+"""A run that collects gold: piece by piece along a tour, with several moments kept at each piece, and back when stuck.
+
+Moments with the same gold form a *front*. A step takes the most promising front, searches from all its moments to the
+next piece of its tour, and puts the moments at which another piece was collected - that one or another - into the
+front of their gold. A front that leads nowhere is tried again, later, with another piece, another resolution and more
+work; the more often it was tried, the sooner fronts with less gold come first.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from functools import partial
+
+import numpy as np
+
+from ninja_game.solver.distance_field import UNREACHED, Field, point_at
+from ninja_game.solver.heuristics import Heuristics
+from ninja_game.solver.search_memory import Resolution, Words
+from ninja_game.solver.search_run import End, Leg, Search
+from ninja_game.solver.tour import short_tour
+
+LEGS = (
+    (Resolution(cell=12.0, speed=1.0, macro=5, weight=1.6), 400_000),
+    (Resolution(cell=8.0, speed=0.5, macro=5, weight=2.0), 1_000_000),
+    (Resolution(cell=12.0, speed=1.0, macro=6, weight=1.3, visits=12, patience=15), 2_000_000),
+    (Resolution(cell=6.0, speed=0.5, macro=4, weight=2.0), 3_000_000),
+    (Resolution(cell=9.0, speed=0.6, macro=7, jitter=3, weight=1.5, visits=5, patience=40), 5_000_000),
+    (Resolution(cell=6.0, speed=0.4, macro=4, weight=1.2, visits=2), 8_000_000),
+)
+"""How a front is searched at its first, second … try, and the most ticks."""
+LEG_NODES = 250_000
+EXTRA = 40_000
+"""Ticks that a leg goes on at least after its first end, for others."""
+TRY_PENALTY = 1.5
+"""Pieces of gold that a try counts against a front."""
+STALL_STEPS = 120
+STALL_TICKS = 6_000_000
+"""Steps and ticks without another piece of gold after which it begins again from the start."""
+FAR = 20_000.0
+"""Ticks that an unreachable piece counts in a tour."""
+FIELDS_KEPT = 400
+
+
+@dataclass
+class Moment:
+    """A save-state on a run: its words, ticks, gold, open doors, place; the moment before it and the inputs since."""
+
+    words: Words
+    tick: int
+    taken: int
+    mask: int
+    place: tuple[float, float]
+    before: Moment | None = None
+    inputs: bytes = b""
+
+    def run(self) -> bytes:
+        """The inputs from the start of the level."""
+        parts = []
+        moment: Moment | None = self
+        while moment:
+            parts.append(moment.inputs)
+            moment = moment.before
+        return b"".join(reversed(parts))
+
+
+@dataclass
+class Front:
+    """Moments with the same gold, the best first; in which order the rest is to be fetched; what has been tried."""
+
+    taken: int
+    moments: list[Moment] = field(default_factory=list)
+    tour: list[int] = field(default_factory=list)
+    tries: int = 0
+    failed: Counter[int] = field(default_factory=Counter)
+
+    @property
+    def count(self) -> int:
+        """Pieces collected."""
+        return self.taken.bit_count()
+
+
+@dataclass(frozen=True)
+class Style:
+    """How broadly a route is searched: moments kept a front, ends wanted a leg, a factor of the weights.
+
+    ``noise``: by which part distances are changed at random, for other tours.
+    """
+
+    width: int = 12
+    ends: int = 24
+    weight: float = 1.0
+    noise: float = 0.0
+
+
+STYLES = (Style(24, 60, 0.8), Style(16, 40, 0.7, 0.3), Style(40, 80, 0.9, 0.3), Style(20, 60, 0.65, 0.5))
+"""For routes shorter than one that is known, in turn."""
+
+
+class GoldRoute:
+    """A search for runs with ``gold`` pieces; ``bound``: only runs of fewer ticks count (0: any)."""
+
+    def __init__(self, search: Search, *, gold: int, seed: int, style: Style = Style(), bound: int = 0) -> None:
+        self.search = search
+        self.heuristics: Heuristics = search.heuristics
+        self.gold = gold
+        self.seed = seed
+        self.style = style
+        self.bound = bound
+        self.steps = 0
+        self.most = 0
+        self.ever_taken = 0
+        self.urgency: Counter[int] = Counter()
+        self.fronts: dict[int, Front] = {}
+        self._stalled_steps = self._stalled_ticks = self._most_now = self._restarts = 0
+        self._fields: dict[tuple[int, int], Field] = {}
+        self._distances: dict[int, Field] = {}
+        self._points = np.array([point_at(x, y) for x, y in self.heuristics.gold_places], np.int64)
+        start = search.start
+        ninja = start.worlds[0]["ninja"]
+        start.node_words[:] = start.base
+        self._first = Moment(start.base, 0, 0, 0, (float(ninja["x"]), float(ninja["y"])))
+        self._add(self._first, ())
+
+    def step(self, over: Callable[[int], bool]) -> bytes | None:
+        """Search one leg; a run to the exit with the gold, if it ends in one that is short enough.
+
+        ``over``: called now and then with the ticks just simulated; true: stop.
+        """
+        if self._stalled_steps > STALL_STEPS or self._stalled_ticks > STALL_TICKS * (1 + self._restarts):
+            self._restart()
+        front = max(self.fronts.values(), key=lambda front: (front.count - TRY_PENALTY * front.tries, front.taken))
+        target = self._target(front)
+        resolution, budget = LEGS[min(front.tries, len(LEGS) - 1)]
+        budget *= 4 if target < 0 else 1
+        resolution = resolution._replace(weight=max(1.0, resolution.weight * self.style.weight))
+        front.tries += 1
+        self.steps += 1
+        leg = self._leg(front, target)
+        self.search.begin_leg(leg, resolution, seed=self.seed * 10_000 + self.steps, bound=self.bound)
+        before = self._most_now
+        self._run(budget, over)
+        self._stalled_ticks += self.search.ticks
+        self._stalled_steps += 1
+        if leg.until == 0:
+            best = self.search.best()
+            if not best:
+                return None
+            self.bound = front.moments[best[0]].tick + len(best[1])
+            return front.moments[best[0]].run() + best[1]
+        ends = self.search.ends()
+        if target not in {piece for end in ends for piece in _pieces(end.taken)}:
+            front.failed[target] += 1
+        for end in ends:
+            self._add_end(front, end)
+        if self._most_now > before:
+            self._stalled_steps = self._stalled_ticks = 0
+        return None
+
+    def never_taken(self) -> list[int]:
+        """The pieces that were collected at no moment."""
+        return [piece for piece in range(len(self._points)) if not self.ever_taken >> piece & 1]
+
+    def _restart(self) -> None:
+        """Begin again from the start; what was left over this time is more urgent from now on."""
+        last = max(self.fronts.values(), key=lambda front: (front.count, -front.tries))
+        pieces = set(range(len(self._points)))
+        left = pieces - set(_pieces(last.taken))
+        if last.count >= self.gold:
+            # The way to the exit is shut: what was taken last comes earlier.
+            moment: Moment | None = last.moments[0]
+            while moment and moment.before and len(left) < len(pieces) // 4 + 1:
+                left |= set(_pieces(moment.taken & ~moment.before.taken))
+                moment = moment.before
+        self.urgency.update(left)
+        self.fronts = {}
+        self._stalled_steps = self._stalled_ticks = self._most_now = 0
+        self._restarts += 1
+        self._add(self._first, ())
+
+    def _leg(self, front: Front, target: int) -> Leg:
+        roots = [moment.words for moment in front.moments]
+        if target < 0:
+            return Leg(roots, 0, self.gold, 1, self.heuristics.field)
+        return Leg(roots, front.count + 1, 1 << 30, self.style.ends, partial(self._field, target))
+
+    def _run(self, budget: int, over: Callable[[int], bool]) -> None:
+        """Run the leg's search; from the first end or run to the exit on only as long again."""
+        search, stop = self.search, budget
+        while search.ticks < stop:
+            before = search.ticks
+            search.run(min(EXTRA, stop - before))
+            if over(search.ticks - before) or search.ticks == before or search.counters.ends >= search.goals.ends:
+                return
+            if search.counters.ends or search.counters.best_node >= 0:
+                stop = min(stop, max(2 * search.ticks, EXTRA)) if stop == budget else stop
+
+    def _add_end(self, front: Front, end: End) -> None:
+        before = front.moments[end.root]
+        moment = Moment(end.words, end.tick, end.taken, end.mask, end.place, before, end.inputs)
+        self._add(moment, front.tour)
+
+    def _add(self, moment: Moment, tour: list[int] | tuple[int, ...]) -> None:
+        """Put a moment into its front, which keeps the best."""
+        front = self.fronts.get(moment.taken)
+        if not front:
+            front = self.fronts[moment.taken] = Front(moment.taken, tour=[k for k in tour if not moment.taken >> k & 1])
+        self.ever_taken |= moment.taken
+        self.most = max(self.most, front.count)
+        self._most_now = max(self._most_now, front.count)
+        front.moments = sorted([*front.moments, moment], key=lambda moment: moment.tick)[: self.style.width]
+
+    def _target(self, front: Front) -> int:
+        """The piece to fetch next from a front, -1: the exit."""
+        left = [piece for piece in range(len(self._points)) if not front.taken >> piece & 1]
+        if front.count >= self.gold:
+            return -1
+        moment = front.moments[0]
+        fields = self._gold_distances(moment.mask)
+        start = fields[left, point_at(*moment.place)].astype(np.float64)
+        home = self.heuristics.field(moment.mask, *moment.place)[self._points[left]]
+        between = fields[left][:, self._points[left]].T.astype(np.float64)
+        names = {piece: k for k, piece in enumerate(left)}
+        order = [names[piece] for piece in front.tour]
+        tour = short_tour(np.minimum(start, FAR), np.minimum(between, FAR), np.minimum(home, FAR).astype(float), order)
+        front.tour = [left[k] for k in tour]
+        nearest = np.argsort(start, kind="stable").tolist()
+        ranks = [min(tour.index(k), nearest.index(k) + 0.5) + 2.5 * front.failed[left[k]] for k in range(len(left))]
+        return min((start[k] >= UNREACHED, -self.urgency[left[k]], ranks[k], left[k]) for k in range(len(left)))[-1]
+
+    def _gold_distances(self, mask: int) -> Field:
+        if mask not in self._distances:
+            if len(self._distances) >= 16:
+                self._distances.clear()
+            fields = self.heuristics.gold_fields(mask, range(len(self._points)))
+            factors = 1.0 + self.style.noise * (np.random.default_rng([self.seed, 8]).random((len(fields), 1)) - 0.5)
+            self._distances[mask] = np.where(fields < UNREACHED, fields * factors, fields).astype(np.float32)
+        return self._distances[mask]
+
+    def _field(self, target: int, mask: int, x: float, y: float) -> Field:
+        """The field of a piece in a switch state, made when it is first wanted."""
+        if (target, mask) not in self._fields:
+            if len(self._fields) >= FIELDS_KEPT:
+                self._fields.clear()
+            self._fields[target, mask] = self.heuristics.gold_field(target, mask, x, y)
+        return self._fields[target, mask]
+
+
+def _pieces(taken: int) -> Iterator[int]:
+    """The pieces of a set of bits."""
+    return (k for k in range(taken.bit_length()) if taken >> k & 1)

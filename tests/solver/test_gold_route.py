@@ -1,0 +1,79 @@
+"""All gold of a level, in an order that leaves a way to the rest and to the exit."""
+
+from __future__ import annotations
+
+import pytest
+
+from ninja_game.compile_cache import compiled_available
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.sim.kinds import GOLD
+from ninja_game.sim.level import Level
+
+if not compiled_available():
+    pytest.skip("Numba is not installed", allow_module_level=True)
+
+from ninja_game.solver.certificate import verified_run
+from ninja_game.solver.solve import Progress, Task, solve
+
+COLUMN = 23
+FLOOR = 566
+
+LINES = parse_level_string(
+    "0" * 713
+    + "|5^396,566!11^700,564,100,564!"
+    + "!".join(f"0^{x},{y}" for x in (60, 72, 84, 690, 702, 714) for y in (520, 560))
+    + "!"
+    + "!".join(f"0^{x},500" for x in range(300, 492, 24))
+)
+"""Twenty pieces in three groups: both ends of the floor, and a line in the air between them."""
+
+PIT = parse_level_string(
+    ("0" * (COLUMN - 5) + "11111") * 20
+    + ("0" * COLUMN) * 3
+    + ("0" * (COLUMN - 5) + "11111") * 8
+    + "|5^36,446!11^504,564,540,564!0^530,500!0^700,440!0^740,440!0^200,440"
+)
+"""A pit that nobody leaves, with the switch, the exit and a piece of gold; more gold on both of its sides."""
+
+BEHIND_A_DOOR = parse_level_string(
+    ("0" * 10 + "1" * 12 + "0") * 10
+    + "0" * COLUMN * 21
+    + "|5^60,566!11^100,566,130,566!9^36,566,0,0,10,23,1,0,0!0^400,566!0^200,566"
+)
+"""Gold on both sides of a locked door, the switch behind the ninja, the exit near it."""
+
+WALLED_IN = parse_level_string(
+    "0" * COLUMN * 20 + "1" * COLUMN + "0" * COLUMN * 10 + "|5^60,566!11^400,566,330,566!0^200,566!0^700,300"
+)
+"""A piece of gold behind a wall from top to bottom."""
+
+
+def all_gold(level: Level) -> int:
+    """How much gold a level holds."""
+    return sum(record.kind == GOLD for record in level.objects)
+
+
+@pytest.mark.parametrize("level", [LINES, PIT, BEHIND_A_DOOR], ids=["lines", "pit", "behind a door"])
+def test_all_gold_is_collected_before_the_exit(level: Level) -> None:
+    run = solve(Task(level, gold=-1, work=3_000_000))
+    assert run is not None
+    assert verified_run(level, run.inputs, gold=all_gold(level)).gold == all_gold(level)
+
+
+def test_a_part_of_the_gold_will_do_where_that_is_asked_for() -> None:
+    run = solve(Task(LINES, gold=5, work=2_000_000))
+    assert run is not None
+    assert verified_run(LINES, run.inputs, gold=5).gold >= 5
+
+
+def test_the_same_seed_collects_gold_in_the_same_way() -> None:
+    first, again = (solve(Task(LINES, gold=-1, seed=7, work=2_000_000)) for _ in range(2))
+    assert first
+    assert again
+    assert first.inputs == again.inputs
+
+
+def test_gold_that_was_never_collected_is_told() -> None:
+    progress: list[Progress] = []
+    assert solve(Task(WALLED_IN, gold=-1, work=2_000_000), report=progress.append) is None
+    assert (progress[-1].gold, progress[-1].untaken) == (1, (3,))
