@@ -159,7 +159,7 @@ class Heuristics:
         return costs
 
     def _careful(self, costs: Costs, switch_state: int) -> Costs:
-        """The cost factors as long as gold is fetched: open exits, and switches of exits and trap doors, are avoided."""
+        """The cost factors as long as gold is fetched: open exits, switches of exits and trap doors are avoided."""
         for bit, switch in enumerate(self.switches):
             done = bool(switch_state >> bit & 1)
             if not switch.door and done:

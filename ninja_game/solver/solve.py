@@ -13,7 +13,7 @@ from math import inf
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.inputs import press_jumps
 from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, verified_run
-from ninja_game.solver.gold_route import LEG_NODES, STYLES, GoldRoute, Style
+from ninja_game.solver.gold.route import LEG_NODES, STYLES, GoldRoute, Style
 from ninja_game.solver.heuristics import Heuristics
 from ninja_game.solver.local_search import LocalSearch
 from ninja_game.solver.search import MORE

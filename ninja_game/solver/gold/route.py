@@ -9,17 +9,18 @@ work; the more often it was tried, the sooner fronts with less gold come first.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 
 from ninja_game.solver.distance_field import UNREACHED, Field, point_at
+from ninja_game.solver.gold.fronts import Front, Moment, pieces_of
+from ninja_game.solver.gold.tour import short_tour
 from ninja_game.solver.heuristics import Heuristics
-from ninja_game.solver.search_memory import Resolution, Words
+from ninja_game.solver.search_memory import Resolution
 from ninja_game.solver.search_run import End, Leg, Search
-from ninja_game.solver.tour import short_tour
 
 LEGS = (
     (Resolution(cell=12.0, speed=1.0, macro=5, weight=1.6), 400_000),
@@ -41,44 +42,6 @@ STALL_TICKS = 6_000_000
 FAR = 20_000.0
 """Ticks that an unreachable piece counts in a tour."""
 FIELDS_KEPT = 400
-
-
-@dataclass
-class Moment:
-    """A save-state on a run: its words, ticks, gold, open doors, place; the moment before it and the inputs since."""
-
-    words: Words
-    tick: int
-    taken: int
-    mask: int
-    place: tuple[float, float]
-    before: Moment | None = None
-    inputs: bytes = b""
-
-    def run(self) -> bytes:
-        """The inputs from the start of the level."""
-        parts = []
-        moment: Moment | None = self
-        while moment:
-            parts.append(moment.inputs)
-            moment = moment.before
-        return b"".join(reversed(parts))
-
-
-@dataclass
-class Front:
-    """Moments with the same gold, the best first; in which order the rest is to be fetched; what has been tried."""
-
-    taken: int
-    moments: list[Moment] = field(default_factory=list)
-    tour: list[int] = field(default_factory=list)
-    tries: int = 0
-    failed: Counter[int] = field(default_factory=Counter)
-
-    @property
-    def count(self) -> int:
-        """Pieces collected."""
-        return self.taken.bit_count()
 
 
 @dataclass(frozen=True)
@@ -150,7 +113,7 @@ class GoldRoute:
             self.bound = front.moments[best[0]].tick + len(best[1])
             return front.moments[best[0]].run() + best[1]
         ends = self.search.ends()
-        if target not in {piece for end in ends for piece in _pieces(end.taken)}:
+        if target not in {piece for end in ends for piece in pieces_of(end.taken)}:
             front.failed[target] += 1
         for end in ends:
             self._add_end(front, end)
@@ -166,12 +129,12 @@ class GoldRoute:
         """Begin again from the start; what was left over this time is more urgent from now on."""
         last = max(self.fronts.values(), key=lambda front: (front.count, -front.tries))
         pieces = set(range(len(self._points)))
-        left = pieces - set(_pieces(last.taken))
+        left = pieces - set(pieces_of(last.taken))
         if last.count >= self.gold:
             # The way to the exit is shut: what was taken last comes earlier.
             moment: Moment | None = last.moments[0]
             while moment and moment.before and len(left) < len(pieces) // 4 + 1:
-                left |= set(_pieces(moment.taken & ~moment.before.taken))
+                left |= set(pieces_of(moment.taken & ~moment.before.taken))
                 moment = moment.before
         self.urgency.update(left)
         self.fronts = {}
@@ -245,8 +208,3 @@ class GoldRoute:
                 self._fields.clear()
             self._fields[target, mask] = self.heuristics.gold_field(target, mask, x, y)
         return self._fields[target, mask]
-
-
-def _pieces(taken: int) -> Iterator[int]:
-    """The pieces of a set of bits."""
-    return (k for k in range(taken.bit_length()) if taken >> k & 1)

@@ -1,0 +1,1 @@
+"""Runs that collect gold: in which order, and how to get from one piece to the next."""

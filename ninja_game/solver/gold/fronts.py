@@ -1,0 +1,52 @@
+"""Moments on the way to all gold, and fronts of moments with the same gold."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from ninja_game.solver.search_memory import Words
+
+
+@dataclass
+class Moment:
+    """A save-state on a run: its words, ticks, gold, open doors, place; the moment before it and the inputs since."""
+
+    words: Words
+    tick: int
+    taken: int
+    mask: int
+    place: tuple[float, float]
+    before: Moment | None = None
+    inputs: bytes = b""
+
+    def run(self) -> bytes:
+        """The inputs from the start of the level."""
+        parts = []
+        moment: Moment | None = self
+        while moment:
+            parts.append(moment.inputs)
+            moment = moment.before
+        return b"".join(reversed(parts))
+
+
+@dataclass
+class Front:
+    """Moments with the same gold, the best first; in which order the rest is to be fetched; what has been tried."""
+
+    taken: int
+    moments: list[Moment] = field(default_factory=list)
+    tour: list[int] = field(default_factory=list)
+    tries: int = 0
+    failed: Counter[int] = field(default_factory=Counter)
+
+    @property
+    def count(self) -> int:
+        """Pieces collected."""
+        return self.taken.bit_count()
+
+
+def pieces_of(taken: int) -> Iterator[int]:
+    """The pieces of a set of bits."""
+    return (k for k in range(taken.bit_length()) if taken >> k & 1)
