@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,119 +12,191 @@ import click
 
 from ninja_game.cli import solver_options as options
 from ninja_game.cli.run_options import LevelPath
-from ninja_game.errors import LevelError
+from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.shown_text import shown_text
+from ninja_game.files.writing import check_output
 from ninja_game.sim.kinds import DOOR
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
     from ninja_game.solver.certificate import VerifiedRun
+    from ninja_game.solver.certify import Certified
+
+
+class GoldGoals(options.GoldCount):
+    """``both``: a run to the exit and one with all gold; otherwise one run with that much gold."""
+
+    name = "both|all|N"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Goals by name with the gold they want; usage error for anything else."""
+        if isinstance(value, dict):
+            return value
+        if value == "both":
+            return {"exit": 0, "gold": -1}
+        count = super().convert(value, param, ctx)
+        return {"gold" if count else "exit": count}
 
 
 @click.command()
 @click.argument("levels", metavar="LEVEL...", nargs=-1, required=True, type=LevelPath())
-@options.gold_option
+@click.option(
+    "--gold", "goals", type=GoldGoals(), default="0", show_default=True,
+    help="Gold to collect on the way. both: two runs a level, one to the exit and one with all gold.",
+)  # fmt: skip
 @options.seconds_option(10.0)
 @options.work_option
 @options.seed_option
-@options.search_jobs_option
+@click.option("--first", "first_only", is_flag=True, help="Stop each search at the first run that it finds.")
+@click.option("--jobs", type=click.IntRange(1, 1024), help="Levels at a time. [default: one a core]")
 @options.body_option
 @click.option(
     "--replays", metavar="FOLDER", type=click.Path(file_okay=False, path_type=Path),
-    help="Keep the runs that were found in this folder.",
+    help="Keep the runs in this folder. One that is there and still right is not searched again.",
 )  # fmt: skip
+@click.option("--improve", is_flag=True, help="Shorten the runs that are kept, too.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object a level, for programs.")
 @click.pass_context
 def command(
     ctx: click.Context,
     /,
     levels: Sequence[Path],
+    goals: dict[str, int],
     replays: Path | None,
     as_json: bool,
     jobs: int | None,
+    improve: bool,
     **task_options: Any,
 ) -> None:
     """Certify levels: whether they can be passed, how fast, and what is odd.
 
-    LEVEL is a file of levels or a folder. A level is solvable if a run to the exit was found (it is kept with
-    --replays); not finding one in the time proves nothing. The par time is that of the best run found. A locked door
-    that this run does not open is told: the level may not need it.
+    LEVEL is a file of levels or a folder. A level is solvable if a run to the exit was found; not finding one in the
+    time proves nothing. The par time is that of the best run found. A locked door that this run does not open is told:
+    the level may not need it.
 
-    Exit code 0: all are solvable; 1: for some no run was found; 2: something cannot be read or played.
+    --replays keeps the runs as NAME.exit.replay.txt and NAME.gold.replay.txt. Runs that are there are played again: if
+    the level has not changed and they pass it, they are kept as they are (--improve shortens them); the others are
+    searched, --seconds each. After a change of the level, a run that still passes it is replaced only by a shorter one.
+
+    Exit code 0: all are solvable; 1: for some no run was found; 2: something cannot be read or played. Missing gold
+    counts only where --gold asks for nothing else.
 
     \b
     Examples:
       ninja-game check 00-0-first-steps
-      ninja-game check my-levels/
-      ninja-game check my-level.txt --seconds 60 --replays certificates/
+      ninja-game check my-levels/ --first
+      ninja-game check my-levels/ --gold both --replays my-levels/certificates --seconds 60
     """
     from ninja_game.cli.main import BAD_INPUT, complain
     from ninja_game.formats.load import load_levels
-    from ninja_game.solver.solve import Task, solve
+    from ninja_game.solver.certify import Wanted, certify_all
 
     chosen = [level for path in levels for level in load_levels(path)]
-    if replays:
-        replays.mkdir(parents=True, exist_ok=True)
-    missing = broken = 0
-    for level, where in zip(chosen, _certificates(chosen, replays), strict=True):
-        task = Task(level.level, jobs=options.default_threads(jobs), **task_options)
-        try:
-            with options.progress_line() as report:
-                run = solve(task, report=report, on_better=options.saver(where, level) if where else None)
-        except LevelError as error:
-            broken += 1
-            complain(str(replace(error, file=level.file, line=level.line)))
-            continue
-        missing += run is None
-        if as_json:
-            click.echo(json.dumps(_facts(level, run, where)))
-        else:
-            click.echo(_row(level, run))
+    kept = list(_files(chosen, goals, replays))
+    wanted = Wanted(goals, task_options, improve)
+    tally = _Tally()
+    with options.progress_line() as report:
+        results = certify_all(chosen, kept, wanted, jobs=options.default_threads(jobs), report=report.of_level)
+        for level, files, found in zip(chosen, kept, results, strict=True):
+            tally.add(level, found)
+            if isinstance(found, LevelError):
+                complain(str(replace(found, file=level.file, line=level.line)))
+            elif isinstance(found, NinjaGameError):
+                complain(str(found))
+            else:
+                click.echo(json.dumps(_facts(level, found, files)) if as_json else _rows(level, found))
     if not as_json:
-        solved = len(chosen) - missing - broken
-        unplayable = f", {broken} cannot be played" if broken else ""
-        counted = f"{len(chosen)} level{'s' * (len(chosen) != 1)}"
-        click.echo(f"{counted}, {solved} solvable, {missing} not solved in the time{unplayable}")
-    ctx.exit(BAD_INPUT if broken else options.NOT_FOUND if missing else 0)
+        click.echo("\n".join(tally.lines(goals)))
+    ctx.exit(BAD_INPUT if tally.broken else options.NOT_FOUND if tally.without[next(iter(goals))] else 0)
 
 
-def _certificates(levels: Sequence[NamedLevel], folder: Path | None) -> Iterator[Path | None]:
-    """Where each level's run is kept: ``file-record.replay.txt``, numbered where that name is given already."""
+class _Tally:
+    """What was found for how many levels."""
+
+    def __init__(self) -> None:
+        self.levels = 0
+        self.broken = 0
+        self.without: dict[str, list[str]] = {"exit": [], "gold": []}
+
+    def add(self, level: NamedLevel, found: Mapping[str, Certified] | NinjaGameError) -> None:
+        """Count a level."""
+        self.levels += 1
+        if isinstance(found, NinjaGameError):
+            self.broken += 1
+            return
+        for goal, certified in found.items():
+            if not certified.run:
+                self.without[goal].append(shown_text(Path(level.file).stem))
+
+    def lines(self, goals: Mapping[str, int]) -> Iterator[str]:
+        """The count in a line, and a line for each goal that some levels lack."""
+        first = self.without[next(iter(goals))]
+        counted = f"{self.levels} level{'s' * (self.levels != 1)}"
+        unplayable = f", {self.broken} cannot be played" if self.broken else ""
+        solved = self.levels - len(first) - self.broken
+        yield f"{counted}, {solved} solvable, {len(first)} not solved in the time{unplayable}"
+        if "exit" in goals and self.without["exit"] and self.levels > 1:
+            yield f"no run to the exit: {', '.join(self.without['exit'])}"
+        if "gold" in goals and self.without["gold"] and self.levels > 1:
+            yield f"not with the gold: {', '.join(self.without['gold'])}"
+
+
+def _files(levels: Sequence[NamedLevel], goals: Iterable[str], folder: Path | None) -> Iterator[dict[str, Path]]:
+    """Where each level's runs are kept, by goal: ``file.goal.replay.txt``; numbered where that name is given."""
     given: set[str] = set()
     for level in levels:
-        stem = name = f"{Path(level.file).stem}-{level.record}"
+        stem = name = f"{Path(level.file).stem}" + (f"-{level.record}" if level.record else "")
         number = 1
         # File systems may take large and small letters for the same.
         while name.casefold() in given:
             number += 1
             name = f"{stem}-{number}"
         given.add(name.casefold())
-        yield folder / f"{name}.replay.txt" if folder else None
+        files = {goal: folder / f"{name}.{goal}.replay.txt" for goal in goals} if folder else {}
+        for file in files.values():
+            check_output(file, keep=[Path(level.file)])
+        yield files
 
 
-def _row(level: NamedLevel, run: VerifiedRun | None) -> str:
-    """A level in a line, and a line for each warning."""
-    if run is None:
-        mark, par = click.style("??      ", fg="yellow"), "no run found"
-    else:
-        mark = click.style("solvable", fg="green")
+def _rows(level: NamedLevel, found: Mapping[str, Certified]) -> str:
+    """A level's runs in a line each, and a line for each warning."""
+    rows = [_row(goal, certified, level) for goal, certified in found.items()]
+    rows[0] += f"  {shown_text(level.name)}  {shown_text(level.file)}:{level.record}"
+    best = next(iter(found.values())).run
+    return "\n         ".join([*rows, *(f"warning: {warning}" for warning in _warnings(level, best))])
+
+
+def _row(goal: str, certified: Certified, level: NamedLevel) -> str:
+    first = goal == "exit" or not certified.gold
+    run = certified.run
+    if run:
+        mark = click.style("solvable", fg="green") if first else "all gold"
         par = f"par {run.end_tick / TICKS_PER_SECOND:7.3f} s  {run.end_tick:>5} ticks  {run.gold:>3} gold"
-    row = f"{mark} {par}  {shown_text(level.name)}  {shown_text(level.file)}:{level.record}"
-    return "\n         ".join([row, *(f"warning: {warning}" for warning in _warnings(level, run))])
+        return f"{mark} {par}  {certified.how}"
+    mark = click.style("??      " if first else "all gold", fg="yellow")
+    if not certified.gold or not certified.progress:
+        return f"{mark} no run found"
+    progress = certified.progress
+    names = options.never_collected(level.level, progress.untaken or ())
+    return f"{mark} no run found: {progress.gold} of {certified.gold} at most, {names}"
 
 
-def _facts(level: NamedLevel, run: VerifiedRun | None, where: Path | None) -> dict[str, Any]:
+def _facts(level: NamedLevel, found: Mapping[str, Certified], files: Mapping[str, Path]) -> dict[str, Any]:
     """A level's certificate for programs."""
     from ninja_game.formats.n14.level_string import level_digest
 
+    run = next(iter(found.values())).run
     facts: dict[str, Any] = {
         "file": level.file, "record": level.record, "name": level.name, "level_digest": level_digest(level.level),
-        "solvable": True if run else None, "warnings": _warnings(level, run),
+        "solvable": True if run else None, "warnings": _warnings(level, run), "runs": {},
     }  # fmt: skip
-    if run:
-        facts |= {"par_ticks": run.end_tick, "par_seconds": run.end_tick / TICKS_PER_SECOND, "gold": run.gold}
-        facts |= {"run_digest": run.digest, "replay": str(where) if where else None}
+    for goal, certified in found.items():
+        best = certified.run
+        facts["runs"][goal] = best and {
+            "ticks": best.end_tick, "seconds": best.end_tick / TICKS_PER_SECOND, "gold": best.gold,
+            "digest": best.digest, "how": certified.how, "replay": str(files[goal]) if files else None,
+        }  # fmt: skip
     return facts
 
 

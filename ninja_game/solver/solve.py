@@ -9,6 +9,7 @@ from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from functools import cache
 from math import inf
+from threading import Event
 
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.inputs import press_jumps
@@ -178,17 +179,22 @@ def compile_solver() -> None:
 
 
 def solve(
-    task: Task, *, report: Report | None = None, on_better: Callable[[VerifiedRun], None] | None = None
+    task: Task,
+    *,
+    report: Report | None = None,
+    on_better: Callable[[VerifiedRun], None] | None = None,
+    stop: Event | None = None,
 ) -> VerifiedRun | None:
     """The best run to the exit that was found in the time, None if there is none.
 
     ``report`` is called a few times a second, ``on_better`` with every verified run that is shorter than those before.
     ``task.first`` is a run to start from: then it is only improved, and is itself the first that ``on_better`` gets.
+    ``stop``: ends the search when it is set.
     Raises LevelError for a level that cannot be played, MemoryUnavailableError without Numba, UnverifiedRunError for a
     first run that does not reach the exit.
     """
     compile_solver()
-    state = SearchState(task, report, on_better=on_better)
+    state = SearchState(task, report, on_better=on_better, cancelled=stop or Event())
     if task.first:
         state.submit(_with_plain_triggers(task))
     jobs = [_Job(state, number) for number in range(task.jobs)]

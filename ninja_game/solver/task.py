@@ -42,7 +42,10 @@ class Progress:
 
 @dataclass(frozen=True)
 class Task:
-    """What to solve: ``gold`` pieces at least (-1: all), for ``seconds``, or for so many ticks of ``work`` a job."""
+    """What to solve: ``gold`` pieces at least (-1: all), for ``seconds``, or for so many ticks of ``work`` a job.
+
+    ``first``: a run to shorten; ``first_only``: the first run that is found will do.
+    """
 
     level: Level
     body: Body = "circle"
@@ -52,6 +55,7 @@ class Task:
     jobs: int = 1
     work: int = 0
     first: bytes = b""
+    first_only: bool = False
 
     @property
     def gold_wanted(self) -> int:
@@ -73,6 +77,7 @@ class SearchState:
     began: float = field(default_factory=time.monotonic)
     lock: Lock = field(default_factory=Lock)
     stop: Event = field(default_factory=Event)
+    cancelled: Event = field(default_factory=Event)  #: by the caller
     runs: list[bytes] = field(default_factory=list)
     best: VerifiedRun | None = None
     progress: Progress = field(default_factory=Progress)
@@ -113,7 +118,7 @@ class SearchState:
     def over(self) -> bool:
         """Whether time is up or the caller wants to stop."""
         late = not self.task.work and time.monotonic() - self.began >= self.task.seconds
-        return late or self.stop.is_set()
+        return late or self.stop.is_set() or self.cancelled.is_set() or bool(self.task.first_only and self.best)
 
 
 WORK_PER_SECOND = 3_000_000

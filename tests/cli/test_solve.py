@@ -15,15 +15,17 @@ from ninja_game.cli.solve import free_replay
 from ninja_game.cli.solver_options import default_threads, progress_text
 from ninja_game.compile_cache import compiled_available
 from ninja_game.formats.ascii.reader import write_ascii_level
-from ninja_game.formats.load import load_levels
+from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.runs.run import run_level
+from ninja_game.solver.certificate import replay_of, save_replay, verified_run
 from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, running, write_records
 
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
+LEDGE = "0" * 23 * 8 + ("0" * 20 + "111") * 2 + "0" * 23 * 21 + "|5^100,566!11^300,566,228,494"
 CLOSED_IN = "0" * 23 * 5 + "1" * 23 + "0" * 23 * 25 + "|5^60,566!11^400,566,330,566"
 WALLED_GOLD = "0" * 23 * 20 + "1" * 23 + "0" * 23 * 10 + "|5^60,566!11^400,566,330,566!0^90,566!0^700,300"
 
@@ -108,12 +110,82 @@ def test_check_certifies_and_keeps_replays(tmp_path: Path) -> None:
     result = command("check", tmp_path, "--ticks", "300000", "--jobs", "1", "--replays", runs, "--json")
     assert result.exit_code == 1
     good, shut = (json.loads(line) for line in result.stdout.splitlines())
-    assert (good["solvable"], good["par_ticks"]) == (True, WALK_END)
-    assert shut["solvable"] is None
-    assert [path.name for path in runs.iterdir()] == ["good-0.replay.txt"]
+    assert (good["solvable"], good["runs"]["exit"]["ticks"]) == (True, WALK_END)
+    assert (shut["solvable"], shut["runs"]["exit"]) == (None, None)
+    assert [path.name for path in runs.iterdir()] == ["good.exit.replay.txt"]
     result = command("check", tmp_path / "good.txt", "--ticks", "300000", "--jobs", "1")
     assert result.exit_code == 0
     assert "solvable par   0.575 s" in result.stdout
+
+
+def check_both(level: Path, runs: Path, *words: str) -> str:
+    """What `ninja-game check --gold both` says of a level whose runs are kept; all goals must be met."""
+    result = command("check", level, "--gold", "both", "--ticks", "300000", "--jobs", "1", "--replays", runs, *words)
+    assert result.exit_code == 0, result.output
+    return result.stdout
+
+
+def test_runs_that_are_kept_are_not_searched_again(tmp_path: Path) -> None:
+    level, runs = level_file(tmp_path, WALK + "!0^60,566"), tmp_path / "runs"
+    assert check_both(level, runs).count("found") == 2
+    files = sorted(runs.iterdir())
+    assert [path.name for path in files] == ["level.exit.replay.txt", "level.gold.replay.txt"]
+    before = [path.read_bytes() for path in files]
+    said = check_both(level, runs)
+    assert said.count("gold  kept") == 2
+    assert [path.read_bytes() for path in files] == before
+
+
+def test_a_run_that_is_kept_is_shortened_where_that_is_asked_for(tmp_path: Path) -> None:
+    level, runs = level_file(tmp_path, WALK), tmp_path / "runs"
+    slow = replay_of(verified_run(parse_level_string(WALK), bytes([0] * 20 + [2] * 60)))
+    runs.mkdir()
+    save_replay(runs / "level.exit.replay.txt", slow)
+    said = command("check", level, "--replays", runs).stdout
+    assert f"{WALK_END + 20} ticks" in said
+    said = command("check", level, "--ticks", "300000", "--jobs", "1", "--replays", runs, "--improve").stdout
+    assert f"{WALK_END} ticks" in said
+    assert "shortened" in said
+    assert load_replays(runs / "level.exit.replay.txt")[0].ticks == WALK_END + 1
+
+
+def test_runs_are_searched_again_after_a_change_of_the_level(tmp_path: Path) -> None:
+    """A wall in the way makes the old run useless; a piece of gold elsewhere leaves it as good as it was."""
+    level, runs = level_file(tmp_path, LEDGE), tmp_path / "runs"
+    check_both(level, runs)
+    level_file(tmp_path, LEDGE + "!0^700,40")
+    result = command("check", level, "--ticks", "20000", "--jobs", "1", "--replays", runs)
+    assert "kept" in result.stdout
+    (kept,) = load_levels(runs / "level.exit.replay.txt")
+    assert len(kept.level.objects) == len(parse_level_string(LEDGE).objects) + 1
+    level_file(tmp_path, LEDGE.replace("5^100,566", "5^60,566"))
+    assert "found" in check_both(level, runs)
+
+
+def test_a_damaged_replay_is_named_and_not_replaced(tmp_path: Path) -> None:
+    runs = tmp_path / "runs"
+    runs.mkdir()
+    (runs / "level.exit.replay.txt").write_text("noise")
+    result = command("check", level_file(tmp_path, WALK), "--replays", runs)
+    assert result.exit_code == 2
+    assert "level.exit.replay.txt" in result.stderr
+    assert (runs / "level.exit.replay.txt").read_text() == "noise"
+
+
+def test_missing_gold_is_told_and_does_not_fail_the_check(tmp_path: Path) -> None:
+    level = level_file(tmp_path, WALLED_GOLD)
+    result = command("check", level, "--gold", "both", "--ticks", "300000", "--jobs", "1", "--json")
+    assert result.exit_code == 0
+    assert json.loads(result.stdout)["runs"]["gold"] is None
+    result = command("check", level, "--gold", "both", "--ticks", "300000", "--jobs", "1")
+    assert "all gold no run found: 1 of 2 at most, never gold at 700,300px (object 3)" in result.stdout
+    assert command("check", level, "--gold", "all", "--ticks", "300000", "--jobs", "1").exit_code == 1
+
+
+def test_the_first_run_will_do_where_that_is_asked_for(tmp_path: Path) -> None:
+    """Otherwise so many ticks would take an hour."""
+    result = command("check", level_file(tmp_path, LEDGE), "--first", "--ticks", str(10**10), "--jobs", "1")
+    assert result.exit_code == 0
 
 
 def test_check_gives_every_certificate_a_name_of_its_own(tmp_path: Path) -> None:
@@ -123,7 +195,7 @@ def test_check_gives_every_certificate_a_name_of_its_own(tmp_path: Path) -> None
     command(
         "check", *(tmp_path / part for part in "abc"), "--ticks", "300000", "--jobs", "1", "--replays", tmp_path / "out"
     )
-    names = ["X-0-3.replay.txt", "x-0-2.replay.txt", "x-0.replay.txt"]
+    names = ["X-3.exit.replay.txt", "x-2.exit.replay.txt", "x.exit.replay.txt"]
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == names
 
 
@@ -167,7 +239,7 @@ def test_a_certificate_names_its_level_and_who_made_it(tmp_path: Path) -> None:
     level = tmp_path / "walk.txt"
     level.write_text(write_ascii_level(parse_level_string(WALK), name="A walk", author="Ann"))
     assert command("check", level, "--ticks", "300000", "--jobs", "1", "--replays", tmp_path / "out").exit_code == 0
-    (found,) = load_levels(tmp_path / "out" / "walk-0.replay.txt")
+    (found,) = load_levels(tmp_path / "out" / "walk.exit.replay.txt")
     assert (found.name, found.author) == ("A walk", "Ann")
 
 
