@@ -29,13 +29,14 @@ COMMANDS = {
     "solve": "Find a run to the exit, then shorten it.",
     "improve": "Shorten a run that exists.",
     "check": "Certify levels: whether they can be passed, how fast, and what is odd.",
+    "levels": "Check packs of levels, and make their tables of par times.",
     "convert": "Turn levels and recordings from one format into the other.",
     "info": "Show what is in level and replay files.",
     "completion": "Set up completion of commands and options in your shell.",
 }
 """Each command with its first line of help; module ``ninja_game.cli.NAME`` holds it as ``command``."""
 
-COMPILING = ("verify", "trace", "bench", "solve", "improve", "check")
+COMPILING = ("verify", "trace", "bench", "solve", "improve", "check", "levels")
 """Those that may have to compile the rules first."""
 
 BAD_INPUT = 2

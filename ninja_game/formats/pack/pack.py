@@ -6,9 +6,11 @@ from functools import cached_property
 from pathlib import Path
 
 from ninja_game.errors import NinjaGameError, PackError
+from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel, parse_levels
-from ninja_game.formats.pack.files import CERTIFICATES, INDEX, PackFiles
+from ninja_game.formats.pack.files import CERTIFICATES, INDEX, PARS, PackFiles
 from ninja_game.formats.pack.index import LEVELS_PER_EPISODE, EpisodeIndex, parse_index
+from ninja_game.formats.pack.pars import Pars, parse_pars
 
 
 class Pack:
@@ -55,6 +57,19 @@ class Pack:
             if levels:
                 found[episode] = levels[:LEVELS_PER_EPISODE]
         return found
+
+    @cached_property
+    def pars(self) -> dict[str, Pars]:
+        """The pars of levels, by level file; those of a level that was changed since count no more."""
+        if PARS not in self.files.names:
+            return {}
+        try:
+            found = parse_pars(self.files.text(PARS), file=self.files.place(PARS))
+        except (NinjaGameError, OSError) as error:
+            self.problems.append(str(error))
+            return {}
+        digests = {file: level_digest(named.level) for file, named in self.levels.items() if file in found}
+        return {file: pars for file, pars in found.items() if digests.get(file, "").startswith(pars.level or "?")}
 
     def certificate(self, file: str, kind: str) -> str | None:
         """The name of a level file's certificate, "exit" or "gold"; None where there is none.

@@ -1,0 +1,79 @@
+"""How hard a level is: a number from play by noisy versions of a run through it (docs/making-levels.md)."""
+
+from __future__ import annotations
+
+from math import log2
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.batch.batch import Batch
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
+from ninja_game.sim.level import Level
+from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
+
+SPACING = TICKS_PER_SECOND
+"""Ticks between the save-states from which the tries begin."""
+LENGTH = 3 * TICKS_PER_SECOND // 2
+"""Ticks of a try."""
+SHIFT = 3
+"""Ticks by which a key may come early or late."""
+TRIES = 256
+"""Tries from each save-state."""
+LOST = 3 * CELL
+"""px from the run at which a try that lives has lost it."""
+LOST_WEIGHT = 0.25
+"""What a try that has lost the run counts for, a death being 1: it costs time, as a rule, not the level."""
+
+
+def difficulty(level: Level, inputs: bytes, *, seed: int = 0, tries: int = TRIES, memory: str = "auto") -> float:
+    """The number for a level and a run to its exit, ``inputs`` a byte a tick; 0 where nothing can go wrong.
+
+    From a save-state in every second of the run ``tries`` tries go on for a second and a half with the run's keys, each
+    press and release of which comes up to ``SHIFT`` ticks early or late. A second fails by its share of deaths, and by
+    a quarter of the share that ends ``LOST`` px or more from the run. The number is -log2 of the chance that no second
+    fails: 3 means that one try in eight goes through, if each second begins on the run. The same seed gives the same
+    number, on both memories.
+    """
+    chance = np.random.default_rng(seed)
+    batch = Batch(level, 1 + tries, memory=memory)
+    noisy = slice(1, None)
+    total = 0.0
+    for start in range(0, len(inputs), SPACING):
+        rows = _shifted(inputs, start, tries, chance)
+        true = np.frombuffer(inputs[start : start + LENGTH].ljust(len(rows), b"\0"), np.uint8)[:, np.newaxis]
+        batch.copy([0] * tries, noisy)
+        keys = np.hstack([true, rows])
+        batch.run(keys[:SPACING], stop=True, press=True)
+        following = batch.save([0])
+        batch.run(keys[SPACING:], stop=True, press=True)
+        total -= log2(1 - _failing(batch, noisy))
+        batch.restore(following, [0])
+    return total
+
+
+def _failing(batch: Batch, noisy: slice) -> float:
+    """The share of tries that fail, never quite 1."""
+    dead = batch.outcomes[noisy] == 2
+    away = np.abs(batch.positions[noisy] - batch.positions[0]).max(axis=1) >= LOST
+    lost = (batch.outcomes[noisy] == 0) & away
+    share = (dead.sum() + LOST_WEIGHT * lost.sum()) / len(dead)
+    return float(min(share, 1 - 0.5 / len(dead)))
+
+
+def _shifted(inputs: bytes, start: int, tries: int, chance: np.random.Generator) -> NDArray[np.uint8]:
+    """The keys of ``tries`` tries from a tick on, (LENGTH, tries), each change of a key shifted."""
+    ticks = np.arange(LENGTH)[:, np.newaxis]
+    keys = np.zeros((LENGTH, tries), np.uint8)
+    for key in (KEY_LEFT, KEY_RIGHT, JUMP_HELD):
+        held = bool(inputs[start - 1] & key) if start else False
+        down = np.full((LENGTH, tries), held)
+        before = np.zeros(tries, np.int64)
+        for tick in range(start, min(start + LENGTH + SHIFT, len(inputs))):
+            if bool(inputs[tick] & key) != held:
+                held = not held
+                # Changes of a key keep their order, whatever the shifts are.
+                before = np.maximum(before, tick - start + chance.integers(-SHIFT, SHIFT, tries, endpoint=True))
+                down = np.where(ticks >= before, held, down)
+        keys |= np.where(down, np.uint8(key), np.uint8(0))
+    return keys
