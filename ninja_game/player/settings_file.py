@@ -7,7 +7,6 @@ editor, do not undo each other's changes.
 from __future__ import annotations
 
 import sys
-import tomllib
 from collections.abc import Iterator, Mapping, MutableMapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -17,6 +16,7 @@ from ninja_game.errors import FileError
 from ninja_game.files.locking import locked
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import shown_text
+from ninja_game.files.toml import parse_toml
 from ninja_game.files.user_folder import quarantine
 from ninja_game.files.writing import write_atomically
 from ninja_game.player.settings import RULES, Settings
@@ -47,12 +47,12 @@ def read_settings(path: Path) -> tuple[Settings, list[str]]:
     """
     try:
         with _long_numbers():
-            data = tomllib.loads(read_utf8(path, MAX_BYTES))
+            data = parse_toml(read_utf8(path, MAX_BYTES))
     except FileNotFoundError:
         return Settings(), []
     except OSError as error:
         return Settings(), [f"The settings cannot be read ({error.strerror}); the defaults are used."]
-    except (FileError, ValueError, RecursionError) as error:
+    except (FileError, ValueError) as error:
         return Settings(), [f"The settings file is damaged ({shown_text(str(error))}). {_put_aside(path, 'damaged')}"]
     version = data.get("version", VERSION)
     if not isinstance(version, int) or version > VERSION:
@@ -138,13 +138,15 @@ def _changed_text(path: Path, before: Settings, after: Settings) -> str:
     why = "damaged"
     try:
         with _long_numbers():
-            document = tomlkit.parse(read_utf8(path, MAX_BYTES))
+            text = read_utf8(path, MAX_BYTES)
+            parse_toml(text)
+            document = tomlkit.parse(text)
             if document.get("version", VERSION) == VERSION:
                 for name in RULES:
                     if getattr(before, name) != getattr(after, name):
                         _put(document, name, getattr(before, name), getattr(after, name))
                 text = document.as_string()
-                tomllib.loads(text)
+                parse_toml(text)
                 return text
             why = "newer"
     except FileNotFoundError:

@@ -101,7 +101,7 @@ def test_zip_that_is_none_broken_or_too_large_is_an_error_of_ours(
     assert list(pack.levels) == ["a.txt"]
     assert "bomb.txt: the file is too large" in pack.problems[0]
     monkeypatch.setattr(pack_files, "MOST_FILES", 2)
-    with pytest.raises(FileError, match="too many files in a zip"):
+    with pytest.raises(FileError, match="found more than 2 files in a zip"):
         Pack(path)
     data = bytearray(path.read_bytes())
     data[40:60] = bytes(20)
@@ -120,6 +120,7 @@ def test_pack_without_index_says_so(tmp_path: Path) -> None:
     [
         ("name = 'x'\nnot [ toml", r"p\.toml:2:\d+: no TOML"),
         ("a = " + "[" * 5000, "p.toml: no TOML"),
+        ("name = 'x'\na" + ".a" * 5000 + " = 1", "p.toml:2:1: no TOML: A key of more than 50 parts"),
         ("", "without a name"),
         ("name = 5", "name is no text; found 5"),
         ("name = 'x'\nepisodes = []", "unknown entry; found 'episodes'; expected author, columns"),

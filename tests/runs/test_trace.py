@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from ninja_game.errors import FileError, FormatError
+from ninja_game.errors import FormatError
 from ninja_game.runs.run import NINJA_RECORD, OBJECT_RECORD, RunTrace
 from ninja_game.runs.trace import first_difference, rows, trace_digests
 from ninja_game.runs.trace_files import COLUMNS, MOST_BYTES, FiledTrace, read_csv, read_traces, write_csv, write_npz
@@ -169,7 +169,7 @@ def test_odd_arrays_are_errors_of_ours_and_take_no_memory(member: bytes, tmp_pat
 
 
 def test_a_zip_that_unpacks_to_gigabytes_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(FileError, match="the trace is too large"):
+    with pytest.raises(FormatError, match="more than 256 MiB, unpacked"):
         list(read_traces(_zip_of(tmp_path, bytes(MOST_BYTES + 1))))
 
 

@@ -1,22 +1,19 @@
-"""Feed mutated levels, demos, replays, traces and names to all readers: only errors of ours, none after over a second.
+"""Feed odd levels, demos, replays, traces and names to all readers: only errors of ours, none after over a second.
 
     python3 tools/dev.py tool soak.formats [--count 1000000] [--seed 1] [--reference]
 
-Exit code 0: nothing found; 1: something was, printed with the text that made it.
+Exit code 0: nothing found; 1: something was, printed with the seed that makes it.
 """
 
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import io
 import random
-import re
-import resource
 import sys
-import time
-import traceback
-from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from functools import partial
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import file_stem, shown_text
@@ -33,8 +30,7 @@ from ninja_game.levels.warnings import level_warnings
 from ninja_game.runs.run import trace_level
 from ninja_game.runs.trace_files import FiledTrace, read_csv, write_csv
 from tools import ROOT
-
-SLOW_S = 1.0
+from tools.soak.odd_texts import Trial, odd
 
 DEMO = "902:35791394|35791394|115483170|107374182|17895697|0"
 LEVEL = (
@@ -43,27 +39,6 @@ LEVEL = (
     + "!6^252,132,0,1,0,2!7^348,372,3!8^444,84,1!9^468,348,0,0,20,14,1,-1,0!10^636,60!11^708,516,84,60"
     + "!12^300,561!0^408.15,NaN"
 )
-JUNK = [
-    *"#$|^!,:*;&-A ",
-    "\n",
-    "\r\n",
-    "\0",
-    "\ufeff",
-    "é",
-    "\x96",
-    "\U0001f600",
-    "NaN",
-    "1e999",
-    "-1e999",
-    "0x7fffffff",
-]
-JUNK += ["1e-400", "9" * 400, "%24", "%zz", "&userdata=", "0" * 713, "ninja-game level 1\n", "ninja-game replay 2\n"]
-
-EXTREMES = ("-1", "0", "33", "713", "65536", "4294967296", "-9223372036854775809", "1e308", "1e-320", "9" * 5000)
-BULK: tuple[str, ...] = (*"\n ;0$#|", "!9^1,2,3,4,5,6,7,8,9", "\u0301", "\u202e", "\ud800", "R*9 ", "mine 5.5,5\n")
-MOST = 150_000
-"""Longest text: one that is read line by line in less than the time that counts as slow."""
-_NUMBER = re.compile(r"[+-]?[0-9]+(?:\.[0-9]+)?")
 
 
 def read_level(text: str) -> None:
@@ -90,6 +65,13 @@ def read_ascii(text: str) -> None:
         raise AssertionError("an ASCII level changes when it is written and read")
 
 
+def read_replay(text: str) -> None:
+    """A replay of ours: what is read is the same when it is written and read again."""
+    written = write_replay(parse_replay(text))
+    if write_replay(parse_replay(written)) != written:
+        raise AssertionError("a replay changes when it is written and read")
+
+
 def read_recordings(text: str) -> None:
     """Recordings of any format, each as a record of N too."""
     for recording in parse_replays(text):
@@ -108,7 +90,7 @@ READERS: dict[str, Callable[[str], object]] = {
     "level file": read_level_file,
     "ASCII level": read_ascii,
     "demo": read_demo,
-    "replay": parse_replay,
+    "replay": read_replay,
     "any levels": parse_levels,
     "any recordings": read_recordings,
     "trace table": lambda text: list(read_csv(text.splitlines(keepends=True))),
@@ -133,6 +115,7 @@ def seeds(*, reference: bool) -> list[str]:
         f"##{DEMO}#",
         write_ascii_level(level, name="A hill", author="us", legend=True),
         write_replay(replay),
+        write_replay(dataclasses.replace(replay, name='"two\nlines"\ud800', author=" me\0", level_name="\ud800")),
         " -0x1.5e+2",
         trace.getvalue(),
         *[path.read_text(encoding="utf-8") for path in sorted(ROOT.glob("levels/*.txt"))],
@@ -158,107 +141,31 @@ def taken_by(text: str) -> list[str]:
     return names
 
 
-def rebuilt(text: str, other: str, rng: random.Random) -> str:
-    """A text with its structure changed: its numbers, lines, fields, its end; or joined with another text."""
-    kind = rng.randrange(7)
-    if kind == 0:
-        share = rng.choice((0.001, 0.02, 0.3))
-        return _NUMBER.sub(lambda match: rng.choice(EXTREMES) if rng.random() < share else str(match[0]), text)
-    if kind == 1:
-        return text[: rng.randrange(len(text) + 1)] + other[rng.randrange(len(other) + 1) :]
-    if kind == 2:
-        return text[: rng.randrange(len(text) + 1)]
-    if kind == 3:
-        place = rng.randrange(len(text) + 1)
-        return text[:place] + rng.choice(BULK) * rng.choice((100, 3000, 50_000)) + text[place:]
-    divider = rng.choice(("\n", "\n", "#", "$", "!", ",", "^", "|", " ", ":"))
-    parts = text.split(divider)
-    place = rng.randrange(len(parts))
-    if kind == 4:
-        parts[place : place + rng.choice((1, 1, 3))] = []
-    elif kind == 5:
-        parts[place:place] = [parts[place]] * rng.choice((1, 2, 2000))
-    else:
-        there = rng.randrange(len(parts))
-        parts[place], parts[there] = parts[there], rng.choice((parts[place], rng.choice(other.split(divider))))
-    return divider.join(parts)
-
-
-def mutated(text: str, rng: random.Random) -> str:
-    """A text with one to twelve pieces taken out, put in, doubled, moved or changed."""
-    for _ in range(rng.choice((1, 1, 2, 3, 12))):
-        start = rng.randrange(len(text) + 1)
-        end = min(len(text), start + rng.choice((0, 1, 1, 2, 5, 40, 800)))
-        piece = text[start:end]
-        kind = rng.randrange(7)
-        if kind == 0:
-            piece = ""
-        elif kind == 1:
-            piece += rng.choice(JUNK)
-        elif kind == 2:
-            piece = rng.choice(JUNK)
-        elif kind == 3:
-            piece *= rng.choice((2, 2, 3, 50))
-        elif kind == 4:
-            piece = "".join(chr(max(0, ord(char) + rng.choice((-1, 1, 32, -32)))) for char in piece)
-        elif kind == 5:
-            piece = "".join(rng.sample(piece, len(piece)))
-        else:
-            piece = "".join(rng.choice("0123456789.,-^!|:#$ RLJ*") for _ in range(rng.randrange(6)))
-        text = text[:start] + piece + text[end:]
-    return text
-
-
-def found(count: int, rng: random.Random, texts: list[str], outcomes: Counter[str]) -> Iterator[str]:
-    """What is wrong: a report for each foreign error and each slow reading."""
-    everywhere = list(READERS)
-    fitting: dict[str, list[str]] = {name: [] for name in everywhere}
-    for text in texts:
-        for name in taken_by(text):
-            fitting[name].append(text)
-    for number in range(count):
-        name = everywhere[number % len(everywhere)]
-        # Now and then a text of another format.
-        text = rng.choice(texts if rng.random() < 0.1 else fitting[name])
-        if number // len(everywhere) % 2:
-            text = rebuilt(text, rng.choice(texts), rng)[:MOST]
-        if not number // len(everywhere) % 3:
-            text = mutated(text, rng)
-        started = time.perf_counter()
-        try:
-            READERS[name](text)
-            outcomes[f"{name}: read"] += 1
-        except NinjaGameError as error:
-            outcomes[f"{name}: refused"] += 1
-            str(error)
-        except Exception:  # noqa: BLE001 - foreign errors are what is searched
-            yield f"{name}: a foreign error\n{traceback.format_exc()}\n{text!r}"
-        taken = time.perf_counter() - started
-        if taken > SLOW_S:
-            yield f"{name}: {taken:.1f} s\n{text!r}"
+def case(seed: int, texts: list[str], fitting: dict[str, list[str]]) -> tuple[str, str]:
+    """A reader's name and an odd text for it; now and then one that was made of another format."""
+    rng = random.Random(seed)
+    name = list(READERS)[seed % len(READERS)]
+    text = rng.choice(texts if rng.random() < 0.1 else fitting[name])
+    return name, odd(text, rng.choice(texts), rng)
 
 
 def main() -> int:
     """Fuzz, print what was found and a summary."""
     parser = argparse.ArgumentParser(description="Feed mutated levels, demos and replays to all readers.")
     parser.add_argument("--count", type=int, default=100_000, help="how many texts (default 100000)")
-    parser.add_argument("--seed", type=int, default=1, help="of the random numbers (default 1)")
+    parser.add_argument("--seed", type=int, default=1, help="of the first text (default 1)")
     parser.add_argument("--reference", action="store_true", help="mutate texts of ../shared/n14 too")
     options = parser.parse_args()
-    outcomes: Counter[str] = Counter()
-    wrong = 0
-    started = time.perf_counter()
-    for report in found(options.count, random.Random(options.seed), seeds(reference=options.reference), outcomes):
-        print(report)
-        wrong += 1
-        if wrong >= 20:
+    texts = seeds(reference=options.reference)
+    taken = [(text, taken_by(text)) for text in texts]
+    fitting = {name: [text for text, names in taken if name in names] for name in READERS}
+    trial = Trial()
+    for seed in range(options.seed, options.seed + options.count):
+        name, text = case(seed, texts, fitting)
+        trial.read(name, f"seed {seed}", partial(READERS[name], text))
+        if trial.wrong >= 20:
             break
-    for outcome, times in sorted(outcomes.items()):
-        print(f"{times:8d}  {outcome}")
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-    print(f"peak memory {peak:.0f} MiB")
-    print(f"{sum(outcomes.values())} texts in {time.perf_counter() - started:.0f} s, {wrong} wrong")
-    return 1 if wrong else 0
+    return trial.summary()
 
 
 if __name__ == "__main__":

@@ -3,23 +3,24 @@
 from __future__ import annotations
 
 import re
-import zlib
 from io import BytesIO
 from pathlib import Path, PurePosixPath
-from zipfile import BadZipFile, ZipFile, ZipInfo
+from zipfile import ZipFile, ZipInfo
 
 from ninja_game.errors import FileError
-from ninja_game.files.reading import decoded, files_in, read_bytes
+from ninja_game.files.reading import MAX_BYTES, decoded, files_in, read_bytes
+from ninja_game.files.zips import open_zip, unpacked
 
 INDEX, PARS, CERTIFICATES = "pack.toml", "pars.toml", "certificates"
 """The index, the table of par times, the folder of replays."""
 
-MOST_FILES, MOST_BYTES = 4096, 4 * 2**20
-"""Limits of a zip: files in it, and bytes of one of them."""
+MOST_FILES = 4096
+"""In a zip; all of them together may hold MAX_BYTES."""
+
+MOST_BYTES = 4 * 2**20
+"""Of one file."""
 
 LEVEL_FILES = re.compile(r"[^/\\:]+\.txt", re.IGNORECASE)
-_UNREADABLE = (BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, ValueError, OSError)
-"""What a broken, encrypted or oddly packed zip raises."""
 
 
 class PackFiles:
@@ -41,12 +42,11 @@ class PackFiles:
 
     def _open_zip(self, data: bytes) -> None:
         try:
-            self._zip = ZipFile(BytesIO(data))
-        except _UNREADABLE:
-            raise FileError("neither a folder nor a zip", str(self.path), expected=f"a pack, with {INDEX}") from None
+            self._zip = open_zip(BytesIO(data), most_files=MOST_FILES, most_bytes=MAX_BYTES)
+        except ValueError as error:
+            what, found = "neither a folder nor a zip that can be a pack", str(error)
+            raise FileError(what, str(self.path), found=found, expected=f"a pack, with {INDEX}") from None
         entries = [entry for entry in self._zip.infolist() if not entry.is_dir()]
-        if len(entries) > MOST_FILES:
-            raise FileError("too many files in a zip", str(self.path), 0, 0, f"{len(entries)}", f"at most {MOST_FILES}")
         # Zips are often made of the folder, not of what is in it.
         indexes = [name for entry in entries if PurePosixPath(name := entry.filename).name == INDEX]
         top = min(indexes, key=lambda name: name.count("/"), default=INDEX).removesuffix(INDEX)
@@ -72,17 +72,15 @@ class PackFiles:
 
     def _bytes(self, name: str) -> bytes:
         if self._zip is None:
-            return read_bytes(self.path / name)
+            return read_bytes(self.path / name, MOST_BYTES)
         if name not in self._entries:
             raise FileError("not in the pack", self.place(name))
-        try:
-            with self._zip.open(self._entries[name]) as file:
-                data = file.read(MOST_BYTES + 1)
-        except _UNREADABLE as error:
-            raise FileError("cannot be read from the zip", self.place(name), found=str(error)) from None
-        if len(data) > MOST_BYTES:
+        if self._entries[name].file_size > MOST_BYTES:
             raise FileError("the file is too large", self.place(name), expected=f"at most {MOST_BYTES >> 20} MiB")
-        return data
+        try:
+            return unpacked(self._zip, self._entries[name])
+        except ValueError as error:
+            raise FileError("cannot be read from the zip", self.place(name), found=str(error)) from None
 
 
 def is_pack(path: Path) -> bool:

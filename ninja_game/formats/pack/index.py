@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from dataclasses import dataclass
 from typing import Any
 
 from ninja_game.errors import PackError
+from ninja_game.files.toml import parse_toml
 
 MOST_EPISODES, EPISODES_PER_COLUMN, LEVELS_PER_EPISODE = 100, 10, 5
 
@@ -52,8 +52,8 @@ class PackIndex:
 def parse_index(text: str, *, file: str = "") -> PackIndex:
     """The index in a TOML text. Raises PackError with the line of what is wrong."""
     try:
-        table = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:
+        table = parse_toml(text)
+    except ValueError as error:
         place = _LINE.search(str(error))
         line, column = (int(place[1]), int(place[2])) if place else (0, 0)
         raise PackError(f"no TOML: {_LINE.sub('', str(error)).strip()}", file, line, column) from None
@@ -80,7 +80,9 @@ def _episodes(table: dict[str, Any], text: str, file: str) -> tuple[EpisodeIndex
         _known(each, _EPISODE_KEYS, file, line)
         number = each.get("number")
         if type(number) is not int or not 0 <= number < MOST_EPISODES:
-            raise PackError("an episode's number", file, line, found=repr(number), expected="a number from 0 to 99")
+            raise PackError(
+                "an episode's number", file, line, found=repr(number)[:40], expected="a number from 0 to 99"
+            )
         if number in found:
             raise PackError(f"episode {number} is there twice", file, line, found=f"line {found[number].line} too")
         levels = _list_of_texts(each, "levels", file, line)

@@ -1,0 +1,46 @@
+"""Zips of strangers: files in them, unpacked in memory, within limits that hold before any memory is made."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from typing import IO
+from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
+
+_ENTRY = b"PK\1\2"
+_BLOCK = 2**20
+
+
+def open_zip(file: IO[bytes], *, most_files: int, most_bytes: int) -> ZipFile:
+    """The zip in a file: at most so many files in it, and so many bytes when all of them are unpacked.
+
+    Raises ValueError, in words, for what is more, and for what is no zip.
+    """
+    # The library makes an object of each entry before it can be asked how many there are.
+    if sum(block.count(_ENTRY) for block in iter(partial(file.read, _BLOCK), b"")) > most_files:
+        raise ValueError(f"more than {most_files} files in a zip")
+    file.seek(0)
+    with _in_words():
+        archive = ZipFile(file)
+    if sum(entry.file_size for entry in archive.infolist()) > most_bytes:
+        raise ValueError(f"more than {most_bytes >> 20} MiB, unpacked")
+    return archive
+
+
+def unpacked(archive: ZipFile, entry: ZipInfo) -> bytes:
+    """A file's content, of no more bytes than its entry says. Raises ValueError, in words."""
+    # The other ways of packing take memory as the file says.
+    if entry.compress_type not in (ZIP_STORED, ZIP_DEFLATED):
+        raise ValueError("packed in an unusual way")
+    with _in_words():
+        return archive.read(entry)
+
+
+@contextmanager
+def _in_words() -> Iterator[None]:
+    try:
+        yield
+    except (BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError, OverflowError, OSError) as error:
+        raise ValueError(str(error)) from None
