@@ -78,7 +78,7 @@ def export_film(
 
     try:
         if path.suffix == ".gif":
-            _write_gif(pictures(), film_length(run), path, size, speed, palette_named((settings or Settings()).palette))
+            write_gif(pictures(), film_length(run), path, size, speed, palette_named((settings or Settings()).palette))
         elif path.suffix:
             raise NinjaGameError(f"{path}: a film is a .gif, or a folder of pictures (a path without suffix)")
         else:
@@ -90,9 +90,10 @@ def export_film(
     return True
 
 
-def _write_gif(
+def write_gif(
     pictures: Iterator[pygame.Surface], length: int, path: Path, size: tuple[int, int], speed: float, palette: Palette
 ) -> None:
+    """Write ``length`` pictures of ``size`` px, one a tick, as a GIF in the colours of a palette. Raises OSError."""
     from PIL import Image
 
     tick_ms = 1000 / TICKS_PER_SECOND / speed

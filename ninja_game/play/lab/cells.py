@@ -1,0 +1,134 @@
+"""Figures about cells: those that a body touches, and the nine that the ninja asks for objects."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ninja_game.play.lab.figure import Control, Figure, choice, room_world
+from ninja_game.play.lab.sheet import CORNER, Sheet
+from ninja_game.play.lab.watching import watch
+from ninja_game.play.view.hit_shapes import hit_shapes
+from ninja_game.play.view.overlays import touched_cells
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW
+from ninja_game.sim.events import EVENT_NAMES
+from ninja_game.sim.grid import cell_at
+from ninja_game.sim.kinds import KIND_NAMES
+from ninja_game.sim.memory.plain import restore_plain, save_plain
+from ninja_game.sim.objects.dispatch import NINE_CELLS, touch_objects
+from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, RADIUS
+
+BODIES: Sequence[tuple[str, object]] = (("circle", False), ("box", True))
+
+
+class CellsTouched(Figure):
+    """Drag a body: its own cell, the cells that it touches, their neighbours, the border."""
+
+    name = "cells"
+    title = "Cells touched"
+    text = (
+        "A body smaller than a cell touches at most four cells: its own, one above or below, one beside, one between.",
+        "A ring of border cells, which no body can enter, gives every cell of the level its eight neighbours.",
+    )
+    links = ("docs/how-it-works.md#touched-cells-at-most-four", "docs/rules/world.md#1-grid")
+    start = (163.0, 112.0)
+    box = False
+
+    def controls(self) -> Sequence[Control]:
+        """Which body."""
+        return [choice("Body", BODIES, self, "box")]
+
+    @property
+    def cell(self) -> int:
+        """The cell that holds the body's centre."""
+        return cell_at(self.x, self.y)
+
+    def numbers(self) -> list[tuple[str, str]]:
+        """Where it is, and what it touches."""
+        cell, touched = self.cell, touched_cells(self.x, self.y, self.cell)
+        names = [f"({COLUMN[each]}, {ROW[each]})" for each in touched]
+        return [
+            ("centre", f"{self.x:.1f}, {self.y:.1f} px"),
+            ("current cell", f"column {COLUMN[cell]}, row {ROW[cell]}, index {cell}"),
+            ("from its middle", f"{self.x - CENTRE_X[cell]:+.1f}, {self.y - CENTRE_Y[cell]:+.1f} px"),
+            ("cells touched", f"{len(touched)}: {' '.join(names)}"),
+        ]
+
+    def draw(self, sheet: Sheet) -> None:
+        """Border, neighbours, touched cells, own cell, body."""
+        p = sheet.palette
+        for cell in range(len(EXISTS)):
+            if EXISTS[cell] and (COLUMN[cell] in (0, GRID_COLUMNS - 1) or ROW[cell] in (0, GRID_ROWS - 1)):
+                sheet.shade(cell, p.tile, 150)
+        for offset in NINE_CELLS:
+            sheet.shade(self.cell + offset, p.switch, 40)
+        for number, cell in enumerate(touched_cells(self.x, self.y, self.cell)):
+            sheet.shade(cell, p.accent if number else p.good, 110)
+        sheet.grid()
+        sheet.text("border", 7.5 * 24, 12, colour=p.on_tile)
+        sheet.body(p.ninja, self.x, self.y, RADIUS, box=self.box)
+        sheet.circle(p.ninja, self.x, self.y, 1.5)
+
+
+ROOM = ("..............", "....o.....*...", "..............", "..o...o..oo...", "........o.....", "...*..o.......", ".......*......", "..............")  # fmt: skip
+OBJECTS = ("gold 6.5,4 6.25,4.25 9.5,6",)
+
+
+class NineCells(Figure):
+    """Drag the ninja: the nine cells it asks, in their order, and who is told."""
+
+    name = "nine-cells"
+    title = "Nine cells"
+    text = (
+        "An object is in the list of the one cell that holds its centre, so the ninja asks its own cell and the eight around.",
+        "They are asked in a fixed order, the newest object of a list first; that order decides what happens in a tie.",
+    )
+    links = ("docs/how-it-works.md#nine-cells-a-loose-grid-of-objects", "docs/rules/objects.md#3-contact-pass")
+    view = CORNER
+    start = (155.0, 100.0)
+
+    def reset(self) -> None:
+        """All objects are there again."""
+        super().reset()
+        self.tiles, self.world = room_world(ROOM, OBJECTS)
+        self.asked = self.touched = 0
+
+    def told(self) -> tuple[list[int], list[str]]:
+        """The slots of the objects that are told, in order, and the events that follow; the world stays as it is."""
+        w = self.world
+        before = save_plain(w)
+        w.ninja.x, w.ninja.y = self.x, self.y
+        w.ninja.cell = cell_at(self.x, self.y)
+        _, calls = watch(touch_objects, w)
+        events = [EVENT_NAMES[event.kind] for event in w.events[: w.event_count]]
+        restore_plain(w, before)
+        return [int(call.arguments["o"]) for call in calls if call.name == "touch"], events
+
+    def numbers(self) -> list[tuple[str, str]]:
+        """Who is asked of how many, and what happens."""
+        told, events = self.told()
+        names = [KIND_NAMES[self.world.objects[slot].kind] for slot in told]
+        return [
+            ("objects in the level", str(self.world.id_count)),
+            ("objects told", f"{len(told)}: {', '.join(names)}" if told else "0"),
+            ("events", ", ".join(events) or "none"),
+        ]
+
+    def draw(self, sheet: Sheet) -> None:
+        """The cells with their numbers, the objects with theirs."""
+        p = sheet.palette
+        centre = cell_at(self.x, self.y)
+        sheet.tiles(self.tiles)
+        for number, offset in enumerate(NINE_CELLS, 1):
+            cell = centre + offset
+            sheet.shade(cell, p.switch if offset else p.good, 60)
+            sheet.text(str(number), CENTRE_X[cell] - 8, CENTRE_Y[cell] - 7, size=9, colour=p.faint)
+        sheet.grid()
+        told, _ = self.told()
+        for shape in hit_shapes(self.world):
+            if not shape.ninja:
+                sheet.body(p.bad if shape.lethal else p.gold, shape.x, shape.y, shape.half, box=not shape.round)
+        for number, slot in enumerate(told, 1):
+            o = self.world.objects[slot]
+            sheet.circle(p.good, o.x, o.y, 8.5, 2)
+            sheet.text(str(number), o.x, o.y, size=10)
+        sheet.body(p.ninja, self.x, self.y, RADIUS, box=False)

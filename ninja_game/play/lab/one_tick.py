@@ -1,0 +1,136 @@
+"""The figure about one tick: the real world, phase by phase, in slow motion."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ninja_game.play.lab.figure import Control, Figure, choice, slider
+from ninja_game.play.lab.sheet import Sheet
+from ninja_game.play.lab.stage import Stage
+from ninja_game.play.lab.watching import Call
+from ninja_game.play.menus.help.pages import strokes
+from ninja_game.play.view.overlays import touched_cells
+from ninja_game.sim.collision.tiles import EXISTS
+from ninja_game.sim.events import EVENT_NAMES
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, pressed
+from ninja_game.sim.kinds import KIND_OF
+from ninja_game.sim.objects.dispatch import NINE_CELLS
+
+ROOM = ("..............", "..Z........+..", "..............", "......oo......", ".@...####..n..", "###....*..####", "......aa......", "###########.##")  # fmt: skip
+OBJECTS = ("zap drone 3,2 wander-cw right",)
+
+PHASES = {
+    "update_objects": "1. the update set, newest first", "think": "2. one object thinks", "tick_ninja": "3. the ninja moves",
+    "touch_objects": "4. asks nine cells", "collide_circle": "5. asks touched cells", "evaluate_floor": "6. judges its floor",
+    "probe_walls": "6. feels for a wall", "think_in_air": "7. reads the keys in the air", "think_on_ground": "7. reads the keys on the ground",
+}  # fmt: skip
+"""The rules that begin a phase of a tick, and what they do."""
+
+SHOWN = 7
+KEYS: Sequence[tuple[str, object]] = (
+    ("played for you", -1), ("none", 0), ("left", KEY_LEFT), ("right", KEY_RIGHT), ("jump", JUMP_HELD),
+    ("right and jump", KEY_RIGHT + JUMP_HELD), ("left and jump", KEY_LEFT + JUMP_HELD),
+)  # fmt: skip
+PLAYED = strokes("10 r30 rj20 r30 l40 lj25 l30 10")
+
+
+class OneTick(Figure):
+    """Every rule that a tick calls, one after the other."""
+
+    name = "tick"
+    title = "One tick"
+    text = (
+        "A tick updates what moves, lets one object think, and then moves the ninja: objects first, tiles next, keys last.",
+        "Every line is a call of the world's own code, as it happens; the marked object or cells are those that it is about.",
+    )
+    links = ("docs/how-it-works.md#the-way-of-one-tick-through-the-files", "docs/rules/objects.md#25-one-tick")
+    keys = -1
+    speed: float = 4
+
+    def reset(self) -> None:
+        """The world as it begins."""
+        super().reset()
+        self.stage = Stage(ROOM, OBJECTS)
+        self.at = 0.0
+        self._next()
+
+    def _next(self) -> None:
+        """Run a tick of the world and show its first call."""
+        tick = self.stage.simulation.tick
+        if self.keys < 0:
+            held = PLAYED[tick % len(PLAYED)]
+        else:
+            held = pressed(self.keys, self.stage.world.ninja.jump_held)
+        self.stage.step(held)
+        self.at = 0.0
+
+    def controls(self) -> Sequence[Control]:
+        """The keys, and how slow."""
+        return [choice("Keys", KEYS, self, "keys"), slider("Calls a second", (1, 400, 1), self, "speed")]
+
+    def press(self, x: float, y: float) -> None:
+        """The next call."""
+        self._forward(1)
+
+    def drag(self, x: float, y: float) -> None:
+        """Only a press does something."""
+
+    def nudge(self, dx: int, dy: int) -> None:
+        """Right: the next call; down: the next tick."""
+        self._forward(len(self.calls) if dy > 0 else max(dx, 0))
+
+    def demonstrate(self, tick: int) -> None:
+        """Slow at first, then fast."""
+        self.speed = 12 if tick % 480 < 320 else 400
+
+    def _forward(self, calls: float) -> None:
+        self.at += calls
+        if self.at >= len(self.calls):
+            self._next()
+
+    def tick(self) -> None:
+        """Go on to the next call, in its time."""
+        self._forward(self.speed / 40)
+
+    @property
+    def calls(self) -> list[Call]:
+        """The calls of the tick, without the smallest: lookups of cells, and what the memory needs."""
+        return [call for call in self.stage.calls if call.depth and call.name not in ("cell_at", "pressed", "solid_at")]
+
+    @property
+    def phase(self) -> str:
+        """The phase in which the present call is."""
+        names = [call.name for call in self.calls[: int(self.at) + 1]]
+        return next((PHASES[name] for name in reversed(names) if name in PHASES), "a tick begins")
+
+    def numbers(self) -> list[tuple[str, str]]:
+        """The phase, and the calls about the present one."""
+        first = max(0, int(self.at) - SHOWN + 4)
+        rows = []
+        for number, call in enumerate(self.calls[first : first + SHOWN - 2], first):
+            o = self.stage.world.objects[int(call.arguments["o"])] if "o" in call.arguments else None
+            about = f" ({KIND_OF[o.kind].name})" if o is not None and o.kind in KIND_OF else ""
+            mark = ">" if number == int(self.at) else ""
+            rows.append((f"{mark} {number + 1} of {len(self.calls)}", f"{'. ' * (call.depth - 1)}{call.name}{about}"))
+        world = self.stage.world
+        events = ", ".join(EVENT_NAMES[event.kind] for event in world.events[: world.event_count])
+        return [(f"tick {world.tick}", self.phase), *rows, ("events", events or "none")]
+
+    def draw(self, sheet: Sheet) -> None:
+        """The game's own picture, and what the present call is about."""
+        p, w = sheet.palette, self.stage.world
+        self.stage.draw(sheet)
+        call = self.calls[min(int(self.at), len(self.calls) - 1)]
+        n = w.ninja
+        if self.phase.startswith("4") and EXISTS[n.cell]:
+            for offset in NINE_CELLS:
+                sheet.shade(n.cell + offset, p.switch, 60)
+        elif self.phase.startswith("5"):
+            for cell in touched_cells(n.x, n.y, n.cell):
+                sheet.shade(cell, p.good, 90)
+        sheet.grid()
+        if "o" in call.arguments:
+            o = w.objects[int(call.arguments["o"])]
+            sheet.circle(p.accent, o.x, o.y, 15, 2.5)
+        elif self.phase[0] in "34567":
+            sheet.circle(p.accent, n.x, n.y, 15, 2.5)

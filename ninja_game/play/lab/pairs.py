@@ -1,0 +1,103 @@
+"""The figure about pairs: every pair of objects that meets, found by five lists an object."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+
+from ninja_game.play.lab.crowd import FIVE_CELLS, Crowd
+from ninja_game.play.lab.figure import Control, Figure, slider
+from ninja_game.play.lab.sheet import FIELD, Sheet
+from ninja_game.sim.memory.object_fields import Object
+
+
+class FiveCells(Figure):
+    """The scan for all pairs in slow motion."""
+
+    name = "pairs"
+    title = "All pairs by five cells"
+    text = (
+        "To find every pair that meets, each object looks at the rest of its own list and at four neighbours' lists.",
+        "The other four neighbours have looked already: no pair is found twice, none is missed, and n x n tests are saved.",
+    )
+    links = ("docs/how-it-works.md#nine-cells-a-loose-grid-of-objects", "docs/rules/objects.md#22-the-loose-grid")
+    view = FIELD
+    speed: float = 4
+
+    def __init__(self) -> None:
+        self._count = 60
+        super().__init__()
+
+    def reset(self) -> None:
+        """Another scan of the same objects."""
+        super().reset()
+        self.crowd = Crowd(self._count, 11)
+        self.pairs: Iterator[tuple[Object, Object]] = self.crowd.five_cell_pairs()
+        self.tested: list[tuple[Object, Object]] = []
+        self.found: list[tuple[int, int]] = []
+        self.done = False
+        objects = self.crowd.objects
+        self.truth = {(a.slot, b.slot) for a, b in combinations(objects, 2) if self.crowd.meet(a, b)}
+
+    @property
+    def count(self) -> float:
+        """How many objects."""
+        return self._count
+
+    @count.setter
+    def count(self, number: float) -> None:
+        self._count = int(number)
+        self.reset()
+
+    def controls(self) -> Sequence[Control]:
+        """How many, how fast."""
+        return [
+            slider("Objects", (10, 200, 10), self, "count"),
+            slider("Tests a tick", (1, 40, 1), self, "speed"),
+        ]
+
+    def demonstrate(self, tick: int) -> None:
+        """Scan; then begin again with more."""
+        if self.done and tick % 80 == 0:
+            self.count = self._count % 120 + 30
+
+    def tick(self) -> None:
+        """Some more tests."""
+        for _ in range(int(self.speed)):
+            pair = next(self.pairs, None)
+            if pair is None:
+                self.done = True
+                return
+            self.tested.append(pair)
+            if self.crowd.meet(*pair):
+                a, b = sorted((pair[0].slot, pair[1].slot))
+                self.found.append((a, b))
+
+    def numbers(self) -> list[tuple[str, str]]:
+        """What is found, against all pairs."""
+        found, count = set(self.found), self._count
+        return [
+            ("objects", str(count)),
+            ("tests so far", f"{len(self.tested)}{', done' if self.done else ''}"),
+            ("tests of all pairs", f"{count * (count - 1) // 2} (n x n: {count * count})"),
+            ("pairs found", f"{len(found)} of {len(self.truth)}"),
+            ("found twice", str(len(self.found) - len(found))),
+            ("missed", str(len(self.truth - found)) if self.done else "not done yet"),
+        ]
+
+    def draw(self, sheet: Sheet) -> None:
+        """The five cells of the present test, the pairs found."""
+        p = sheet.palette
+        if self.tested and not self.done:
+            cell = self.tested[-1][0].cell
+            for offset in FIVE_CELLS:
+                sheet.shade(cell + offset, p.switch if offset else p.good, 90)
+        sheet.grid()
+        for o in self.crowd.objects:
+            sheet.circle(p.faint, o.x, o.y, self.crowd.radius, 1.2)
+        for a, b in self.found:
+            one, two = self.crowd.world.objects[a], self.crowd.world.objects[b]
+            sheet.line(p.accent, (one.x, one.y), (two.x, two.y), 3)
+        if self.tested and not self.done:
+            one, two = self.tested[-1]
+            sheet.line(p.ninja, (one.x, one.y), (two.x, two.y), 1.5)

@@ -1,0 +1,144 @@
+"""The figure about rays: which cells a ray visits, what stops it, what it sees, what a loose grid misses."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import dist
+
+from ninja_game.play.lab.figure import Control, Figure, choice, room_world
+from ninja_game.play.lab.sheet import Sheet
+from ninja_game.play.lab.watching import values_of, watch
+from ninja_game.play.ui.canvas import Point
+from ninja_game.sim.collision.rays import cast, ray_circle, ray_tiles, sees
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS, UNIT_X, UNIT_Y
+from ninja_game.sim.grid import cell_at
+from ninja_game.sim.rules import GOLD_RADIUS, OFF, RADIUS
+
+ROOM = ("..............", "..............", "...........s##", "..a.........##", "..##..........", "......K#J.....", "......I#U.....", "aa..........ss")  # fmt: skip
+GOLD = ("gold 5.5,3.5 6.5,4.5 8.5,4.5 10,5.5 3.5,6.5 12,7.5",)
+
+NINJA: Point = (292.0, 172.0)
+
+
+class Rays(Figure):
+    """Drag both ends of a ray."""
+
+    name = "rays"
+    title = "Rays"
+    text = (
+        "A ray goes from cell to cell over the nearer grid line; solid edges stop it, interesting ones ask the tile's shape.",
+        "Only the ninja is tested as a circle. Other objects would be missed where their cell is not one that the ray visits.",
+    )
+    links = ("docs/how-it-works.md#rays-what-sees-what", "docs/rules/world.md#7-rays")
+    start = (330.0, 190.0)
+    moves = "end"
+
+    def reset(self) -> None:
+        """Both ends where they began."""
+        super().reset()
+        self.from_x, self.from_y = 60.0, 70.0
+        self.tiles, self.world = room_world(ROOM, GOLD)
+        self.world.ninja.x, self.world.ninja.y = NINJA
+
+    def controls(self) -> Sequence[Control]:
+        """Which end the arrows move."""
+        return [choice("Arrows move", (("the end", "end"), ("the start", "start")), self, "moves")]
+
+    def press(self, x: float, y: float) -> None:
+        """Take the nearer end."""
+        self.moves = "start" if dist((x, y), (self.from_x, self.from_y)) < dist((x, y), (self.x, self.y)) else "end"
+        self.drag(x, y)
+
+    def drag(self, x: float, y: float) -> None:
+        """Move the end that was taken."""
+        kept = self.x, self.y
+        super().drag(x, y)
+        if self.moves == "start":
+            self.from_x, self.from_y = self.x, self.y
+            self.x, self.y = kept
+
+    def nudge(self, dx: int, dy: int) -> None:
+        """Move the chosen end."""
+        x, y = (self.from_x, self.from_y) if self.moves == "start" else (self.x, self.y)
+        self.drag(x + dx, y + dy)
+
+    def demonstrate(self, tick: int) -> None:
+        """The end goes round."""
+        self.moves = "end"
+        super().demonstrate(tick)
+
+    @property
+    def visited(self) -> list[int]:
+        """The cells of the ray, in the order in which the world's own function visits them."""
+        length = dist((self.from_x, self.from_y), (self.x, self.y)) or 1.0
+        dx, dy = (self.x - self.from_x) / length, (self.y - self.from_y) / length
+        return [
+            cell
+            for cell in values_of("cell", cast, self.tiles, self.world, self.from_x, self.from_y, dx, dy)
+            if EXISTS[cell]
+        ]
+
+    def asked(self) -> tuple[list[int], bool, Point]:
+        """The cells whose shapes were asked, whether something stopped the ray, and where, px."""
+        ray = self.from_x, self.from_y, self.x, self.y
+        (stopped, x, y), calls = watch(ray_tiles, self.tiles, self.world, *ray)
+        cells = [cell_at(call.arguments["cx"], call.arguments["cy"]) for call in calls if call.name == "ray_tile"]
+        tiles = self.tiles.tiles
+        return [cell for cell in cells if tiles[cell]], bool(stopped), (x, y)
+
+    def met(self) -> tuple[list[int], list[int]]:
+        """The slots of the gold that the ray really meets before it stops: in cells that it visits, and in others."""
+        length = dist((self.from_x, self.from_y), (self.x, self.y)) or 1.0
+        dx, dy = (self.x - self.from_x) / length, (self.y - self.from_y) / length
+        cells, (_, stopped, end) = set(self.visited), self.asked()
+        reach = dist((self.from_x, self.from_y), end) if stopped else 1e9
+        found: tuple[list[int], list[int]] = ([], [])
+        for slot in range(1, self.world.id_count + 1):
+            o = self.world.objects[slot]
+            hit, x, y = ray_circle(self.from_x, self.from_y, dx, dy, o.x, o.y, GOLD_RADIUS)
+            if hit and dist((self.from_x, self.from_y), (x, y)) <= reach:
+                found[o.cell not in cells].append(slot)
+        return found
+
+    def numbers(self) -> list[tuple[str, str]]:
+        """What it costs and finds."""
+        asked, stopped, (x, y) = self.asked()
+        ray = self.from_x, self.from_y, self.x, self.y
+        inside, missed = self.met()
+        return [
+            ("cells visited", str(len(self.visited))),
+            ("shapes asked", str(len(asked))),
+            ("stopped at", f"{x:.1f}, {y:.1f} px" if stopped else "nothing: it leaves the grid"),
+            ("sees the ninja", "yes" if sees(self.tiles, self.world, *ray)[0] else "no"),
+            ("gold met in those cells", str(len(inside))),
+            ("gold met but missed", f"{len(missed)}: a loose grid files it elsewhere"),
+        ]
+
+    def draw(self, sheet: Sheet) -> None:
+        """Cells in their order, the ray, what it meets."""
+        p = sheet.palette
+        asked, stopped, end = self.asked()
+        for number, cell in enumerate(self.visited, 1):
+            sheet.shade(cell, p.accent if cell in asked else p.good, 80)
+            sheet.text(str(number), CENTRE_X[cell] - 8, CENTRE_Y[cell] - 8, size=8, colour=p.faint)
+        sheet.tiles(self.tiles)
+        sheet.grid()
+        for cell in self.visited:
+            for side in range(4):
+                if self.world.edges[4 * cell + side] != OFF:
+                    x, y = CENTRE_X[cell] + 11 * UNIT_X[side], CENTRE_Y[cell] + 11 * UNIT_Y[side]
+                    a, b = 11 * abs(UNIT_Y[side]), 11 * abs(UNIT_X[side])
+                    sheet.line(p.bad, (x - a, y - b), (x + a, y + b), 1.5)
+        inside, missed = self.met()
+        for slot in range(1, self.world.id_count + 1):
+            o = self.world.objects[slot]
+            if o.x or o.y:
+                sheet.circle(p.gold, o.x, o.y, GOLD_RADIUS, 0 if slot in inside + missed else 1.5)
+                if slot in missed:
+                    sheet.text("missed", o.x, o.y - 11, size=8, colour=p.bad)
+        n = self.world.ninja
+        sheet.circle(p.ninja, n.x, n.y, RADIUS, 2)
+        start = self.from_x, self.from_y
+        sheet.arrow(p.bad, start, end if stopped else (self.x, self.y), 2)
+        sheet.circle(p.bad, *start, 3)
+        sheet.circle(p.bad, self.x, self.y, 4, 1.5)

@@ -1,0 +1,173 @@
+"""The lab's screen: figures at the left; the chosen one, its text, its numbers and controls at the right."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.play.lab.figure import Figure
+from ninja_game.play.lab.figures import FIGURES
+from ninja_game.play.lab.sheet import FIGURE, Sheet
+from ninja_game.play.level.run_clock import RunClock
+from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.ui.list_view import ListView
+from ninja_game.play.ui.text_layout import wrapped
+from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.widgets import Button, Widget
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+TEXT_TOP, NUMBERS_TOP, LINE = 394.0, 452.0, 15.0
+CONTROLS: Area = (520, 452, 228, 26)
+"""The first control; the others are below it."""
+
+
+class LabScreen(MenuScreen):
+    """Ten figures about how the world works. ``name``: the one to begin with."""
+
+    title = "Lab"
+
+    def __init__(self, app: App, name: str = "") -> None:
+        super().__init__(app)
+        self.figures = [make() for make in FIGURES.values()]
+        self.list = ListView(
+            (44, 62, 158, 26 * len(self.figures)), 26, self._draw_row, self._choose, selected=self._show
+        )
+        self.list.hint = "Up and down choose a figure, right goes to it"
+        self.list.index = list(FIGURES).index(name) if name else 0
+        self.clock = RunClock()
+        self.shows = True
+        self.ticks = 0
+        self.list.fill(self.figures)
+
+    @property
+    def figure(self) -> Figure:
+        """The chosen figure."""
+        return self.figures[self.list.index]
+
+    def build(self) -> Sequence[Widget]:
+        """The list, the figure, its controls, what one can do with it."""
+        x, y, w, h = CONTROLS
+        controls = [make((x, y + (h + 4) * k, w, h)) for k, make in enumerate(self.figure.controls())]
+        buttons = [
+            Button((52, 352, 142, 26), "Demonstration", self.demonstrate, hint="The figure shows itself"),
+            Button((52, 384, 142, 26), "Reset", self.reset, hint="The figure as it was at first"),
+            Button((52, 416, 142, 26), "Back", self.back),
+        ]
+        return [self.list, FigureArea(self), *controls, *buttons]
+
+    def _show(self, index: int) -> None:
+        """Another figure is chosen: it shows itself until somebody touches it."""
+        self.demonstrate()
+        if self.widgets:
+            self.enter()
+
+    def _choose(self, index: int) -> None:
+        """Go to the figure itself."""
+        self.focus_on(next(widget for widget in self.widgets if isinstance(widget, FigureArea)))
+
+    def demonstrate(self) -> None:
+        """Begin the demonstration."""
+        self.figure.reset()
+        self.shows, self.ticks = True, 0
+        self.redraw = True
+
+    def reset(self) -> None:
+        """The figure as it was at first."""
+        self.figure.reset()
+        self.shows = False
+        self.redraw = True
+
+    def act(self, action: str, *, held: bool = False) -> None:
+        """A control that is touched ends the demonstration."""
+        if (
+            action in ("left", "right", "confirm")
+            and self.focus not in (self.list, None)
+            and not isinstance(self.focus, Button)
+        ):
+            self.shows = False
+        super().act(action, held=held)
+
+    def handle_press(self) -> None:
+        """The figure was touched: no demonstration any more."""
+        self.shows = False
+        self.redraw = True
+
+    def update(self, real_ms: int) -> None:
+        """Time passes in the figure, 40 ticks a second."""
+        super().update(real_ms)
+        for _ in range(min(4, self.clock.ticks_due(real_ms))):
+            if self.shows:
+                self.figure.demonstrate(self.ticks)
+                self.ticks += 1
+            self.figure.tick()
+            self.redraw = True
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        """Text and numbers."""
+        super().draw_frame(surface)
+        theme, (x, _, w, _) = self.app.theme, FIGURE
+        lines = [line for text in self.figure.text for line in wrapped(theme, text, w, 10.5)]
+        for place, line in enumerate(lines):
+            theme.text(surface, line, x, TEXT_TOP + 13 * place, size=10.5)
+        for place, (name, value) in enumerate(self.figure.numbers()):
+            y = NUMBERS_TOP + LINE * place
+            theme.text(surface, name, x, y, size=9.5, colour=theme.palette.faint, width=132)
+            theme.text(surface, value, x + 136, y, size=9.5, width=164)
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        x, y, w, h = area
+        chosen = index == self.list.index
+        if chosen:
+            theme.row(surface, (x, y + 1, w, h - 2), chosen=True, focused=focused, radius=3)
+        theme.text(surface, self.figures[index].title, x + 8, y + 7, size=11, bold=chosen, width=w - 12)
+
+
+class FigureArea(Widget):
+    """The figure itself: the mouse drags, the arrows move its handle; Tab goes on to the controls."""
+
+    def __init__(self, screen: LabScreen) -> None:
+        super().__init__(FIGURE)
+        self.screen = screen
+        self.hint = f"Drag, or use the arrows; Tab goes on. More: {', '.join(screen.figure.links)}"
+
+    def _world(self, x: float, y: float) -> tuple[float, float]:
+        left, top, zoom = self.screen.figure.view
+        return left + (x - FIGURE[0]) / zoom, top + (y - FIGURE[1]) / zoom
+
+    def click(self, x: float, y: float) -> bool:
+        """The mouse button goes down."""
+        self.screen.handle_press()
+        self.screen.figure.press(*self._world(x, y))
+        return True
+
+    def drag(self, x: float, y: float) -> bool:
+        """The mouse moves with its button down."""
+        self.screen.figure.drag(*self._world(x, y))
+        return True
+
+    def confirm(self) -> bool:
+        """Press at the handle."""
+        self.screen.handle_press()
+        self.screen.figure.press(self.screen.figure.x, self.screen.figure.y)
+        return True
+
+    def nudge(self, action: str) -> bool:
+        """An arrow key moves the handle."""
+        steps = {"left": (-1, 0), "right": (1, 0), "up": (0, -1), "down": (0, 1)}
+        if action not in steps:
+            return False
+        self.screen.handle_press()
+        self.screen.figure.nudge(*steps[action])
+        return True
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        """The figure, its frame accented with the focus."""
+        sheet = Sheet(surface, theme, self.screen.figure.view)
+        self.screen.figure.draw(sheet)
+        sheet.close()
+        if focused:
+            theme.canvas.frame_rect(surface, theme.palette.accent, *FIGURE, 2.5)
