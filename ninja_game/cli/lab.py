@@ -13,12 +13,21 @@ FIGURES = ("cells", "edges", "projection", "grids", "nine-cells", "pairs", "bull
 @click.command()
 @click.argument("figure", required=False, type=click.Choice(FIGURES))
 @click.option("--size", metavar="WIDTHxHEIGHT", help="Size of the window in px, e.g. 1584x1200.")
+@click.option("--frames", type=click.IntRange(1, 10**9), help="End after so many pictures.")
+@click.option("--screenshot", type=click.Path(dir_okay=False), help="Write the last picture to this PNG file.")
 @click.option(
     "-o", "--output", type=click.Path(dir_okay=False, path_type=Path),
     help="Open no window: write the figure to this .png file, or its demonstration to this .gif file.",
 )  # fmt: skip
 @click.pass_context
-def command(ctx: click.Context, figure: str | None, size: str | None, output: Path | None) -> None:
+def command(
+    ctx: click.Context,
+    figure: str | None,
+    size: str | None,
+    frames: int | None,
+    screenshot: str | None,
+    output: Path | None,
+) -> None:
     """Drag, paint and watch: ten figures about how the world works.
 
     \b
@@ -27,7 +36,7 @@ def command(ctx: click.Context, figure: str | None, size: str | None, output: Pa
       ninja-game lab rays
       ninja-game lab edges -o edges.png
     """
-    from ninja_game.cli.play import opened_window, pixels
+    from ninja_game.cli.play import pixels
 
     if output is not None and figure is None:
         raise click.UsageError("--output needs a FIGURE")
@@ -41,5 +50,4 @@ def command(ctx: click.Context, figure: str | None, size: str | None, output: Pa
     from ninja_game.play.lab.screen import LabScreen
     from ninja_game.play.main import run_app
 
-    with opened_window():
-        ctx.exit(run_app(lambda app: LabScreen(app, figure or ""), size=window))
+    ctx.exit(run_app(lambda app: LabScreen(app, figure or ""), size=window, frames=frames, screenshot=screenshot))

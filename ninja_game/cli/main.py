@@ -22,6 +22,7 @@ from ninja_game.signals import Terminated, end_on_signals, told
 
 COMMANDS = {
     "play": "Play a level in a window.",
+    "lab": "Drag, paint and watch: ten figures about how the world works.",
     "export": "Write a film of a recording: a GIF, or a folder of pictures.",
     "verify": "Run recordings again and judge them.",
     "trace": "Show every tick of recordings: position, velocity, state, events.",

@@ -10,7 +10,6 @@ from typing import Literal
 import click
 
 from ninja_game.cli.run_options import LevelPath
-from ninja_game.errors import NinjaGameError
 
 
 @click.command()
@@ -59,23 +58,18 @@ def command(
     window = pixels(size) if size else None
 
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
-    import pygame
-
     from ninja_game.play.main import main
 
-    try:
-        code = main(
-            path,
-            body=body,
-            size=window,
-            replay_path=replay,
-            practice=practice,
-            frames=frames,
-            screenshot=screenshot,
-            record=record,
-        )
-    except pygame.error as error:
-        raise NinjaGameError(f"the window cannot be opened: {error}") from None
+    code = main(
+        path,
+        body=body,
+        size=window,
+        replay_path=replay,
+        practice=practice,
+        frames=frames,
+        screenshot=screenshot,
+        record=record,
+    )
     ctx.exit(code)
 
 

@@ -38,15 +38,32 @@ def main(
     """
     # Read before a window opens: what is wrong with a file is said in the terminal.
     first = first_screen(level_path, replay_path, body=body, practice=practice, record=record)
-    app = build_app(size=size)
+    return run_app(first, size=size, frames=frames, screenshot=screenshot)
+
+
+def run_app(
+    first: Callable[[App], Screen],
+    *,
+    size: tuple[int, int] | None = None,
+    frames: int | None = None,
+    screenshot: str | None = None,
+) -> int:
+    """Open a window with a first screen and run until it ends; the exit code. The rest is as of ``main``.
+
+    Raises NinjaGameError where there is no display.
+    """
     try:
-        app.push(first(app))
-        app.run(frames)
-        if screenshot:
-            _save(app, Path(screenshot))
-    finally:
-        app.player.close()
-        pygame.quit()
+        app = build_app(size=size)
+        try:
+            app.push(first(app))
+            app.run(frames)
+            if screenshot:
+                _save(app, Path(screenshot))
+        finally:
+            app.player.close()
+            pygame.quit()
+    except pygame.error as error:
+        raise NinjaGameError(f"the window cannot be opened: {error}") from None
     return 0
 
 

@@ -15,12 +15,6 @@ class Bullets(Figure):
     """Many bullets against a few targets, with and without filing the bullets."""
 
     name = "bullets"
-    title = "Bullets that only read"
-    text = (
-        "Bullets that need not hit each other stay out of the lists: they only read them, to find what they hit.",
-        "So thousands of them move without one insertion or removal, and nobody's walk through a list grows longer.",
-    )
-    links = ("docs/how-it-works.md#nine-cells-a-loose-grid-of-objects", "docs/rules/objects.md#22-the-loose-grid")
     view = FIELD
     filed = False
 

@@ -24,12 +24,6 @@ class CellsTouched(Figure):
     """Drag a body: its own cell, the cells that it touches, their neighbours, the border."""
 
     name = "cells"
-    title = "Cells touched"
-    text = (
-        "A body smaller than a cell touches at most four cells: its own, one above or below, one beside, one between.",
-        "A ring of border cells, which no body can enter, gives every cell of the level its eight neighbours.",
-    )
-    links = ("docs/how-it-works.md#touched-cells-at-most-four", "docs/rules/world.md#1-grid")
     start = (163.0, 112.0)
     box = False
 
@@ -69,27 +63,17 @@ class CellsTouched(Figure):
         sheet.circle(p.ninja, self.x, self.y, 1.5)
 
 
-ROOM = ("..............", "....o.....*...", "..............", "..o...o..oo...", "........o.....", "...*..o.......", ".......*......", "..............")  # fmt: skip
-OBJECTS = ("gold 6.5,4 6.25,4.25 9.5,6",)
-
-
 class NineCells(Figure):
     """Drag the ninja: the nine cells it asks, in their order, and who is told."""
 
     name = "nine-cells"
-    title = "Nine cells"
-    text = (
-        "An object is in the list of the one cell that holds its centre, so the ninja asks its own cell and the eight around.",
-        "They are asked in a fixed order, the newest object of a list first; that order decides what happens in a tie.",
-    )
-    links = ("docs/how-it-works.md#nine-cells-a-loose-grid-of-objects", "docs/rules/objects.md#3-contact-pass")
     view = CORNER
     start = (155.0, 100.0)
 
     def reset(self) -> None:
         """All objects are there again."""
         super().reset()
-        self.tiles, self.world = room_world(ROOM, OBJECTS)
+        self.tiles, self.world = room_world(self.room, self.objects)
         self.asked = self.touched = 0
 
     def told(self) -> tuple[list[int], list[str]]:

@@ -15,28 +15,17 @@ from ninja_game.sim.objects.door import write_edges
 from ninja_game.sim.objects.drone import ROTATIONS
 from ninja_game.sim.rules import DRONE_RADIUS
 
-ROOM = ("..............", "..Z...........", "...###.####...", "...#Z.....#...", "...#......#...", "...####.###...", "............Z.", "..............")  # fmt: skip
 DIRECTIONS = ("right", "down", "left", "up")
 MOVEMENTS: Sequence[tuple[str, object]] = tuple(
     (text, text.replace(" ", "-"))
     for text in ("surface cw", "surface ccw", "wander cw", "wander ccw", "alternating", "random")
 )
-DOORS = ("locked door 7,3 top switch 700,480px", "locked door 8,6 bottom switch 700,460px")
 
 
 class WalkingEnemies(Figure):
     """Drones walk; click near a door to open or close it."""
 
     name = "drones"
-    title = "Walking enemies"
-    text = (
-        "A drone decides only in the middle of a cell: it tries directions in a fixed order and takes the first side that is off.",
-        "Doors change edge states, so drones react to them without knowing that there are doors. Click at a door to move it.",
-    )
-    links = (
-        "docs/how-it-works.md#edges-most-collisions-without-looking-at-a-shape",
-        "docs/rules/objects.md#815-choice-of-the-next-direction",
-    )
     start = (180.0, 90.0)
 
     def __init__(self) -> None:
@@ -47,7 +36,7 @@ class WalkingEnemies(Figure):
         """The drones where they began, the doors closed."""
         super().reset()
         drones = [f"zap drone {place} {self._movement} right" for place in ("3,2", "5,4", "13,7")]
-        self.stage = Stage(ROOM, [*DOORS, *drones, ELSEWHERE])
+        self.stage = Stage(self.room, [*self.objects, *drones, ELSEWHERE])
         self.decided: dict[int, tuple[int, int, int]] = {}
 
     @property
@@ -127,7 +116,11 @@ class WalkingEnemies(Figure):
             tried = ", ".join(f"{DIRECTIONS[direction]} {STATES[state]}" for direction, state in self.tried(o))
             rows.append((f"drone {number} tried", tried or "nothing yet"))
         opened = sum(bool(door.switched) for door in self._of_kind(DOOR))
-        return [*rows, ("doors open", f"{opened} of {len(DOORS)}"), ("tick", str(self.stage.simulation.tick))]
+        return [
+            *rows,
+            ("doors open", f"{opened} of {len(self._of_kind(DOOR))}"),
+            ("tick", str(self.stage.simulation.tick)),
+        ]
 
     def draw(self, sheet: Sheet) -> None:
         """The game's own picture, the edges, what each drone tried."""

@@ -25,12 +25,11 @@ FACES = ("none", "partial", "full")
 STATES = ("off", "interesting", "solid")
 SIDES: Sequence[tuple[str, object]] = (("right", 0), ("down", 1), ("left", 2), ("up", 3))
 
-ROOM = ("..............", "..............", "......##......", "......##......", "....&.........", ".......s##....", "....fF####d...", "##.######.###.")  # fmt: skip
-DOOR = ("locked door 10,5 left switch 5,5",)
 
+_FAMILIES = ("45°", "hollow", "round", "22° thin", "22° thick", "67° thin", "67° thick")
+_CORNERS = ("lower left", "lower right", "upper right", "upper left")
 TILE_NAMES = (
-    "empty", "full", *(f"{name} {corner}" for name in ("45°", "hollow", "round", "22° thin", "22° thick", "67° thin", "67° thick")
-                       for corner in ("lower left", "lower right", "upper right", "upper left")),
+    "empty", "full", *(f"{family} {corner}" for family in _FAMILIES for corner in _CORNERS),
     "lower half", "right half", "upper half", "left half",
 )  # fmt: skip
 """What tiles are called, by id."""
@@ -40,15 +39,6 @@ class EdgeStates(Figure):
     """Paint tiles; every edge shows its state, and the chosen one says why."""
 
     name = "edges"
-    title = "Edge states"
-    text = (
-        "Each cell keeps a state for each of its sides: off (thin air), interesting (look at the shape), solid (just push).",
-        "A state depends on two faces only: the cell's own, and the neighbour's that touches it. A door changes two of them.",
-    )
-    links = (
-        "docs/how-it-works.md#edges-most-collisions-without-looking-at-a-shape",
-        "docs/rules/world.md#3-edge-states",
-    )
     start = (180.0, 156.0)
     tile: float = 1
     side = 1
@@ -57,11 +47,11 @@ class EdgeStates(Figure):
     def reset(self) -> None:
         """The first tiles again."""
         super().reset()
-        self.rows = [list(row) for row in ROOM]
+        self.rows = [list(row) for row in self.room]
         self._rebuild()
 
     def _rebuild(self) -> None:
-        self.tiles, self.world = room_world(["".join(row) for row in self.rows], DOOR)
+        self.tiles, self.world = room_world(["".join(row) for row in self.rows], self.objects)
         self.is_open = self._is_open
 
     @property

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Callable, Sequence
+from functools import cache
 from math import cos, pi, sin
+from typing import Any
 
+from ninja_game.files.resources import data_folder
 from ninja_game.play.lab.sheet import CORNER, FIGURE, Sheet, View
 from ninja_game.play.menus.help.pages import room_level
 from ninja_game.play.ui.canvas import Point
@@ -17,20 +21,30 @@ Control = Callable[[Area], Widget]
 """Makes a widget in an area."""
 
 
+@cache
+def figure_texts() -> dict[str, dict[str, Any]]:
+    """What the bundled file says of each figure, by name."""
+    return tomllib.loads((data_folder("assets") / "lab" / "figures.toml").read_text("utf-8"))
+
+
 class Figure:
     """One figure. ``name``: as the command line has it. ``text``: two sentences. ``links``: where to read more.
 
-    The handle is a point of the world, px, that the mouse drags and the arrows move.
+    ``room``, ``objects``: what is in its world. The handle is a point of the world, px, that the mouse drags and the
+    arrows move.
     """
 
     name = ""
-    title = ""
-    text: tuple[str, str] = ("", "")
-    links: tuple[str, ...] = ()
     view: View = CORNER
     start: Point = (0.0, 0.0)
 
     def __init__(self) -> None:
+        table = figure_texts()[self.name]
+        self.title = str(table["title"])
+        self.text: list[str] = table["text"]
+        self.links: list[str] = table["links"]
+        self.room: list[str] = table.get("room", "").split()
+        self.objects: list[str] = table.get("objects", [])
         self.x, self.y = self.start
         self.reset()
 

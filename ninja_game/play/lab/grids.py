@@ -32,12 +32,6 @@ class LooseGrid(Figure):
     """Objects fly about; both ways of filing them are counted side by side."""
 
     name = "grids"
-    title = "Loose and normal grid"
-    text = (
-        "A loose grid files an object in the one cell that holds its centre; a normal one in every cell that it touches.",
-        "The loose grid changes its lists less often, and pays when somebody asks: nine cells instead of at most four.",
-    )
-    links = ("docs/how-it-works.md#nine-cells-a-loose-grid-of-objects", "docs/rules/objects.md#22-the-loose-grid")
     view = FIELD
     start = (LEFT + 300, TOP + 180)
     plot = 0

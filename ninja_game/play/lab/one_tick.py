@@ -16,14 +16,17 @@ from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, pressed
 from ninja_game.sim.kinds import KIND_OF
 from ninja_game.sim.objects.dispatch import NINE_CELLS
 
-ROOM = ("..............", "..Z........+..", "..............", "......oo......", ".@...####..n..", "###....*..####", "......aa......", "###########.##")  # fmt: skip
-OBJECTS = ("zap drone 3,2 wander-cw right",)
-
 PHASES = {
-    "update_objects": "1. the update set, newest first", "think": "2. one object thinks", "tick_ninja": "3. the ninja moves",
-    "touch_objects": "4. asks nine cells", "collide_circle": "5. asks touched cells", "evaluate_floor": "6. judges its floor",
-    "probe_walls": "6. feels for a wall", "think_in_air": "7. reads the keys in the air", "think_on_ground": "7. reads the keys on the ground",
-}  # fmt: skip
+    "update_objects": "1. the update set, newest first",
+    "think": "2. one object thinks",
+    "tick_ninja": "3. the ninja moves",
+    "touch_objects": "4. asks nine cells",
+    "collide_circle": "5. asks touched cells",
+    "evaluate_floor": "6. judges its floor",
+    "probe_walls": "6. feels for a wall",
+    "think_in_air": "7. reads the keys, in the air",
+    "think_on_ground": "7. reads the keys, on the ground",
+}
 """The rules that begin a phase of a tick, and what they do."""
 
 SHOWN = 7
@@ -38,19 +41,13 @@ class OneTick(Figure):
     """Every rule that a tick calls, one after the other."""
 
     name = "tick"
-    title = "One tick"
-    text = (
-        "A tick updates what moves, lets one object think, and then moves the ninja: objects first, tiles next, keys last.",
-        "Every line is a call of the world's own code, as it happens; the marked object or cells are those that it is about.",
-    )
-    links = ("docs/how-it-works.md#the-way-of-one-tick-through-the-files", "docs/rules/objects.md#25-one-tick")
     keys = -1
     speed: float = 4
 
     def reset(self) -> None:
         """The world as it begins."""
         super().reset()
-        self.stage = Stage(ROOM, OBJECTS)
+        self.stage = Stage(self.room, self.objects)
         self.at = 0.0
         self._next()
 

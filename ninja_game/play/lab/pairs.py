@@ -15,12 +15,6 @@ class FiveCells(Figure):
     """The scan for all pairs in slow motion."""
 
     name = "pairs"
-    title = "All pairs by five cells"
-    text = (
-        "To find every pair that meets, each object looks at the rest of its own list and at four neighbours' lists.",
-        "The other four neighbours have looked already: no pair is found twice, none is missed, and n x n tests are saved.",
-    )
-    links = ("docs/how-it-works.md#nine-cells-a-loose-grid-of-objects", "docs/rules/objects.md#22-the-loose-grid")
     view = FIELD
     speed: float = 4
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 from ninja_game.formats.ascii.legend import TILE_CHARS
@@ -43,7 +44,7 @@ class Push(NamedTuple):
     @property
     def by_edge(self) -> int:
         """Pushes by an edge alone."""
-        return sum(call.name == PUSH and call.caller in STAGES for call in self.calls)
+        return sum(call.name in (PUSH, "push_from_corner") and call.caller in STAGES for call in self.calls)
 
     @property
     def shape_tests(self) -> int:
@@ -55,12 +56,6 @@ class Projection(Figure):
     """Drag the body into a tile: what pushes it, which way, how far."""
 
     name = "projection"
-    title = "Projection"
-    text = (
-        "A body that overlaps a tile is pushed out at once, along the axis or the surface that needs the least way.",
-        "An edge that is solid pushes without a look at any shape; only an interesting edge leads to a test of the shape.",
-    )
-    links = ("docs/how-it-works.md#touched-cells-at-most-four", "docs/rules/world.md#4-circle-against-the-tile-map")
     view = View(24 * (COLUMN - 2), 24 * (ROW - 1), 4.5)
     start = (24 * COLUMN + 6.0, 24 * ROW - 2.0)
     box = False
@@ -136,8 +131,8 @@ class Projection(Figure):
             ("rules that ran", " > ".join(push.ran) or "none: every edge is off"),
             ("pushes", f"{len(pushes)}, in all ({to_x - x:+.2f}, {to_y - y:+.2f}) px"),
             ("normals", normals or "none"),
-            ("here", f"{push.by_edge} by an edge alone, {push.shape_tests} tests of a shape"),
-            ("since the reset", f"{self.by_edge} by an edge alone, {self.shape_tests} tests of a shape"),
+            ("here", f"by edge alone {push.by_edge}, shape tests {push.shape_tests}"),
+            ("since the reset", f"by edge alone {self.by_edge}, shape tests {self.shape_tests}"),
         ]
 
     def draw(self, sheet: Sheet) -> None:
@@ -153,8 +148,8 @@ class Projection(Figure):
         x, y = push.points[-1]
         sheet.body(p.faint, self.x, self.y, RADIUS, box=self.box, width=1.5)
         sheet.body(p.good if len(push.points) > 1 else p.ninja, x, y, RADIUS, box=self.box, width=3)
-        for a, b in zip(push.points, push.points[1:], strict=False):
-            sheet.arrow(p.accent, a, b, 3)
+        for start, end in pairwise(push.points):
+            sheet.arrow(p.accent, start, end, 3)
         cell = cell_index(COLUMN, ROW)
         sheet.circle(p.faint, CENTRE_X[cell], CENTRE_Y[cell], 0.6)
 

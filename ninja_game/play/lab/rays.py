@@ -14,9 +14,6 @@ from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS, UNIT_X, U
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.rules import GOLD_RADIUS, OFF, RADIUS
 
-ROOM = ("..............", "..............", "...........s##", "..a.........##", "..##..........", "......K#J.....", "......I#U.....", "aa..........ss")  # fmt: skip
-GOLD = ("gold 5.5,3.5 6.5,4.5 8.5,4.5 10,5.5 3.5,6.5 12,7.5",)
-
 NINJA: Point = (292.0, 172.0)
 
 
@@ -24,12 +21,6 @@ class Rays(Figure):
     """Drag both ends of a ray."""
 
     name = "rays"
-    title = "Rays"
-    text = (
-        "A ray goes from cell to cell over the nearer grid line; solid edges stop it, interesting ones ask the tile's shape.",
-        "Only the ninja is tested as a circle. Other objects would be missed where their cell is not one that the ray visits.",
-    )
-    links = ("docs/how-it-works.md#rays-what-sees-what", "docs/rules/world.md#7-rays")
     start = (330.0, 190.0)
     moves = "end"
 
@@ -37,7 +28,7 @@ class Rays(Figure):
         """Both ends where they began."""
         super().reset()
         self.from_x, self.from_y = 60.0, 70.0
-        self.tiles, self.world = room_world(ROOM, GOLD)
+        self.tiles, self.world = room_world(self.room, self.objects)
         self.world.ninja.x, self.world.ninja.y = NINJA
 
     def controls(self) -> Sequence[Control]:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ninja_game.play.app import App
 
 TEXT_TOP, NUMBERS_TOP, LINE = 394.0, 452.0, 15.0
-CONTROLS: Area = (520, 452, 228, 26)
+CONTROLS: Area = (552, 452, 200, 26)
 """The first control; the others are below it."""
 
 
@@ -115,8 +115,8 @@ class LabScreen(MenuScreen):
             theme.text(surface, line, x, TEXT_TOP + 13 * place, size=10.5)
         for place, (name, value) in enumerate(self.figure.numbers()):
             y = NUMBERS_TOP + LINE * place
-            theme.text(surface, name, x, y, size=9.5, colour=theme.palette.faint, width=132)
-            theme.text(surface, value, x + 136, y, size=9.5, width=164)
+            theme.text(surface, name, x, y, size=9.5, colour=theme.palette.faint, width=120)
+            theme.text(surface, value, x + 124, y, size=9.5, width=CONTROLS[0] - x - 132)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         x, y, w, h = area

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from math import atan2, cos, sin
 from typing import NamedTuple
 
@@ -93,9 +94,9 @@ class Sheet:
         """All tiles that are seen."""
         for cell, tile in enumerate(level.tiles):
             x, y = CENTRE_X[cell], CENTRE_Y[cell]
-            if tile and EXISTS[cell] and self.area.inflate(200, 200).collidepoint(self.canvas.point(x, y)):
-                if corners := [(x + dx, y + dy) for dx, dy in outline(tile)]:
-                    self.canvas.polygon(self.surface, self.palette.tile, corners)
+            seen = self.area.inflate(200, 200).collidepoint(self.canvas.point(x, y))
+            if seen and EXISTS[cell] and (corners := [(x + dx, y + dy) for dx, dy in outline(tile)]):
+                self.canvas.polygon(self.surface, self.palette.tile, corners)
 
     def edges(self, w: World) -> None:
         """Each cell's own edge states, a little inside it: solid thick, interesting thin, off not at all."""
@@ -126,7 +127,7 @@ class Sheet:
 
     def path(self, colour: Colour, points: Sequence[Point], width: float = 1) -> None:
         """Lines from point to point."""
-        for a, b in zip(points, points[1:], strict=False):
+        for a, b in pairwise(points):
             self.line(colour, a, b, width)
 
     def arrow(self, colour: Colour, a: Point, b: Point, width: float = 2) -> None:

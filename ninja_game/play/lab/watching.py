@@ -64,7 +64,7 @@ def values_of(local: str, function: Callable[..., Any], *args: Any) -> list[Any]
     values: list[Any] = []
     code = function.__code__
 
-    def follow(frame: FrameType, event: str, _: Any) -> Any:
+    def follow(frame: FrameType, *_: Any) -> Any:
         if frame.f_code is not code:
             return None
         if local in frame.f_locals and (not values or values[-1] != frame.f_locals[local]):

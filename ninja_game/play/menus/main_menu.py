@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game import __version__
+from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.menus.attract import Attract
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episode_grid import EpisodeGrid
@@ -51,6 +52,7 @@ class MainMenu(MenuScreen):
             ("Levels", self._opener(Browser), "Single levels, and your own files"),
             ("Records", self._opener(RecordsScreen), "Your best runs, and what killed you"),
             ("Replays", self._opener(ReplaysScreen), "Watch runs again"),
+            ("Lab", self._opener(LabScreen), "Figures to drag: how the world works"),
             ("Settings", self._opener(SettingsScreen), "Keys, sound, colours, comfort"),
             ("Help", self._opener(HelpScreen), "How to move, and what everything does"),
             ("Quit", self.back, "Leave the game"),
