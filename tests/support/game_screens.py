@@ -10,6 +10,7 @@ from unittest.mock import patch
 
 import pygame
 
+from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.help.screen import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
@@ -71,6 +72,7 @@ def tour(driver: MenuDriver) -> Iterator[str]:
     yield from _records_and_replays(driver)
     yield from _settings(driver)
     yield from _help(driver)
+    yield from _lab(driver)
 
 
 def home(driver: MenuDriver) -> None:
@@ -247,6 +249,17 @@ def _help(driver: MenuDriver) -> Iterator[str]:
             for _ in range(3):
                 screen.update(25)
         yield f"help-{topic.lower().replace(' ', '-')}"
+    home(driver)
+
+
+def _lab(driver: MenuDriver) -> Iterator[str]:
+    """Every figure, a second into its demonstration."""
+    screen = driver.open("Lab")
+    assert isinstance(screen, LabScreen)
+    for index, figure in enumerate(screen.figures):
+        screen.list._select(index)
+        driver.frames(40)
+        yield f"lab-{figure.name}"
     home(driver)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from time import perf_counter
 
 from ninja_game.play.lab.crowd import Crowd
 from ninja_game.play.lab.figure import Control, Figure, choice, slider
@@ -28,7 +27,6 @@ class Bullets(Figure):
         self.targets = Crowd(60, 10, speed=0.5)
         self.bullets = Crowd(self._count, 1, speed=4, seed=2)
         self.hits = self.list_changes = self.tests = 0
-        self.ms = 0.0
 
     @property
     def count(self) -> float:
@@ -53,7 +51,6 @@ class Bullets(Figure):
 
     def tick(self) -> None:
         """All fly on; every bullet asks the nine cells for targets."""
-        started = perf_counter()
         targets, bullets = self.targets, self.bullets
         self.hits = self.list_changes = self.tests = 0
         for o in targets.objects:
@@ -69,7 +66,6 @@ class Bullets(Figure):
             for target in targets.neighbours(cell):
                 self.tests += 1
                 self.hits += (o.x - target.x) ** 2 + (o.y - target.y) ** 2 < targets.radius**2
-        self.ms = 1000 * (perf_counter() - started)
 
     def numbers(self) -> list[tuple[str, str]]:
         """What a tick costs."""
@@ -78,7 +74,6 @@ class Bullets(Figure):
             ("hits in this tick", str(self.hits)),
             ("list changes", str(self.list_changes)),
             ("objects looked at", str(self.tests)),
-            ("time of the tick", f"{self.ms:.1f} ms"),
         ]
 
     def draw(self, sheet: Sheet) -> None:

@@ -91,6 +91,10 @@ class LabScreen(MenuScreen):
             self.shows = False
         super().act(action, held=held)
 
+    def go_on(self) -> None:
+        """From the figure to its first control, or to the buttons."""
+        self.focus_on(self.widgets[self.widgets.index(self.list) + 2])
+
     def handle_press(self) -> None:
         """The figure was touched: no demonstration any more."""
         self.shows = False
@@ -127,12 +131,12 @@ class LabScreen(MenuScreen):
 
 
 class FigureArea(Widget):
-    """The figure itself: the mouse drags, the arrows move its handle; Tab goes on to the controls."""
+    """The figure itself: the mouse drags, the arrows move its handle; Page Down goes on to the controls."""
 
     def __init__(self, screen: LabScreen) -> None:
         super().__init__(FIGURE)
         self.screen = screen
-        self.hint = f"Drag, or use the arrows; Tab goes on. More: {', '.join(screen.figure.links)}"
+        self.hint = f"Drag, or use the arrows; Page Down goes on. More: {', '.join(screen.figure.links)}"
 
     def _world(self, x: float, y: float) -> tuple[float, float]:
         left, top, zoom = self.screen.figure.view
@@ -158,6 +162,9 @@ class FigureArea(Widget):
     def nudge(self, action: str) -> bool:
         """An arrow key moves the handle."""
         steps = {"left": (-1, 0), "right": (1, 0), "up": (0, -1), "down": (0, 1)}
+        if action == "page_down":
+            self.screen.go_on()
+            return True
         if action not in steps:
             return False
         self.screen.handle_press()

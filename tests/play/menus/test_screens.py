@@ -10,6 +10,7 @@ import pytest
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.text import Replay, write_replay
+from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
@@ -30,6 +31,7 @@ ENTRIES = {
     "Levels": Browser,
     "Records": RecordsScreen,
     "Replays": ReplaysScreen,
+    "Lab": LabScreen,
     "Settings": SettingsScreen,
     "Help": HelpScreen,
 }

@@ -1,0 +1,320 @@
+"""Every figure of the lab shows what the world's functions do: its numbers are held against a plain reading."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import combinations
+from math import dist
+from pathlib import Path
+
+import pygame
+import pytest
+from PIL import Image
+
+from ninja_game.cli import lab as lab_command
+from ninja_game.errors import NinjaGameError
+from ninja_game.play.lab.bullets import Bullets
+from ninja_game.play.lab.cells import CellsTouched, NineCells
+from ninja_game.play.lab.drones import WalkingEnemies
+from ninja_game.play.lab.edges import STATES, EdgeStates
+from ninja_game.play.lab.export import FILM_TICKS, export_figure, figure_pictures
+from ninja_game.play.lab.figure import Figure, room_world
+from ninja_game.play.lab.figures import FIGURES
+from ninja_game.play.lab.grids import LooseGrid
+from ninja_game.play.lab.one_tick import PHASES, PLAYED, OneTick
+from ninja_game.play.lab.pairs import FiveCells
+from ninja_game.play.lab.projection import PUSH, Projection
+from ninja_game.play.lab.rays import Rays
+from ninja_game.play.lab.screen import FIGURE, FigureArea, LabScreen
+from ninja_game.play.menus.help.pages import room_level
+from ninja_game.sim.collision.box import collide_box
+from ninja_game.sim.collision.circle import collide_circle
+from ninja_game.sim.collision.rays import ray_circle, sees
+from ninja_game.sim.collision.tiles import EDGE_OF_FACES, FACE, NEIGHBOUR_OFFSET
+from ninja_game.sim.digest import world_digest
+from ninja_game.sim.grid import cell_at
+from ninja_game.sim.kinds import DOOR, DRONE
+from ninja_game.sim.rules import GOLD_RADIUS, STRIDE
+from ninja_game.simulation import Simulation
+from tests.support.menu_driver import MenuDriver
+from tools import ROOT
+
+
+def demonstrated(figure: Figure, ticks: int) -> Iterator[int]:
+    """A figure in each tick of its demonstration."""
+    for tick in range(ticks):
+        figure.demonstrate(tick)
+        figure.tick()
+        yield tick
+
+
+def numbers(figure: Figure) -> dict[str, str]:
+    return dict(figure.numbers())
+
+
+# --- all of them ---
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_every_figure_has_two_sentences_and_links_to_sections_that_exist(name: str) -> None:
+    figure = FIGURES[name]()
+    assert len(figure.text) == 2
+    assert len(figure.links) == 2
+    for link in figure.links:
+        file, anchor = link.split("#")
+        titles = re.findall(r"^#+ (.*)$", (ROOT / file).read_text("utf-8"), flags=re.MULTILINE)
+        anchors = [re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles]
+        assert anchor in anchors
+    assert len(figure.numbers()) <= 8
+    assert len(figure.controls()) <= 4
+
+
+def test_the_command_knows_every_figure() -> None:
+    assert tuple(FIGURES) == lab_command.FIGURES
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_a_figure_writes_itself(name: str, tmp_path: Path) -> None:
+    export_figure(name, tmp_path / "figure.png")
+    with Image.open(tmp_path / "figure.png") as picture:
+        assert picture.size == FIGURE[2:]
+        assert len(picture.convert("RGB").getcolors(1 << 24) or []) > 5
+    first, *_, last = (pygame.image.tobytes(each, "RGB") for each in figure_pictures(name, ticks=60))
+    assert first != last, "its demonstration stands still"
+
+
+def test_a_film_of_a_figure(tmp_path: Path) -> None:
+    export_figure("pairs", tmp_path / "pairs.gif", scale=0.5)
+    with Image.open(tmp_path / "pairs.gif") as film:
+        assert film.size == (FIGURE[2] / 2, FIGURE[3] / 2)
+        assert getattr(film, "n_frames", 0) > FILM_TICKS / 4
+    with pytest.raises(NinjaGameError, match=r"\.png or \.gif"):
+        export_figure("pairs", tmp_path / "pairs.bmp")
+
+
+# --- one by one ---
+
+
+def test_cells_touched() -> None:
+    figure = CellsTouched()
+    for x, y, count in ((60, 60, 1), (60, 71, 2), (71, 60, 2), (71, 71, 4), (62.1, 62.1, 4)):
+        figure.drag(x, y)
+        assert numbers(figure)["cells touched"].startswith(f"{count}:")
+    assert numbers(figure)["current cell"] == f"column 2, row 2, index {cell_at(62.1, 62.1)}"
+
+
+def test_edge_states_follow_paint_and_door() -> None:
+    figure = EdgeStates()
+    before = list(figure.world.edges)
+    figure.is_open = True
+    changed = [index for index, state in enumerate(figure.world.edges) if state != before[index]]
+    door = figure.world.objects[figure._door]
+    assert sorted(changed) == sorted((door.edge_1, door.edge_2))
+
+    figure.tile = 5
+    figure.press(60, 60)
+    for side in range(4):
+        figure.side = side
+        cell, neighbour = figure.cell, figure.cell + NEIGHBOUR_OFFSET[side]
+        assert figure.tiles.tiles[cell] == 5
+        own, other = FACE[4 * 5 + side], FACE[4 * figure.tiles.tiles[neighbour] + (side ^ 2)]
+        assert numbers(figure)["3. the state"] == STATES[EDGE_OF_FACES[3 * own + other]]
+    assert figure.is_open, "painting moves no door"
+    figure.press(60, 60)
+    assert figure.tiles.tiles[figure.cell] == 0
+
+
+@pytest.mark.parametrize("box", [False, True])
+def test_projection_shows_what_the_collision_does(box: bool) -> None:
+    figure = Projection()
+    figure.box = box
+    for tile in range(1, 34):
+        figure.tile = tile
+        for x, y in ((190.0, 122.0), (181.0, 108.0), (215.0, 140.0), (170.0, 132.0), (204.0, 150.0)):
+            figure.drag(x, y)
+            push = figure.push()
+            _, world = room_world(["." * 14] * 9)
+            n = world.ninja
+            n.x, n.y, n.prev_x, n.prev_y, n.box = x, y, x, y, int(box)
+            world.edges[:] = figure.world.edges
+            (collide_box if box else collide_circle)(figure.tiles, world)
+            assert push.points[-1] == pytest.approx((n.x, n.y), abs=1e-9)
+            assert len(push.points) - 1 == sum(call.name == PUSH for call in push.calls)
+
+
+def test_projection_counts_edges_and_shapes() -> None:
+    figure = Projection()
+    figure.tile = 1
+    figure.drag(204, 114)
+    assert (figure.push().by_edge, figure.push().shape_tests) == (1, 0), "a full tile's top is a solid edge"
+    figure.tile = 2
+    assert figure.push().shape_tests == 1, "a slope's is interesting"
+    figure.tick()
+    assert figure.shape_tests == 1
+
+
+def test_loose_and_normal_grid_are_counted_as_a_plain_reading_counts() -> None:
+    figure = LooseGrid()
+    figure.count = 80
+    crowd = figure.crowd
+    for _ in range(5):
+        before = {o.slot: (o.cell, crowd.cells_of(o)) for o in crowd.objects}
+        figure.tick()
+        loose = sum(2 for o in crowd.objects if o.cell != before[o.slot][0])
+        normal = sum(len(before[o.slot][1] ^ crowd.cells_of(o)) for o in crowd.objects)
+        around = {(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1)}
+        offsets = {dx + STRIDE * dy for dx, dy in around}
+        loose_tests = sum(b.cell - a.cell in offsets for a in crowd.objects for b in crowd.objects if a is not b)
+        normal_tests = sum(
+            len(crowd.cells_of(a) & crowd.cells_of(b)) for a in crowd.objects for b in crowd.objects if a is not b
+        )
+        assert figure.works == ((loose, loose_tests), (normal, normal_tests))
+        assert all(o.cell == cell_at(o.x, o.y) for o in crowd.objects)
+    assert loose < normal
+
+
+def test_nine_cells_tell_those_and_leave_the_world_alone() -> None:
+    figure = NineCells()
+    digest = world_digest(figure.world)
+    for _ in demonstrated(figure, 60):
+        told, events = figure.told()
+        centre = cell_at(figure.x, figure.y)
+        near = {centre + dx + STRIDE * dy for dx in (-1, 0, 1) for dy in (-1, 0, 1)}
+        objects = figure.world.objects[1 : figure.world.slots_used]
+        reached = {o.slot for o in objects if o.in_grid and o.cell in near}
+        # Gold that is taken ends the walk of its list: the quirk is the world's, and so the figure's.
+        assert set(told) < reached if len(told) < len(reached) else set(told) == reached
+        assert len(told) == len(reached) or "gold-taken" in events
+    assert world_digest(figure.world) == digest
+    gold = figure.world.objects[figure.told()[0][0]] if figure.told()[0] else figure.world.objects[2]
+    figure.drag(gold.x, gold.y)
+    assert "gold-taken" in numbers(figure)["events"] or "died" in numbers(figure)["events"]
+
+
+def test_five_cells_find_every_pair_once() -> None:
+    figure = FiveCells()
+    figure.count, figure.speed = 150, 40
+    while not figure.done:
+        figure.tick()
+    objects = figure.crowd.objects
+    truth = {(a.slot, b.slot) for a, b in combinations(objects, 2) if dist((a.x, a.y), (b.x, b.y)) < 22}
+    assert len(truth) > 20
+    assert sorted(figure.found) == sorted(truth)
+    shown = numbers(figure)
+    assert (shown["found twice"], shown["missed"]) == ("0", "0")
+    assert len(figure.tested) < 150 * 149 / 4
+
+
+def test_bullets_hit_the_same_filed_or_not() -> None:
+    reading, filed = Bullets(), Bullets()
+    filed.filed = True
+    for _ in range(20):
+        reading.tick()
+        filed.tick()
+        assert reading.hits == filed.hits
+        truth = sum(dist((b.x, b.y), (t.x, t.y)) < 10 for b in reading.bullets.objects for t in reading.targets.objects)
+        assert reading.hits == truth
+        assert reading.list_changes < filed.list_changes
+        assert reading.tests < filed.tests
+
+
+def test_rays_visit_the_cells_between_and_name_what_a_loose_grid_misses() -> None:
+    figure, missed_ever = Rays(), 0
+    for _ in demonstrated(figure, 240):
+        asked, stopped, end = figure.asked()
+        reach = end if stopped else (figure.x, figure.y)
+        start = figure.from_x, figure.from_y
+        along = [
+            cell_at(start[0] + (reach[0] - start[0]) * k / 4000, start[1] + (reach[1] - start[1]) * k / 4000)
+            for k in range(4000)
+        ]
+        assert set(along) <= set(figure.visited)
+        assert set(asked) <= set(figure.visited)
+        seen = sees(figure.tiles, figure.world, *start, figure.x, figure.y)[0]
+        assert numbers(figure)["sees the ninja"] == ("yes" if seen else "no")
+        _, missed = figure.met()
+        missed_ever += len(missed)
+        for slot in missed:
+            o = figure.world.objects[slot]
+            length = dist(start, (figure.x, figure.y))
+            direction = (figure.x - start[0]) / length, (figure.y - start[1]) / length
+            assert ray_circle(*start, *direction, o.x, o.y, GOLD_RADIUS)[0]
+            assert o.cell not in along
+    assert missed_ever
+
+
+def test_drones_walk_as_in_the_game_and_react_to_doors() -> None:
+    figure = WalkingEnemies()
+    plain = Simulation(figure.stage.simulation.level, memory="plain")
+    for _ in range(200):
+        figure.tick()
+        plain.step()
+    assert world_digest(plain.world) == world_digest(figure.stage.world)
+    for o in figure._of_kind(DRONE):
+        tried = figure.tried(o)
+        assert tried[-1][1] == 0, "it goes where the edge is off"
+        assert all(state for _, state in tried[:-1])
+    inside = figure._of_kind(DRONE)[1]
+    assert 72 < inside.x < 264
+    for door in figure._of_kind(DOOR):
+        figure.press(24 * (door.edge_1 // 4 % STRIDE - 1) + 12, 24 * (door.edge_1 // 4 // STRIDE - 1) + 12)
+    assert numbers(figure)["doors open"] == "2 of 2"
+    for _ in range(600):
+        figure.tick()
+        if not (72 < inside.x < 264 and 72 < inside.y < 168):
+            break
+    else:
+        pytest.fail("it never went out by the open door")
+
+
+def test_one_tick_shows_every_call_of_the_real_world() -> None:
+    figure = OneTick()
+    plain = Simulation(room_level(figure.room, figure.objects), memory="plain")
+    seen = set()
+    for tick in range(len(PLAYED)):
+        plain.step_keys(PLAYED[tick])
+        assert world_digest(plain.world) == world_digest(figure.stage.world)
+        phases = []
+        for at in range(len(figure.calls)):
+            figure.at = at
+            phases.append(figure.phase)
+        begun = [phase[0] for phase in phases if phase in PHASES.values()]
+        assert begun == sorted(begun), "phases come in their order"
+        seen |= set(phases)
+        figure.nudge(0, 1)
+    assert set(PHASES.values()) <= seen
+
+
+# --- the screen ---
+
+
+def test_the_lab_by_keys_and_mouse(driver: MenuDriver) -> None:
+    screen = driver.open("Lab")
+    assert isinstance(screen, LabScreen)
+    assert screen.shows
+    driver.frames(10)
+    driver.press("down", "down")
+    assert screen.figure.name == "projection"
+    driver.press("return")
+    assert isinstance(screen.focus, FigureArea)
+    x = screen.figure.x
+    driver.press("right", "right")
+    assert screen.figure.x == x + 2
+    assert not screen.shows
+    for kind, place in (
+        (pygame.MOUSEBUTTONDOWN, (400, 200)),
+        (pygame.MOUSEMOTION, (420, 220)),
+        (pygame.MOUSEBUTTONUP, (420, 220)),
+    ):
+        pygame.event.post(pygame.Event(kind, pos=place, button=1, rel=(0, 0), buttons=(1, 0, 0)))
+        driver.frames(1)
+    left, top, zoom = screen.figure.view
+    assert (screen.figure.x, screen.figure.y) == (left + (420 - FIGURE[0]) / zoom, top + (220 - FIGURE[1]) / zoom)
+    driver.press("pagedown", "right")
+    assert isinstance(screen.figure, Projection)
+    assert screen.figure.tile == 2
+    screen.reset()
+    assert (screen.figure.x, screen.figure.y) == screen.figure.start
+    driver.press("escape")
+    assert driver.top() is not screen
