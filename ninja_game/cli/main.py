@@ -20,22 +20,33 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.signals import Terminated, end_on_signals, told
 
-COMMANDS = {
-    "play": "Play a level in a window.",
-    "lab": "Drag, paint and watch: ten figures about how the world works.",
-    "export": "Write a film of a recording: a GIF, or a folder of pictures.",
-    "verify": "Run recordings again and judge them.",
-    "trace": "Show every tick of recordings: position, velocity, state, events.",
-    "bench": "Measure how fast the world is on this machine.",
-    "solve": "Find a run to the exit, then shorten it.",
-    "improve": "Shorten a run that exists.",
-    "check": "Certify levels: whether they can be passed, how fast, and what is odd.",
-    "levels": "Check packs of levels, and make their tables of par times.",
-    "convert": "Turn levels and recordings from one format into the other.",
-    "info": "Show what is in level and replay files.",
-    "completion": "Set up completion of commands and options in your shell.",
+GROUPS = {
+    "game": {
+        "play": "Play a level in a window.",
+        "lab": "Drag, paint and watch: ten figures about how the world works.",
+        "export": "Write a film of a recording: a GIF, or a folder of pictures.",
+    },
+    "levels": {
+        "info": "Show what is in level and replay files.",
+        "check": "Certify levels: whether they can be passed, how fast, and what is odd.",
+        "levels": "Check packs of levels, and make their tables of par times.",
+        "convert": "Turn levels and recordings from one format into the other.",
+    },
+    "runs": {
+        "verify": "Run recordings again and judge them.",
+        "trace": "Show every tick of recordings: position, velocity, state, events.",
+        "bench": "Measure how fast the world is on this machine.",
+        "solve": "Find a run to the exit, then shorten it.",
+        "improve": "Shorten a run that exists.",
+    },
+    "": {"completion": "Set up completion of commands and options in your shell."},
 }
-"""Each command with its first line of help; module ``ninja_game.cli.NAME`` holds it as ``command``."""
+"""Commands with their first lines of help, by folder; ``ninja_game.cli.FOLDER.NAME`` holds one as ``command``."""
+
+COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}
+MODULES = {
+    name: ".".join(filter(None, ("ninja_game.cli", folder, name))) for folder, group in GROUPS.items() for name in group
+}
 
 COMPILING = ("verify", "trace", "bench", "solve", "improve", "check", "levels")
 """Those that may have to compile the rules first."""
@@ -66,7 +77,7 @@ class Commands(click.Group):
         """The command of that name, None if there is none."""
         if cmd_name not in COMMANDS:
             return None
-        command = import_module(f"ninja_game.cli.{cmd_name}").command
+        command = import_module(MODULES[cmd_name]).command
         assert isinstance(command, click.Command)  # noqa: S101 - for the type checker
         if cmd_name in COMPILING:
             _announce_compiling()
@@ -83,8 +94,10 @@ class Commands(click.Group):
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """The table of commands, without importing them."""
-        with formatter.section("Commands"):
-            formatter.write_dl(list(COMMANDS.items()))
+        width = max(map(len, COMMANDS))
+        for folder, group in GROUPS.items():
+            with formatter.section(folder.capitalize() or "Shell"):
+                formatter.write_dl([(name.ljust(width), text) for name, text in group.items()])
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command; that nobody reads its output any more is no error."""

@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner, Result
 from PIL import Image, ImageSequence
 
-from ninja_game.cli.export import command
+from ninja_game.cli.game.export import command
 from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records
 
 

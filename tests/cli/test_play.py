@@ -74,10 +74,10 @@ def test_wrong_usage(words: tuple[str, ...], calls: list[dict[str, Any]]) -> Non
 
 
 def test_no_display_is_an_error_in_words(monkeypatch: pytest.MonkeyPatch) -> None:
-    def main(_: str | None, **__: Any) -> int:
+    def build_app(**_: Any) -> None:
         raise pygame.error("no available video device")
 
-    monkeypatch.setitem(sys.modules, "ninja_game.play.main", SimpleNamespace(main=main))
+    monkeypatch.setattr("ninja_game.play.main.build_app", build_app)
     result = play()
     assert result.exit_code == 2
     assert result.stderr == "ninja-game: the window cannot be opened: no available video device\n"

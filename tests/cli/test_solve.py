@@ -11,7 +11,7 @@ from click.testing import CliRunner, Result
 
 from ninja_game.cli import run_options
 from ninja_game.cli.main import cli
-from ninja_game.cli.solve import free_replay
+from ninja_game.cli.runs.solve import free_replay
 from ninja_game.cli.solver_options import default_threads, progress_text
 from ninja_game.compile_cache import compiled_available
 from ninja_game.formats.ascii.reader import write_ascii_level

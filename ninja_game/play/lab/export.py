@@ -8,7 +8,7 @@ from pathlib import Path
 import pygame
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.play.lab.figures import FIGURES
+from ninja_game.play.lab.figures.catalogue import FIGURES
 from ninja_game.play.lab.sheet import FIGURE, Sheet
 from ninja_game.play.replay.export import write_gif
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.play.lab.figure import Figure
-from ninja_game.play.lab.figures import FIGURES
+from ninja_game.play.lab.figures.catalogue import FIGURES
 from ninja_game.play.lab.sheet import FIGURE, Sheet
 from ninja_game.play.level.run_clock import RunClock
 from ninja_game.play.menus.menu_screen import MenuScreen

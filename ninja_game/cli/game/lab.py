@@ -36,7 +36,7 @@ def command(
       ninja-game lab rays
       ninja-game lab edges -o edges.png
     """
-    from ninja_game.cli.play import pixels
+    from ninja_game.cli.game.play import pixels
 
     if output is not None and figure is None:
         raise click.UsageError("--output needs a FIGURE")

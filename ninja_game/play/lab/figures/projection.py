@@ -7,9 +7,9 @@ from itertools import pairwise
 from typing import NamedTuple
 
 from ninja_game.formats.ascii.legend import TILE_CHARS
-from ninja_game.play.lab.cells import BODIES
-from ninja_game.play.lab.edges import TILE_NAMES
 from ninja_game.play.lab.figure import Control, Figure, choice, room_world, slider
+from ninja_game.play.lab.figures.cells import BODIES
+from ninja_game.play.lab.figures.edges import TILE_NAMES
 from ninja_game.play.lab.sheet import Sheet, View
 from ninja_game.play.lab.watching import Call, watch
 from ninja_game.play.ui.canvas import Point

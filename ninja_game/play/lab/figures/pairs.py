@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from ninja_game.play.lab.crowd import FIVE_CELLS, Crowd
 from ninja_game.play.lab.figure import Control, Figure, slider
+from ninja_game.play.lab.figures.crowd import FIVE_CELLS, Crowd
 from ninja_game.play.lab.sheet import FIELD, Sheet
 from ninja_game.sim.memory.object_fields import Object
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from ninja_game.cli.play import pixels
+from ninja_game.cli.game.play import pixels
 from ninja_game.errors import NinjaGameError
 
 

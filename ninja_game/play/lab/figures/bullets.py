@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ninja_game.play.lab.crowd import Crowd
 from ninja_game.play.lab.figure import Control, Figure, choice, slider
+from ninja_game.play.lab.figures.crowd import Crowd
 from ninja_game.play.lab.sheet import FIELD, Sheet
 from ninja_game.sim.grid import cell_at, grid_move
 

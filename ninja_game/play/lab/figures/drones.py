@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ninja_game.play.lab.edges import STATES
 from ninja_game.play.lab.figure import ELSEWHERE, Control, Figure, choice
+from ninja_game.play.lab.figures.edges import STATES
 from ninja_game.play.lab.sheet import Sheet
 from ninja_game.play.lab.stage import Stage
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, NEIGHBOUR_OFFSET, UNIT_X, UNIT_Y

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cache
 
-from ninja_game.play.lab.crowd import LEFT, TOP, Crowd, Work
 from ninja_game.play.lab.figure import Control, Figure, choice, slider
+from ninja_game.play.lab.figures.crowd import LEFT, TOP, Crowd, Work
 from ninja_game.play.lab.sheet import FIELD, Sheet
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.object_fields import Object

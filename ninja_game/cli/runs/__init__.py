@@ -1,0 +1,1 @@
+"""Commands about runs: verify, trace, measure, search."""

@@ -1,0 +1,1 @@
+"""The figures: one module each, but for those about cells."""
