@@ -1,39 +1,52 @@
-"""The levels there are: the game's own pack, in episodes, and those that the player has put into a folder.
+"""The levels there are: the game's own pack, packs and files that the player has put into a folder.
 
-Levels of the pack that no episode has are single levels.
+Levels of a pack that no episode has are single levels.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.reading import LeftOut, files_below
+from ninja_game.files.reading import LeftOut, files_below, files_in
 from ninja_game.files.resources import data_folder
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
+from ninja_game.formats.pack.files import is_pack
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.pack.pars import Pars
 from ninja_game.player.records import episode_key
+from ninja_game.sim.kinds import GOLD
 
 
 @dataclass(frozen=True)
 class Entry:
-    """A level that can be played. ``source``: "game" or "yours"; ``episode``: "03-1" where it belongs to one."""
+    """A level that can be played. ``source``: "game", "yours" or the name of a pack; ``episode``: "03-1" if any.
+
+    ``pars``: its par times and difficulty, where its pack has them.
+    """
 
     named: NamedLevel
     source: str
     episode: str = ""
+    pars: Pars | None = None
 
     @cached_property
     def digest(self) -> str:
         """The level's digest, its key in the records."""
         return level_digest(self.named.level)
+
+    @cached_property
+    def all_gold(self) -> int:
+        """How many pieces of gold the level has."""
+        return sum(record.kind == GOLD for record in self.named.level.objects)
 
     @property
     def title(self) -> str:
@@ -43,11 +56,12 @@ class Entry:
 
 @dataclass(frozen=True)
 class Episode:
-    """Up to five levels in a row. ``number``: 0 to 99, its place in the grid."""
+    """Up to five levels in a row. ``number``: 0 to 99, its place in the grid; ``pack``: key of its pack."""
 
     number: int
     name: str
     levels: tuple[Entry, ...]
+    pack: str = ""
 
     @cached_property
     def key(self) -> str:
@@ -64,42 +78,95 @@ class Episode:
         return f"Episode {self.number} Level {level}: {self.levels[level].title}"
 
 
+class EpisodeSet(NamedTuple):
+    """A pack as it is played. ``key``: "" for the game's own, else its name; ``singles``: levels in no episode."""
+
+    key: str
+    name: str
+    columns: tuple[str, ...]
+    episodes: dict[int, Episode]
+    singles: tuple[Entry, ...]
+
+    @property
+    def levels(self) -> list[Entry]:
+        """Every level, those of the episodes first, in their order."""
+        return [entry for number in sorted(self.episodes) for entry in self.episodes[number].levels] + [*self.singles]
+
+
+def episode_set(pack: Pack, key: str) -> EpisodeSet:
+    """A pack's episodes and single levels as they are played."""
+    source = key or "game"
+    pars = {pack.files.place(file): each for file, each in pack.pars.items()}
+    episodes = {}
+    for index, levels in pack.episodes.items():
+        entries = [
+            Entry(level, source, f"{index.number:02d}-{place}", pars.get(level.file))
+            for place, level in enumerate(levels)
+        ]
+        episodes[index.number] = Episode(index.number, index.name, tuple(entries), key)
+    placed = {level.file for levels in pack.episodes.values() for level in levels}
+    singles = [level for level in pack.levels.values() if level.file not in placed]
+    rest = tuple(Entry(level, source, pars=pars.get(level.file)) for level in singles)
+    return EpisodeSet(key, pack.name, pack.index.columns, episodes, rest)
+
+
 class Catalogue:
-    """All levels, read when they are first asked for. ``folder``: the player's own levels."""
+    """All levels, read when they are first asked for. ``folder``: the player's own; ``more``: packs elsewhere."""
 
     def __init__(self, folder: Path | None = None) -> None:
         self.folder = folder
+        self.more: list[Path] = []
         self.problems: list[str] = []
         self._read: dict[Path, _ReadFile] = {}
+        self._packs: dict[Path, tuple[object, EpisodeSet | None, list[str]]] = {}
 
     @cached_property
-    def pack(self) -> Pack | None:
-        """The game's own pack; None, and a problem, where it cannot be read."""
-        try:
-            return Pack(data_folder("levels"))
-        except (NinjaGameError, OSError) as error:
-            self.problems.append(str(error))
-            return None
+    def ours(self) -> EpisodeSet:
+        """The game's own pack; empty, and a problem, where it cannot be read."""
+        found = self._pack_at(data_folder("levels"), "")
+        return found or EpisodeSet("", "", (), {}, ())
 
-    @cached_property
+    @property
     def episodes(self) -> dict[int, Episode]:
-        """The episodes that have levels, by number; what is wrong with their files becomes ``problems``."""
-        if self.pack is None:
-            return {}
-        found = {}
-        for index, levels in self.pack.episodes.items():
-            entries = [Entry(level, "game", f"{index.number:02d}-{place}") for place, level in enumerate(levels)]
-            found[index.number] = Episode(index.number, index.name, tuple(entries))
-        self.problems += self.pack.problems
-        return found
+        """The episodes of the game's own pack that have levels, by number."""
+        return self.ours.episodes
+
+    def packs(self) -> list[EpisodeSet]:
+        """The game's own pack, then the player's as they are now; what is wrong with them becomes ``problems``."""
+        found = {"": self.ours}
+        for path in [*self.more, *self._pack_paths()]:
+            pack = self._pack_at(path)
+            if pack and pack.key in found:
+                self.problems.append(f"{path.name}: there is a pack {pack.name} already")
+            elif pack:
+                found[pack.key] = pack
+        return list(found.values())
+
+    def _pack_paths(self) -> Iterator[Path]:
+        """The folders and zips in the player's folder that are packs."""
+        try:
+            inside = sorted(self.folder.iterdir()) if self.folder else []
+        except OSError:
+            return
+        yield from (path for path in inside if not path.name.startswith(".") and is_pack(path))
+
+    def _pack_at(self, path: Path, key: str | None = None) -> EpisodeSet | None:
+        """A pack, read again when its files have changed; None, and problems, where it cannot be read."""
+        stamp = _stamp(path)
+        if path not in self._packs or self._packs[path][0] != stamp:
+            try:
+                pack = Pack(path)
+                read: EpisodeSet | None = episode_set(pack, pack.name if key is None else key)
+                problems = pack.problems
+            except (NinjaGameError, OSError) as error:
+                read, problems = None, [str(error)]
+            self._packs[path] = stamp, read, problems
+        self.problems += self._packs[path][2]
+        return self._packs[path][1]
 
     def singles(self) -> list[Entry]:
-        """Every level as a single one: the episodes' first, then the other bundled ones, then the player's."""
-        entries = [entry for number in sorted(self.episodes) for entry in self.episodes[number].levels]
-        named = {entry.named.file for entry in entries}
-        bundled = self.pack.levels.values() if self.pack else ()
-        entries += [Entry(level, "game") for level in bundled if level.file not in named]
-        return entries + self.own()
+        """Every level as a single one: the game's, those of other packs, then the player's."""
+        return [entry for pack in self.packs() for entry in pack.levels] + self.own()
 
     def own(self) -> list[Entry]:
         """The levels in the player's folder as it is now; what cannot be read becomes ``problems``.
@@ -108,10 +175,11 @@ class Catalogue:
         """
         entries: list[Entry] = []
         if self.folder is not None:
+            packs = list(self._pack_paths())
             for found in files_below(self.folder):
                 if isinstance(found, LeftOut):
                     self.problems.append(str(found))
-                else:
+                elif not any(found.is_relative_to(pack) for pack in packs):
                     entries += self._entries_of(found)
         return entries
 
@@ -141,6 +209,16 @@ class Catalogue:
             except OSError as error:
                 self.problems.append(f"{file.name}: {error.strerror}")
         return found
+
+
+def _stamp(path: Path) -> list[tuple[str, int, int]]:
+    """What changes when a pack's files do."""
+    found = []
+    with suppress(OSError):
+        for file in [path, *(path / name for name in files_in(path))]:
+            about = file.stat()
+            found.append((file.name, about.st_mtime_ns, about.st_size))
+    return found
 
 
 class _ReadFile(NamedTuple):

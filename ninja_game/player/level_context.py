@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
+from ninja_game.formats.pack.pars import Pars
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.player_data import PlayerData
@@ -59,6 +60,11 @@ class LevelContext:
     def level(self) -> Level:
         """The level to play now."""
         return self.entry.named.level
+
+    @property
+    def pars(self) -> Pars | None:
+        """The level's par times, which go by the classic body."""
+        return self.entry.pars if self.body == "circle" else None
 
     @property
     def show_tutorial(self) -> bool:

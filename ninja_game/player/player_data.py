@@ -9,6 +9,7 @@ from ninja_game.errors import FileError
 from ninja_game.files.user_folder import LEVELS, RECORDS, REPLAYS, SETTINGS, make_user_folder, user_folder
 from ninja_game.files.writing import remove_leftovers
 from ninja_game.player.catalogue import Catalogue
+from ninja_game.player.marks import Marks
 from ninja_game.player.progress import Progress, complete_columns
 from ninja_game.player.records import Records
 from ninja_game.player.settings import Settings
@@ -27,6 +28,7 @@ class PlayerData:
         self.folder = user_folder() if folder is None else folder
         self._messages: list[str] = []
         self._told: set[str] = set()
+        self._progress: dict[str, Progress] = {}
         try:
             make_user_folder(self.folder)
             remove_leftovers(self.folder)
@@ -66,10 +68,21 @@ class PlayerData:
         """Personal bests and replays."""
         return Records(self.store)
 
-    @cached_property
+    @property
     def progress(self) -> Progress:
-        """How far the player has come."""
-        return Progress(self.store)
+        """How far the player has come in the game's own pack."""
+        return self.progress_in("")
+
+    def progress_in(self, pack: str) -> Progress:
+        """How far the player has come in a pack, by its key in the catalogue."""
+        if pack not in self._progress:
+            self._progress[pack] = Progress(self.store, pack)
+        return self._progress[pack]
+
+    @cached_property
+    def marks(self) -> Marks:
+        """The fastest run and the most gold of each level."""
+        return Marks(self.store)
 
     @cached_property
     def statistics(self) -> Statistics:

@@ -17,7 +17,7 @@ from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry, Episode
 from ninja_game.player.level_context import LevelContext, Navigation
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.progress import UNLOCKED, new_unlocks
+from ninja_game.player.progress import UNLOCKED, Progress, new_unlocks
 from ninja_game.player.saving import EPISODE_BEST, count_of, replay_of, save_best, told
 from ninja_game.player.scoring import seconds_text
 from ninja_game.player.store import Work
@@ -44,17 +44,20 @@ class LevelRun(LevelContext):
         levels = load_levels(self.entry.named.file)
         named = next((each for each in levels if each.record == self.entry.named.record), levels[0])
         Simulation(named.level, body=self.body)
-        self._levels, self.entry = levels, replace(self.entry, named=named)
-        return self.level != before
+        changed = named.level != before
+        pars = None if changed else self.entry.pars
+        self._levels, self.entry = levels, replace(self.entry, named=named, pars=pars)
+        return changed
 
     def passed(self, attempt: Attempt) -> list[str]:
         """Save what a passed attempt is worth; notices about it."""
         count = count_of(self.data, self.entry, attempt, passed=True)
-        replay = None if attempt.assisted else replay_of(self.data, self.entry, attempt)
+        entry = self.entry
+        replay = None if attempt.assisted else replay_of(self.data, entry, attempt)
 
         def work() -> list[str]:
             count()
-            return save_best(self.data, replay) if replay else []
+            return save_best(self.data, entry, replay) if replay else []
 
         return told(self.data, work)
 
@@ -93,10 +96,15 @@ class EpisodeRun(LevelContext):
         super().__init__(data, episode.levels[position], practice_mode=practice_mode)
         self.episode = episode
         self.position = position
-        self.legitimate = not practice_mode and position == 0 and data.progress.state(episode.number) == UNLOCKED
+        self.legitimate = not practice_mode and position == 0 and self._progress.state(episode.number) == UNLOCKED
         self.score = 0
         self._passed: Attempt | None = None
         self._replays: list[Replay] = []
+
+    @property
+    def _progress(self) -> Progress:
+        """The player's progress in the episode's pack."""
+        return self.data.progress_in(self.episode.pack)
 
     @property
     def title(self) -> str:
@@ -127,14 +135,15 @@ class EpisodeRun(LevelContext):
     ) -> list[str]:
         count()
         levels = len(self.episode.levels)
-        self.data.progress.level_passed((self.episode.number, position), levels=levels, legitimate=legitimate)
+        self._progress.level_passed((self.episode.number, position), levels=levels, legitimate=legitimate)
         if not replays:
             return []
-        notices = save_best(self.data, replays[-1])
+        notices = save_best(self.data, self.episode.levels[position], replays[-1])
         if position == levels - 1:
             if self.data.records.episode_passed(self.episode.key, score, replays):
                 notices.append(EPISODE_BEST.format(seconds_text(score)))
-            notices += new_unlocks(self.data.store, self.data.columns_complete, self.data.columns_present)
+            if not self.episode.pack:
+                notices += new_unlocks(self.data.store, self.data.columns_complete, self.data.columns_present)
         return notices
 
     def restart(self) -> bool:
@@ -165,7 +174,7 @@ class EpisodeRun(LevelContext):
         place, levels = (self.episode.number, self.position), len(self.episode.levels)
 
         def work() -> list[str]:
-            self.data.progress.level_passed(place, levels=levels, legitimate=False)
+            self._progress.level_passed(place, levels=levels, legitimate=False)
             return []
 
         self.notices = told(self.data, work)

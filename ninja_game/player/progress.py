@@ -40,10 +40,14 @@ _COLUMN_NAMES = "grid_column, reached_episode, reached_level, beaten_episode, be
 
 
 class Progress:
-    """Progress in a store: each passed level is merged into what is there, so that two games at once only add to it."""
+    """Progress in a store: each passed level is merged into what is there, so that two games at once only add to it.
 
-    def __init__(self, store: Store) -> None:
+    ``pack``: the name of the pack whose episodes these are, "" for the game's own.
+    """
+
+    def __init__(self, store: Store, pack: str = "") -> None:
         self.store = store
+        self.pack = pack
         self._columns: list[ColumnProgress] = []
         self._epoch = -1
 
@@ -52,8 +56,8 @@ class Progress:
         """What is in the store, read again whenever that may have changed; damaged columns begin anew."""
         if self._epoch != self.store.epoch:
             self._columns = [ColumnProgress(*[(c * EPISODES_PER_COLUMN, 0)] * 2) for c in range(COLUMNS)]
-            query = f"SELECT {_COLUMN_NAMES} FROM progress"
-            for number, *places in self.store.rows(query, (), [int] * 5):
+            query = f"SELECT {_COLUMN_NAMES} FROM progress WHERE pack = ?"
+            for number, *places in self.store.rows(query, (self.pack,), [int] * 5):
                 column = ColumnProgress((places[0], places[1]), (places[2], places[3]))
                 if all(_is_place(place, number) for place in column):
                     self._columns[number] = column
@@ -90,9 +94,8 @@ class Progress:
             reached = _advanced(before.reached, episode, goal)
             beaten = _advanced(before.beaten, episode, goal) if legitimate else before.beaten
             if (reached, beaten) != before:
-                db.execute(
-                    f"REPLACE INTO progress ({_COLUMN_NAMES}) VALUES (?, ?, ?, ?, ?)", (number, *reached, *beaten)
-                )
+                row = (self.pack, number, *reached, *beaten)
+                db.execute(f"REPLACE INTO progress (pack, {_COLUMN_NAMES}) VALUES (?, ?, ?, ?, ?, ?)", row)
                 self._epoch = -1
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 from ninja_game.formats.replay.text import Replay
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
+from ninja_game.player.marks import has_all_gold, medal_of
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.scoring import level_score, seconds_text
 from ninja_game.player.store import Work
@@ -15,6 +16,8 @@ from ninja_game.player.store import Work
 SAVED = ": saved"
 NEW_BEST = "Personal best {}" + SAVED
 FIRST_PASS = "First time through, {}" + SAVED
+NEW_MEDAL = "{} medal" + SAVED
+NEW_ALL_GOLD = "All gold" + SAVED
 EPISODE_BEST = "Episode best {}" + SAVED
 REPLAY_KEPT = "Replay" + SAVED
 NOT_SAVED = "Not saved yet: {}"
@@ -52,12 +55,26 @@ def replay_of(data: PlayerData, entry: Entry, attempt: Attempt) -> Replay:
     return attempt.replay(entry.title, data.settings.name)
 
 
-def save_best(data: PlayerData, replay: Replay) -> list[str]:
-    """Save a level's best; the notice for the player."""
+def save_best(data: PlayerData, entry: Entry, replay: Replay) -> list[str]:
+    """Save a level's best and its mark; notices for the player."""
     first = data.records.level_best(replay.level_digest, replay.body) is None
-    if not data.records.level_passed(replay):
+    notices = _marked(data, entry, replay)
+    if data.records.level_passed(replay):
+        score = seconds_text(level_score(replay.gold, replay.final_tick))
+        notices.insert(0, (FIRST_PASS if first else NEW_BEST).format(score))
+    return notices
+
+
+def _marked(data: PlayerData, entry: Entry, replay: Replay) -> list[str]:
+    """Save what a passed run adds to the level's mark; notices about a better medal, and the first all-gold run."""
+    level, body = replay.level_digest, replay.body
+    before = data.marks.of(level, body)
+    now = data.marks.passed(level, replay.final_tick, replay.gold, body)
+    if body != "circle":
         return []
-    return [(FIRST_PASS if first else NEW_BEST).format(seconds_text(level_score(replay.gold, replay.final_tick)))]
+    medal = medal_of(entry, now)
+    notices = [NEW_MEDAL.format(medal.capitalize())] if medal and medal != medal_of(entry, before) else []
+    return notices + [NEW_ALL_GOLD] * (has_all_gold(entry, now) and not has_all_gold(entry, before))
 
 
 def count_of(

@@ -87,13 +87,36 @@ MIGRATIONS = (
     ALTER TABLE new_best RENAME TO episode_best;
     DROP VIEW saved_replay;
     """,
+    # The fastest and the richest run of each level, from the runs that are here; progress in other packs.
+    """
+    CREATE TABLE level_mark (
+        level TEXT NOT NULL, body TEXT NOT NULL,
+        fastest INTEGER NOT NULL,     -- tick of the earliest exit contact
+        most_gold INTEGER NOT NULL,   -- pieces in the passed run that took the most
+        PRIMARY KEY (level, body)
+    ) WITHOUT ROWID;
+    INSERT INTO level_mark (level, body, fastest, most_gold)
+        SELECT level, body, min(final_tick), max(gold) FROM replay
+        WHERE outcome = 'exit' AND practice = 0 GROUP BY level, body;
+    CREATE TABLE new_progress (
+        pack TEXT NOT NULL,           -- its name; '' for the game's own
+        grid_column INTEGER NOT NULL,
+        reached_episode INTEGER NOT NULL, reached_level INTEGER NOT NULL,
+        beaten_episode INTEGER NOT NULL, beaten_level INTEGER NOT NULL,
+        PRIMARY KEY (pack, grid_column)
+    ) WITHOUT ROWID;
+    INSERT INTO new_progress SELECT '', grid_column, reached_episode, reached_level, beaten_episode, beaten_level
+        FROM progress;
+    DROP TABLE progress;
+    ALTER TABLE new_progress RENAME TO progress;
+    """,
 )
 """Each brings a file from the version of its index to the next; they are never edited once released."""
 
 VERSION = len(MIGRATIONS)
 
 
-TABLES = {"replay", "level_best", "episode_best", "episode_replay", "progress", "death", "played", "fact"}
+TABLES = {"replay", "level_best", "level_mark", "episode_best", "episode_replay", "progress", "death", "played", "fact"}
 
 OPENING_SECONDS = 1.0
 """How long a start waits for another program that has locked the file."""

@@ -112,7 +112,9 @@ def test_older_version_is_migrated_with_its_records(tmp_path: Path) -> None:
     assert [replay.level_digest for replay in map(data.records.replay, best.replays) if replay] == [
         each.digest for each in episode().levels
     ]
-    assert len(data.records.level_bests()) == 6
+    bests = data.records.level_bests()
+    assert len(bests) == 6
+    assert data.marks.all() == {level: (best.final_tick, best.gold) for level, best in bests.items()}
     newest = data.records.replays()[0]
     assert (newest.name, newest.player, newest.kept) == ("a death", "somebody", 1)
     assert data.progress.state(1) == UNLOCKED
@@ -304,7 +306,8 @@ EDITS = [
     for table, columns in (
         ("replay", ("name", "player", "body", "outcome", "final_tick", "gold", "score", "made_at", "kept", "inputs",
                     "level_text", "level", "digest", "practice")),
-        ("level_best", ("level", "body")), ("episode_best", ("score", "made_at", "episode")),
+        ("level_best", ("level", "body")), ("level_mark", ("level", "fastest", "most_gold")),
+        ("episode_best", ("score", "made_at", "episode")),
         ("episode_replay", ("episode", "place")), ("progress", ("beaten_episode", "reached_level")),
         ("death", ("times",)), ("played", ("attempts", "ticks", "gold")), ("fact", ("value",)),
     )

@@ -7,7 +7,7 @@ from pathlib import Path
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.player.attempt import Attempt
-from ninja_game.player.catalogue import Catalogue, Entry, Episode
+from ninja_game.player.catalogue import Catalogue, Entry, Episode, EpisodeSet
 from ninja_game.player.player_data import PlayerData
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME
@@ -42,8 +42,7 @@ def player_data(folder: Path, *episodes: Episode) -> PlayerData:
     """A player's data with only these episodes in the catalogue."""
     data = PlayerData(folder)
     catalogue = Catalogue(folder / "levels")
-    catalogue.__dict__["episodes"] = {each.number: each for each in episodes}
-    catalogue.__dict__["pack"] = None
+    catalogue.__dict__["ours"] = EpisodeSet("", "tests", (), {each.number: each for each in episodes}, ())
     data.catalogue = catalogue
     return data
 

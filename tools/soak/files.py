@@ -170,7 +170,17 @@ def read_rows(folder: Path, rng: random.Random) -> None:
     data = PlayerData(folder)
     db = data.store.connection
     db.execute("PRAGMA foreign_keys = OFF")
-    for table in ("replay", "level_best", "episode_best", "episode_replay", "progress", "death", "played", "fact"):
+    for table in (
+        "replay",
+        "level_best",
+        "level_mark",
+        "episode_best",
+        "episode_replay",
+        "progress",
+        "death",
+        "played",
+        "fact",
+    ):
         columns = [row[1] for row in db.execute(f"PRAGMA table_info({table})")]
         for _ in range(rng.randrange(3)):
             values = [rng.choice(CELLS) if rng.random() < 0.5 else rng.randrange(12) for _ in columns]
@@ -183,7 +193,13 @@ def read_rows(folder: Path, rng: random.Random) -> None:
         assert isinstance(saved, SavedReplay)
         data.records.replay(saved.id)
     data.records.episode_best("x")
-    _ = data.progress.columns, data.statistics.deaths(), data.statistics.played(), data.columns_complete
+    _ = (
+        data.progress.columns,
+        data.statistics.deaths(),
+        data.statistics.played(),
+        data.columns_complete,
+        data.marks.all(),
+    )
     data.progress.level_passed((0, 0), legitimate=True)
     data.close()
 

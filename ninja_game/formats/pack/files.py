@@ -85,4 +85,7 @@ class PackFiles:
 
 def is_pack(path: Path) -> bool:
     """Whether a path looks like a pack: a folder with an index, or a file that is called a zip."""
-    return (path / INDEX).is_file() if path.is_dir() else path.suffix.lower() == ".zip"
+    try:
+        return (path / INDEX).is_file() if path.is_dir() else path.suffix.lower() == ".zip"
+    except OSError:
+        return False

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import pygame
 
+from ninja_game.play.ui.medals import draw_medal
 from ninja_game.play.ui.palette import Palette, mixed
 from ninja_game.play.ui.theme import Theme
 from ninja_game.player.scoring import seconds_text
@@ -49,7 +50,7 @@ class HudView:
 
     ``lifetime``: ticks, for the time bar; ``label``: a word in its place. ``foot``: texts at the left and the right of
     the border below. ``keys``: those of the present tick, ``frame_ms``: of the last picture; None: not shown.
-    ``message``: title and lines of a panel, and its top.
+    ``message``: title and lines of a panel, and its top; ``medal``: what stands beside its title.
     """
 
     lifetime: float
@@ -58,6 +59,7 @@ class HudView:
     keys: int | None = None
     frame_ms: float | None = None
     message: tuple[str, Sequence[str], float] | None = None
+    medal: str = ""
 
 
 class Hud:
@@ -75,7 +77,7 @@ class Hud:
         if view.keys is not None:
             written.append(self.keys(surface, view.keys))
         if view.message is not None:
-            written.append(self.message(surface, *view.message))
+            written.append(self.message(surface, *view.message, medal=view.medal))
         return written
 
     def time_bar(self, surface: pygame.Surface, lifetime: float) -> pygame.Rect:
@@ -121,14 +123,19 @@ class Hud:
         rect = self.theme.text(surface, f"{ms:.1f} ms", 768, 566, size=8, colour=colour, align="right")
         return rect.inflate(self.theme.canvas.px(12), 2)
 
-    def message(self, surface: pygame.Surface, title: str, lines: Sequence[str], y: float) -> pygame.Rect:
-        """A panel: a title and lines under it, from ``y`` on."""
+    def message(
+        self, surface: pygame.Surface, title: str, lines: Sequence[str], y: float, *, medal: str = ""
+    ) -> pygame.Rect:
+        """A panel: a title, with a medal or without, and lines under it, from ``y`` on."""
         theme = self.theme
-        widths = [theme.width(title, 15, bold=True), *(theme.width(line, 9) for line in lines)]
+        wide = theme.width(title, 15, bold=True)
+        widths = [wide + (50 if medal else 0), *(theme.width(line, 9) for line in lines)]
         w, h = max(220.0, max(widths) + 44), 40.0 + 15 * len(lines)
         x = (792 - w) / 2
         rect = theme.panel(surface, x, y, w, h, 4)
         theme.text(surface, title, 396, y + 11, size=15, align="centre", bold=True)
+        if medal:
+            draw_medal(surface, theme, medal, 396 - wide / 2 - 15, y + 18.5, 17)
         for k, line in enumerate(lines):
             theme.text(surface, line, 396, y + 32 + 15 * k, size=9, colour=theme.palette.faint, align="centre")
         return rect

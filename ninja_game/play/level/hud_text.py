@@ -22,12 +22,13 @@ def hud_view(play: LevelPlay) -> HudView:
     app, attempt, context = play.app, play.attempt, play.context
     key, settings = app.controls.name, app.settings
     gold = f"{attempt.gold} / {play.all_gold}"
-    message = None
+    message, medal = None, ""
     if play.phase is Phase.PASSED:
         keys = f"{key('confirm')}: go on    {key('retry')}: retry    {key('replay')}: replay"
         # At the far side from the ninja, so that neither its dance nor the way that it came is hidden.
         y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
-        message = f"Passed with {seconds_text(attempt.score)}", [f"{gold} gold", keys], y
+        message = f"Passed with {seconds_text(attempt.score)}", [*_reached(play), keys], y
+        medal = context.pars.medal(attempt.ended_tick) if context.pars else ""
     hint = _hint(play, key)
     practice = "Practice" + (", slow motion" if play.tools.slow else "")
     return HudView(
@@ -37,7 +38,19 @@ def hud_view(play: LevelPlay) -> HudView:
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,
         message=message,
+        medal=medal,
     )
+
+
+def _reached(play: LevelPlay) -> list[str]:
+    """The time of a passed run with its medal and the next one, and its gold."""
+    tick, pars, gold = play.attempt.ended_tick, play.context.pars, play.attempt.gold
+    lines = [f"{gold} / {play.all_gold} gold" + (", all of it" if gold == play.all_gold > 0 else "")]
+    if pars:
+        medal, following = pars.medal(tick), pars.next_medal(tick)
+        text = f"{seconds_text(tick)} s" + (f": {medal} medal" if medal else "")
+        lines.insert(0, f"{text}    {following}: {seconds_text(pars.par(following))} s" if following else text)
+    return lines
 
 
 def _hint(play: LevelPlay, key: KeyName) -> str:

@@ -260,7 +260,7 @@ def test_odd_names_and_a_level_without_ninja_stop_no_screen(driver: MenuDriver) 
 
 def test_damaged_rows_are_told_of_where_they_are_missing(driver: MenuDriver) -> None:
     driver.player.store.connection.execute("INSERT INTO death VALUES ('mine', 'often')")
-    driver.player.store.connection.execute("INSERT INTO progress VALUES (0, 'far', 0, 0, 0)")
+    driver.player.store.connection.execute("INSERT INTO progress VALUES ('', 0, 'far', 0, 0, 0)")
     driver.player.store.epoch += 1
     driver.open("Play")
     assert "Some of the records are damaged" in driver.app.notice
