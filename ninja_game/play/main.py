@@ -8,8 +8,11 @@ from pathlib import Path
 import pygame
 
 from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.files.resources import data_folder
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel
+from ninja_game.formats.pack.files import is_pack
+from ninja_game.formats.pack.pack import Pack
 from ninja_game.play.app import App, build_app
 from ninja_game.play.screen import Screen
 from ninja_game.play.window import save_picture
@@ -30,7 +33,8 @@ def main(
 ) -> int:
     """Play: the program `ninja-game play`. Gives the exit code.
 
-    ``level_path``: a file of levels, played from number ``record`` on; without one the main menu.
+    ``level_path``: a pack, whose episodes are offered, or a file of levels, played from number ``record`` on; without
+    it the main menu.
     ``replay_path``: watch the recordings of a file.
     ``frames``: end after so many pictures. ``screenshot``: write the last picture to this PNG file.
 
@@ -85,6 +89,8 @@ def first_screen(
         return _replays(replay_path)
     if level_path is None:
         return _main_menu
+    if is_pack(Path(level_path)) and (body, practice, record) == ("circle", False, 0):
+        return _episodes(Path(level_path))
     levels = load_levels(level_path)[record:]
     if not levels:
         raise LevelError(f"there is no record {record}", level_path)
@@ -117,6 +123,24 @@ def _replays(path: str) -> Callable[[App], Screen]:
         return ReplayScreen(app, recordings)
 
     return watch
+
+
+def _episodes(path: Path) -> Callable[[App], Screen]:
+    """The grid of a pack's episodes, over the main menu. Raises NinjaGameError for a pack that cannot be played."""
+    pack = Pack(path)
+    if not pack.episodes:
+        raise LevelError("no episodes in this pack", str(path), hint="`ninja-game levels lint` says what is odd")
+    own = path.resolve() == data_folder("levels").resolve()
+
+    def choose(app: App) -> Screen:
+        from ninja_game.play.menus.episodes.grid import EpisodeGrid
+
+        if not own:
+            app.player.catalogue.more.append(path)
+        app.push(_main_menu(app))
+        return EpisodeGrid(app, "" if own else pack.name)
+
+    return choose
 
 
 def _main_menu(app: App) -> Screen:

@@ -118,6 +118,7 @@ class Catalogue:
         self.more: list[Path] = []
         self.problems: list[str] = []
         self._read: dict[Path, _ReadFile] = {}
+        self._known: dict[str, EpisodeSet] = {}
         self._packs: dict[Path, tuple[object, EpisodeSet | None, list[str]]] = {}
 
     @cached_property
@@ -140,7 +141,23 @@ class Catalogue:
                 self.problems.append(f"{path.name}: there is a pack {pack.name} already")
             elif pack:
                 found[pack.key] = pack
+        self._known = found
         return list(found.values())
+
+    def following(self, episode: Episode) -> Episode | None:
+        """The next episode that there is in an episode's column, if any."""
+        later = [each for each in self._column(episode) if each.number > episode.number]
+        return min(later, key=lambda each: each.number, default=None)
+
+    def preceding(self, episode: Episode) -> Episode | None:
+        """The episode before it in its column, which has to be passed first; None for the first one."""
+        earlier = [each for each in self._column(episode) if each.number < episode.number]
+        return max(earlier, key=lambda each: each.number, default=None)
+
+    def _column(self, episode: Episode) -> list[Episode]:
+        """The episodes of its pack in its column."""
+        episodes = self._known[episode.pack].episodes if episode.pack in self._known else self.episodes
+        return [each for each in episodes.values() if each.column == episode.column]
 
     def _pack_paths(self) -> Iterator[Path]:
         """The folders and zips in the player's folder that are packs."""

@@ -8,9 +8,9 @@ from pathlib import Path
 from ninja_game.errors import FileError
 from ninja_game.files.user_folder import LEVELS, RECORDS, REPLAYS, SETTINGS, make_user_folder, user_folder
 from ninja_game.files.writing import remove_leftovers
-from ninja_game.player.catalogue import Catalogue
+from ninja_game.player.catalogue import Catalogue, Episode
 from ninja_game.player.marks import Marks
-from ninja_game.player.progress import Progress, complete_columns
+from ninja_game.player.progress import UNLOCKED, Progress, complete_columns
 from ninja_game.player.records import Records
 from ninja_game.player.settings import Settings
 from ninja_game.player.settings_file import read_settings, write_changes
@@ -78,6 +78,12 @@ class PlayerData:
         if pack not in self._progress:
             self._progress[pack] = Progress(self.store, pack)
         return self._progress[pack]
+
+    def episode_state(self, episode: Episode) -> str:
+        """Whether an episode is unlocked, "cheated" or locked; the first of a column never is."""
+        if self.catalogue.preceding(episode) is None:
+            return UNLOCKED
+        return self.progress_in(episode.pack).state(episode.number)
 
     @cached_property
     def marks(self) -> Marks:

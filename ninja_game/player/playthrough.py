@@ -96,7 +96,7 @@ class EpisodeRun(LevelContext):
         super().__init__(data, episode.levels[position], practice_mode=practice_mode)
         self.episode = episode
         self.position = position
-        self.legitimate = not practice_mode and position == 0 and self._progress.state(episode.number) == UNLOCKED
+        self.legitimate = not practice_mode and position == 0 and data.episode_state(episode) == UNLOCKED
         self.score = 0
         self._passed: Attempt | None = None
         self._replays: list[Replay] = []
@@ -105,6 +105,15 @@ class EpisodeRun(LevelContext):
     def _progress(self) -> Progress:
         """The player's progress in the episode's pack."""
         return self.data.progress_in(self.episode.pack)
+
+    def _level_passed(self, position: int, *, legitimate: bool) -> None:
+        following = self.data.catalogue.following(self.episode)
+        self._progress.level_passed(
+            (self.episode.number, position),
+            levels=len(self.episode.levels),
+            following=following.number if following else None,
+            legitimate=legitimate,
+        )
 
     @property
     def title(self) -> str:
@@ -135,7 +144,7 @@ class EpisodeRun(LevelContext):
     ) -> list[str]:
         count()
         levels = len(self.episode.levels)
-        self._progress.level_passed((self.episode.number, position), levels=levels, legitimate=legitimate)
+        self._level_passed(position, legitimate=legitimate)
         if not replays:
             return []
         notices = save_best(self.data, self.episode.levels[position], replays[-1])
@@ -171,10 +180,10 @@ class EpisodeRun(LevelContext):
 
     def _leave_out(self) -> None:
         """Count the present level as reached, no more."""
-        place, levels = (self.episode.number, self.position), len(self.episode.levels)
+        position = self.position
 
         def work() -> list[str]:
-            self._progress.level_passed(place, levels=levels, legitimate=False)
+            self._level_passed(position, legitimate=False)
             return []
 
         self.notices = told(self.data, work)

@@ -76,10 +76,13 @@ class Progress:
         beaten = self.columns[episode // EPISODES_PER_COLUMN].beaten
         return beaten[0] > episode or (_ends_column(episode) and beaten >= (episode, LEVELS_PER_EPISODE - 1))
 
-    def level_passed(self, place: Place, *, levels: int = LEVELS_PER_EPISODE, legitimate: bool) -> None:
+    def level_passed(
+        self, place: Place, *, levels: int = LEVELS_PER_EPISODE, following: int | None = None, legitimate: bool
+    ) -> None:
         """A level of an episode has been passed: move "reached", and "beaten" too if it was legitimate.
 
-        ``levels``: how many the episode has. Raises sqlite3.Error.
+        ``levels``: how many the episode has; ``following``: the next episode that there is in its column, where that is
+        not the next number. Raises sqlite3.Error.
         """
         episode, level = place
         if level < levels - 1:
@@ -87,7 +90,7 @@ class Progress:
         elif _ends_column(episode):
             return
         else:
-            goal = (episode + 1, 0)
+            goal = (following or episode + 1, 0)
         number = episode // EPISODES_PER_COLUMN
         with self.store.change() as db:
             before = self.columns[number]

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import os
+import shutil
 from pathlib import Path
 
 from ninja_game.files.resources import bundled_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.player.catalogue import Catalogue
-from tests.support.players import short_level
+from ninja_game.player.player_data import PlayerData
+from ninja_game.player.playthrough import EpisodeRun
+from ninja_game.player.progress import LOCKED, UNLOCKED
+from tests.support.players import played, short_level
 
 
 def test_bundled_episodes_can_be_read_and_name_each_level_once() -> None:
@@ -58,3 +62,99 @@ def test_unchanged_file_is_read_once_and_a_changed_one_again(tmp_path: Path) -> 
     assert len(catalogue.problems) == 2
     file.write_text(write_level_string(short_level(1, gold=1)))
     assert catalogue.own()[0].digest != first[0].digest
+
+
+def pack_of(folder: Path, name: str, numbers: tuple[int, ...] = (0, 1)) -> Path:
+    """A pack with an episode of one level for each number, and a level in none."""
+    folder.mkdir()
+    episodes = "".join(f"[[episode]]\nnumber = {number}\n" for number in numbers)
+    (folder / "pack.toml").write_text(f'name = "{name}"\ncolumns = ["First"]\n{episodes}')
+    for number in numbers:
+        (folder / f"{number:02d}-0-level.txt").write_text(write_level_string(short_level(number)))
+    (folder / "alone.txt").write_text(write_level_string(short_level(99)))
+    return folder
+
+
+def test_pack_in_the_players_folder_is_offered_beside_ours(tmp_path: Path) -> None:
+    pack_of(tmp_path / "mine", "My pack")
+    (tmp_path / "single.txt").write_text(write_level_string(short_level(5)))
+    catalogue = Catalogue(tmp_path)
+    ours, mine = catalogue.packs()
+    assert (ours.key, mine.key, mine.columns) == ("", "My pack", ("First",))
+    assert [episode.pack for episode in mine.episodes.values()] == ["My pack"] * 2
+    assert [(each.source, each.episode) for each in mine.levels] == [
+        ("My pack", "00-0"), ("My pack", "01-0"), ("My pack", ""),
+    ]  # fmt: skip
+    assert [entry.title for entry in catalogue.own()] == ["single"]
+    assert catalogue.problems == []
+
+
+def test_zipped_pack_is_what_its_folder_is(tmp_path: Path) -> None:
+    pack_of(tmp_path / "mine", "My pack")
+    shutil.make_archive(str(tmp_path / "mine"), "zip", tmp_path / "mine")
+    folder = Catalogue(tmp_path).packs()[1]
+    shutil.rmtree(tmp_path / "mine")
+    zipped = Catalogue(tmp_path).packs()[1]
+    assert [entry.digest for entry in zipped.levels] == [entry.digest for entry in folder.levels]
+
+
+def test_packs_are_read_again_when_their_files_change(tmp_path: Path) -> None:
+    folder = pack_of(tmp_path / "mine", "My pack")
+    catalogue = Catalogue(tmp_path)
+    first = catalogue.packs()[1]
+    assert catalogue.packs()[1] is first
+    (folder / "00-1-more.txt").write_text(write_level_string(short_level(7)))
+    assert len(catalogue.packs()[1].episodes[0].levels) == 2
+    shutil.rmtree(folder)
+    assert len(catalogue.packs()) == 1
+
+
+def test_odd_packs_are_named_and_stop_nothing(tmp_path: Path) -> None:
+    pack_of(tmp_path / "a", "Same")
+    pack_of(tmp_path / "b", "Same")
+    (tmp_path / "c.zip").write_text("no zip")
+    (pack_of(tmp_path / "d", "Torn") / "pack.toml").write_text("name = [,")
+    catalogue = Catalogue(tmp_path)
+    assert [pack.key for pack in catalogue.packs()] == ["", "Same"]
+    same, no_zip, torn = catalogue.problems
+    assert same == "b: there is a pack Same already"
+    assert "c.zip: neither a folder nor a zip" in no_zip
+    assert "pack.toml:1:" in torn
+
+
+def test_next_episode_is_the_next_one_that_there_is(tmp_path: Path) -> None:
+    pack_of(tmp_path / "mine", "My pack", (0, 3, 4, 10))
+    catalogue = Catalogue(tmp_path)
+    episodes = catalogue.packs()[1].episodes
+    following = {number: catalogue.following(episode) for number, episode in episodes.items()}
+    assert {number: each.number if each else None for number, each in following.items()} == {
+        0: 3, 3: 4, 4: None, 10: None,
+    }  # fmt: skip
+    assert [catalogue.preceding(episodes[number]) for number in (0, 3, 10)] == [None, episodes[0], None]
+
+
+def test_first_episode_that_there_is_in_a_column_is_open(tmp_path: Path) -> None:
+    data = PlayerData(tmp_path)
+    pack_of(tmp_path / "levels" / "mine", "My pack", (2, 5, 17))
+    episodes = data.catalogue.packs()[1].episodes
+    assert [data.episode_state(episode) for episode in episodes.values()] == [UNLOCKED, LOCKED, UNLOCKED]
+    run = EpisodeRun(data, episodes[2])
+    assert run.legitimate
+    run.passed(played(run.level))
+    assert data.episode_state(episodes[5]) == UNLOCKED
+    data.close()
+
+
+def test_progress_of_packs_is_kept_apart_and_passes_over_gaps(tmp_path: Path) -> None:
+    data = PlayerData(tmp_path)
+    pack_of(tmp_path / "levels" / "mine", "My pack", (0, 3))
+    episodes = data.catalogue.packs()[1].episodes
+    run = EpisodeRun(data, episodes[0])
+    run.passed(played(run.level))
+    assert data.progress_in("My pack").state(3) == UNLOCKED
+    assert data.progress_in("My pack").is_beaten(0)
+    assert data.progress.state(3) == LOCKED
+    data.close()
+    again = PlayerData(tmp_path)
+    assert again.progress_in("My pack").state(3) == UNLOCKED
+    again.close()

@@ -40,15 +40,17 @@ def command(
 ) -> None:
     """Play a level in a window.
 
-    LEVEL is a file of levels, or the name of one of the game's own; without it the game begins at its menu. The menu
-    Levels offers your own files too: those in the folder `levels` of your folder for this game, which NINJA_GAME_HOME
-    moves; a file that is dropped on that menu is copied there.
+    LEVEL is a file of levels, or the name of one of the game's own; without it the game begins at its menu. A pack, a
+    folder or zip with pack.toml, offers its episodes; with --practice, --body or --record its levels are played one
+    after the other. The menus offer your own files and packs too: those in the folder `levels` of your folder for this
+    game, which NINJA_GAME_HOME moves; a file that is dropped on the menu Levels is copied there.
 
     \b
     Examples:
       ninja-game play
       ninja-game play my-level.txt --practice
       ninja-game play userlevels.txt --record 17
+      ninja-game play my-pack.zip
       ninja-game play --replay run.replay.txt
       SDL_VIDEODRIVER=dummy ninja-game play --frames 40 --screenshot picture.png
     """

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import ceil
 from typing import Any
 
 from ninja_game.errors import PackError
+from ninja_game.files.toml import parse_toml
 
 MARGINS = {"author": 0.05, "gold": 0.225, "silver": 0.45, "bronze": 0.9}
 """How much longer than the certificate a run may take, by medal, the best first.
@@ -58,8 +58,8 @@ class Pars:
 def parse_pars(text: str, *, file: str = "") -> dict[str, Pars]:
     """The table of a pack by level file. Raises PackError."""
     try:
-        tables = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:
+        tables = parse_toml(text)
+    except ValueError as error:
         raise PackError(f"no TOML: {error}", file) from None
     found = {}
     for name, table in tables.items():

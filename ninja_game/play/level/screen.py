@@ -12,7 +12,7 @@ from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.level.hud_text import hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
-from ninja_game.play.menus.episode_passed import EpisodePassed
+from ninja_game.play.menus.episodes.passed import EpisodePassed
 from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.replay.playback import RecordedRun
 from ninja_game.play.replay.screen import ReplayScreen

@@ -15,6 +15,7 @@ from ninja_game.files.writing import write_atomically
 from ninja_game.formats.load import load_levels
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menus.level_card import all_gold_and_medal, draw_pars
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.play.menus.watch_replay import watch
 from ninja_game.play.ui.list_view import ListView
@@ -23,6 +24,7 @@ from ninja_game.play.ui.text_layout import counted, unreadable
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button, Choice, Widget
 from ninja_game.player.catalogue import Entry
+from ninja_game.player.marks import Mark
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.player.records import SavedReplay
 from ninja_game.player.scoring import seconds_text
@@ -34,7 +36,7 @@ ROW = 54
 PICTURE = 60
 SIDE, SIDE_WIDTH = 436, 320
 SORTS: list[tuple[str, object]] = [
-    ("Original order", "listed"), ("Name", "name"), ("Author", "author"), ("Best", "best"),
+    ("Original order", "listed"), ("Name", "name"), ("Author", "author"), ("Best", "best"), ("Difficulty", "hard"),
 ]  # fmt: skip
 
 
@@ -51,6 +53,7 @@ class Browser(ThumbnailScreen):
         self.entries: list[Entry] = []
         self.shown: list[Entry] = []
         self.bests: dict[str, SavedReplay] = {}
+        self.marks: dict[str, Mark] = {}
         self.list = ListView(
             (44, 112, 376, 8 * ROW), ROW, self._draw_row, self._play, empty="No level has these words",
             hint="Enter plays; right leads to the buttons, up to the search", selected=self._select,
@@ -64,6 +67,7 @@ class Browser(ThumbnailScreen):
         catalogue.problems.clear()
         self.entries = catalogue.singles()
         self.bests = self.player.records.level_bests()
+        self.marks = self.player.marks.all()
         self.message = unreadable([problem.removeprefix(f"{catalogue.folder}{sep}") for problem in catalogue.problems])
         self._arrange()
         super().enter()
@@ -120,6 +124,7 @@ class Browser(ThumbnailScreen):
         keys: dict[object, Callable[[Entry], object]] = {
             "name": lambda e: e.title.casefold(),
             "author": lambda e: (e.named.author.casefold(), e.title.casefold()),
+            "hard": lambda e: (e.pars.difficulty if e.pars and e.pars.difficulty is not None else 1e9, e.title),
             "best": lambda e: -(best.score if (best := self.bests.get(e.digest)) else -1),
         }
         if self.sort in keys:
@@ -172,19 +177,24 @@ class Browser(ThumbnailScreen):
         if entry is None:
             return
         self.thumbnails.draw(surface, entry, SIDE, 66, SIDE_WIDTH)
-        theme.text(surface, entry.title, SIDE, 320, size=17, bold=True, width=SIDE_WIDTH)
+        theme.text(surface, entry.title, SIDE, 320, size=17, bold=True, width=SIDE_WIDTH - 44)
         by = f"by {entry.named.author}" if entry.named.author else "author unknown"
         theme.text(surface, by, SIDE, 346, size=11, colour=palette.faint, width=SIDE_WIDTH)
         theme.text(surface, entry.named.comment, SIDE, 364, size=11, width=SIDE_WIDTH)
         best = self.bests.get(entry.digest)
         text = f"Your best: {seconds_text(best.score)} with {best.gold} gold" if best else "Not passed yet"
         theme.text(surface, text, SIDE, 390, size=12, colour=palette.good if best else palette.faint)
+        if mark := self.marks.get(entry.digest):
+            time = f"in {seconds_text(mark.fastest)} s"
+            theme.text(surface, time, SIDE + SIDE_WIDTH, 390, size=12, colour=palette.good, align="right")
         played = self.player.statistics.played(entry.digest)
         if played.attempts:
             text = f"{counted(played.attempts, 'try', 'tries')}, {counted(played.deaths, 'death', 'deaths')}"
             theme.text(surface, text, SIDE, 408, size=10.5, colour=palette.faint)
-        where = f"Episode {entry.episode}" if entry.episode else "Your folder" if entry.source == "yours" else ""
-        theme.text(surface, where, SIDE, 424, size=10.5, colour=palette.faint)
+        theme.text(surface, _where(entry), SIDE, 424, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
+        mark = self.marks.get(entry.digest)
+        all_gold_and_medal(surface, theme, entry, mark, SIDE + SIDE_WIDTH - 10, 330)
+        draw_pars(surface, theme, entry, mark, SIDE, 443)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         entry = self.shown[index]
@@ -196,13 +206,25 @@ class Browser(ThumbnailScreen):
         left = x + PICTURE + 14
         theme.text(surface, entry.title, left, y + 11, size=12, bold=chosen, width=200)
         source = entry.named.author or ("your folder" if entry.source == "yours" else "")
-        theme.text(surface, source, left, y + 30, size=10, colour=palette.faint, width=200)
+        theme.text(surface, source, left, y + 32, size=10, colour=palette.faint, width=190)
         best = self.bests.get(entry.digest)
         if best:
-            theme.text(
-                surface, seconds_text(best.score), x + w - 8, y + 20, size=12, colour=palette.good, align="right"
-            )
+            score = seconds_text(best.score)
+            theme.text(surface, score, x + w - 8, y + 11, size=12, colour=palette.good, align="right")
+        all_gold_and_medal(surface, theme, entry, self.marks.get(entry.digest), x + w - 16, y + 37)
+        if entry.pars and entry.pars.difficulty is not None:
+            hard = f"{entry.pars.difficulty:.1f}"
+            theme.text(surface, hard, x + w - 48, y + 32, size=10, colour=palette.faint, align="right")
+
+
+def _where(entry: Entry) -> str:
+    """Where a level comes from, and how hard it is."""
+    pack = entry.source if entry.source not in {"game", "yours"} else ""
+    parts = [pack, f"Episode {entry.episode}" if entry.episode else "Your folder" if entry.source == "yours" else ""]
+    if entry.pars and entry.pars.difficulty is not None:
+        parts.append(f"difficulty {entry.pars.difficulty:.1f}")
+    return "    ".join(filter(None, parts))
 
 
 def _words(entry: Entry) -> str:
-    return f"{entry.title} {entry.named.author} {entry.named.comment} {entry.episode}".casefold()
+    return f"{entry.title} {entry.named.author} {entry.named.comment} {entry.episode} {entry.source}".casefold()

@@ -11,7 +11,7 @@ from ninja_game import __version__
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.menus.attract import Attract
 from ninja_game.play.menus.browser import Browser
-from ninja_game.play.menus.episode_grid import EpisodeGrid
+from ninja_game.play.menus.episodes.grid import EpisodeGrid
 from ninja_game.play.menus.help.screen import HelpScreen
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question

@@ -55,9 +55,10 @@ class RecordsScreen(MenuScreen):
         bests = records.level_bests()
         rows = []
         listed = set()
-        for episode in catalogue.episodes.values():
+        episodes = [(pack, episode) for pack in catalogue.packs() for episode in pack.episodes.values()]
+        for pack, episode in episodes:
             best = records.episode_best(episode.key)
-            text = f"Episode {episode.number}: {episode.name}"
+            text = f"{pack.key}{', e' if pack.key else 'E'}pisode {episode.number}: {episode.name}"
             rows.append(RecordRow(text, best.score if best else None, best.replays if best else (), True))
             for entry in episode.levels:
                 listed.add(entry.digest)

@@ -9,8 +9,8 @@ from ninja_game.formats.load import load_replays
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
-from ninja_game.play.menus.episode_grid import EpisodeGrid
-from ninja_game.play.menus.episode_passed import EpisodePassed
+from ninja_game.play.menus.episodes.grid import EpisodeGrid
+from ninja_game.play.menus.episodes.passed import EpisodePassed
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.replay.screen import ReplayScreen

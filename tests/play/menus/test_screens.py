@@ -14,7 +14,7 @@ from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
-from ninja_game.play.menus.episode_grid import EpisodeGrid
+from ninja_game.play.menus.episodes.grid import EpisodeGrid
 from ninja_game.play.menus.help.screen import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.menu_screen import MenuScreen

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
+from ninja_game.play.menus.level_card import all_gold_and_medal
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.play.ui.canvas import WIDTH
 from ninja_game.play.ui.widgets import Button, Widget
@@ -32,8 +33,7 @@ class EpisodePassed(ThumbnailScreen):
     @property
     def next_episode(self) -> Episode | None:
         """The episode after this one, of its column."""
-        following = self.player.catalogue.episodes.get(self.run.episode.number + 1)
-        return following if following and following.column == self.run.episode.column else None
+        return self.player.catalogue.following(self.run.episode)
 
     def build(self) -> Sequence[Widget]:
         """On, or back."""
@@ -74,6 +74,8 @@ class EpisodePassed(ThumbnailScreen):
             best = self.player.records.level_best(entry.digest)
             score = f"best {seconds_text(best.score)}" if best else ""
             theme.text(surface, score, x + PICTURE / 2, 247, size=10, colour=palette.faint, align="centre")
+            mark = self.player.marks.of(entry.digest)
+            all_gold_and_medal(surface, theme, entry, mark, x + PICTURE - 11, 135)
         theme.text(surface, seconds_text(self.run.score), WIDTH / 2, 290, size=44, align="centre", bold=True)
         what = "practice" if self.run.practice_mode else "seconds left on the clock"
         theme.text(surface, what, WIDTH / 2, 340, size=11, colour=palette.faint, align="centre")

@@ -1,0 +1,1 @@
+"""Episodes: the grid, and what passing one has brought."""

@@ -1,0 +1,232 @@
+"""The grid of a pack's episodes, and what is in the one that is selected (game.md §2.1, §7)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menus.episodes.cells import LEFT, LOOKS, MOST_HIGH, TOP, WIDE, Cells, draw_look
+from ninja_game.play.menus.level_card import all_gold_and_medal, time_and_par
+from ninja_game.play.menus.settings.screen import PRACTICE_HINT
+from ninja_game.play.menus.thumbnails import ThumbnailScreen
+from ninja_game.play.ui.list_view import ListView
+from ninja_game.play.ui.medals import MEDALS, draw_all_gold, draw_medal
+from ninja_game.play.ui.text_layout import counted, unreadable
+from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.widgets import Choice, Widget
+from ninja_game.player.catalogue import Episode, EpisodeSet
+from ninja_game.player.marks import Mark, has_all_gold, tally, worst_medal
+from ninja_game.player.playthrough import EpisodeRun, LevelRun
+from ninja_game.player.progress import CHEATED, LOCKED
+from ninja_game.player.scoring import seconds_text
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+SIDE = 392
+ROW = 84
+PICTURE = 96
+
+
+class EpisodeGrid(ThumbnailScreen):
+    """Choose an episode to play, or one of its levels for a time trial. ``pack``: the key of the pack to begin with."""
+
+    title = "Episodes"
+
+    def __init__(self, app: App, pack: str = "") -> None:
+        super().__init__(app)
+        self.packs: list[EpisodeSet] = []
+        self.pack = self.player.catalogue.ours
+        self.marks: dict[str, Mark] = {}
+        self.problem = ""
+        self.grid = Cells((LEFT, TOP, WIDE, MOST_HIGH), 1, self._draw_cell, self._play, selected=self._selected)
+        self.rows = ListView((SIDE, 132, 364, ROW * 5), ROW, self._draw_row, self._trial)
+        self.rows.hint = "Enter: time trial, this level alone on a full clock"
+        self._look_for_packs(pack)
+        self.grid.arrange(self.pack.episodes)
+
+    def _look_for_packs(self, key: str) -> None:
+        """The packs as they are now, that with the key chosen if it is still there."""
+        catalogue = self.player.catalogue
+        catalogue.problems.clear()
+        self.packs = [pack for pack in catalogue.packs() if pack.episodes]
+        self.problem = unreadable(catalogue.problems) if catalogue.problems else ""
+        self.pack = next((pack for pack in self.packs if pack.key == key), catalogue.ours)
+
+    # --- which ---
+
+    @property
+    def number(self) -> int:
+        """The selected episode's number."""
+        return self.grid.numbers[self.grid.index] if self.grid.numbers else -1
+
+    @property
+    def episode(self) -> Episode | None:
+        """The selected episode, where there is one."""
+        return self.pack.episodes.get(self.number)
+
+    def _selected(self, _index: int) -> None:
+        self.rows.index = 0
+        self.rows.fill(self.episode.levels if self.episode and self._state(self.number) != LOCKED else ())
+        self.rows.focusable = bool(self.rows.count)
+        self.grid.hint = self._hint()
+
+    def _state(self, number: int) -> str:
+        return self.player.episode_state(self.pack.episodes[number])
+
+    def _hint(self) -> str:
+        if self.episode is None:
+            return "There are no episodes"
+        if self._state(self.number) == LOCKED:
+            before = self.player.catalogue.preceding(self.episode)
+            return f"Locked: pass episode {before.number if before else 0} first"
+        cheated = self._state(self.number) == CHEATED
+        return "Enter: play, without records (reached in practice)" if cheated else "Enter: play this episode"
+
+    @property
+    def _below(self) -> float:
+        """Where what stands below the grid begins."""
+        return TOP + self.grid.area[3] + 14
+
+    def build(self) -> Sequence[Widget]:
+        """The grid, the levels of the selected episode, practice; the choice of a pack where there are several."""
+        before = self.pack
+        self._look_for_packs(before.key)
+        if self.pack is not before:
+            self.grid.arrange(self.pack.episodes)
+        self.marks = self.player.marks.all()
+        self._selected(self.grid.index)
+        self.practice = Choice(
+            (LEFT, self._below, WIDE, 30), "Practice mode", [("off", False), ("on", True)],
+            lambda: self.player.settings.practice, self._set_practice,
+            hint=PRACTICE_HINT,
+        )  # fmt: skip
+        if len(self.packs) < 2:
+            return [self.grid, self.practice, self.rows]
+        names = [("The game's own" if not pack.key else pack.name, pack.key) for pack in self.packs]
+        choice = Choice(
+            (LEFT, 62, WIDE, 26), "", names, lambda: self.pack.key, self._set_pack,
+            hint="Whose levels; packs lie in the folder levels of your folder",
+        )  # fmt: skip
+        return [self.grid, choice, self.practice, self.rows]
+
+    def _set_practice(self, value: object) -> None:
+        self.app.change_settings(practice=value)
+
+    def _set_pack(self, key: object) -> None:
+        self._look_for_packs(str(key))
+        self.grid.arrange(self.pack.episodes)
+        self.practice.area = LEFT, self._below, WIDE, 30
+
+    # --- go ---
+
+    def _play(self, _index: int) -> None:
+        if self.episode is not None and self._state(self.number) != LOCKED:
+            practice_mode = self.player.settings.practice
+            self.app.push(LevelScreen(self.app, EpisodeRun(self.player, self.episode, practice_mode=practice_mode)))
+
+    def _trial(self, index: int) -> None:
+        if self.episode is not None:
+            entry = self.episode.levels[index]
+            run = LevelRun(self.player, entry, practice_mode=self.player.settings.practice)
+            self.app.push(LevelScreen(self.app, run))
+
+    # --- picture ---
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        """What the grid's looks mean, the total, and the head of the selected episode."""
+        super().draw_frame(surface)
+        theme, palette = self.app.theme, self.app.theme.palette
+        if len(self.packs) < 2:
+            theme.text(surface, "Beat an episode to unlock the one below", LEFT, 66, size=10, colour=palette.faint)
+        self.grid.draw_names(surface, theme, self.pack.columns)
+        for place, (look, text) in enumerate(LOOKS):
+            x, y = LEFT + 160 * (place % 2), self._below + 40 + 23 * (place // 2)
+            draw_look(surface, theme, look, (x, y, 18, 18))
+            theme.text(surface, text, x + 25, y + 4, size=9.5)
+        self._draw_total(surface, theme, self._below + 92)
+        if self.problem:
+            theme.text(surface, self.problem, LEFT, 549, size=9, colour=palette.bad, width=WIDE)
+        episode = self.episode
+        if episode is None:
+            theme.text(surface, "No episodes", SIDE, 66, size=16, colour=palette.faint, bold=True)
+            return
+        head = f"Episode {episode.number}: {episode.name}"
+        theme.text(surface, head, SIDE, 66, size=16, bold=True, width=364)
+        best = self.player.records.episode_best(episode.key)
+        text = f"Your best: {seconds_text(best.score)}" if best else f"{len(episode.levels)} levels, not passed yet"
+        theme.text(surface, self._hint() if self._state(episode.number) == LOCKED else text, SIDE, 96, size=11,
+                   colour=palette.good if best else palette.faint)  # fmt: skip
+
+    def _draw_total(self, surface: pygame.Surface, theme: Theme, y: float) -> None:
+        """How much of the pack has been passed, with which medals, with all gold."""
+        levels = self.pack.levels
+        total = tally(levels, self.marks)
+        theme.text(surface, f"{total.passed} of {total.levels} levels passed", LEFT, y, size=11, bold=True)
+        x = LEFT + 8.0
+        if any(entry.pars for entry in levels):
+            for medal in MEDALS:
+                draw_medal(surface, theme, medal, x, y + 27, 16, reached=total.medals[medal] > 0)
+                theme.text(surface, str(total.medals[medal]), x + 13, y + 22, size=10)
+                x += 58
+        draw_all_gold(surface, theme, x, y + 27)
+        theme.text(surface, f"{total.all_gold} with all gold", x + 12, y + 22, size=10)
+
+    def _draw_cell(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        number = self.grid.numbers[index]
+        if number < 0:
+            return
+        x, y, w, h = area
+        inner = (x + 1.5, y + 1.5, w - 3, h - 3)
+        look = self._look_of(number)
+        draw_look(surface, theme, look, inner)
+        if look != "locked":
+            colour = theme.palette.on_tile if look == "beaten" else theme.palette.text
+            size = min(16.0, h / 2)
+            theme.text(surface, str(number), x + w / 2, y + (h - size) / 2, size=size, colour=colour, align="centre")
+            self._draw_reached(surface, theme, number, area)
+        if index == self.grid.index:
+            width = 2.5 if focused else 1.2
+            theme.canvas.frame_rect(surface, theme.palette.accent, x, y, w, h, width, 4)
+
+    def _draw_reached(self, surface: pygame.Surface, theme: Theme, number: int, area: Area) -> None:
+        """The medal that all of an episode's levels have, at the upper left; at the right the mark for all gold."""
+        x, y, w, _ = area
+        levels = self.pack.episodes[number].levels
+        medal = worst_medal(levels, self.marks)
+        size = min(14.0, w / 3)
+        if medal:
+            draw_medal(surface, theme, medal, x + 4 + size / 2, y + 4 + size / 2, size)
+        if all(has_all_gold(entry, self.marks.get(entry.digest)) for entry in levels):
+            draw_all_gold(surface, theme, x + w - 4 - size / 2, y + 4 + size / 2, size * 0.75)
+
+    def _look_of(self, number: int) -> str:
+        state = self._state(number)
+        if self.player.progress_in(self.pack.key).is_beaten(number):
+            return "beaten"
+        return {LOCKED: "locked", CHEATED: "cheated"}.get(state, "open")
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        episode = self.episode
+        if episode is None or index >= len(episode.levels):
+            return
+        x, y, w, h = area
+        entry = episode.levels[index]
+        theme.row(surface, (x, y + 2, w, h - 4), chosen=focused, focused=focused)
+        self.thumbnails.draw(surface, entry, x + 6, y + 5, PICTURE)
+        left = x + PICTURE + 18
+        theme.text(surface, f"{index}  {entry.title}", left, y + 12, size=13, bold=True, width=w - PICTURE - 70)
+        mark = self.marks.get(entry.digest)
+        all_gold_and_medal(surface, theme, entry, mark, x + w - 14, y + 19)
+        best = self.player.records.level_best(entry.digest)
+        played = self.player.statistics.played(entry.digest)
+        text = f"best {seconds_text(best.score)}, {best.gold} of {entry.all_gold} gold" if best else "not passed yet"
+        colour = theme.palette.good if best else theme.palette.faint
+        theme.text(surface, text, left, y + 32, size=11, colour=colour)
+        theme.text(surface, time_and_par(entry, mark), left, y + 48, size=10)
+        if played.attempts:
+            tries = f"{counted(played.attempts, 'try', 'tries')}, {counted(played.deaths, 'death', 'deaths')}"
+            theme.text(surface, tries, left, y + 63, size=10, colour=theme.palette.faint)

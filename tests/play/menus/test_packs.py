@@ -1,0 +1,138 @@
+"""Packs and medals on the screens: the grid shows the pack that is chosen, cards show pars and what was reached."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pygame
+import pytest
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.formats.pack.files import is_pack
+from ninja_game.play.main import first_screen
+from ninja_game.play.menus.browser import Browser
+from ninja_game.play.menus.episodes.cells import NAMED, Cells
+from ninja_game.play.menus.episodes.grid import EpisodeGrid
+from ninja_game.play.menus.level_card import time_and_par
+from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.player.marks import Mark
+from tests.support.draw_log import DrawLog
+from tests.support.menu_driver import MenuDriver
+from tests.support.own_pack import PACK
+
+
+def other_pack(folder: Path, numbers: tuple[int, ...] = (2, 17)) -> Path:
+    """The tests' pack by another name, with its first episode in other places."""
+    shutil.copytree(PACK, folder)
+    episodes = "".join(f'[[episode]]\nnumber = {n}\nlevels = ["00-0-first-steps.txt"]\n' for n in numbers)
+    (folder / "pack.toml").write_text(f'name = "Other"\ncolumns = ["Left", "Right"]\n{episodes}')
+    return folder
+
+
+def shown(driver: MenuDriver) -> str:
+    """Everything that is drawn now."""
+    log = DrawLog()
+    with log.installed(), log.recording(driver.app.theme.palette) as lines:
+        driver.app.stack.redraw_all()
+        driver.app.draw()
+    return "\n".join(lines)
+
+
+def test_pack_in_the_folder_can_be_chosen_and_played(driver: MenuDriver) -> None:
+    other_pack(driver.player.folder / "levels" / "other")
+    grid = driver.open("Play")
+    assert isinstance(grid, EpisodeGrid)
+    assert [pack.key for pack in grid.packs] == ["", "Other"]
+    driver.press("up", "right")
+    assert grid.pack.key == "Other"
+    assert grid.grid.heads == [0, 1]
+    assert grid.number == 2, "the first episode that there is, though it is not the first of its column"
+    driver.frames(3)
+    assert "'Left'" in shown(driver)
+    driver.press("down", "return", "space")
+    driver.play_replay(1)
+    driver.press("space", "escape")
+    assert driver.player.progress_in("Other").is_beaten(2)
+    assert not driver.player.progress.is_beaten(0)
+    assert grid.pack.key == "Other"
+
+
+def test_pack_that_goes_while_it_is_shown_makes_room_for_ours(driver: MenuDriver) -> None:
+    folder = other_pack(driver.player.folder / "levels" / "other")
+    grid = driver.open("Play")
+    assert isinstance(grid, EpisodeGrid)
+    driver.press("up", "right")
+    shutil.rmtree(folder)
+    grid.enter()
+    assert grid.pack.key == ""
+    driver.frames(2)
+
+
+@pytest.mark.parametrize("zipped", [False, True])
+def test_pack_named_on_the_command_line_begins_at_its_grid(driver: MenuDriver, tmp_path: Path, *, zipped: bool) -> None:
+    path = other_pack(tmp_path / "elsewhere" / "other")
+    if zipped:
+        path = Path(shutil.make_archive(str(tmp_path / "other"), "zip", path))
+    assert is_pack(path)
+    grid = first_screen(str(path), None, body="circle", practice=False)(driver.app)
+    driver.app.push(grid)
+    driver.frames(3)
+    assert isinstance(grid, EpisodeGrid)
+    assert grid.pack.name == "Other"
+    driver.press("escape")
+    assert isinstance(driver.top(), MainMenu)
+
+
+def test_our_own_pack_named_on_the_command_line_is_ours(driver: MenuDriver) -> None:
+    grid = first_screen(str(PACK), None, body="circle", practice=False)(driver.app)
+    assert isinstance(grid, EpisodeGrid)
+    assert grid.pack.key == ""
+
+
+def test_pack_without_episodes_is_refused_before_a_window_opens(tmp_path: Path) -> None:
+    (tmp_path / "pack.toml").write_text('name = "Empty"')
+    with pytest.raises(NinjaGameError, match="no episodes in this pack"):
+        first_screen(str(tmp_path), None, body="circle", practice=False)
+
+
+def test_zip_dropped_on_the_list_of_levels_becomes_a_pack(driver: MenuDriver, tmp_path: Path) -> None:
+    path = other_pack(tmp_path / "elsewhere")
+    zipped = shutil.make_archive(str(tmp_path / "dropped"), "zip", path)
+    browser = driver.open("Levels")
+    assert isinstance(browser, Browser)
+    pygame.event.post(pygame.Event(pygame.DROPFILE, file=zipped))
+    driver.frames(2)
+    assert browser.message == ""
+    assert {entry.source for entry in browser.entries} == {"game", "Other"}
+
+
+def test_browser_sorts_by_difficulty(driver: MenuDriver) -> None:
+    browser = driver.open("Levels")
+    assert isinstance(browser, Browser)
+    browser._sort("hard")
+    hard = [entry.pars.difficulty for entry in browser.shown if entry.pars and entry.pars.difficulty is not None]
+    assert len(hard) == 8
+    assert hard == sorted(hard)
+    driver.frames(2)
+    assert f"{hard[0]:.1f}" in shown(driver)
+
+
+def test_card_says_the_time_and_the_next_par(driver: MenuDriver) -> None:
+    entry = driver.player.catalogue.episodes[0].levels[0]
+    assert entry.pars is not None
+    assert time_and_par(entry, None) == "bronze: 7.500 s"
+    assert time_and_par(entry, Mark(200, 0)) == "5.000 s    gold: 4.800 s"
+    assert time_and_par(entry, Mark(156, 0)) == "3.900 s"
+
+
+@pytest.mark.parametrize("numbers", [range(100), range(10), (5, 55), [10 * c + r for c in range(5) for r in range(4)]])
+def test_grids_of_every_size_keep_inside_their_place(numbers: list[int]) -> None:
+    cells = Cells((0, 0, 1, 1), 10, lambda *_: None, lambda _: None)
+    cells.arrange(numbers)
+    _, _, w, h = cells.area
+    assert w <= 330
+    assert h <= 287
+    assert sorted(number for number in cells.numbers if number >= 0) == sorted(numbers)
+    assert cells.numbers[cells.index] >= 0
+    assert (cells.cell_height >= NAMED) == (len(numbers) == 20), "names stand where there is room"
