@@ -10,6 +10,7 @@ import pytest
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.pack.files import is_pack
+from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main import first_screen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes.cells import NAMED, Cells
@@ -50,7 +51,10 @@ def test_pack_in_the_folder_can_be_chosen_and_played(driver: MenuDriver) -> None
     assert grid.number == 2, "the first episode that there is, though it is not the first of its column"
     driver.frames(3)
     assert "'Left'" in shown(driver)
-    driver.press("down", "return", "space")
+    driver.press("down", "return")
+    level = driver.top()
+    assert isinstance(level, LevelScreen)
+    level.begin()
     driver.play_replay(1)
     driver.press("space", "escape")
     assert driver.player.progress_in("Other").is_beaten(2)
