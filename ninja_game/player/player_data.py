@@ -81,9 +81,8 @@ class PlayerData:
 
     def episode_state(self, episode: Episode) -> str:
         """Whether an episode is unlocked, "cheated" or locked; the first of a column never is."""
-        if self.catalogue.preceding(episode) is None:
-            return UNLOCKED
-        return self.progress_in(episode.pack).state(episode.number)
+        state = self.progress_in(episode.pack).state(episode.number)
+        return state if self.catalogue.preceding(episode) else UNLOCKED
 
     @cached_property
     def marks(self) -> Marks:

@@ -15,7 +15,7 @@ from typing import Any
 
 from ninja_game.files.locking import locked
 from ninja_game.files.user_folder import quarantine
-from ninja_game.player.store_schema import OPENING_SECONDS, NewerFileError, copy_in_memory, open_database
+from ninja_game.player.store.schema import OPENING_SECONDS, NewerFileError, copy_in_memory, open_database
 
 GAME_WAIT_MS, LAST_WAIT_MS = 200, 3000
 """How long a save waits for another program that writes: during play, where it holds up the picture, and at the end."""
