@@ -33,7 +33,9 @@ SHAPES = range(2, 34)
 MOTIF = 5, 3
 """Columns and rows of a motif."""
 MOTIF_SHAPES = 3
-"""A motif has at least so many cells with a shape: one or two are a slope, which every level may have."""
+"""A motif has at least so many cells with a shape, not all of one straight slope: nobody copies a slope."""
+STRAIGHT = {2: "45°", 14: "22°", 18: "22°", 22: "67°", 26: "67°"}
+"""First ids of the families of slopes, each with three more that are turned; both ends make one slope."""
 
 NAMES = {kind.number: kind.name for kind in KINDS if kind.number >= 0}
 BY_WEAPON = {number: name for name, number in WEAPONS.items()}
@@ -96,16 +98,27 @@ def alike(levels: Mapping[str, Level], limit: float) -> list[tuple[float, str, s
 
 
 def motifs(level: Level) -> set[tuple[int, ...]]:
-    """The blocks of 5 x 3 cells with ``MOTIF_SHAPES`` shapes or more, as their tiles column by column."""
+    """The blocks of 5 x 3 cells with ``MOTIF_SHAPES`` shapes or more of two slopes or more, column by column."""
     wide, high = MOTIF
     found = set()
     for i in range(COLUMNS - wide + 1):
         for j in range(ROWS - high + 1):
             block = [level.tiles[(i + k) * ROWS + j : (i + k) * ROWS + j + high] for k in range(wide)]
             tiles = tuple(tile for column in block for tile in column)
-            if sum(tile in SHAPES for tile in tiles) >= MOTIF_SHAPES:
+            shapes = [tile for tile in tiles if tile in SHAPES]
+            if len(shapes) >= MOTIF_SHAPES and len({slope(tile) for tile in shapes}) > 1:
                 found.add(tiles)
     return found
+
+
+def slope(tile: int) -> tuple[str, int]:
+    """What slope a tile with a shape is part of: its steepness and its solid corner; of others the tile itself.
+
+    >>> slope(14) == slope(18), slope(14) == slope(15)
+    (True, False)
+    """
+    turned = (tile - 2) % 4
+    return STRAIGHT.get(tile - turned, str(tile)), turned
 
 
 def common_motifs(levels: Mapping[str, Level], most: float) -> list[tuple[tuple[int, ...], list[str]]]:

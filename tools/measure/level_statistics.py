@@ -184,9 +184,10 @@ def main() -> None:
     else:
         tell_set(pack)
     if arguments.plots:
-        from tools.draw.level_plots import draw_plots
+        from tools.draw.level_plots import draw_difficulty, draw_figures
 
-        draw_plots(list(figures_of_set(pack).values()), arguments.plots)
+        draw_figures(list(figures_of_set(pack).values()), arguments.plots)
+        draw_difficulty(pack, arguments.plots)
 
 
 if __name__ == "__main__":
