@@ -96,6 +96,11 @@ class Heuristics:
         bits = world["objects"]["taken"][self.gold_slots] != 0
         return sum(1 << k for k in np.flatnonzero(bits).tolist())
 
+    def opened(self, world: Any) -> int:
+        """The switch state of a world."""
+        bits = world["objects"]["is_open"][self.slots] != 0
+        return sum(1 << k for k in np.flatnonzero(bits).tolist())
+
     def gold_fields(self, switch_state: int, pieces: Sequence[int]) -> Field:
         """The fields of some pieces of gold (pieces x points); closed locked doors count as passable but dear."""
         costs = self._careful(self._closed(switch_state, DOOR_COST / 4), switch_state)

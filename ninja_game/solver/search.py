@@ -11,6 +11,7 @@ from ninja_game.sim.memory.schema import Ninja
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import JUMPING, OUTCOME_EXIT, OUTCOME_RUNNING
 from ninja_game.solver.distance_field import point_at
+from ninja_game.solver.legs.survival import survives
 from ninja_game.solver.macro_actions import PRESSED, PRESSED_AGAIN, RELEASED, action_code, play_macro
 from ninja_game.solver.open_list import drop_highest, free_state, keep_state, load_state, pop_lowest, push
 from ninja_game.solver.search_memory import (
@@ -170,7 +171,7 @@ def keep_child(
     ahead = estimate(goals, switch_state, point_at(w.ninja.x, w.ninja.y), source.ahead)
     if best > 0 and tick + ahead * BOUND_SHARE >= best:
         return
-    at_end = goals.leg > 0 and w.gold >= goals.leg
+    at_end = goals.leg > 0 and (w.gold >= goals.leg or goals.masks[switch_state] != goals.mask)
     gold = gold_hash(w, goals) if at_end else 0
     key = key_of(w, switch_state, gold, resolution)
     slot = find(memory.table, key)
@@ -203,11 +204,11 @@ def keep_child(
     child.ahead = ahead
     while not keep_state(start.work_words, start.base, child, memory) and counters.waiting > 0:
         drop_highest(memory)
-    if at_end and child.chunk >= 0:
+    if not at_end:
+        push(index, tick + resolution.weight * ahead, memory)
+    elif child.chunk >= 0 and (goals.rollouts == 0 or survives(child, start, memory, goals.rollouts)):
         memory.ends[counters.ends] = index
         counters.ends += 1
-    elif not at_end:
-        push(index, tick + resolution.weight * ahead, memory)
 
 
 @fast

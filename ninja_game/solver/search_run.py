@@ -36,16 +36,19 @@ FieldOf = Callable[[int, float, float], Field]
 
 
 class Leg(NamedTuple):
-    """From some moments to the next piece of gold, or to the exit.
+    """From some moments to the next piece of gold or switch, or to the exit.
 
-    ``until``: gold at which it ends, 0: at the exit, with ``gold`` pieces at least; ``ends``: how many are enough;
+    ``until``: gold at which it ends, as where what is open differs from ``mask``; 0: only at the exit, with ``gold``
+    pieces at least; ``ends``: how many are enough, ``rollouts``: tries to survive there;
     ``field``: what makes the fields.
     """
 
     roots: Sequence[Words]
     until: int
+    mask: int
     gold: int
     ends: int
+    rollouts: int
     field: FieldOf
 
 
@@ -73,7 +76,9 @@ class Search:
         self.goals = Goals(
             gold=0,
             leg=0,
+            mask=0,
             ends=1,
+            rollouts=0,
             gold_slots=heuristics.gold_slots,
             switch_slots=heuristics.slots,
             masks=np.full(MAX_SWITCH_STATES, -1, np.int64),
@@ -100,7 +105,9 @@ class Search:
     def begin_leg(self, leg: Leg, resolution: Resolution, *, seed: int, bound: int) -> None:
         """Begin a new search from other moments to another goal; ``bound`` as for ``begin``."""
         self.guide = NO_GUIDE
-        self.goals = self.goals._replace(gold=leg.gold, leg=leg.until, ends=leg.ends)
+        self.goals = self.goals._replace(
+            gold=leg.gold, leg=leg.until, mask=leg.mask, ends=leg.ends, rollouts=leg.rollouts
+        )
         self.goals.fields[:, 0] = NOT_MADE
         self._field = leg.field
         self._begin(leg.roots, resolution, seed, bound)

@@ -14,8 +14,8 @@ from threading import Event
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.inputs import press_jumps
 from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, verified_run
-from ninja_game.solver.gold.route import LEG_NODES, STYLES, GoldRoute, Style
 from ninja_game.solver.heuristics import Heuristics
+from ninja_game.solver.legs.route import LEG_NODES, STYLES, Route, Style
 from ninja_game.solver.local_search import LocalSearch
 from ninja_game.solver.search import MORE
 from ninja_game.solver.search_memory import Resolution, open_start
@@ -97,7 +97,7 @@ class _Job:
         gold = self.state.task.gold_wanted
         self._routes += 1
         seed = self.seed * 1000 + self._routes
-        route = GoldRoute(self._memory(), gold=gold, seed=seed, style=style, bound=bound)
+        route = Route(self._memory(), gold=gold, seed=seed, style=style, bound=bound)
         until = self.work + ticks * SEARCH_COST
 
         def over(played: int) -> bool:

@@ -23,12 +23,15 @@ NOT_MADE, WANTED = -1.0, -2.0
 class Goals(NamedTuple):
     """Where to go in a level, by switch state (heuristics.py). Masks, places and fields have MAX_SWITCH_STATES rows.
 
-    A search is one for the exit, or one *leg*: it ends at each moment at which another piece of gold is collected.
+    A search is one for the exit, or one *leg*: it ends where another piece of gold is collected or a switch
+    touched.
     """
 
     gold: int  #: pieces that a run must have at the exit
     leg: int  #: a leg ends where this many pieces are collected; 0: only the exit counts
+    mask: int  #: and where what is open differs from this
     ends: int  #: how many ends of a leg are enough
+    rollouts: int  #: tries to survive at the end of a leg, 0: it need not be survived
     gold_slots: NDArray[np.int64]
     switch_slots: NDArray[np.int64]  #: the slot of each bit of a mask
     masks: NDArray[np.int64]  #: what is open in each switch state, -1: not reached yet

@@ -14,8 +14,8 @@ if not compiled_available():
 
 from ninja_game.sim.inputs import press_jumps
 from ninja_game.solver.distance_field import POINTS, UNREACHED, point_at
-from ninja_game.solver.gold.tour import short_tour
 from ninja_game.solver.heuristics import Heuristics
+from ninja_game.solver.legs.tour import short_tour
 from ninja_game.solver.local_search import LocalCounters
 from ninja_game.solver.macro_actions import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_inputs
 from ninja_game.solver.mutations import cut, mutate, overwrite, shift_boundary, shift_pulse, stretch

@@ -1,4 +1,4 @@
-"""Moments on the way to all gold, and fronts of moments with the same gold."""
+"""Moments on the way to all gold, and fronts of moments with the same gold and switches."""
 
 from __future__ import annotations
 
@@ -33,9 +33,10 @@ class Moment:
 
 @dataclass
 class Front:
-    """Moments with the same gold, the best first; in which order the rest is to be fetched; what has been tried."""
+    """Moments with the same gold and switches, earliest first; in which order to fetch the rest; what was tried."""
 
     taken: int
+    mask: int
     moments: list[Moment] = field(default_factory=list)
     tour: list[int] = field(default_factory=list)
     tries: int = 0

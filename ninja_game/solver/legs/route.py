@@ -1,14 +1,13 @@
-"""A run that collects gold: piece by piece along a tour, with several moments kept at each piece, and back when stuck.
+"""A run in legs: from gold to gold along a tour and from switch to switch, several moments kept at each.
 
-Moments with the same gold form a *front*. A step takes the most promising front, searches from all its moments to the
-next piece of its tour, and puts the moments at which another piece was collected - that one or another - into the
-front of their gold. A front that leads nowhere is tried again, later, with another piece, another resolution and more
-work; the more often it was tried, the sooner fronts with less gold come first.
+Moments with the same gold and the same switches form a *front*. A step takes the most promising front, searches from
+all its moments to the next piece of its tour, or to the next switch or the exit, and puts the moments at which a piece
+was collected or a switch touched - that one or another - into their fronts. A front that leads nowhere is tried again,
+later, with another piece, another resolution and more work; the more often it was tried, the sooner others come first.
 """
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -16,11 +15,11 @@ from functools import partial
 import numpy as np
 
 from ninja_game.solver.distance_field import UNREACHED, Field, point_at
-from ninja_game.solver.gold.fronts import Front, Moment, pieces_of
-from ninja_game.solver.gold.tour import short_tour
 from ninja_game.solver.heuristics import Heuristics
+from ninja_game.solver.legs.fronts import Front, Moment, pieces_of
+from ninja_game.solver.legs.tour import short_tour
 from ninja_game.solver.search_memory import Resolution
-from ninja_game.solver.search_run import End, Leg, Search
+from ninja_game.solver.search_run import Leg, Search
 
 LEGS = (
     (Resolution(cell=12.0, speed=1.0, macro=5, weight=1.6), 400_000),
@@ -32,6 +31,11 @@ LEGS = (
 )
 """How a front is searched at its first, second … try, and the most ticks."""
 LEG_NODES = 250_000
+ROLLOUTS = 16
+CAREFUL_TRIES = 4
+"""A piece must be survived, as far as so many random runs tell, at a front's first tries."""
+NEVER = 1 << 30
+"""More gold than there is: what a leg wants at the exit that is to end elsewhere."""
 EXTRA = 40_000
 """Ticks that a leg goes on at least after its first end, for others."""
 TRY_PENALTY = 1.5
@@ -39,6 +43,8 @@ TRY_PENALTY = 1.5
 STALL_STEPS = 120
 STALL_TICKS = 6_000_000
 """Steps and ticks without another piece of gold after which it begins again from the start."""
+DOOR_WORTH = 0.5
+"""Pieces of gold that an open door counts like."""
 FAR = 20_000.0
 """Ticks that an unreachable piece counts in a tour."""
 FIELDS_KEPT = 400
@@ -61,8 +67,8 @@ STYLES = (Style(24, 60, 0.8), Style(16, 40, 0.7, 0.3), Style(40, 80, 0.9, 0.3), 
 """For routes shorter than one that is known, in turn."""
 
 
-class GoldRoute:
-    """A search for runs with ``gold`` pieces; ``bound``: only runs of fewer ticks count (0: any)."""
+class Route:
+    """A search for runs with ``gold`` pieces (0: straight to the exit), shorter than ``bound`` ticks (0: any)."""
 
     def __init__(self, search: Search, *, gold: int, seed: int, style: Style = Style(), bound: int = 0) -> None:
         self.search = search
@@ -74,17 +80,23 @@ class GoldRoute:
         self.steps = 0
         self.most = 0
         self.ever_taken = 0
-        self.urgency: Counter[int] = Counter()
-        self.fronts: dict[int, Front] = {}
-        self._stalled_steps = self._stalled_ticks = self._most_now = self._restarts = 0
+        self.urgency = np.zeros(len(self.heuristics.gold_places))
+        self.fronts: dict[tuple[int, int], Front] = {}
+        self._stalled_steps = self._stalled_ticks = self._restarts = 0
+        self._most_now = 0.0
         self._fields: dict[tuple[int, int], Field] = {}
         self._distances: dict[int, Field] = {}
         self._points = np.array([point_at(x, y) for x, y in self.heuristics.gold_places], np.int64)
+        switches = list(enumerate(self.heuristics.switches))
+        self._exits = sum(1 << bit for bit, switch in switches if not switch.door)
+        self._doors = sum(1 << bit for bit, switch in switches if switch.door and not switch.trap)
         start = search.start
         ninja = start.worlds[0]["ninja"]
         start.node_words[:] = start.base
-        self._first = Moment(start.base, 0, 0, 0, (float(ninja["x"]), float(ninja["y"])))
-        self._add(self._first, ())
+        self._first = Moment(
+            start.base, 0, 0, self.heuristics.opened(start.worlds[0]), (float(ninja["x"]), float(ninja["y"]))
+        )
+        self._add(self._first, [])
 
     def step(self, over: Callable[[int], bool]) -> bytes | None:
         """Search one leg; a run to the exit with the gold, if it ends in one that is short enough.
@@ -93,7 +105,7 @@ class GoldRoute:
         """
         if self._stalled_steps > STALL_STEPS or self._stalled_ticks > STALL_TICKS * (1 + self._restarts):
             self._restart()
-        front = max(self.fronts.values(), key=lambda front: (front.count - TRY_PENALTY * front.tries, front.taken))
+        front = max(self.fronts.values(), key=self._promise)
         target = self._target(front)
         resolution, budget = LEGS[min(front.tries, len(LEGS) - 1)]
         budget *= 4 if target < 0 else 1
@@ -106,20 +118,28 @@ class GoldRoute:
         self._run(budget, over)
         self._stalled_ticks += self.search.ticks
         self._stalled_steps += 1
-        if leg.until == 0:
+        if leg.gold < NEVER:
             best = self.search.best()
             if not best:
                 return None
             self.bound = front.moments[best[0]].tick + len(best[1])
             return front.moments[best[0]].run() + best[1]
         ends = self.search.ends()
-        if target not in {piece for end in ends for piece in pieces_of(end.taken)}:
+        if target >= 0 and not any(end.taken >> target & 1 for end in ends):
             front.failed[target] += 1
+            self.urgency[target] *= 0.5
         for end in ends:
-            self._add_end(front, end)
+            before_it = front.moments[end.root]
+            self._add(Moment(end.words, end.tick, end.taken, end.mask, end.place, before_it, end.inputs), front.tour)
         if self._most_now > before:
             self._stalled_steps = self._stalled_ticks = 0
         return None
+
+    def _promise(self, front: Front) -> tuple[float, int, int]:
+        """How far a front is: pieces collected and doors opened, less what its tries count."""
+        useful = self._doors | (self._exits if front.count >= self.gold else 0)
+        done = front.count + DOOR_WORTH * (front.mask & useful).bit_count()
+        return done - TRY_PENALTY * front.tries, front.taken, front.mask
 
     def never_taken(self) -> list[int]:
         """The pieces that were collected at no moment."""
@@ -136,17 +156,20 @@ class GoldRoute:
             while moment and moment.before and len(left) < len(pieces) // 4 + 1:
                 left |= set(pieces_of(moment.taken & ~moment.before.taken))
                 moment = moment.before
-        self.urgency.update(left)
+        self.urgency[list(left)] += 1.0
         self.fronts = {}
-        self._stalled_steps = self._stalled_ticks = self._most_now = 0
+        self._stalled_steps = self._stalled_ticks = 0
+        self._most_now = 0.0
         self._restarts += 1
-        self._add(self._first, ())
+        self._add(self._first, [])
 
     def _leg(self, front: Front, target: int) -> Leg:
         roots = [moment.words for moment in front.moments]
-        if target < 0:
-            return Leg(roots, 0, self.gold, 1, self.heuristics.field)
-        return Leg(roots, front.count + 1, 1 << 30, self.style.ends, partial(self._field, target))
+        if target < 0 and (front.mask & self._exits or not self._exits):
+            return Leg(roots, 0, front.mask, self.gold, 1, 0, self.heuristics.field)
+        rollouts = ROLLOUTS if front.tries <= CAREFUL_TRIES else 0
+        field = self.heuristics.field if target < 0 else partial(self._field, target)
+        return Leg(roots, front.count + 1, front.mask, NEVER, self.style.ends, rollouts, field)
 
     def _run(self, budget: int, over: Callable[[int], bool]) -> None:
         """Run the leg's search; from the first end or run to the exit on only as long again."""
@@ -159,19 +182,15 @@ class GoldRoute:
             if search.counters.ends or search.counters.best_node >= 0:
                 stop = min(stop, max(2 * search.ticks, EXTRA)) if stop == budget else stop
 
-    def _add_end(self, front: Front, end: End) -> None:
-        before = front.moments[end.root]
-        moment = Moment(end.words, end.tick, end.taken, end.mask, end.place, before, end.inputs)
-        self._add(moment, front.tour)
-
-    def _add(self, moment: Moment, tour: list[int] | tuple[int, ...]) -> None:
+    def _add(self, moment: Moment, tour: list[int]) -> None:
         """Put a moment into its front, which keeps the best."""
-        front = self.fronts.get(moment.taken)
-        if not front:
-            front = self.fronts[moment.taken] = Front(moment.taken, tour=[k for k in tour if not moment.taken >> k & 1])
+        key = (moment.taken, moment.mask)
+        if key not in self.fronts:
+            self.fronts[key] = Front(*key, tour=[k for k in tour if not moment.taken >> k & 1])
+        front = self.fronts[key]
         self.ever_taken |= moment.taken
         self.most = max(self.most, front.count)
-        self._most_now = max(self._most_now, front.count)
+        self._most_now = max(self._most_now, self._promise(Front(*key))[0])
         front.moments = sorted([*front.moments, moment], key=lambda moment: moment.tick)[: self.style.width]
 
     def _target(self, front: Front) -> int:

@@ -1,1 +1,0 @@
-"""Runs that collect gold: in which order, and how to get from one piece to the next."""
