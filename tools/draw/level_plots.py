@@ -62,7 +62,7 @@ def _pyplot() -> Any:
     import matplotlib as mpl
 
     mpl.use("Agg")
-    mpl.rcParams["svg.hashsalt"] = "ninja-game"
+    mpl.rcParams.update({"svg.hashsalt": "ninja-game", "svg.fonttype": "none"})
     import matplotlib.pyplot as plt
 
     return plt
