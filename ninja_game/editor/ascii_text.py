@@ -25,7 +25,7 @@ from ninja_game.formats.ascii.writer import (
 from ninja_game.formats.lines import UNCOMMENTED, numbered_lines
 from ninja_game.sim.level import ObjectSpec
 
-_ROW = re.compile(r"(\s*\d*\s*\|).*(\|.*)")
+_ROW = re.compile(r"(\s*+\d*+\s*+\|).*(\|.*)")
 _RULER = re.compile(r";[\s\d]*")
 
 

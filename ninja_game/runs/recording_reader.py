@@ -22,7 +22,7 @@ from ninja_game.sim.level import Level
 LEVELS_KEPT = 512
 """Levels that are kept read, some 10 MB: recordings of one level often stand near each other."""
 
-_MEANT_AS_DEMO = re.compile(r"[-+]?[0-9.]+\s*:|\S*[|:]\S*\Z|A\S*[^\sA-Za-z]\S*\Z")
+_MEANT_AS_DEMO = re.compile(r"[-+]?[0-9.]++\s*+:|(?=\S++\Z)([^|:]*+[|:]|A[A-Za-z]*+[^A-Za-z])")
 """What stands in a demo's place and is none, but looks like one: not the free text of level files."""
 
 

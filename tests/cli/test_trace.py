@@ -113,6 +113,14 @@ def test_recordings_are_not_written_over(name: str, two: Path, tmp_path: Path) -
     assert source.read_bytes() == two.read_bytes()
 
 
+def test_a_name_that_is_no_text_is_written_as_far_as_it_can_be(tmp_path: Path) -> None:
+    replay, table = tmp_path / "a.replay.txt", tmp_path / "run.csv"
+    replay.write_text(replay_of_walk(name="a\0\ud800,b"))
+    assert trace(replay, "-o", table).exit_code == 0
+    assert "a\0?,b" in table.read_text()
+    assert trace(replay, "--against", table).exit_code == 0
+
+
 def test_numpy_file_keeps_every_bit(two: Path, tmp_path: Path) -> None:
     assert trace(two, "--objects", "-o", tmp_path / "run.npz").exit_code == 0
     with np.load(tmp_path / "run.npz") as arrays:

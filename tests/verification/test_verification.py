@@ -14,7 +14,7 @@ import pytest
 
 from ninja_game.errors import FormatError
 from ninja_game.files.reading import files_below
-from ninja_game.runs.recording_reader import Unreadable
+from ninja_game.runs.recording_reader import Unreadable, records_of
 from ninja_game.sim.level import Level
 from ninja_game.verification import verify_many as verification
 from ninja_game.verification.checkpoint_log import HEADER, CheckpointLog
@@ -59,6 +59,13 @@ def test_nothing_stops_the_rest(archive: Path) -> None:
     messages = [result.message for result in expected(archive) if isinstance(result, Unreadable)]
     assert any("none.txt" in message and "record 1" in message for message in messages)
     assert any("d.txt" in message for message in messages)
+
+
+@pytest.mark.parametrize("note", [":" * 100_000 + " x", "A" + "1" * 100_000 + "\x01 x", "1" * 100_000])
+def test_the_note_of_a_record_is_looked_at_in_no_time(note: str) -> None:
+    started = time.process_time()
+    assert records_of(f"$a#b#c#{WALK}#{note}#") == []
+    assert time.process_time() - started < 1
 
 
 def test_files_come_in_the_order_of_their_names_as_paths_have_it(archive: Path) -> None:

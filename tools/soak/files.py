@@ -2,7 +2,7 @@
 
     python3 tools/dev.py tool soak.files [--count 1000000] [--seed 1]
 
-Exit code 0: only errors of ours, each file read within a second; 1: something else, printed with its seed.
+Exit code 0: only errors of ours, each file read within two seconds; 1: something else, printed with its seed.
 """
 
 from __future__ import annotations

@@ -195,6 +195,6 @@ def _write(traces: Traces, output: Path | None, files: Sequence[Path]) -> None:
 def _fill_csv(runs: Iterator[FiledTrace], file: IO[bytes]) -> None:
     from ninja_game.runs.trace_files import write_csv
 
-    text = io.TextIOWrapper(file, "utf-8", newline="")
+    text = io.TextIOWrapper(file, "utf-8", "replace", newline="")
     write_csv(runs, text)
     text.detach()

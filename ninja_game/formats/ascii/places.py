@@ -10,7 +10,7 @@ from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.legend import CELL
 from ninja_game.sim.level import COLUMNS, ROWS
 
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?|nan|[+-]?inf", re.ASCII)
+_NUMBER = re.compile(r"[+-]?(\d++(\.\d*+)?|\.\d++)(e[+-]?\d++)?|nan|[+-]?inf", re.ASCII)
 _LONGEST_SHOWN = 40
 
 
