@@ -6,6 +6,7 @@ import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack
+from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -38,7 +39,8 @@ class LevelPath(click.Path):
         own = _own_levels()
         there = Path(value).exists() or "\0" in str(value)
         if not there and str(value) not in own and not Path(value).suffix:
-            self.fail(f"{value!r} does not exist; the game's own levels: {', '.join(own)}", param, ctx)
+            near = get_close_matches(str(value), own, 3, 0.5) or list(own)[:3]
+            self.fail(f"{value!r} does not exist; the game's own levels: {', '.join(near)}, ...", param, ctx)
         return super().convert(value if there else own.get(str(value), value), param, ctx)
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:

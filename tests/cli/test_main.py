@@ -113,7 +113,8 @@ def test_the_names_of_our_levels_stand_for_their_files_and_are_completed() -> No
     result = CliRunner().invoke(cli, ["info", "00-0-first-steps"])
     assert result.exit_code == 0
     assert str(bundled_levels()[0]) in result.stdout.replace("\n", "")
-    assert "the game's own levels: 00-0-first-steps" in CliRunner().invoke(cli, ["solve", "no-such-level"]).stderr
+    assert "the game's own levels: 00-0-first-steps, " in CliRunner().invoke(cli, ["solve", "0"]).stderr
+    assert "levels: 00-0-first-steps, " in CliRunner().invoke(cli, ["solve", "first-steps"]).stderr
     asked = {"_NINJA_GAME_COMPLETE": "bash_complete", "COMP_WORDS": "ninja-game info 00-", "COMP_CWORD": "2"}
     completed = subprocess.run(
         [sys.executable, "-m", "ninja_game"], env=os.environ | asked, capture_output=True, text=True, check=False

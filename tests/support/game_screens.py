@@ -156,6 +156,8 @@ def _levels(driver: MenuDriver) -> Iterator[str]:
     (driver.player.folder / "levels" / "target.txt").write_text(RANGE)
     (driver.player.folder / "levels" / "broken.txt").write_text("ninja-game level 1\nnonsense")
     home(driver)
+    rich = driver.player.catalogue.episodes[0].levels[0]
+    driver.player.marks.passed(rich.digest, 900, rich.all_gold)
     driver.open("Levels")
     driver.frames(20)
     yield "levels"

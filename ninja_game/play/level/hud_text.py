@@ -27,7 +27,7 @@ def hud_view(play: LevelPlay) -> HudView:
         keys = f"{key('confirm')}: go on    {key('retry')}: retry    {key('replay')}: replay"
         # At the far side from the ninja, so that neither its dance nor the way that it came is hidden.
         y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
-        message = f"Passed with {seconds_text(attempt.score)}", [*_reached(play), keys], y
+        message = f"Passed with {seconds_text(attempt.score)}", [*_reached(play, gold), keys], y
         medal = context.pars.medal(attempt.ended_tick) if context.pars else ""
     hint = _hint(play, key)
     practice = "Practice" + (", slow motion" if play.tools.slow else "")
@@ -42,10 +42,10 @@ def hud_view(play: LevelPlay) -> HudView:
     )
 
 
-def _reached(play: LevelPlay) -> list[str]:
+def _reached(play: LevelPlay, gold: str) -> list[str]:
     """The time of a passed run with its medal and the next one, and its gold."""
-    tick, pars, gold = play.attempt.ended_tick, play.context.pars, play.attempt.gold
-    lines = [f"{gold} / {play.all_gold} gold" + (", all of it" if gold == play.all_gold > 0 else "")]
+    tick, pars = play.attempt.ended_tick, play.context.pars
+    lines = [f"{gold} gold" + (", all of it" if play.attempt.gold == play.all_gold > 0 else "")]
     if pars:
         medal, following = pars.medal(tick), pars.next_medal(tick)
         text = f"{seconds_text(tick)} s" + (f": {medal} medal" if medal else "")
