@@ -68,6 +68,9 @@ KINDS_OF_REFERENCE = {
 }  # fmt: skip
 """In how many of a hundred levels of the reference a kind occurs."""
 
+HEADING = "## The figures"
+"""Of the page docs/level-set.md, below which the tables stand."""
+
 MOST_SHARED = 0.5
 """Share of their solid cells that two levels may have in common at most."""
 MOST_WITH_MOTIF = 0.1
@@ -140,6 +143,14 @@ def missing(levels: Mapping[str, Level]) -> tuple[list[str], list[int]]:
     return sorted(ALL_VARIANTS - seen), sorted({0, 1, *SHAPES} - tiles)
 
 
+def write_page(pack: Pack, page: Path) -> None:
+    """Write the tables of a pack at the end of a page, below their heading."""
+    levels = {file: named.level for file, named in pack.levels.items()}
+    tables = [table_of_set(list(figures_of_set(pack).values())), table_of_kinds(levels)]
+    head = page.read_text("utf-8").partition(HEADING)[0]
+    page.write_text("\n\n".join([head + HEADING, *tables]) + "\n", "utf-8")
+
+
 def motif_text(motif: Sequence[int]) -> str:
     """A motif's rows in the characters of ASCII levels."""
     return " ".join("".join(TILE_CHARS[tile] for tile in motif[row::3]) for row in range(3))
@@ -176,6 +187,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("levels", nargs="*", type=Path, help="single levels; without them the whole pack")
     parser.add_argument("--pack", type=Path, default=ROOT / "levels")
+    parser.add_argument("--doc", metavar="PAGE", type=Path, help=f"write the tables below {HEADING!r} of this page")
     parser.add_argument("--plots", metavar="FOLDER", type=Path, help="draw the plots into this folder too")
     arguments: Any = parser.parse_args()
     pack = Pack(arguments.pack)
@@ -183,6 +195,8 @@ def main() -> None:
         tell_levels(arguments.levels, pack)
     else:
         tell_set(pack)
+    if arguments.doc:
+        write_page(pack, arguments.doc)
     if arguments.plots:
         from tools.draw.level_plots import draw_difficulty, draw_figures
 
