@@ -9,6 +9,7 @@ import csv
 import os
 import re
 import struct
+import sys
 from collections.abc import Iterable, Iterator, Mapping
 from io import TextIOWrapper
 from itertools import groupby, pairwise
@@ -206,6 +207,8 @@ def _array(archive: ZipFile, info: ZipInfo, wanted: np.dtype[Any]) -> NDArray[An
     shape = tuple(int(size) for size in sizes.split(",") if size.strip())
     if len(shape) > 1 + (wanted == OBJECT_RECORD) or max(shape, default=0) > MAX_TICKS:
         raise ValueError(f"an array of the shape {shape}")
+    if wanted.kind == "U" and (np.frombuffer(data[header.end() :], np.uint32) > sys.maxunicode).any():
+        raise ValueError("a text of numbers that are no characters")
     return np.ndarray(shape, dtype, data, header.end(), order="F" if by_columns == "True" else "C")
 
 

@@ -46,6 +46,17 @@ def test_record_and_its_replay_come_back_equal(tmp_path: Path) -> None:
     )  # fmt: skip
 
 
+def test_a_damaged_table_whose_name_is_no_text_is_set_aside_too(tmp_path: Path) -> None:
+    path = tmp_path / "records.sqlite"
+    Store(path).close()
+    damaged = path.read_bytes().replace(b"level_best", b"l\xb1vel_best")
+    path.write_bytes(damaged.replace(b"CREATE TABLE l\xb1", b"CREATE TABLX l\xb1"))
+    store = Store(path)
+    assert "its tables cannot be read" in store.messages[0]
+    assert (tmp_path / "records.damaged-1.sqlite").is_file()
+    store.close()
+
+
 @pytest.mark.parametrize("damage", [b"no database at all" * 100, b"", b"SQLite format 3\0" + b"\xff" * 4000])
 def test_damaged_file_is_set_aside_and_the_game_starts(tmp_path: Path, damage: bytes) -> None:
     path = tmp_path / "records.sqlite"

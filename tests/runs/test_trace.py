@@ -193,6 +193,7 @@ def test_a_zip_whose_index_leads_before_its_beginning_is_an_error_of_ours(tmp_pa
         ("ninja", np.zeros(1000, np.uint8)), ("ids", np.zeros(1000, np.int8)), ("ids", np.zeros((2, 2), np.int32)),
         ("ids", np.array([4, 2], np.int32)), ("events", np.zeros(MAX_TICKS + 1, np.str_)), ("keys", np.zeros(3)),
         ("kinds", np.zeros(2, "S1")), ("record", np.array("1")),
+        ("kinds", np.full(2, 2**32 - 1, np.uint32).view("<U1")),
     ],
 )  # fmt: skip
 def test_arrays_of_another_kind_size_or_order_are_refused(name: str, array: NDArray[Any], tmp_path: Path) -> None:

@@ -147,6 +147,10 @@ def open_database(name: str, source: Path | None = None, seconds: float = OPENIN
         connection.execute("PRAGMA foreign_keys = ON")
         _migrate(connection)
         _check_tables(connection)
+    except UnicodeDecodeError:
+        # What SQLite says about a damaged schema holds its bytes, and Python fails to make a text of them.
+        connection.close()
+        raise sqlite3.DatabaseError("its tables cannot be read") from None
     except BaseException:
         connection.close()
         raise
