@@ -23,6 +23,7 @@ from ninja_game.signals import Terminated, end_on_signals, told
 GROUPS = {
     "game": {
         "play": "Play a level in a window.",
+        "edit": "Make a level, or change one, in a window.",
         "lab": "Drag, paint and watch: ten figures about how the world works.",
         "export": "Write a film of a recording: a GIF, or a folder of pictures.",
     },

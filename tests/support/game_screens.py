@@ -10,12 +10,18 @@ from unittest.mock import patch
 
 import pygame
 
+from ninja_game.editor.files import Source, draft_of
+from ninja_game.editor.stamp import Stamp, put
+from ninja_game.formats.named_level import parse_levels
+from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.help.screen import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.menus.settings.screen import PAGES
+from ninja_game.sim.kinds import GOLD, MINE
+from ninja_game.sim.level import ObjectSpec
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import instead_of_ours
 
@@ -73,6 +79,7 @@ def tour(driver: MenuDriver) -> Iterator[str]:
     yield from _settings(driver)
     yield from _help(driver)
     yield from _lab(driver)
+    yield from _editor(driver)
 
 
 def home(driver: MenuDriver) -> None:
@@ -263,6 +270,36 @@ def _lab(driver: MenuDriver) -> Iterator[str]:
         driver.frames(40)
         yield f"lab-{figure.name}"
     home(driver)
+
+
+def _editor(driver: MenuDriver) -> Iterator[str]:
+    """A level in the editor, with problems, something in hand, something selected; its panels."""
+    screen = driver.open("Editor")
+    assert isinstance(screen, EditorScreen)
+    draft = draft_of(parse_levels(RANGE)[0])
+    gold = tuple(ObjectSpec(GOLD, (300.0 + 12 * k, 200.0)) for k in range(5))
+    draft = put(
+        draft, Stamp({(8, 12): 7, (9, 12): 1, (10, 12): 6, (12, 17): 1}, (*gold, ObjectSpec(MINE, (300.0, 420.0))))
+    )
+    screen.commands.edit(Source(draft))
+    screen.session.finish_checks()
+    driver.frames(3)
+    yield "editor"
+    driver.press("grave", "o", "m")
+    driver.mouse(500, 300)
+    driver.mouse(520, 330, click=False)
+    yield "editor-placing-a-switch"
+    driver.press("escape", "m", "m", "m", "m", "f4")
+    yield "editor-selected"
+    driver.press("escape", "escape")
+    yield "editor-menu"
+    driver.press("escape", "f2")
+    yield "editor-about"
+    driver.press("escape", "f1")
+    yield "editor-help"
+    driver.press("escape")
+    screen.session.close()
+    driver.app.pop()
 
 
 def run_tour(folder: Path, size: tuple[int, int], show: Callable[[MenuDriver, str], None]) -> None:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game import __version__
+from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.menus.attract import Attract
 from ninja_game.play.menus.browser import Browser
@@ -52,6 +53,7 @@ class MainMenu(MenuScreen):
             ("Levels", self._opener(Browser), "Single levels, and your own files"),
             ("Records", self._opener(RecordsScreen), "Your best runs, and what killed you"),
             ("Replays", self._opener(ReplaysScreen), "Watch runs again"),
+            ("Editor", self._opener(EditorScreen), "Make levels of your own"),
             ("Lab", self._opener(LabScreen), "Figures to drag: how the world works"),
             ("Settings", self._opener(SettingsScreen), "Keys, sound, colours, comfort"),
             ("Help", self._opener(HelpScreen), "How to move, and what everything does"),

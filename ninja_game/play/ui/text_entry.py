@@ -11,17 +11,27 @@ from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import PAD, TEXT, Widget
 
 LONGEST = 40
-"""How many characters can be typed."""
+"""How many characters can be typed unless a field says otherwise."""
 
 
 class TextEntry(Widget):
     """A text field. With the focus it takes what is typed; left, right, Home, End, Backspace and Delete edit.
 
-    ``prompt``: shown while it is empty. ``put`` is called at every change.
+    ``prompt``: shown while it is empty. ``put`` is called at every change. ``longest``: how many characters fit in.
     """
 
-    def __init__(self, area: Area, prompt: str, text: str, put: Callable[[str], object]) -> None:
-        super().__init__(area)
+    def __init__(
+        self,
+        area: Area,
+        prompt: str,
+        text: str,
+        put: Callable[[str], object],
+        *,
+        longest: int = LONGEST,
+        hint: str = "",
+    ) -> None:
+        super().__init__(area, hint=hint)
+        self.longest = longest
         self.prompt = prompt
         self.text = text
         self.put = put
@@ -48,7 +58,7 @@ class TextEntry(Widget):
         return True
 
     def _insert(self, typed: str) -> None:
-        typed = "".join(char for char in typed if char.isprintable())[: LONGEST - len(self.text)]
+        typed = "".join(char for char in typed if char.isprintable())[: max(0, self.longest - len(self.text))]
         self.text = self.text[: self.cursor] + typed + self.text[self.cursor :]
         self.cursor += len(typed)
         self.put(self.text)

@@ -11,13 +11,9 @@ from ninja_game.play.view.sprites.object_animation import ObjectAnimation
 from ninja_game.play.view.sprites.sketch import Sprite
 from ninja_game.play.view.sprites.sprite_book import SpriteBook
 from ninja_game.play.view.sprites.static_sprite_state import SETTLED_TICKS, PlacedSprite, static_sprites_of
-from ninja_game.play.view.sprites.tile_shapes import tile_picture
-from ninja_game.sim.collision.tiles import EMPTY, SHAPE
+from ninja_game.play.view.sprites.tile_sheet import TileSheet
 from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.memory.schema import TileMap, World
-from ninja_game.sim.rules import STRIDE
-
-_COLUMNS, _ROWS = 33, 25
 
 
 class Backdrop:
@@ -28,37 +24,13 @@ class Backdrop:
         self.palette = palette
         self._book = book
         self.picture = pygame.Surface(canvas.size)
-        self.tiles = pygame.Surface(canvas.size, pygame.SRCALPHA)
-        self._solid = [False] * (_COLUMNS * _ROWS)
+        sheet = TileSheet(canvas, palette)
+        sheet.show(level)
+        self.tiles, self.has_tile = sheet.surface, sheet.has_tile
         self._blits: dict[int, list[tuple[Sprite, int, int]]] = {}
         self._order: list[int] = []
         self._rects: dict[int, pygame.Rect] = {}
         self._moving: set[int] = set()
-        self._draw_tiles(level)
-
-    def _local(self, x: float, y: float) -> tuple[int, int]:
-        px, py = self.canvas.point(x, y)
-        return px - self.canvas.origin[0], py - self.canvas.origin[1]
-
-    def _draw_tiles(self, level: TileMap) -> None:
-        """Each cell into the px between its rounded edges."""
-        pictures: dict[tuple[int, int, int, float, float], pygame.Surface] = {}
-        scale = self.canvas.scale
-        for row in range(_ROWS):
-            for column in range(_COLUMNS):
-                tile = level.tiles[(row + 1) * STRIDE + column + 1]
-                if SHAPE[tile] == EMPTY:
-                    continue
-                left, top = self._local(24 * column, 24 * row)
-                right, bottom = self._local(24 * column + 24, 24 * row + 24)
-                # How far the cell's true corner lies beside its px: in eighths, so that few pictures are drawn.
-                shift = round(8 * (24 * column * scale - left)) / 8, round(8 * (24 * row * scale - top)) / 8
-                size = right - left, bottom - top
-                key = tile, *size, *shift
-                if key not in pictures:
-                    pictures[key] = tile_picture(tile, size, self.palette.tile, scale=scale, shift=shift)
-                self.tiles.blit(pictures[key], (left, top))
-                self._solid[row * _COLUMNS + column] = True
 
     def reset(self, world: World, animation: ObjectAnimation) -> None:
         """Draw all of it for a world as it is now."""
@@ -81,7 +53,8 @@ class Backdrop:
             if not is_near(x, y):
                 continue
             sprite = self._book.sprite(key)
-            px, py = self._local(x, y)
+            px, py = self.canvas.point(x, y)
+            px, py = px - self.canvas.origin[0], py - self.canvas.origin[1]
             blits.append((sprite, px, py))
             box = sprite.surface.get_rect(topleft=(px - sprite.ax, py - sprite.ay))
             rect = box if rect is None else rect.union(box)
@@ -116,14 +89,3 @@ class Backdrop:
                 self._mend(rect)
                 mended.append(rect)
         return mended
-
-    def has_tile(self, area: pygame.Rect) -> bool:
-        """Whether any px of an area may be a tile's."""
-        scale = 24 * self.canvas.scale
-        first_column, last_column = max(0, int(area.left / scale)), min(_COLUMNS - 1, int(area.right / scale))
-        first_row, last_row = max(0, int(area.top / scale)), min(_ROWS - 1, int(area.bottom / scale))
-        for row in range(first_row, last_row + 1):
-            start = row * _COLUMNS
-            if True in self._solid[start + first_column : start + last_column + 1]:
-                return True
-        return False

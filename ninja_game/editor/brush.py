@@ -1,0 +1,175 @@
+"""What is drawn with: the tiles by family and quarter, the sorts of objects, the keys that choose them, and snaps."""
+
+from __future__ import annotations
+
+from math import floor
+from typing import NamedTuple
+
+from ninja_game.editor.draft import Cell, cell_of
+from ninja_game.editor.motion import Motion
+from ninja_game.editor.records import SWITCH, carried, has_switch, points, settled, sort_name, with_word, word
+from ninja_game.formats.ascii.legend import TILE_CHARS, TILE_FAMILIES
+from ninja_game.formats.ascii.object_forms import natural_offset
+from ninja_game.formats.ascii.object_lines import Listed, read_object_line
+from ninja_game.sim import kinds
+from ninja_game.sim.level import ObjectSpec
+
+SNAPS: dict[str, float] = {"cell": 24.0, "half": 12.0, "quarter": 6.0, "px": 1.0}
+"""px between the places where objects can be put, by name; "cell": in the middle, or where the kind sits in a cell."""
+
+QUARTERS = "qwas"
+"""Keys whose place is the solid corner of a tile: upper left, upper right, lower left, lower right."""
+
+
+class Family(NamedTuple):
+    """Four tiles of one shape. ``key``: its digit, as in Ned (game.md §6); ``tiles``: by quarter."""
+
+    key: str
+    name: str
+    tiles: tuple[int, ...]
+
+
+def _family(key: str, name: str, chars: str) -> Family:
+    return Family(key, name, tuple(map(TILE_CHARS.index, chars)))
+
+
+_SHAPES = dict(TILE_FAMILIES)
+FAMILIES = (
+    *(
+        _family(key, name, _SHAPES[name])
+        for key, name in (
+            ("1", "45° slope"),
+            ("2", "67° slope, thin end"),
+            ("3", "22° slope, thin end"),
+            ("4", "concave curve (hollow)"),
+        )
+    ),
+    _family("5", "half tile", '["_]'),
+    *(
+        _family(key, name, _SHAPES[name])
+        for key, name in (
+            ("6", "67° slope, thick end"),
+            ("7", "22° slope, thick end"),
+            ("8", "convex curve (round)"),
+        )
+    ),
+)
+"""The families of tiles. Halves by quarter: left, upper, lower, right."""
+
+EMPTY, FULL = 0, 1
+
+
+def tile_name(tile: int) -> str:
+    """What a tile is called."""
+    if tile in (EMPTY, FULL):
+        return ("empty", "full tile")[tile]
+    return next((family.name for family in FAMILIES if tile in family.tiles), f"odd tile {tile}")
+
+
+def tile_key(tile: int) -> str:
+    """What to press for a tile."""
+    if tile in (EMPTY, FULL):
+        return "DE"[tile]
+    return next((f"{f.key} {QUARTERS[f.tiles.index(tile)].upper()}" for f in FAMILIES if tile in f.tiles), "")
+
+
+class Sort(NamedTuple):
+    """A sort of object in the palette. ``key``: the name of its key; ``line``: what it is like at first."""
+
+    name: str
+    key: str
+    line: str
+
+    @property
+    def record(self) -> ObjectSpec:
+        """An object of it, at the first cell."""
+        listed = read_object_line(self.line)[0]
+        assert isinstance(listed, Listed)  # noqa: S101 - the table below holds objects only
+        return listed.record
+
+
+SORTS = tuple(
+    Sort(name, key, f"{name} {rest}")
+    for name, key, rest in (
+        ("ninja", "9", "1,1"),
+        ("exit", "rightbracket", "1,1 switch 1,1"),
+        ("gold", "0", "1,1"),
+        ("mine", "3", "1,1"),
+        ("locked door", "o", "1,1 right switch 1,1"),
+        ("trap door", "p", "1,1 right switch 1,1"),
+        ("automatic door", "i", "1,1 right"),
+        ("one-way", "leftbracket", "1,1 up"),
+        ("launch pad", "equals", "1,1 up"),
+        ("bounce block", "minus", "1,1"),
+        ("thwump", "5", "1,1 down"),
+        ("floor guard", "4", "1,1"),
+        ("zap drone", "6", "1,1 surface-cw right"),
+        ("laser drone", "7", "1,1 alternating right"),
+        ("chaingun drone", "8", "1,1 alternating right"),
+        ("gauss turret", "1", "1,1"),
+        ("homing launcher", "2", "1,1"),
+    )
+)
+"""Everything that can be placed; the keys are Ned's (game.md §6)."""
+
+SORT_NAMES = tuple(sort.name for sort in SORTS)
+
+
+def sort_of(record: ObjectSpec) -> str:
+    """The sort in the palette that a record belongs to."""
+    name = sort_name(record)
+    return {"one-way platform": "one-way"}.get(name, name)
+
+
+def snapped(x: float, y: float, snap: str) -> tuple[float, float]:
+    """The nearest place of a snap; with "cell" the middle of the cell."""
+    step = SNAPS[snap]
+    if snap == "cell":
+        return step * floor(x / step) + 12.0, step * floor(y / step) + 12.0
+    return step * round(x / step), step * round(y / step)
+
+
+def placed(record: ObjectSpec, x: float, y: float, snap: str) -> ObjectSpec:
+    """The brush's object put at a point; doors on the side of the cell that is nearest, its switch where it would be.
+
+    Drones sit in the middle of their cell, guards on its floor, whatever the snap.
+    """
+    px, py = snapped(x, y, snap)
+    if record.kind == kinds.DOOR:
+        return _placed_door(record, x, y, (px, py))
+    if record.kind == kinds.DRONE:
+        px, py = snapped(x, y, "cell")
+    elif record.kind == kinds.FLOOR_GUARD:
+        py = 24.0 * cell_of(px, y)[1] + 18.0
+    elif snap == "cell":
+        direction = word(record, "direction") if record.kind == kinds.LAUNCH_PAD else ""
+        dx, dy = natural_offset(sort_of(record), direction)
+        px, py = px + dx, py + dy
+    values = (px, py, px, py) if record.kind == kinds.EXIT else (px, py, *record.values[2:])
+    return record._replace(values=values)
+
+
+def _placed_door(record: ObjectSpec, x: float, y: float, switch: tuple[float, float]) -> ObjectSpec:
+    column, row = cell_of(x, y)
+    right, down = x - 24.0 * column - 12.0, y - 24.0 * row - 12.0
+    if (right, down) != (0.0, 0.0):
+        wide = abs(right) >= abs(down)
+        side = ("right" if right > 0 else "left") if wide else ("bottom" if down > 0 else "top")
+        record = with_word(record, "side", side)
+    values = (*switch, *record.values[2:4], float(column), float(row), *record.values[6:])
+    return settled(record._replace(values=values))
+
+
+def with_switch(record: ObjectSpec, x: float, y: float, snap: str) -> ObjectSpec:
+    """An exit or a door with its switch at a point."""
+    px, py = snapped(x, y, snap)
+    old = points(record)[SWITCH] if has_switch(record) else (px, py)
+    return carried(record, Motion(dx=px - old[0], dy=py - old[1]), (SWITCH,))
+
+
+def cells_between(a: Cell, b: Cell) -> list[Cell]:
+    """The cells of a straight line from one cell to another, both included."""
+    steps = max(abs(b[0] - a[0]), abs(b[1] - a[1]), 1)
+    return [
+        (round(a[0] + (b[0] - a[0]) * k / steps), round(a[1] + (b[1] - a[1]) * k / steps)) for k in range(steps + 1)
+    ]

@@ -1,0 +1,100 @@
+"""Certifying a level while it is edited: the solver at work in a thread of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from threading import Thread
+from typing import TYPE_CHECKING
+
+from ninja_game.compile_cache import compiled_available
+from ninja_game.editor.routes import Route, route_of
+from ninja_game.errors import NinjaGameError
+from ninja_game.files.resources import how_to_install
+from ninja_game.sim.level import Level
+from ninja_game.sim.rules import TICKS_PER_SECOND
+
+if TYPE_CHECKING:
+    from ninja_game.solver.certificate import VerifiedRun
+    from ninja_game.solver.task import Progress
+
+SECONDS = 20.0
+"""How long the solver looks for better runs."""
+
+
+class _StoppedError(Exception):
+    """Ends the solver from within its report."""
+
+
+class Certifier:
+    """``run``: the best run found for ``level``, None so far; ``route``: its way. ``share``: of the work that is done.
+
+    ``text``: how it stands, in a line.
+    """
+
+    def __init__(self, seconds: float = SECONDS) -> None:
+        self.seconds = seconds
+        self.level: Level | None = None
+        self.run: VerifiedRun | None = None
+        self.route: Route = ()
+        self.share = 0.0
+        self.text = ""
+        self._thread: Thread | None = None
+        self._stop = False
+
+    @property
+    def busy(self) -> bool:
+        """Whether the solver is at work."""
+        return self._thread is not None and self._thread.is_alive()
+
+    def is_stale(self, level: Level) -> bool:
+        """Whether there is a result, but of another level than this one."""
+        return self.level is not None and level != self.level
+
+    def start(self, level: Level) -> None:
+        """Begin with a level; what was found for another one is forgotten."""
+        self.stop()
+        if not compiled_available():
+            self.text = f"Certifying needs Numba: {how_to_install('fast')}"
+            return
+        self.level, self.run, self.route, self.share = level, None, (), 0.0
+        self.text = "Getting ready (the first time this takes a minute or two)"
+        self._stop = False
+        self._thread = Thread(target=self._work, args=(level, lambda: self._stop), daemon=True)
+        self._thread.start()
+
+    def stop(self) -> None:
+        """End the search; what was found stays."""
+        self._stop = True
+        if self._thread is not None:
+            self._thread.join(5.0)
+            self._thread = None
+
+    def _work(self, level: Level, stopped: Callable[[], bool]) -> None:
+        def report(progress: Progress) -> None:
+            if stopped():
+                raise _StoppedError
+            self.share = min(1.0, progress.seconds / self.seconds)
+            if self.run is None:
+                self.text = f"Looking for a run: {progress.worlds // 1000} thousand moments tried"
+            else:
+                self.text = f"{self._found()}, shortening"
+
+        def better(run: VerifiedRun) -> None:
+            self.run, self.route = run, route_of(level, run.inputs)
+
+        try:
+            from ninja_game.solver.solve import Task, solve
+
+            solve(Task(level, seconds=self.seconds), report=report, on_better=better)
+        except _StoppedError:
+            pass
+        except NinjaGameError as error:
+            self.text = str(error)
+            return
+        self.share = 1.0
+        self.text = self._found() if self.run else "No run found in the time; that proves nothing"
+
+    def _found(self) -> str:
+        assert self.run is not None  # noqa: S101 - asked only then
+        gold = f", {self.run.gold} gold" if self.run.gold else ""
+        return f"Solvable, par {self.run.end_tick / TICKS_PER_SECOND:.2f} s{gold}"

@@ -1,0 +1,248 @@
+"""What each command of the editor does: tools, files, tests, views."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ninja_game.editor.autosave import Recovered, recovered
+from ninja_game.editor.bench import TOOLS
+from ninja_game.editor.brush import SNAPS
+from ninja_game.editor.files import SUFFIX, OccupiedError, Source, draft_of, new_source, open_source
+from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
+from ninja_game.editor.records import points
+from ninja_game.editor.stamp import everything
+from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.files.shown_text import file_stem
+from ninja_game.play.editor.desk import Desk
+from ninja_game.play.editor.marks import finding_points
+from ninja_game.play.editor.panels import Form, HelpPage, LevelChoice, Menu
+from ninja_game.play.editor.session import EditorSession
+from ninja_game.play.editor.trying import TryScreen
+from ninja_game.player.catalogue import Entry
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+Action = Callable[[], object]
+
+
+class EditorCommands:
+    """Runs commands by name (``controls.COMMANDS``). ``step_palette``: goes on in the palette."""
+
+    def __init__(self, app: App, session: EditorSession, desk: Desk) -> None:
+        self.app = app
+        self.session = session
+        self.desk = desk
+        self.step_palette: Callable[[int], object] = lambda _: None
+        self._finding = -1
+
+    def run(self, name: str) -> None:
+        """Do what a command says."""
+        bench = self.session.bench
+        if name in TOOLS:
+            bench.finish()
+            bench.tool = name
+        elif name.startswith("snap_"):
+            names = list(SNAPS)
+            bench.snap = names[(names.index(bench.snap) + 1) % len(names)] if name == "snap_next" else name[5:]
+        else:
+            self._table()[name]()
+
+    def _table(self) -> dict[str, Action]:
+        bench, session, desk = self.session.bench, self.session, self.desk
+        return {
+            "help": lambda: self.app.push(HelpPage(self.app)), "menu": self.menu,
+            "test": self.test, "test_here": lambda: self.test(here=True), "certify": self.certify,
+            "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
+            "undo": bench.undo, "redo": lambda: bench.undo(again=True),
+            "copy": bench.copy, "cut": bench.cut, "paste": bench.paste,
+            "choose_all": self.choose_all, "delete": bench.delete,
+            "next_tool": lambda: self.run(TOOLS[(TOOLS.index(bench.tool) + 1) % len(TOOLS)]),
+            "swap": lambda: bench.take(bench.tile if bench.objects else bench.record),
+            "mirror": lambda: bench.turn(MIRROR), "flip": lambda: bench.turn(FLIP),
+            "turn": lambda: bench.turn(CLOCKWISE), "symmetry": self.next_symmetry, "grid": desk.next_grid,
+            "lines": lambda: setattr(desk, "lines", not desk.lines),
+            "paths": lambda: setattr(desk, "paths", not desk.paths),
+            "next_finding": lambda: self.go_to_finding(self._finding + 1),
+            "next_entry": lambda: self.step_palette(1), "previous_entry": lambda: self.step_palette(-1),
+            "export_picture": session.export_picture,
+        }  # fmt: skip
+
+    # --- looking ---
+
+    def next_symmetry(self) -> None:
+        """Another symmetry."""
+        names = list(SYMMETRIES)
+        bench = self.session.bench
+        bench.finish()
+        bench.symmetry = names[(names.index(bench.symmetry) + 1) % len(names)]
+
+    def choose_all(self) -> None:
+        """Select everything."""
+        bench = self.session.bench
+        bench.finish()
+        bench.tool, bench.selection = "select", everything(bench.draft)
+
+    def go_to_finding(self, index: int) -> None:
+        """Put the pointer at a problem and select what it is about."""
+        findings, bench = self.session.findings, self.session.bench
+        if not findings:
+            self.app.notify("No problems found")
+            return
+        self._finding = index % len(findings)
+        finding = findings[self._finding]
+        places = finding_points(bench.draft, finding)
+        records = [number for number in finding.records if number < len(bench.draft.objects)]
+        bench.choose(frozenset((n, part) for n in records for part in points(bench.draft.objects[n])))
+        if records:
+            bench.tool = "select"
+        if places:
+            bench.pointer = places[0]
+            self.desk.hovering = True
+        self.desk.hint = f"{finding.sentence}. {finding.mend}"
+
+    # --- trying and certifying ---
+
+    def test(self, *, here: bool = False) -> None:
+        """Play the level; ``here``: with the ninja at the pointer."""
+        session = self.session
+        level = session.level_to_test(here=here)
+        try:
+            screen = TryScreen(self.app, session.name, level, lambda inputs: session.tried(level, inputs))
+        except LevelError as error:
+            self.app.notify(f"{error.what}: key 9 among the objects places a ninja, F6 tests with one at the pointer")
+            return
+        self.app.push(screen)
+
+    def certify(self) -> None:
+        """Start the solver, or stop it."""
+        certifier = self.session.certifier
+        self.session.bench.finish()
+        if certifier.busy:
+            certifier.stop()
+        elif any(finding.text.startswith("there is no") for finding in self.session.findings):
+            self.app.notify("Place a ninja and an exit with its switch first")
+        else:
+            certifier.start(self.session.draft.level)
+
+    # --- files ---
+
+    def menu(self) -> None:
+        """Give up what is half done, or open the file menu."""
+        session = self.session
+        if session.bench.cancel():
+            return
+        rows = [
+            ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
+            ("Open...", self.open, "Ctrl+O"), ("New", self.new, "Ctrl+N"), ("Name and author...", self.about, "F2"),
+            ("Copy as a string of N", session.copy_string, "To the clipboard"),
+            ("Paste a string of N", session.paste_string, "From the clipboard; any format of levels"),
+            ("Export a picture", session.export_picture, "A PNG file among your exports"),
+            ("Keep the solver's run", session.keep_certificate, "As a replay among yours"),
+            ("Leave the editor", self.leave, ""),
+        ]  # fmt: skip
+        self.app.push(Menu(self.app, "Level", rows))
+
+    def save(self) -> None:
+        """Write the level into its file, or into a new one of the player's."""
+        if self.session.source.path is None and not self.session.draft.name:
+            self.save_as()
+        else:
+            self.save_to(self.session.own_path)
+
+    def save_to(self, path: Path) -> None:
+        """Write the level; ask before anything is replaced."""
+        try:
+            self.session.save(path)
+        except OccupiedError as error:
+            text = str(error)
+            rows = [
+                ("Save under another name", self.save_as, ""),
+                ("Replace it", lambda: self.session.save(path, replacing=True), "What it holds now is lost"),
+            ]
+            self.app.push(Menu(self.app, text[0].upper() + text[1:], [*rows, ("Stay", lambda: None, "")]))
+        except NinjaGameError as error:
+            self.app.notify(f"Not saved: {error}")
+
+    def save_as(self) -> None:
+        """Ask for the level's name, and write it into a file of that name."""
+        session = self.session
+        fields = [("Name of the level", session.draft.name or "My level", 60)]
+
+        def take(texts: list[str]) -> None:
+            name = texts[0].strip()
+            folder = session.source.path.parent if session.source.path else self.app.player.folder / "levels"
+            session.bench.finish()
+            session.bench.history.change(replace(session.draft, name=name))
+            self.save_to(folder / f"{file_stem(name, 'level')}{SUFFIX}")
+
+        self.app.push(Form(self.app, "Save as", fields, "Save", take))
+
+    def about(self) -> None:
+        """Name, author, comment."""
+        draft = self.session.draft
+        prompts = ("Name", "Author", "Comment")
+        fields = [(prompt, text, 200) for prompt, text in zip(prompts, draft.about, strict=True)]
+
+        def take(texts: list[str]) -> None:
+            name, author, comment = texts
+            bench = self.session.bench
+            bench.finish()
+            bench.history.change(replace(bench.draft, name=name, author=author, comment=comment))
+
+        self.app.push(Form(self.app, "About the level", fields, "Take over", take))
+
+    def open(self) -> None:
+        """Choose a level to edit."""
+        self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))
+
+    def edit_entry(self, entry: Entry) -> None:
+        """Edit a level of the browser: the player's in its file, the game's as a new one."""
+        try:
+            own = entry.source == "yours" and entry.named.ascii
+            self.edit(open_source(Path(entry.named.file)) if own else Source(draft_of(entry.named)))
+        except (NinjaGameError, OSError) as error:
+            self.app.notify(str(error))
+
+    def edit(self, source: Source, found: Recovered | None = None) -> None:
+        """Edit this level, or one that was found again."""
+        self.session.begin(source, found)
+        self.desk.stale = True
+
+    def offer_recovered(self) -> None:
+        """Ask what to do with a level that was being edited when the program died."""
+        found = next(recovered(self.app.player.folder), None)
+        if found is None:
+            return
+        name = found.draft.name or (found.source.path.name if found.source.path else "a new level")
+        rows = [
+            ("Go on with it", lambda: self.edit(found.source, found), "As it was at most two seconds before the end"),
+            ("Later", lambda: None, "It is offered again"),
+            ("Forget it", found.forget, "It is lost"),
+        ]
+        self.app.push(Menu(self.app, f"Not saved last time: {name}", rows))
+
+    def new(self) -> None:
+        """An empty level."""
+        self.unless_unsaved(lambda: self.edit(new_source(self.app.settings.name)))
+
+    def leave(self) -> None:
+        """Back to where the editor was opened."""
+
+        def go() -> None:
+            self.session.close()
+            self.app.pop()
+
+        self.unless_unsaved(go)
+
+    def unless_unsaved(self, action: Action) -> None:
+        """Do something after which the present level is gone; ask first if it is not saved."""
+        self.session.bench.finish()
+        if self.session.is_saved:
+            action()
+            return
+        rows = [("Stay", lambda: None, ""), ("Save first", self.save, ""), ("Leave it unsaved", action, "It is lost")]
+        self.app.push(Menu(self.app, f"{self.session.name} is not saved", rows))

@@ -1,0 +1,121 @@
+"""The editor's commands: what they are called, and which keys and buttons mean them. The help page is this table."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import pygame
+
+from ninja_game.editor.brush import FAMILIES, QUARTERS, SORTS
+from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.scancodes import key_label, key_name, scancode_of
+
+
+class Command(NamedTuple):
+    """``keys``: names of keys, with ``ctrl+`` and ``shift+`` before them; ``pad``: inputs of a standard gamepad."""
+
+    name: str
+    label: str
+    keys: tuple[str, ...] = ()
+    pad: str = ""
+
+
+COMMANDS = (
+    Command("help", "This page", ("f1",)),
+    Command("menu", "File menu; gives up what is half done", ("escape",), "b"),
+    Command("test", "Test: play it; Esc comes back", ("f5",), "start"),
+    Command("test_here", "Test with the ninja at the pointer", ("f6",)),
+    Command("certify", "Certify: the solver looks for a run", ("f7",)),
+    Command("save", "Save", ("ctrl+s",)),
+    Command("save_as", "Save under another name", ("ctrl+shift+s",)),
+    Command("open", "Open a level", ("ctrl+o",)),
+    Command("new", "New level", ("ctrl+n",)),
+    Command("about", "Name, author, comment", ("f2",)),
+    Command("undo", "Undo", ("ctrl+z",), "lefttrigger+"),
+    Command("redo", "Redo", ("ctrl+y", "ctrl+shift+z"), "righttrigger+"),
+    Command("copy", "Copy", ("ctrl+c",)),
+    Command("cut", "Cut", ("ctrl+x",)),
+    Command("paste", "Paste at the pointer", ("ctrl+v",)),
+    Command("choose_all", "Select everything", ("ctrl+a",)),
+    Command("delete", "Delete what is selected, or nearest", ("delete", "backspace"), "x"),
+    Command("brush", "Brush", ("b",)),
+    Command("rectangle", "Rectangle", ("r",)),
+    Command("fill", "Fill with a tile", ("f",)),
+    Command("select", "Select and move", ("v",)),
+    Command("pick", "Pick: draw with what is there", ("k",), "y"),
+    Command("next_tool", "Next tool", (), "rightstick"),
+    Command("swap", "Tiles or objects", ("grave", "insert"), "leftstick"),
+    Command("mirror", "Mirror left-right", ("h",)),
+    Command("flip", "Flip up-down", ("j",)),
+    Command("turn", "Turn by a quarter", ("u",)),
+    Command("symmetry", "Next symmetry", ("m",)),
+    Command("grid", "Next grid", ("g",)),
+    Command("snap_next", "Next snap for objects"),
+    Command("snap_cell", "Snap to cells", ("l",)),
+    Command("snap_half", "Snap to half cells", ("x",)),
+    Command("snap_quarter", "Snap to quarter cells", ("c",)),
+    Command("snap_px", "Snap to px", ("z",)),
+    Command("lines", "Lines from switches, on or off", ("t",)),
+    Command("paths", "Ways of the last test and of the solver", ("f8",)),
+    Command("next_finding", "Go to the next problem", ("f4",)),
+    Command("next_entry", "Next tile or object", ("pagedown",), "rightshoulder"),
+    Command("previous_entry", "Tile or object before", ("pageup",), "leftshoulder"),
+)
+"""Everything that a key does by itself. Other keys choose tiles and objects."""
+
+_BY_KEY = {key: command.name for command in COMMANDS for key in command.keys}
+_BY_PAD = {command.pad: command.name for command in COMMANDS if command.pad}
+
+DIRECTION_KEYS = {"w": "up", "a": "left", "s": "down", "d": "right"}
+"""Directions of objects, as in Ned."""
+
+ARROWS = {"left": (-1, 0), "right": (1, 0), "up": (0, -1), "down": (0, 1)}
+
+_SORT_OF_KEY = {sort.key: sort.name for sort in SORTS}
+_FAMILY_OF_KEY = {family.key: family for family in FAMILIES}
+
+
+def keys_of(name: str) -> str:
+    """What to press for a command, for people."""
+    keys = next(command.keys for command in COMMANDS if command.name == name)
+    return " or ".join("+".join(map(key_label_of, key.split("+"))) for key in keys[:1])
+
+
+def key_label_of(name: str) -> str:
+    """What a key is called."""
+    return {"ctrl": "Ctrl", "delete": "Del"}.get(name) or key_label({"shift": "lshift"}.get(name, name))
+
+
+def chord(event: pygame.Event) -> str:
+    """A key press by name, with ``ctrl+`` and ``shift+``. With Ctrl letters count by what is printed on the key."""
+    name = key_name(scancode_of(event))
+    modifiers = getattr(event, "mod", 0)
+    ctrl = "ctrl+" if modifiers & (pygame.KMOD_CTRL | pygame.KMOD_META) else ""
+    if ctrl and event.key and 97 <= event.key <= 122:
+        name = chr(event.key)
+    return ctrl + ("shift+" if modifiers & pygame.KMOD_SHIFT else "") + name
+
+
+def command_of(event: InputEvent) -> str:
+    """The command that an event means; '' for none."""
+    if event.source is None:
+        return ""
+    if event.source[0] == "pad":
+        return _BY_PAD.get(event.source[1], "")
+    return _BY_KEY.get(chord(event.raw), "")
+
+
+def tile_of_key(name: str, present: int) -> int | None:
+    """The tile that a key chooses in tile mode, beside the one in hand: a digit its family, a letter its quarter."""
+    if name in ("e", "d"):
+        return int(name == "e")
+    family = next((each for each in FAMILIES if present in each.tiles), FAMILIES[0])
+    place = family.tiles.index(present) if present in family.tiles else 0
+    if name in _FAMILY_OF_KEY:
+        return _FAMILY_OF_KEY[name].tiles[place]
+    return family.tiles[QUARTERS.index(name)] if name in QUARTERS else None
+
+
+def sort_of_key(name: str) -> str:
+    """The sort of object that a key chooses in object mode; '' for none."""
+    return _SORT_OF_KEY.get(name, "")

@@ -1,0 +1,121 @@
+"""What follows the mouse over the level: what would be drawn, what is selected, the frame that is being drawn."""
+
+from __future__ import annotations
+
+import pygame
+
+from ninja_game.editor.bench import DRAGGED, Bench
+from ninja_game.editor.brush import placed
+from ninja_game.editor.motion import SYMMETRIES, Motion
+from ninja_game.editor.records import carried, points
+from ninja_game.editor.stamp import Area, area_between, nearest
+from ninja_game.play.editor.object_pictures import ObjectPictures
+from ninja_game.play.editor.sheet import LevelSheet
+from ninja_game.play.ui.canvas import Canvas, Colour
+from ninja_game.play.view.sprites.draw_target import DrawTarget, is_near
+from ninja_game.play.view.sprites.tile_shapes import tile_picture
+from ninja_game.sim.kinds import EXIT, NINJA
+
+GHOST = 5
+"""Eighths as solid as what is there is what would be drawn."""
+
+
+class Overlay:
+    """Draws over a sheet that is shown with its upper left corner at ``origin``, px of the window."""
+
+    def __init__(self, sheet: LevelSheet, origin: tuple[int, int]) -> None:
+        self.sheet = sheet
+        self.canvas = Canvas(sheet.canvas.size)
+        self.canvas.origin = origin
+        self.target = DrawTarget(self.canvas, sheet.palette, sheet.book)
+        self._pictures = ObjectPictures(self.target)
+        self._tiles: dict[tuple[int, tuple[int, int]], pygame.Surface] = {}
+
+    @property
+    def area(self) -> pygame.Rect:
+        """The px of the level in the window."""
+        return pygame.Rect(self.canvas.origin, self.canvas.size)
+
+    def restore(self, surface: pygame.Surface, rects: list[pygame.Rect]) -> list[pygame.Rect]:
+        """Show the sheet where these px of it have changed, and where the overlay was; the px of the window."""
+        origin = self.canvas.origin
+        changed = [rect.move(origin) for rect in rects] + self.target.covered
+        for rect in changed:
+            shown = rect.clip(self.area)
+            surface.blit(self.sheet.surface, shown, shown.move(-origin[0], -origin[1]))
+        return changed
+
+    def draw(self, surface: pygame.Surface, bench: Bench, *, hovering: bool) -> list[pygame.Rect]:
+        """Draw it; the px of the window that it covers."""
+        self.target.begin(surface)
+        surface.set_clip(self.area)
+        if bench.selection.area:
+            self._frame(bench.selection.area, self.sheet.palette.accent)
+        for number, part in bench.selection.parts:
+            record = bench.draft.objects[number] if number < len(bench.draft.objects) else None
+            place = points(record).get(part) if record else None
+            if place and is_near(*place):
+                self._ring(place[0], place[1], self.sheet.palette.accent)
+        if bench.marquee:
+            self._frame(area_between(*bench.marquee), self.sheet.palette.good)
+        if hovering:
+            self._hover(bench)
+        surface.set_clip(None)
+        return self.target.covered
+
+    def _note(self, rect: pygame.Rect) -> None:
+        self.target.covered.append(rect.inflate(4, 4))
+
+    def _frame(self, area: Area, colour: Colour) -> None:
+        column, row, columns, rows = area
+        rect = self.canvas.rect(24 * column, 24 * row, 24 * columns, 24 * rows)
+        width = self.canvas.px(1.6)
+        pygame.draw.rect(self.target.surface, colour, rect, width)
+        for strip in (
+            pygame.Rect(rect.left, rect.top, rect.width, width),
+            pygame.Rect(rect.left, rect.bottom - width, rect.width, width),
+            pygame.Rect(rect.left, rect.top, width, rect.height),
+            pygame.Rect(rect.right - width, rect.top, width, rect.height),
+        ):
+            self._note(strip)
+
+    def _ring(self, x: float, y: float, colour: Colour) -> None:
+        self._note(self.canvas.circle(self.target.surface, colour, (x, y), 11, 1.6))
+
+    def _hover(self, bench: Bench) -> None:
+        """What a press would do here, and in the images of the symmetry."""
+        if bench.placing_switch:
+            return
+        drawing = bench.tool in ("brush", "rectangle") or (bench.tool == "fill" and not bench.objects)
+        motions = (Motion(), *(SYMMETRIES[bench.symmetry] if drawing else ()))
+        if not drawing:
+            found = nearest(bench.draft, *bench.pointer, DRAGGED)
+            if found:
+                self._ring(*points(bench.draft.objects[found[0]])[found[1]], self.sheet.palette.faint)
+                return
+        if not bench.objects or not drawing:
+            for motion in motions:
+                cell = motion.cell(bench.cell)
+                if drawing:
+                    self._ghost_tile(cell, motion.tile(bench.tile))
+                self._frame((*cell, 1, 1), self.sheet.palette.accent)
+            return
+        record = placed(bench.record, *bench.pointer, bench.snap)
+        images = [record] if record.kind in (NINJA, EXIT) else [carried(record, motion) for motion in motions]
+        self._pictures.learn(images)
+        for image in images:
+            self._pictures.draw(self.target, image, alpha=GHOST)
+        x, y = points(record).get(0, bench.pointer)
+        for a, b in (((x - 4, y), (x + 4, y)), ((x, y - 4), (x, y + 4))):
+            self.target.line(self.sheet.palette.accent, *a, *b)
+
+    def _ghost_tile(self, cell: tuple[int, int], tile: int) -> None:
+        rect = self.canvas.rect(24 * cell[0], 24 * cell[1], 24, 24)
+        key = tile, rect.size
+        if key not in self._tiles:
+            picture = tile_picture(tile, rect.size, self.sheet.palette.tile) if 0 <= tile <= 33 else None
+            picture = picture or pygame.Surface(rect.size, pygame.SRCALPHA)
+            picture.fill((150, 150, 150, 150), special_flags=pygame.BLEND_RGBA_MULT)
+            self._tiles[key] = picture
+        self.target.surface.blit(self._tiles[key], rect, special_flags=pygame.BLEND_PREMULTIPLIED)
+        self._note(rect)

@@ -1,0 +1,136 @@
+"""The palette: all tiles and all sorts of objects as they look; a click takes one in hand."""
+
+from __future__ import annotations
+
+import pygame
+
+from ninja_game.editor.bench import Bench
+from ninja_game.editor.brush import EMPTY, FAMILIES, FULL, SORTS, Sort, sort_of, tile_key, tile_name, with_switch
+from ninja_game.editor.records import BODY, points
+from ninja_game.play.editor.controls import key_label_of
+from ninja_game.play.editor.object_pictures import ObjectPictures
+from ninja_game.play.ui.canvas import Canvas
+from ninja_game.play.ui.palette import Palette
+from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.widgets import Widget
+from ninja_game.play.view.sprites.draw_target import DrawTarget
+from ninja_game.play.view.sprites.sprite_book import SpriteBook
+from ninja_game.play.view.sprites.tile_shapes import tile_picture
+from ninja_game.sim.level import ObjectSpec
+
+TILE, OBJECT, BLOCK = 17.0, 28.0, 42.5
+"""Sides of the squares, and from one family of tiles to the next, px."""
+OBJECTS_PER_ROW = 6
+
+TILE_ORDER = (EMPTY, FULL, *(tile for family in FAMILIES for tile in family.tiles))
+
+
+class PaletteView(Widget):
+    """Tiles above, objects below. ``hovered``: what the mouse is over."""
+
+    def __init__(self, area: Area, bench: Bench) -> None:
+        super().__init__(area)
+        self.bench = bench
+        self.hovered: int | Sort | None = None
+        self._icons: dict[tuple[object, ...], pygame.Surface] = {}
+
+    def places(self) -> list[tuple[int | Sort, Area]]:
+        """Every entry with its square; the four tiles of a family stand as their keys Q W A S do."""
+        x, y, _, _ = self.area
+        found: list[tuple[int | Sort, Area]] = []
+        for number, tile in enumerate((EMPTY, FULL)):
+            found.append((tile, (x + 126 + number * (TILE + 2), y + 1, TILE, TILE)))
+        for number, family in enumerate(FAMILIES):
+            row, column = divmod(number, 4)
+            left, top = x + 10 + column * BLOCK, y + 24 + row * BLOCK
+            for k, tile in enumerate(family.tiles):
+                found.append((tile, (left + k % 2 * (TILE - 1), top + k // 2 * (TILE - 1), TILE - 1, TILE - 1)))
+        for number, sort in enumerate(SORTS):
+            row, column = divmod(number, OBJECTS_PER_ROW)
+            found.append((sort, (x + column * (OBJECT + 0.6), y + 134 + row * (OBJECT + 1), OBJECT, OBJECT)))
+        return found
+
+    def _at(self, x: float, y: float) -> int | Sort | None:
+        return next(
+            (what for what, (left, top, w, h) in self.places() if left <= x < left + w and top <= y < top + h), None
+        )
+
+    def click(self, x: float, y: float) -> bool:
+        """Take what is there."""
+        what = self._at(x, y)
+        if what is not None:
+            self.bench.take(what.record if isinstance(what, Sort) else what)
+        return True
+
+    def hover(self, x: float, y: float) -> str:
+        """The mouse is there: the name and the key of what it is over."""
+        self.hovered = self._at(x, y)
+        if self.hovered is None:
+            return ""
+        if isinstance(self.hovered, Sort):
+            return f"{self.hovered.name}    key {key_label_of(self.hovered.key)} among the objects"
+        return f"{tile_name(self.hovered)}    keys {tile_key(self.hovered)} among the tiles"
+
+    def step(self, by: int) -> None:
+        """The entry before or after the one in hand."""
+        bench = self.bench
+        if bench.objects:
+            names = [sort.name for sort in SORTS]
+            bench.take(SORTS[(names.index(sort_of(bench.record)) + by) % len(SORTS)].record)
+        else:
+            place = TILE_ORDER.index(bench.tile) if bench.tile in TILE_ORDER else 0
+            bench.take(TILE_ORDER[(place + by) % len(TILE_ORDER)])
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        """All of it; what is in hand has a frame."""
+        canvas, palette = theme.canvas, theme.palette
+        x, y, w, h = self.area
+        canvas.fill_rect(surface, palette.panel, x - 4, y - 4, w + 6, h + 4, 3)
+        bench = self.bench
+        for text, top, lit in (("Tiles", y + 5, not bench.objects), ("Objects", y + 120, bench.objects)):
+            colour = palette.accent if lit else palette.text
+            theme.text(surface, text, x + 1, top, size=10, colour=colour, bold=lit)
+        for number, family in enumerate(FAMILIES):
+            row, column = divmod(number, 4)
+            at = x + 2 + column * BLOCK, y + 36 + row * BLOCK
+            theme.text(surface, family.key, *at, size=8, colour=palette.faint)
+        in_hand: int | str = sort_of(bench.record) if bench.objects else bench.tile
+        for what, area in self.places():
+            chosen = (what.name if isinstance(what, Sort) else what) == in_hand
+            canvas.fill_rect(surface, palette.background, *area)
+            surface.blit(self._icon(theme, what, area), canvas.point(area[0], area[1]))
+            if what in (EMPTY, FULL):
+                canvas.frame_rect(surface, palette.panel_edge, *area)
+            if chosen:
+                canvas.frame_rect(surface, palette.accent, *area, 2)
+
+    def _icon(self, theme: Theme, what: int | Sort, area: Area) -> pygame.Surface:
+        record = what.record if isinstance(what, Sort) else None
+        if isinstance(what, Sort) and self.bench.objects and sort_of(self.bench.record) == what.name:
+            # The one in hand as it is drawn now.
+            record = self.bench.record
+        size = theme.canvas.rect(*area).size
+        key = (record if record is not None else what, size, theme.palette.name)
+        if key not in self._icons:
+            self._icons[key] = (
+                object_icon(record, size, theme.canvas.scale, theme.palette)
+                if record is not None
+                else tile_picture(int(what), size, theme.palette.tile)  # type: ignore[arg-type]
+            )
+        return self._icons[key]
+
+
+def object_icon(record: ObjectSpec, size: tuple[int, int], scale: float, palette: Palette) -> pygame.Surface:
+    """An object in the middle of a small picture; of a door or an exit without its switch."""
+    canvas = Canvas((round(792 * scale), round(600 * scale)))
+    far = with_switch(record, 700.0, 500.0, "half")
+    x, y = points(far)[BODY]
+    px, py = canvas.point(x, y)
+    canvas.origin = size[0] // 2 - px, size[1] // 2 - py
+    target = DrawTarget(canvas, palette, SpriteBook(canvas.scale, palette))
+    icon = pygame.Surface(size, pygame.SRCALPHA)
+    target.begin(icon)
+    pictures = ObjectPictures(target)
+    pictures.learn([far])
+    pictures.draw(target, far)
+    return icon

@@ -1,0 +1,134 @@
+"""Panels over the editor: the file menu, fields to fill in, questions about files, the help page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.play.editor.controls import COMMANDS, key_label_of
+from ninja_game.play.input.gamepad import pad_label
+from ninja_game.play.menus.browser import Browser
+from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.panels import ROW, Panel
+from ninja_game.play.ui.canvas import WIDTH
+from ninja_game.play.ui.text_entry import TextEntry
+from ninja_game.play.ui.text_layout import wrapped
+from ninja_game.play.ui.widgets import Button, Widget
+from ninja_game.player.catalogue import Entry
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+Row = tuple[str, Callable[[], object], str]
+"""Text, action, hint."""
+
+
+class Menu(Panel):
+    """Some actions; each of them closes the panel first."""
+
+    def __init__(self, app: App, title: str, rows: Sequence[Row]) -> None:
+        super().__init__(app, title)
+        self._rows = [(text, self._closing(action), hint) for text, action, hint in rows]
+
+    def _closing(self, action: Callable[[], object]) -> Callable[[], object]:
+        def close_and_do() -> None:
+            self.app.pop()
+            action()
+
+        return close_and_do
+
+    def rows(self) -> list[Row]:
+        """The buttons."""
+        return self._rows
+
+
+class Form(Menu):
+    """Fields to fill in above two buttons. ``fields``: prompt, text, how many characters fit in."""
+
+    def __init__(
+        self, app: App, title: str, fields: Sequence[tuple[str, str, int]], yes: str,
+        action: Callable[[list[str]], object],
+    ) -> None:  # fmt: skip
+        self.texts = [text for _, text, _ in fields]
+        self._fields = fields
+        super().__init__(app, title, [(yes, lambda: action(self.texts), ""), ("Stay", lambda: None, "")])
+
+    def rows(self) -> list[Row]:
+        """The buttons, below as many empty rows as there are fields."""
+        return [("", lambda: None, "")] * len(self._fields) + self._rows
+
+    def build(self) -> Sequence[Widget]:
+        """The fields, then the buttons."""
+        x, y, w, _ = self._box
+        entries = [
+            TextEntry((x + 30, y + 48 + ROW * k, w - 60, 30), prompt, text, self._taker(k), longest=longest)
+            for k, (prompt, text, longest) in enumerate(self._fields)
+        ]
+        return [*entries, *list(super().build())[len(entries) :]]
+
+    def _taker(self, place: int) -> Callable[[str], None]:
+        def take(text: str) -> None:
+            self.texts[place] = text
+
+        return take
+
+
+class LevelChoice(Browser):
+    """The browser of levels, to choose one for the editor."""
+
+    title = "Open a level"
+
+    def __init__(self, app: App, choose: Callable[[Entry], object]) -> None:
+        super().__init__(app)
+        self._choose = choose
+        self.list.hint = "Enter opens the level in the editor"
+
+    def build(self) -> Sequence[Widget]:
+        """The list and its search; no buttons to play."""
+        return [*list(super().build())[:3], Button((436, 470, 320, 32), "Edit", lambda: self._play(self.list.index))]
+
+    def _play(self, index: int, *, practice: bool = False) -> None:
+        if index < len(self.shown):
+            self.app.pop()
+            self._choose(self.shown[index])
+
+
+HELP = (
+    "Take a tile or an object from the palette and draw with the left mouse button; the right one erases, the middle "
+    "one picks. Doors go to the nearest side of a cell; then click where the switch is. Exits too. Drag a frame with "
+    "Select to move or copy what is in it. "
+    "Tiles: 1 to 8 choose a shape, Q W A S its solid corner, E is full, D empty. Objects: the keys that the palette "
+    "shows; W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move what is "
+    "selected. A gamepad does the same."
+)
+"""What one has to know to begin."""
+
+
+class HelpPage(MenuScreen):
+    """All that the editor can do, on one page."""
+
+    title = "The editor"
+    foot = "Esc goes back"
+
+    def build(self) -> Sequence[Widget]:
+        """One way back."""
+        return [Button((640, 536, 112, 24), "Back", self.back, size=10)]
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        """The words, then the table of commands in three columns."""
+        super().draw_frame(surface)
+        theme = self.app.theme
+        for number, line in enumerate(wrapped(theme, HELP, WIDTH - 80, 10)):
+            theme.text(surface, line, 40, 60 + 15 * number, size=10)
+        shown = [command for command in COMMANDS if command.keys or command.pad]
+        rows = -(-len(shown) // 2)
+        for number, command in enumerate(shown):
+            column, row = divmod(number, rows)
+            x, y = 40 + 362 * column, 142 + 20 * row
+            keys = "+".join(map(key_label_of, command.keys[0].split("+"))) if command.keys else ""
+            theme.text(surface, keys, x, y, size=10, bold=True, width=92)
+            theme.text(surface, pad_label(command.pad) if command.pad else "", x + 94, y, size=9, width=60,
+                       colour=theme.palette.faint)  # fmt: skip
+            theme.text(surface, command.label, x + 156, y, size=10, width=204)

@@ -1,0 +1,195 @@
+"""What one editor works on: the bench, its file, what is kept safe, what is odd, certificate and tests."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from time import monotonic
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.editor.autosave import Autosave, Recovered
+from ninja_game.editor.background import NewestJob
+from ninja_game.editor.bench import Bench
+from ninja_game.editor.brush import SORTS, placed
+from ninja_game.editor.certify import Certifier
+from ninja_game.editor.draft import Draft
+from ninja_game.editor.files import Source, draft_of_text, free_path, level_string, new_source, save
+from ninja_game.editor.routes import Route, route_of
+from ninja_game.editor.stamp import Stamp, put
+from ninja_game.errors import NinjaGameError
+from ninja_game.files.user_folder import export_path
+from ninja_game.files.writing import write_atomically
+from ninja_game.levels.findings import Finding
+from ninja_game.levels.warnings import level_findings
+from ninja_game.play.view.sprites.thumbnail import thumbnail
+from ninja_game.play.window import save_picture
+from ninja_game.player.saving import keep_replay
+from ninja_game.sim.level import Level
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+CHECK_SPACING = 0.1
+"""Seconds from one examination of the level to the next, at least."""
+
+PICTURE_WIDTH = 1584
+
+Examined = tuple[Level, list[Finding]]
+
+
+def _examine(level: Level) -> Examined:
+    return level, level_findings(level)
+
+
+class EditorSession:
+    """``bench``: where the level is changed; ``source``: its file. ``last_try``: the way of the last test."""
+
+    def __init__(self, app: App, source: Source | None = None) -> None:
+        self.app = app
+        self.certifier = Certifier()
+        self.bench = Bench(new_source().draft)
+        self._checks: NewestJob[Level, Examined] = NewestJob(_examine)
+        self._begin(source or new_source(app.settings.name))
+
+    def _begin(self, source: Source, found: Recovered | None = None) -> None:
+        self.source = found.source if found else source
+        self.bench.load(found.draft if found else source.draft)
+        self.autosave = Autosave(self.app.player.folder, found.file if found else None)
+        self.last_try: Route = ()
+        self._asked: Level | None = None
+        self._asked_at = 0.0
+
+    def begin(self, source: Source, found: Recovered | None = None) -> None:
+        """Edit another level, or one that was found again; what was not saved of the present one is given up."""
+        self.close()
+        self._begin(source, found)
+
+    @property
+    def draft(self) -> Draft:
+        """The level as it is now."""
+        return self.bench.draft
+
+    @property
+    def is_saved(self) -> bool:
+        """Whether the file is as the level is now."""
+        return self.draft == self.source.draft
+
+    @property
+    def name(self) -> str:
+        """What to call the level."""
+        return self.draft.name or (self.source.path.stem if self.source.path else "") or "New level"
+
+    @property
+    def findings(self) -> list[Finding]:
+        """What is odd about the level, as of the last examination."""
+        return self._checks.result[1] if self._checks.result else []
+
+    @property
+    def examined(self) -> Level | None:
+        """The level to which the findings belong."""
+        return self._checks.result[0] if self._checks.result else None
+
+    def update(self) -> None:
+        """Keep the level safe and examine it, both beside the window."""
+        self.autosave.look(self.draft, self.source)
+        if self.autosave.problem:
+            self.app.notify(self.autosave.problem)
+            self.autosave.problem = ""
+        if self.draft.level is not self._asked and monotonic() - self._asked_at >= CHECK_SPACING:
+            self._asked, self._asked_at = self.draft.level, monotonic()
+            self._checks.ask(self.draft.level)
+
+    def finish_checks(self) -> None:
+        """Examine the level now, and wait for what is found."""
+        self._checks.ask(self.draft.level)
+        self._checks.finish()
+
+    def close(self) -> None:
+        """The level is left: nothing of it is kept."""
+        self.certifier.stop()
+        self.autosave.close()
+
+    # --- files ---
+
+    @property
+    def own_path(self) -> Path:
+        """Where the level would be saved: its file, or a new one among the player's levels."""
+        return self.source.path or free_path(self.app.player.folder / "levels", self.draft.name)
+
+    def save(self, path: Path, *, replacing: bool = False) -> None:
+        """Write the level, and say so. Raises OccupiedError where that would replace what somebody else wrote."""
+        self.bench.finish()
+        try:
+            self.source = save(self.source, self.draft, path, replacing=replacing)
+        except OSError as error:
+            self.app.notify(f"Not saved: {error.strerror or error}")
+            return
+        self.app.notify(f"Saved: {path}")
+
+    def export_picture(self) -> None:
+        """A picture of the level among the player's exports."""
+        surface = thumbnail(self.draft.level, self.app.theme.palette, PICTURE_WIDTH)
+        self._export(".png", lambda path: save_picture(surface, path))
+
+    def copy_string(self) -> None:
+        """The level as an in-game string of N, in the clipboard; in a file where there is none."""
+        try:
+            text = level_string(self.draft)
+        except NinjaGameError as error:
+            self.app.notify(f"No string of N can say this level: {error}")
+            return
+        try:
+            pygame.scrap.put_text(text)
+            self.app.notify(f"In the clipboard: {len(text)} characters")
+        except pygame.error:
+            self._export(".nlevel", lambda path: write_atomically(path, text + "\n"))
+
+    def paste_string(self) -> None:
+        """The level of a text in the clipboard, in any format, in the place of this one; it can be undone."""
+        try:
+            text = pygame.scrap.get_text()
+        except pygame.error:
+            text = ""
+        try:
+            self.bench.finish()
+            self.bench.history.change(draft_of_text(text, self.draft))
+            self.app.notify("The level of the clipboard; undo brings yours back")
+        except NinjaGameError:
+            self.app.notify("There is no level in the clipboard: copy its text first")
+
+    def _export(self, suffix: str, write: Callable[[Path], object]) -> None:
+        try:
+            path = export_path(self.app.player.folder, self.name, suffix)
+            write(path)
+        except (OSError, NinjaGameError) as error:
+            self.app.notify(f"Not written: {getattr(error, 'strerror', '') or error}")
+        else:
+            self.app.notify(f"Saved: {path}")
+
+    # --- tests and certificates ---
+
+    def level_to_test(self, *, here: bool) -> Level:
+        """The level to try; ``here``: with the ninja at the pointer."""
+        self.bench.finish()
+        if not here:
+            return self.draft.level
+        ninja = placed(SORTS[0].record, *self.bench.pointer, "px")
+        return put(self.draft, Stamp({}, (ninja,))).level
+
+    def tried(self, level: Level, inputs: bytes) -> None:
+        """A test was left: its way is shown."""
+        if inputs:
+            self.last_try = route_of(level, inputs)
+
+    def keep_certificate(self) -> None:
+        """Put the solver's run among the player's replays."""
+        run = self.certifier.run
+        if run is None or self.certifier.is_stale(self.draft.level):
+            self.app.notify("Certify the level first (F7)")
+            return
+        from ninja_game.solver.certificate import replay_of
+
+        replay = replay_of(run, name=self.name, author="solver", level_author=self.draft.author)
+        self.app.notify(keep_replay(self.app.player, replay))

@@ -1,0 +1,151 @@
+"""The level under edit as a picture that is mended where something has changed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable
+from typing import NamedTuple
+
+import pygame
+
+from ninja_game.editor.draft import Draft, cell_of
+from ninja_game.editor.records import points
+from ninja_game.play.editor.object_pictures import ObjectPictures
+from ninja_game.play.ui.canvas import Canvas
+from ninja_game.play.ui.palette import Palette
+from ninja_game.play.view.sprites.draw_target import DrawTarget
+from ninja_game.play.view.sprites.sprite_book import SpriteBook
+from ninja_game.play.view.sprites.tile_sheet import TileSheet
+from ninja_game.sim import kinds
+from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
+from ninja_game.sim.loader import grid_tiles
+from ninja_game.sim.memory.schema import TileMap
+from ninja_game.sim.rules import STRIDE
+
+_FRONT = {kinds.GOLD: 1, kinds.MINE: 1, kinds.NINJA: 3} | {kind.number: 2 for kind in kinds.KINDS if kind.moves}
+"""What is drawn later lies in front."""
+
+_COVERED = 4
+"""Eighths as solid: an object that a tile hides is seen through it."""
+
+
+class Mark(NamedTuple):
+    """Something drawn over the level: a line, a sign. ``rects``: the px that it may cover."""
+
+    draw: Callable[[DrawTarget], None]
+    rects: tuple[pygame.Rect, ...]
+
+
+class LevelSheet:
+    """``surface``: the picture, without what follows the mouse. ``canvas``: from px of the level to px of the sheet."""
+
+    def __init__(self, size: tuple[int, int], palette: Palette) -> None:
+        self.canvas = Canvas(size)
+        self.palette = palette
+        self.surface = pygame.Surface(self.canvas.size)
+        self.book = SpriteBook(self.canvas.scale, palette)
+        self.target = DrawTarget(self.canvas, palette, self.book)
+        self.pictures = ObjectPictures(self.target)
+        self.draft: Draft | None = None
+        self._tiles = TileSheet(self.canvas, palette)
+        self._order: list[ObjectSpec] = []
+        self._rects: list[pygame.Rect] = []
+        self._marks: dict[Hashable, Mark] = {}
+        self._grid: pygame.Surface | None = None
+
+    def show(self, draft: Draft) -> list[pygame.Rect]:
+        """Show a draft; the px that changed."""
+        before, self.draft = self.draft, draft
+        if before is None:
+            static = TileMap()
+            static.tiles = grid_tiles(draft.level)
+            self._tiles.show(static)
+            dirty = [self.surface.get_rect()]
+        else:
+            dirty = self._change_tiles(before, draft)
+        if before is None or before.objects != draft.objects:
+            dirty += self._change_objects(set(before.objects) if before else set(), draft)
+        self._repaint(dirty)
+        return dirty
+
+    def _change_tiles(self, before: Draft, draft: Draft) -> list[pygame.Rect]:
+        old, new = before.level.tiles, draft.level.tiles
+        if old == new:
+            return []
+        grid = grid_tiles(draft.level)
+        dirty = []
+        for index in range(COLUMNS * ROWS):
+            if old[index] != new[index]:
+                column, row = index // ROWS + 1, index % ROWS + 1
+                self._tiles.draw(column, row, grid[(row + 1) * STRIDE + column + 1])
+                dirty.append(self._tiles.cell(column, row))
+        return dirty
+
+    def _change_objects(self, before: set[ObjectSpec], draft: Draft) -> list[pygame.Rect]:
+        now = set(draft.objects)
+        self.pictures.learn(draft.objects)
+        self._order = sorted(draft.objects, key=lambda record: _FRONT.get(record.kind, 0))
+        self._rects = [self.pictures.rect(record) for record in self._order]
+        return [rect for rect in map(self.pictures.rect, before ^ now) if rect.width]
+
+    def show_marks(self, marks: dict[Hashable, Mark]) -> list[pygame.Rect]:
+        """Show these marks; the px that changed. A mark with the key of an earlier one is the same."""
+        changed = [self._marks[key] for key in self._marks.keys() - marks.keys()]
+        changed += [marks[key] for key in marks.keys() - self._marks.keys()]
+        self._marks = marks
+        dirty = [rect for mark in changed for rect in mark.rects]
+        self._repaint(dirty)
+        return dirty
+
+    def show_grid(self, lines: Iterable[tuple[bool, float, bool]]) -> None:
+        """Show grid lines: whether upright, where (px of the level), whether one of the middle lines."""
+        lines = list(lines)
+        self._grid = pygame.Surface(self.canvas.size, pygame.SRCALPHA) if lines else None
+        for upright, at, middle in lines:
+            assert self._grid is not None  # noqa: S101 - for the type checker
+            colour = (*self.palette.accent[:3], 150) if middle else (*self.palette.text[:3], 60)
+            ends = ((at, 24.0), (at, 576.0)) if upright else ((24.0, at), (768.0, at))
+            pygame.draw.line(self._grid, colour, self.canvas.point(*ends[0]), self.canvas.point(*ends[1]))
+        self._repaint([self.surface.get_rect()])
+
+    def _repaint(self, dirty: list[pygame.Rect]) -> None:
+        for area in _joined(dirty):
+            self._repaint_area(area.clip(self.surface.get_rect()))
+
+    def _repaint_area(self, area: pygame.Rect) -> None:
+        surface, target = self.surface, self.target
+        if not area.width or self.draft is None:
+            return
+        surface.set_clip(area)
+        surface.fill(self.palette.background)
+        target.begin(surface)
+        near = area.collidelistall(self._rects)
+        for number in near:
+            self.pictures.draw(target, self._order[number])
+        if self._tiles.has_tile(area):
+            surface.blit(self._tiles.surface, area, area, pygame.BLEND_PREMULTIPLIED)
+            for number in near:
+                record = self._order[number]
+                if any(self.draft.tile(cell_of(*point)) == 1 for point in points(record).values()):
+                    self.pictures.draw(target, record, alpha=_COVERED)
+        if self._grid is not None:
+            surface.blit(self._grid, area, area)
+        for mark in self._marks.values():
+            if area.collidelist(mark.rects) >= 0:
+                mark.draw(target)
+        surface.set_clip(None)
+
+
+def _joined(rects: list[pygame.Rect]) -> list[pygame.Rect]:
+    """Few rectangles that cover the same px: those that touch become one."""
+    waiting = [rect.copy() for rect in rects if rect.width]
+    joined: list[pygame.Rect] = []
+    while waiting:
+        rect = waiting.pop()
+        touching = rect.collidelistall(joined)
+        if touching:
+            for number in reversed(touching):
+                rect.union_ip(joined.pop(number))
+            waiting.append(rect)
+        else:
+            joined.append(rect)
+    return joined

@@ -1,0 +1,62 @@
+"""The tiles of a level in one size, on a sheet that is transparent elsewhere."""
+
+from __future__ import annotations
+
+import pygame
+
+from ninja_game.play.ui.canvas import Canvas
+from ninja_game.play.ui.palette import Palette
+from ninja_game.play.view.sprites.tile_shapes import tile_picture
+from ninja_game.sim.collision.tiles import EMPTY, SHAPE
+from ninja_game.sim.memory.schema import TileMap
+from ninja_game.sim.rules import GRID_COLUMNS, GRID_ROWS, STRIDE
+
+
+class TileSheet:
+    """``surface``: premultiplied; its px count from the stage's upper left corner."""
+
+    def __init__(self, canvas: Canvas, palette: Palette) -> None:
+        self.canvas = canvas
+        self.palette = palette
+        self.surface = pygame.Surface(canvas.size, pygame.SRCALPHA)
+        self._solid = [False] * (GRID_COLUMNS * GRID_ROWS)
+        self._pictures: dict[tuple[int, int, int, float, float], pygame.Surface] = {}
+
+    def show(self, level: TileMap) -> None:
+        """Draw all cells."""
+        for row in range(GRID_ROWS):
+            for column in range(GRID_COLUMNS):
+                self.draw(column, row, level.tiles[(row + 1) * STRIDE + column + 1])
+
+    def cell(self, column: int, row: int) -> pygame.Rect:
+        """The px of a cell, between its rounded edges."""
+        return self.canvas.rect(24 * column, 24 * row, 24, 24).move(-self.canvas.origin[0], -self.canvas.origin[1])
+
+    def draw(self, column: int, row: int, tile: int) -> None:
+        """Show a tile in a cell, in the place of what is there."""
+        place = row * GRID_COLUMNS + column
+        filled = SHAPE[tile] != EMPTY
+        if not filled and not self._solid[place]:
+            return
+        rect, scale = self.cell(column, row), self.canvas.scale
+        if self._solid[place]:
+            self.surface.fill((0, 0, 0, 0), rect)
+        self._solid[place] = filled
+        if filled:
+            # How far the cell's true corner lies beside its px: in eighths, so that few pictures are drawn.
+            shift = round(8 * (24 * column * scale - rect.left)) / 8, round(8 * (24 * row * scale - rect.top)) / 8
+            key = tile, *rect.size, *shift
+            if key not in self._pictures:
+                self._pictures[key] = tile_picture(tile, rect.size, self.palette.tile, scale=scale, shift=shift)
+            self.surface.blit(self._pictures[key], rect)
+
+    def has_tile(self, area: pygame.Rect) -> bool:
+        """Whether any px of an area may be a tile's."""
+        scale = 24 * self.canvas.scale
+        first_column, last_column = max(0, int(area.left / scale)), min(GRID_COLUMNS - 1, int(area.right / scale))
+        first_row, last_row = max(0, int(area.top / scale)), min(GRID_ROWS - 1, int(area.bottom / scale))
+        for row in range(first_row, last_row + 1):
+            start = row * GRID_COLUMNS
+            if True in self._solid[start + first_column : start + last_column + 1]:
+                return True
+        return False

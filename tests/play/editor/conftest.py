@@ -1,0 +1,32 @@
+"""A maker at the main menu, and one with a level in the editor."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from ninja_game.editor.files import Source
+from ninja_game.play.editor.screen import EditorScreen
+from tests.support.level_maker import ROOM, Maker
+
+
+@pytest.fixture(name="maker")
+def driver(tmp_path: Path) -> Iterator[Maker]:
+    made = Maker(tmp_path)
+    try:
+        yield made
+    finally:
+        for screen in made.app.stack._screens:
+            if isinstance(screen, EditorScreen):
+                screen.session.close()
+        made.close()
+
+
+@pytest.fixture(name="room")
+def maker_with_a_room(maker: Maker) -> Maker:
+    maker.open("Editor")
+    maker.editor.commands.edit(Source(ROOM))
+    maker.frames()
+    return maker

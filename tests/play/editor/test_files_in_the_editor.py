@@ -1,0 +1,155 @@
+"""Files in the editor: saved, asked about, offered again, taken from the clipboard and the command line."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pygame
+import pytest
+
+from ninja_game.cli.main import cli
+from ninja_game.editor.autosave import FOLDER
+from ninja_game.editor.files import open_source
+from ninja_game.formats.load import load_levels
+from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.play.editor.panels import Form, LevelChoice, Menu
+from ninja_game.play.editor.screen import EditorScreen
+from ninja_game.play.menus.main_menu import MainMenu
+from tests.support.level_maker import ROOM, Maker
+
+
+def test_saved_levels_are_in_the_browser_at_once(room: Maker, tmp_path: Path) -> None:
+    room.chord("s", pygame.KMOD_LCTRL)
+    path = tmp_path / "levels" / "room.txt"
+    assert level_digest(load_levels(path)[0].level) == level_digest(ROOM.level)
+    assert room.editor.session.is_saved
+    room.press("escape")
+    room.choose("Leave the editor")
+    assert isinstance(room.top(), MainMenu)
+    room.open("Levels")
+    assert "Room" in [entry.title for entry in room.top().entries]  # type: ignore[attr-defined]
+    assert not list((tmp_path / FOLDER).glob("*")) if (tmp_path / FOLDER).exists() else True
+
+
+def test_a_name_is_asked_for_where_there_is_none(maker: Maker, tmp_path: Path) -> None:
+    maker.open("Editor")
+    maker.drag((300, 300))
+    maker.chord("s", pygame.KMOD_LCTRL)
+    assert isinstance(maker.top(), Form)
+    for _ in range(8):
+        maker.press("backspace")
+    maker.type("bd")
+    maker.choose("Save")
+    assert isinstance(maker.top(), EditorScreen)
+    assert (maker.draft.name, maker.editor.session.source.path) == ("bd", tmp_path / "levels" / "bd.txt")
+    assert sum(maker.draft.level.tiles) == 1
+
+
+def test_a_file_that_changed_meanwhile_is_not_replaced_unasked(room: Maker, tmp_path: Path) -> None:
+    room.chord("s", pygame.KMOD_LCTRL)
+    path = tmp_path / "levels" / "room.txt"
+    path.write_text(path.read_text("utf-8") + "; by hand\n", "utf-8")
+    room.drag((300, 300))
+    room.chord("s", pygame.KMOD_LCTRL)
+    assert isinstance(room.top(), Menu)
+    assert "changed by another program" in room.top().title  # type: ignore[attr-defined]
+    room.choose("Stay")
+    assert path.read_text("utf-8").endswith("; by hand\n")
+    assert not room.editor.session.is_saved
+    room.chord("s", pygame.KMOD_LCTRL)
+    room.choose("Replace it")
+    assert room.editor.session.source.draft == room.draft
+    assert load_levels(path)[0].level.tile(12, 12) == 1
+
+
+def test_leaving_asks_about_what_is_not_saved(room: Maker, tmp_path: Path) -> None:
+    room.drag((300, 300))
+    room.press("escape")
+    room.choose("Leave the editor")
+    assert isinstance(room.top(), Menu)
+    room.choose("Stay")
+    assert isinstance(room.top(), EditorScreen)
+    room.press("escape")
+    room.choose("Leave the editor")
+    room.choose("Leave it unsaved")
+    assert isinstance(room.top(), MainMenu)
+    assert not list((tmp_path / "levels").iterdir())
+
+
+def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_path: Path) -> None:
+    room.drag((300, 300))
+    session = room.editor.session
+    room.wait(lambda: list((tmp_path / FOLDER).glob("*.json")), "autosave")
+    lost = session.draft
+    session.autosave.close(keep=True)
+    room.app.stack.clear()
+    room.app.push(MainMenu(room.app))
+    room.open("Editor")
+    assert isinstance(room.top(), Menu)
+    assert "Not saved last time: Room" in room.top().title  # type: ignore[attr-defined]
+    room.choose("Go on with it")
+    assert room.draft == lost
+    assert not room.editor.session.is_saved
+    room.chord("s", pygame.KMOD_LCTRL)
+    room.wait(lambda: not list((tmp_path / FOLDER).glob("*.json")), "end of the autosave")
+
+
+def test_levels_of_the_game_open_as_new_ones_and_own_ones_in_their_files(room: Maker, tmp_path: Path) -> None:
+    own = tmp_path / "levels" / "own.txt"
+    own.write_text("; a comment\n" + Path("levels/00-0-first-steps.txt").read_text("utf-8"), "utf-8")
+    room.chord("o", pygame.KMOD_LCTRL)
+    choice = room.top() if isinstance(room.top(), LevelChoice) else None
+    if choice is None:
+        room.choose("Leave it unsaved")
+        choice = room.top()
+    assert isinstance(choice, LevelChoice)
+    index = next(k for k, entry in enumerate(choice.shown) if entry.source == "yours")
+    choice._play(index)
+    assert room.editor.session.source.path == own
+    room.drag((300, 60))
+    room.chord("s", pygame.KMOD_LCTRL)
+    assert own.read_text("utf-8").startswith("; a comment\n")
+    room.chord("o", pygame.KMOD_LCTRL)
+    room.top()._play(0)  # type: ignore[attr-defined]
+    assert room.editor.session.source.path is None
+
+
+def test_strings_of_n_travel_by_the_clipboard(room: Maker) -> None:
+    session = room.editor.session
+    session.copy_string()
+    room.drag((300, 300))
+    changed = room.draft
+    session.paste_string()
+    assert level_digest(room.draft.level) == level_digest(ROOM.level)
+    room.chord("z", pygame.KMOD_LCTRL)
+    assert room.draft == changed
+    pygame.scrap.put_text("nothing of the kind")
+    session.paste_string()
+    assert "no level in the clipboard" in room.app.notice
+    assert room.draft == changed
+
+
+def test_pictures_and_the_solvers_run_can_be_kept(room: Maker, tmp_path: Path) -> None:
+    room.press("escape")
+    room.choose("Export a picture")
+    assert list((tmp_path / "exports").glob("room-1.png"))
+    room.press("escape")
+    room.choose("Keep the solver's run")
+    assert "Certify the level first" in room.app.notice
+
+
+def test_the_command_edit_opens_a_level(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path))
+    file = tmp_path / "a.txt"
+    file.write_bytes(Path("levels/00-0-first-steps.txt").read_bytes())
+    picture = tmp_path / "a.png"
+    for level in (["00-0-first-steps"], [str(file)], []):
+        with pytest.raises(SystemExit) as ended:
+            cli.main(["edit", *level, "--frames", "3", "--screenshot", str(picture)])
+        assert ended.value.code == 0
+        assert picture.stat().st_size > 1000
+    with pytest.raises(SystemExit) as ended:
+        cli.main(["edit", str(file), "--record", "3"])
+    assert ended.value.code == 2
+    assert replace(open_source(file).draft) == open_source(file).draft

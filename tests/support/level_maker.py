@@ -1,0 +1,74 @@
+"""Somebody who makes a level in the editor, with mouse, keys and pad."""
+
+from __future__ import annotations
+
+import time
+
+import pygame
+
+from ninja_game.editor.draft import Draft
+from ninja_game.editor.stamp import Stamp, put
+from ninja_game.play.editor.desk import DESK
+from ninja_game.play.editor.panels import Menu
+from ninja_game.play.editor.screen import EditorScreen
+from ninja_game.play.input.scancodes import SCANCODES
+from ninja_game.sim.kinds import EXIT, NINJA
+from ninja_game.sim.level import Level, ObjectSpec
+from tests.support.menu_driver import MenuDriver
+
+ROOM = put(
+    Draft(Level(), "Room", "me"),
+    Stamp(
+        dict.fromkeys([(column, 23) for column in range(1, 32)], 1),
+        (ObjectSpec(NINJA, (60.0, 542.0)), ObjectSpec(EXIT, (180.0, 540.0, 120.0, 540.0))),
+    ),
+)
+"""A floor, a ninja, a switch and an exit on the way to the right."""
+
+
+class Maker(MenuDriver):
+    """Somebody who makes a level."""
+
+    @property
+    def editor(self) -> EditorScreen:
+        screen = next(each for each in self.app.stack._screens if isinstance(each, EditorScreen))
+        assert screen is not None
+        return screen
+
+    @property
+    def draft(self) -> Draft:
+        return self.editor.session.draft
+
+    def at(self, x: float, y: float) -> tuple[float, float]:
+        """Where a point of the level is seen."""
+        left, top, width, _ = DESK.level
+        return left + x * width / 792, top + y * width / 792
+
+    def drag(self, *places: tuple[float, float], button: int = 1) -> None:
+        for number, place in enumerate(places):
+            px = self.app.canvas.point(*self.at(*place))
+            pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=px, rel=(0, 0), buttons=(0, 0, 0), touch=False))
+            if number == 0:
+                pygame.event.post(pygame.Event(pygame.MOUSEBUTTONDOWN, pos=px, button=button, touch=False))
+            self.frames()
+        pygame.event.post(pygame.Event(pygame.MOUSEBUTTONUP, pos=px, button=button, touch=False))
+        self.frames()
+
+    def chord(self, key: str, *modifiers: int) -> None:
+        for kind in (pygame.KEYDOWN, pygame.KEYUP):
+            pygame.event.post(pygame.Event(kind, key=0, scancode=SCANCODES[key], mod=sum(modifiers), unicode=""))
+        self.frames()
+
+    def choose(self, text: str) -> None:
+        """Click a button of the panel on top."""
+        panel = self.top()
+        assert isinstance(panel, Menu)
+        button = next(widget for widget in panel.widgets if getattr(widget, "text", "") == text)
+        self.mouse(*button.centre)
+
+    def wait(self, condition: object, what: str) -> None:
+        end = time.monotonic() + 60.0
+        while not condition():  # type: ignore[operator]
+            assert time.monotonic() < end, what
+            time.sleep(0.01)
+            self.frames()
