@@ -1,4 +1,4 @@
-"""Certifying a level while it is edited: the solver at work in a thread of its own."""
+"""Ways through a level while it is edited: those of tests, and what the solver finds in a thread of its own."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from threading import Thread
 from typing import TYPE_CHECKING
 
 from ninja_game.compile_cache import compiled_available
-from ninja_game.editor.routes import Route, route_of
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.resources import how_to_install
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.simulation import Body, Simulation
 
 if TYPE_CHECKING:
     from ninja_game.solver.certificate import VerifiedRun
@@ -19,6 +19,26 @@ if TYPE_CHECKING:
 
 SECONDS = 20.0
 """How long the solver looks for better runs."""
+
+
+Route = tuple[tuple[float, float], ...]
+"""Where the ninja was after each tick, px."""
+
+
+def route_of(level: Level, inputs: bytes, body: Body = "circle") -> Route:
+    """The way of the ninja from its start to the end of the run or of the inputs; () for a level without one."""
+    try:
+        run = Simulation(level, body=body)
+    except LevelError:
+        return ()
+    world = run.world
+    way = [(world.ninja.x, world.ninja.y)]
+    for keys in inputs:
+        run.step_keys(keys)
+        way.append((world.ninja.x, world.ninja.y))
+        if run.outcome != "running":
+            break
+    return tuple(way)
 
 
 class _StoppedError(Exception):

@@ -18,7 +18,7 @@ from ninja_game.play.ui.theme import Area
 from ninja_game.play.ui.widgets import Widget
 
 if TYPE_CHECKING:
-    from ninja_game.editor.routes import Route
+    from ninja_game.editor.certify import Route
     from ninja_game.levels.findings import Finding
     from ninja_game.play.app import App
 

@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 import pygame
 
+from ninja_game.editor.certify import Route
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.records import BODY, SWITCH, has_switch, points
-from ninja_game.editor.routes import Route
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.sheet import Mark
 from ninja_game.play.ui.canvas import Canvas, Colour, Point

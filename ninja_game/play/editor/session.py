@@ -13,10 +13,9 @@ from ninja_game.editor.autosave import Autosave, Recovered
 from ninja_game.editor.background import NewestJob
 from ninja_game.editor.bench import Bench
 from ninja_game.editor.brush import SORTS, placed
-from ninja_game.editor.certify import Certifier
+from ninja_game.editor.certify import Certifier, Route, route_of
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, draft_of_text, free_path, level_string, new_source, save
-from ninja_game.editor.routes import Route, route_of
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import export_path
