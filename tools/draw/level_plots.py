@@ -8,7 +8,7 @@ from typing import Any
 
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import Pack
-from tools.measure.level_statistics import ROWS
+from tools.measure.level_statistics import DIFFICULTY, ROWS
 
 OURS, THEIRS = "#c0392b", "#34495e"
 
@@ -51,6 +51,8 @@ def draw_difficulty(pack: Pack, folder: Path) -> None:
         names.append(f"{index.number:02d} {index.name}")
         middles.append(place + (len(levels) - 1) / 2)
         place += len(levels)
+    axis.axhspan(DIFFICULTY.first, DIFFICULTY.third, color=THEIRS, alpha=0.12, lw=0)
+    axis.axhline(DIFFICULTY.median, color=THEIRS, lw=1, alpha=0.5)
     axis.set_xticks(middles, names, rotation=35, ha="right", fontsize=8)
     axis.set(ylabel="difficulty", xlim=(-1, place), ylim=(0, None))
     axis.grid(axis="y", alpha=0.3)

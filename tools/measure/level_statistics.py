@@ -17,6 +17,8 @@ from typing import Any, NamedTuple
 
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.load import load_levels, load_replays
+from ninja_game.formats.n14.demo import parse_demo
+from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
@@ -62,6 +64,9 @@ ROWS = {
 }
 """The reference: 500 levels, the best recorded runs on them. "Solid" is what is not empty."""
 
+DIFFICULTY = Row("difficulty", 2.71, 5.58, 9.9)
+"""Of the best recorded runs on 334 levels of the reference; ``--reference`` measures it anew, in a minute."""
+
 KINDS_OF_REFERENCE = {
     "bounce block": 41, "launch pad": 30, "gauss turret": 36, "floor guard": 28, "drone": 64, "one-way platform": 12,
     "thwump": 21, "door": 52, "homing launcher": 20, "mine": 61,
@@ -89,8 +94,25 @@ def runs(pack: Pack, file: str) -> dict[str, float]:
 
 
 def figures_of_set(pack: Pack) -> dict[str, dict[str, float]]:
-    """The figures of each level file of a pack, with the times of its certificates."""
-    return {file: figures(named.level) | runs(pack, file) for file, named in pack.levels.items()}
+    """The figures of each level file of a pack, with the times of its certificates and its difficulty."""
+    found = {file: figures(named.level) | runs(pack, file) for file, named in pack.levels.items()}
+    for file, pars in pack.pars.items():
+        if pars.difficulty is not None:
+            found[file]["difficulty"] = pars.difficulty
+    return found
+
+
+def difficulty_of_reference() -> tuple[float, float, float]:
+    """The quartiles of the difficulty of the reference's best recorded runs."""
+    from ninja_game.batch.difficulty import difficulty
+    from tests.support.reference import recordings
+
+    best: dict[str, Any] = {}
+    for run in recordings():
+        if run.kind == "speedrun" and (run.label not in best or run.end_tick < best[run.label].end_tick):
+            best[run.label] = run
+    inputs = {label: parse_demo(run.demo).playback(run.ticks) for label, run in best.items()}
+    return quartiles([difficulty(parse_level_string(run.data), inputs[label]) for label, run in best.items()])
 
 
 def number(value: float) -> str:
@@ -114,7 +136,7 @@ def table_of_levels(rows: Mapping[str, Mapping[str, float]]) -> str:
 def table_of_set(rows: Sequence[Mapping[str, float]]) -> str:
     """The quartiles of the set beside the reference's, in Markdown."""
     lines = ["| per level | reference | ours | median within |", "|---|---|---|---|"]
-    for key, row in ROWS.items():
+    for key, row in (*ROWS.items(), ("difficulty", DIFFICULTY)):
         ours = quartiles([each[key] for each in rows if key in each])
         inside = "yes" if row.first <= ours[1] <= row.third else "no"
         lines.append(f"| {row.title} | {_three(row[1:])} | {_three(ours)} | {inside} |")
@@ -189,7 +211,11 @@ def main() -> None:
     parser.add_argument("--pack", type=Path, default=ROOT / "levels")
     parser.add_argument("--doc", metavar="PAGE", type=Path, help=f"write the tables below {HEADING!r} of this page")
     parser.add_argument("--plots", metavar="FOLDER", type=Path, help="draw the plots into this folder too")
+    parser.add_argument("--reference", action="store_true", help="measure the difficulty of the reference, no more")
     arguments: Any = parser.parse_args()
+    if arguments.reference:
+        print(f"difficulty of the reference: {_three(difficulty_of_reference())}")
+        return
     pack = Pack(arguments.pack)
     if arguments.levels:
         tell_levels(arguments.levels, pack)
