@@ -8,6 +8,7 @@ from enum import Enum
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
+from ninja_game.player.marks import next_par
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.saving import count_of, told
 from ninja_game.player.statistics import SELF, killer_of
@@ -65,6 +66,12 @@ class LevelContext:
     def pars(self) -> Pars | None:
         """The level's par times, which go by the classic body."""
         return self.entry.pars if self.body == "circle" else None
+
+    def aim(self) -> str:
+        """The next medal of the level and its par, in words; "" where there is none, or in practice."""
+        if self.pars is None or self.practice_mode:
+            return ""
+        return next_par(self.pars, self.data.marks.of(self.entry.digest))
 
     @property
     def show_tutorial(self) -> bool:

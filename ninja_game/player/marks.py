@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from ninja_game.formats.pack.pars import MARGINS
+from ninja_game.formats.pack.pars import MARGINS, Pars
 from ninja_game.player.catalogue import Entry
+from ninja_game.player.scoring import seconds_text
 from ninja_game.player.store import Store
 
 
@@ -56,6 +57,12 @@ class Tally(NamedTuple):
 def medal_of(entry: Entry, mark: Mark | None) -> str:
     """The medal that a mark brings in a level, "" for none."""
     return entry.pars.medal(mark.fastest) if entry.pars and mark else ""
+
+
+def next_par(pars: Pars, mark: Mark | None) -> str:
+    """The medal after the one that a mark brings, and its par, in words; "" after the best."""
+    medal = pars.next_medal(mark.fastest) if mark else list(MARGINS)[-1]
+    return f"{medal}: {seconds_text(pars.par(medal))} s" if medal else ""
 
 
 def has_all_gold(entry: Entry, mark: Mark | None) -> bool:

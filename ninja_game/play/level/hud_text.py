@@ -30,11 +30,12 @@ def hud_view(play: LevelPlay) -> HudView:
         message = f"Passed with {seconds_text(attempt.score)}", [*_reached(play, gold), keys], y
         medal = context.pars.medal(attempt.ended_tick) if context.pars else ""
     hint = _hint(play, key)
+    title = f"{context.title}    {play.aim}" if play.phase is Phase.READY and play.aim else context.title
     practice = "Practice" + (", slow motion" if play.tools.slow else "")
     return HudView(
         play.shown_lifetime,
         practice if context.practice_mode else "",
-        (context.title, hint or f"gold {gold}"),
+        (title, hint or f"gold {gold}"),
         keys=play.keys if settings.show_keys and not hint else None,
         frame_ms=app.frame_ms if settings.show_frame_time else None,
         message=message,

@@ -41,7 +41,8 @@ class LevelPlay:
     """One level of a context, tried again and again.
 
     ``view`` shows every tick. ``after_end``: ticks since the exit contact or death; ``killer``: what killed, one of
-    ``statistics.KILLERS``. ``keys``: those of the last tick. ``notices``: what a pass has brought. ``changed``: more
+    ``statistics.KILLERS``. ``keys``: those of the last tick. ``notices``: what a pass has brought. ``aim``: the next
+    par, while it waits at the start. ``changed``: more
     than a tick has happened, so that everything has to be drawn again.
     """
 
@@ -68,6 +69,7 @@ class LevelPlay:
         self.after_end = 0
         self.killer = ""
         self.notices: list[str] = []
+        self.aim = self.context.aim()
         runs = self.context.ghosts()
         if [run.inputs for run in runs] != [ghost.inputs for ghost in self.view.ghosts]:
             self.view.ghosts = [Ghost(run, self.context.level, self.context.body) for run in runs]

@@ -7,7 +7,7 @@ import pygame
 from ninja_game.play.ui.medals import MEDALS, draw_all_gold, draw_medal
 from ninja_game.play.ui.theme import Theme
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.marks import Mark, has_all_gold, medal_of
+from ninja_game.player.marks import Mark, has_all_gold, medal_of, next_par
 from ninja_game.player.scoring import seconds_text
 
 
@@ -25,10 +25,7 @@ def all_gold_and_medal(
 def time_and_par(entry: Entry, mark: Mark | None) -> str:
     """The player's fastest time in a level and the next medal's, in words; "" where there is neither."""
     time = f"{seconds_text(mark.fastest)} s" if mark else ""
-    if not entry.pars:
-        return time
-    following = entry.pars.next_medal(mark.fastest) if mark else MEDALS[0]
-    par = f"{following}: {seconds_text(entry.pars.par(following))} s" if following else ""
+    par = next_par(entry.pars, mark) if entry.pars else ""
     return "    ".join(filter(None, (time, par)))
 
 

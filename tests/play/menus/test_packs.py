@@ -54,6 +54,11 @@ def test_pack_in_the_folder_can_be_chosen_and_played(driver: MenuDriver) -> None
     driver.press("down", "return")
     level = driver.top()
     assert isinstance(level, LevelScreen)
+    assert "bronze: 7.500 s" in shown(driver), "what to aim at stands beside the level's name"
+    level.begin()
+    driver.frames(1)
+    assert "bronze: 7.500 s" not in shown(driver)
+    level.retry()
     level.begin()
     driver.play_replay(1)
     driver.press("space", "escape")
