@@ -68,6 +68,13 @@ class Form(Menu):
         ]
         return [*entries, *list(super().build())[len(entries) :]]
 
+    def act(self, action: str, *, held: bool = False) -> None:
+        """Enter in a field means the first button."""
+        if action == "confirm" and isinstance(self.focus, TextEntry):
+            self._rows[0][1]()
+        else:
+            super().act(action, held=held)
+
     def _taker(self, place: int) -> Callable[[str], None]:
         def take(text: str) -> None:
             self.texts[place] = text

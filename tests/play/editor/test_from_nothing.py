@@ -1,0 +1,84 @@
+"""A level from nothing, in a real window with a real mouse and keys: drawn, tried, certified, saved, found, passed."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+from ninja_game.compile_cache import compiled_available
+from ninja_game.formats.load import load_levels
+from ninja_game.play.editor.desk import DESK
+from ninja_game.sim.kinds import DOOR
+from tests.support.real_window import NEEDS_WINDOW, TIMEOUT, Player, virtual_screen
+
+COMPILING = 400.0
+"""Seconds that the solver may need on a machine that has never compiled it."""
+
+pytestmark = NEEDS_WINDOW
+
+
+def at(column: float, row: float) -> tuple[float, float]:
+    """The px of the window, in its size of 792 x 600, where the middle of a cell is seen."""
+    left, top, width, _ = DESK.level
+    return left + (24 * column + 12) * width / 792, top + (24 * row + 12) * width / 792
+
+
+def draw(maker: Player) -> None:
+    """A floor, a wall with a locked door in it, its key and gold before it, the exit behind it."""
+    maker.drag(at(1, 23), at(16, 23), at(31, 23))
+    maker.drag(at(16, 1), at(16, 12), at(16, 21))
+    maker.press("l", "grave", "9")
+    maker.drag(at(3, 22))
+    maker.press("o")
+    maker.drag(at(15.6, 22))
+    maker.drag(at(8, 22))
+    maker.press("bracketright")
+    maker.drag(at(28, 22))
+    maker.drag(at(22, 22))
+    maker.press("0")
+    maker.drag(*(at(column, 22) for column in range(5, 13)))
+
+
+def test_a_level_from_nothing(tmp_path: Path, root: Path) -> None:
+    with virtual_screen() as display:
+        maker = Player(display, tmp_path, root)
+        try:
+            maker.press("Down", "Down", "Down", "Down", "Return")  # Editor
+            empty = maker.picture()
+            draw(maker)
+            assert maker.differs_from(empty) > 5000
+            drawn = maker.picture()
+            maker.press("F5", "space")
+            maker.tool("keydown", "Right")
+            time.sleep(1.0)
+            maker.tool("keyup", "Right")
+            assert maker.differs_from(drawn) > 50_000
+            maker.press("Escape")
+            assert 50 < maker.differs_from(drawn) < 5000  # only the way of the try is new
+            if compiled_available():
+                maker.press("F7")
+                maker.wait_for(lambda: kept_certificate(maker), "certificate", seconds=COMPILING)
+            maker.press("ctrl+s", "Return")
+            path = tmp_path / "levels" / "my-level.txt"
+            maker.wait_for(path.exists, "saved level")
+            maker.press("Escape", "Up", "Return")  # leave the editor
+            maker.press("Up", "Up", "Up", "Return", "End", "Return")  # Levels, the last one, play
+            maker.press("space")
+            maker.tool("keydown", "Right")
+            maker.wait_for(lambda: maker.count("level_best") == 1, "pass")
+            maker.tool("keyup", "Right")
+        finally:
+            maker.game.kill()
+            maker.game.wait(TIMEOUT)
+    level = load_levels(path)[0].level
+    assert sum(tile > 0 for tile in level.tiles) >= 30
+    assert len(level.objects) >= 10
+    assert [record.values[6] for record in level.objects if record.kind == DOOR] == [1.0]
+
+
+def kept_certificate(maker: Player) -> bool:
+    """Ask the file menu to keep the solver's run; whether it is among the replays."""
+    before = maker.count("replay")
+    maker.press("Escape", "Up", "Up", "Return")  # the last but one of the file menu
+    time.sleep(1.0)
+    return maker.count("replay") > before
