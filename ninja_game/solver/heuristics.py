@@ -39,6 +39,9 @@ SWITCH_COST = 3.0
 """How many times longer a step beside a switch counts that is better touched later."""
 
 
+MOVING = (kinds.DRONE, kinds.FLOOR_GUARD, kinds.THWUMP, kinds.LAUNCHER)
+"""Kinds of enemies that the search looks at, where they are; of a launcher that is where its rocket is."""
+
 Source = tuple[float, float, float]
 """Where a field begins (px), and its value there (ticks)."""
 
@@ -87,6 +90,7 @@ class Heuristics:
         self.exits = exits
         self.switches = (exits + doors)[:MAX_BITS]
         self.slots = np.array([switch.slot for switch in self.switches], np.int64)
+        self.enemies = np.array([slot for slot in range(1, used) if int(objects[slot]["kind"]) in MOVING], np.int64)
         self.gold_slots = np.array([slot for slot, _, _ in gold], np.int64)
         self.gold_ids = [int(objects[slot]["id"]) for slot, _, _ in gold]
         self.gold_places = [(x, y) for _, x, y in gold]
@@ -100,6 +104,10 @@ class Heuristics:
         """The switch state of a world."""
         bits = world["objects"]["is_open"][self.slots] != 0
         return sum(1 << k for k in np.flatnonzero(bits).tolist())
+
+    def routines(self, world: Any) -> bytes:
+        """What the moving enemies of a world do."""
+        return bytes(world["objects"]["routine"][self.enemies].astype(np.uint8))
 
     def gold_fields(self, switch_state: int, pieces: Sequence[int]) -> Field:
         """The fields of some pieces of gold (pieces x points); closed locked doors count as passable but dear."""

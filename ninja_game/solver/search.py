@@ -39,7 +39,7 @@ def add_root(start: Start, memory: SearchMemory, goals: Goals, resolution: Resol
     w = start.worlds[1]
     counters = memory.counters[0]
     switch_state = max(switch_state_of(w, goals, counters, 0), 0)
-    key = key_of(w, switch_state, 0, resolution)
+    key = key_of(w, goals, switch_state, 0, resolution)
     slot = find(memory.table, key)
     if memory.table[slot].key == 0:
         memory.table[slot].key = key
@@ -173,7 +173,7 @@ def keep_child(
         return
     at_end = goals.leg > 0 and (w.gold >= goals.leg or goals.masks[switch_state] != goals.mask)
     gold = gold_hash(w, goals) if at_end else 0
-    key = key_of(w, switch_state, gold, resolution)
+    key = key_of(w, goals, switch_state, gold, resolution)
     slot = find(memory.table, key)
     entry = memory.table[slot]
     if entry.key != 0:
@@ -181,7 +181,7 @@ def keep_child(
         if not is_news(entry, tick, resolution):
             return
     if len(guide.table) > 1:
-        known = guide.table[find(guide.table, key_of(w, switch_state, gold, guide.resolution))]
+        known = guide.table[find(guide.table, key_of(w, goals, switch_state, gold, guide.resolution))]
         if known.key != 0 and known.value < 1.0e8:
             ahead = 0.0 + known.value
         else:

@@ -109,7 +109,8 @@ class Resolution(NamedTuple):
     """How finely a search looks: size of a place (px), of a velocity (px/tick), length of a macro (ticks).
 
     ``weight``: of the estimated ticks to go against those run; ``patience``: ticks after which the same place counts
-    as new, at most ``visits`` times; guided searches only: ``slack``: ticks by
+    as new, at most ``visits`` times; ``enemy_cell``: size of a place (px) of enemies nearer than ``enemy_reach`` (px,
+    across and down together), 0: they do not count. Guided searches only: ``slack``: ticks by
     which an estimate may exceed the best run, in a plan as a share of it; ``off_guide``: how much a tick counts where
     the guide knows nothing. The shifts move the cells of places and velocities; each search draws its own.
     """
@@ -121,6 +122,8 @@ class Resolution(NamedTuple):
     weight: float = 2.0
     patience: int = 40
     visits: int = 1
+    enemy_cell: float = 0.0
+    enemy_reach: float = 100.0
     slack: float = 0.0
     off_guide: float = 1.0
     shift_x: float = 0.0

@@ -55,7 +55,8 @@ class Leg(NamedTuple):
 class End(NamedTuple):
     """A moment at which a leg has ended: from which root, by which inputs, its state, ticks, gold (a bit a piece).
 
-    ``mask``: what is open, ``place``: where the ninja is (px).
+    ``mask``: what is open, ``place``: where the ninja is (px), ``routines``: what
+    the enemies do.
     """
 
     root: int
@@ -65,6 +66,7 @@ class End(NamedTuple):
     taken: int
     mask: int
     place: tuple[float, float]
+    routines: bytes
 
 
 class Search:
@@ -80,6 +82,7 @@ class Search:
             ends=1,
             rollouts=0,
             gold_slots=heuristics.gold_slots,
+            enemies=heuristics.enemies,
             switch_slots=heuristics.slots,
             masks=np.full(MAX_SWITCH_STATES, -1, np.int64),
             places=np.zeros((MAX_SWITCH_STATES, 2)),
@@ -170,7 +173,8 @@ class Search:
             world = self.start.worlds[1]
             place = (float(world["ninja"]["x"]), float(world["ninja"]["y"]))
             mask = int(self.goals.masks[self.memory.nodes[index].switch_state])
-            found.append(End(root, inputs, words, int(world["tick"]), self.heuristics.taken(world), mask, place))
+            taken, routines = self.heuristics.taken(world), self.heuristics.routines(world)
+            found.append(End(root, inputs, words, int(world["tick"]), taken, mask, place, routines))
         return found
 
     def _path(self, index: int) -> tuple[int, bytes]:

@@ -22,6 +22,7 @@ from ninja_game.solver.search_memory import Resolution, open_start
 from ninja_game.solver.search_run import Search
 from ninja_game.solver.task import (
     COOLING,
+    LEGS_TICKS,
     SEARCH_COST,
     VARY,
     VARY_TICKS,
@@ -52,6 +53,7 @@ class _Job:
         self.start = open_start(task.level, box=task.body == "box")
         self.heuristics = Heuristics(self.start.levels, self.start.worlds)
         self._search: Search | None = None
+        self._leg_search: Search | None = None
         self._turn = 2 * number
         self._local_searches = self._routes = 0
 
@@ -79,36 +81,46 @@ class _Job:
         """The search of this job, made when it is first needed."""
         if self._search is None:
             task = self.state.task
-            nodes = LEG_NODES if task.gold_wanted else int(min(1_500_000, max(100_000, task.work_planned / 40)))
+            nodes = int(min(1_500_000, max(100_000, task.work_planned / 40)))
             self._search = Search(self.start, self.heuristics, nodes=nodes)
         return self._search
 
     def _find(self) -> None:
+        route = self._new_route(Style(), bound=0)
         if self.state.task.gold_wanted:
-            self._find_gold(Style(), bound=0)
+            self._follow(route, inf)
             return
         for resolution, ticks, turn in find_order(self.number):
             if self._over or self.state.runs:
                 return
+            if turn:
+                # Switch by switch: for long ways.
+                self._follow(route, LEGS_TICKS)
             self._search_once(resolution, ticks, seed=turn, bound=0, until_found=True)
 
-    def _find_gold(self, style: Style, *, bound: int, ticks: float = inf) -> bytes | None:
-        """Search a run that collects the gold, for so many ticks; one that is found is submitted."""
-        gold = self.state.task.gold_wanted
+    def _new_route(self, style: Style, *, bound: int) -> Route:
+        if self._leg_search is None:
+            self._leg_search = Search(self.start, self.heuristics, nodes=LEG_NODES)
         self._routes += 1
         seed = self.seed * 1000 + self._routes
-        route = Route(self._memory(), gold=gold, seed=seed, style=style, bound=bound)
+        return Route(self._leg_search, gold=self.state.task.gold_wanted, seed=seed, style=style, bound=bound)
+
+    def _follow(self, route: Route, ticks: float) -> bytes | None:
+        """Search a run in legs, for so many ticks; one that is found is submitted."""
+        doing = f" of {route.gold} gold" if route.gold else ""
         until = self.work + ticks * SEARCH_COST
+        first = not self.state.runs
 
         def over(played: int) -> bool:
             self.work += played * SEARCH_COST
-            self.state.count(played, 0, f"{route.most} of {gold} gold")
-            return self._over or self.work >= until or bool(self.state.runs and not bound)
+            self.state.count(played, 0, f"{route.most}{doing}" if doing else "searching")
+            return self._over or self.work >= until or bool(self.state.runs and first)
 
         found = None
         while not found and not over(0):
             found = route.step(over)
-        self.state.note_gold(route.most, [self.heuristics.gold_ids[piece] for piece in route.never_taken()])
+        if route.gold:
+            self.state.note_gold(route.most, [self.heuristics.gold_ids[piece] for piece in route.never_taken()])
         if found:
             self.state.submit(found)
         return found
@@ -123,7 +135,7 @@ class _Job:
         resolution = resolution._replace(slack=resolution.slack * shortest)
         bound = shortest + max(4, shortest // 20)
         if self.state.task.gold_wanted:
-            found = self._find_gold(STYLES[turn % len(STYLES)], bound=bound, ticks=VARY_TICKS)
+            found = self._follow(self._new_route(STYLES[turn % len(STYLES)], bound=bound), VARY_TICKS)
         else:
             found = self._search_once(resolution, VARY_TICKS, seed=100 + turn, bound=bound, guided=guided)
         self._shorten(found or self.state.runs[0], self.shares.first_climb)

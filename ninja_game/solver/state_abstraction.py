@@ -9,9 +9,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.sim.kinds import LAUNCHER
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import World
-from ninja_game.sim.states import JUMPING, SLIDING
+from ninja_game.sim.states import JUMPING, LAUNCHER_FLIGHT, SLIDING
 from ninja_game.solver.search_memory import Counters, Entry, Resolution
 
 MIX = 0x2545F4914F6CDD1D
@@ -33,6 +34,7 @@ class Goals(NamedTuple):
     ends: int  #: how many ends of a leg are enough
     rollouts: int  #: tries to survive at the end of a leg, 0: it need not be survived
     gold_slots: NDArray[np.int64]
+    enemies: NDArray[np.int64]  #: slots of what moves and kills
     switch_slots: NDArray[np.int64]  #: the slot of each bit of a mask
     masks: NDArray[np.int64]  #: what is open in each switch state, -1: not reached yet
     places: NDArray[np.float64]  #: where the ninja was when its field was wanted
@@ -53,15 +55,33 @@ def state_class(w: World) -> int:
 
 
 @fast
-def key_of(w: World, switch_state: int, gold: int, resolution: Resolution) -> int:
+def key_of(w: World, goals: Goals, switch_state: int, gold: int, resolution: Resolution) -> int:
     """The key of a moment, never 0. ``gold``: a hash (16 bits) of what was collected, 0 where gold does not matter."""
     n = w.ninja
     x = int((n.x + resolution.shift_x) / resolution.cell) & 511
     y = int((n.y + resolution.shift_y) / resolution.cell) & 511
     vx = floor((n.x - n.prev_x + resolution.shift_vx) / resolution.speed) & 255
     vy = floor((n.y - n.prev_y + resolution.shift_vy) / resolution.speed) & 255
+    near = near_enemies(w, goals, resolution) if resolution.enemy_cell > 0.0 else 0
     key = x | y << 9 | vx << 18 | vy << 26 | state_class(w) << 34 | (switch_state & 511) << 37 | (gold & 0xFFFF) << 46
-    return int(key + 1)
+    return int((key ^ near) + 1)
+
+
+@fast
+def near_enemies(w: World, goals: Goals, resolution: Resolution) -> int:
+    """A hash of where the enemies near the ninja are, in coarse cells, and of what they do; 0 where there are none."""
+    n = w.ninja
+    mixed = 0
+    for k in range(len(goals.enemies)):
+        o = w.objects[goals.enemies[k]]
+        # A rocket in flight matters from afar: it must be led somewhere.
+        in_flight = o.kind == LAUNCHER and o.routine == LAUNCHER_FLIGHT
+        if not in_flight and abs(o.x - n.x) + abs(o.y - n.y) > resolution.enemy_reach:
+            continue
+        place = int(o.x / resolution.enemy_cell) & 255 | (int(o.y / resolution.enemy_cell) & 255) << 8
+        mixed += (place | o.routine << 16 | (k + 1) << 20) * MIX
+    mixed ^= mixed >> 31
+    return (mixed & 0x3FFFFFFF) << 33 if mixed else 0
 
 
 @fast

@@ -128,14 +128,17 @@ SEARCH_COST = 2.0
 FIND = (
     (Resolution(), 8_000_000),
     (Resolution(cell=8.0, speed=0.5, macro=8, weight=1.5), 12_000_000),
-    (Resolution(cell=12.0, speed=1.0, macro=6, weight=1.2, visits=20, patience=12), 12_000_000),
+    (Resolution(cell=12.0, speed=1.0, macro=6, weight=1.2, visits=20, patience=12, enemy_cell=24.0), 12_000_000),
     (Resolution(cell=12.0, speed=0.7, weight=2.0, visits=10), 16_000_000),
-    (Resolution(cell=6.0, speed=0.5, macro=4, weight=2.0), 20_000_000),
-    (Resolution(cell=9.0, speed=0.6, macro=6, weight=1.0, visits=4, patience=60), 30_000_000),
+    (Resolution(cell=6.0, speed=0.5, macro=4, weight=2.0, enemy_cell=24.0, enemy_reach=150.0), 20_000_000),
+    (Resolution(cell=9.0, speed=0.6, macro=6, weight=1.0, visits=4, patience=60, enemy_cell=24.0), 30_000_000),
     (Resolution(cell=5.0, speed=0.4, macro=4, weight=3.0, visits=2), 40_000_000),
     (Resolution(cell=10.0, speed=0.4, macro=7, jitter=4, weight=1.2, visits=6, patience=25), 40_000_000),
 )
 """Searches for a first run, with their ticks; then over again with other seeds."""
+
+LEGS_TICKS = 8_000_000
+"""Ticks for a run from switch to switch, before each of these searches but the first."""
 
 VARY = (
     Resolution(cell=8.0, speed=0.5, macro=8, weight=1.0),

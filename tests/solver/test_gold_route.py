@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from ninja_game.compile_cache import compiled_available
@@ -13,6 +14,11 @@ if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
 from ninja_game.solver.certificate import verified_run
+from ninja_game.solver.heuristics import Heuristics
+from ninja_game.solver.legs.fronts import Front, Moment
+from ninja_game.solver.legs.route import Route
+from ninja_game.solver.search_memory import open_start
+from ninja_game.solver.search_run import Search
 from ninja_game.solver.solve import Progress, Task, solve
 
 COLUMN = 23
@@ -73,7 +79,24 @@ def test_the_same_seed_collects_gold_in_the_same_way() -> None:
     assert first.inputs == again.inputs
 
 
+def test_a_front_keeps_the_earliest_moments_and_one_of_each_state_of_the_enemies() -> None:
+    front = Front(0, 0)
+    for tick in (5, 3, 9, 1, 7):
+        routines = b"in flight" if tick == 9 else b"waiting"
+        front.add(Moment(np.zeros(1, np.int64), tick, 0, 0, (0.0, 0.0), routines), 3)
+    assert [moment.tick for moment in front.moments] == [1, 3, 9]
+
+
 def test_gold_that_was_never_collected_is_told() -> None:
     progress: list[Progress] = []
     assert solve(Task(WALLED_IN, gold=-1, work=2_000_000), report=progress.append) is None
     assert (progress[-1].gold, progress[-1].untaken) == (1, (3,))
+
+
+def test_a_run_may_go_from_switch_to_switch_without_gold() -> None:
+    start = open_start(BEHIND_A_DOOR, box=False)
+    search = Search(start, Heuristics(start.levels, start.worlds), nodes=50_000)
+    route = Route(search, gold=0, seed=1)
+    runs = [route.step(lambda _: False) for _ in range(8)]
+    assert verified_run(BEHIND_A_DOOR, next(filter(None, runs))).end_tick > 0
+    assert len({mask for _, mask in route.fronts}) > 1

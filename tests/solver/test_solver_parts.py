@@ -13,13 +13,16 @@ if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
 from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.memory.plain import PlainMemory
 from ninja_game.solver.distance_field import POINTS, UNREACHED, point_at
 from ninja_game.solver.heuristics import Heuristics
 from ninja_game.solver.legs.tour import short_tour
 from ninja_game.solver.local_search import LocalCounters
 from ninja_game.solver.macro_actions import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_inputs
 from ninja_game.solver.mutations import cut, mutate, overwrite, shift_boundary, shift_pulse, stretch
-from ninja_game.solver.search_memory import UNKNOWN, Entry, Link, back_up_values, open_start, zeroed
+from ninja_game.solver.search_memory import UNKNOWN, Entry, Link, Resolution, back_up_values, open_start, zeroed
+from ninja_game.solver.search_run import Search
+from ninja_game.solver.state_abstraction import key_of
 
 OPEN = "0" * 713 + "|"
 CORRIDOR = ("0" * 10 + "1" * 12 + "0") * 10 + "0" * 23 * 21
@@ -157,6 +160,26 @@ def test_gold_in_a_wall_is_collected_from_beside_it() -> None:
     wall = "0" * 23 * 10 + "1" * 22 + "0" + "0" * 23 * 20
     heuristics = heuristics_of(wall + "|5^60,566!11^200,566,100,566!0^264,300")
     assert heuristics.gold_fields(0, [0])[0, point_at(60, 566)] < UNREACHED
+
+
+def key_after(text: str, ticks: int, resolution: Resolution) -> int:
+    """The key of the moment after so many ticks without keys; the ninja stands still."""
+    level = parse_level_string(text)
+    start = open_start(level, box=False)
+    goals = Search(start, Heuristics(start.levels, start.worlds), nodes=100).goals
+    memory = PlainMemory(level, box=False)
+    for _ in range(ticks):
+        memory.step(0)
+    return key_of(memory.world(), goals, 0, 0, resolution)
+
+
+def test_enemies_that_are_near_tell_moments_apart() -> None:
+    """A drone goes back and forth beside the ninja, or far from it."""
+    near, far = (OPEN + f"5^100,566!11^700,566,600,566!6^{x},564,3,0,0,0" for x in (180, 540))
+    quiet, watchful = Resolution(), Resolution(enemy_cell=24.0)
+    assert key_after(near, 2, quiet) == key_after(near, 30, quiet)
+    assert key_after(near, 2, watchful) != key_after(near, 30, watchful)
+    assert key_after(far, 2, watchful) == key_after(far, 30, watchful) == key_after(far, 2, quiet)
 
 
 def test_a_tour_goes_to_the_far_end_first_and_back() -> None:

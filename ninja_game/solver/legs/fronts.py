@@ -18,6 +18,7 @@ class Moment:
     taken: int
     mask: int
     place: tuple[float, float]
+    routines: bytes = b""
     before: Moment | None = None
     inputs: bytes = b""
 
@@ -41,6 +42,16 @@ class Front:
     tour: list[int] = field(default_factory=list)
     tries: int = 0
     failed: Counter[int] = field(default_factory=Counter)
+
+    def add(self, moment: Moment, width: int) -> None:
+        """Keep a moment if it is among the earliest; of each state of the enemies at least one, if possible."""
+        ranks: Counter[bytes] = Counter()
+        ranked = []
+        for other in sorted([*self.moments, moment], key=lambda moment: moment.tick):
+            ranked.append((ranks[other.routines], other))
+            ranks[other.routines] += 1
+        kept = sorted(ranked, key=lambda pair: pair[0])[:width]
+        self.moments = sorted((moment for _, moment in kept), key=lambda moment: moment.tick)
 
     @property
     def count(self) -> int:

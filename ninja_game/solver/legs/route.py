@@ -23,10 +23,10 @@ from ninja_game.solver.search_run import Leg, Search
 
 LEGS = (
     (Resolution(cell=12.0, speed=1.0, macro=5, weight=1.6), 400_000),
-    (Resolution(cell=8.0, speed=0.5, macro=5, weight=2.0), 1_000_000),
-    (Resolution(cell=12.0, speed=1.0, macro=6, weight=1.3, visits=12, patience=15), 2_000_000),
+    (Resolution(cell=8.0, speed=0.5, macro=5, weight=2.0, enemy_cell=24.0), 1_000_000),
+    (Resolution(cell=12.0, speed=1.0, macro=6, weight=1.3, visits=12, patience=15, enemy_cell=24.0), 2_000_000),
     (Resolution(cell=6.0, speed=0.5, macro=4, weight=2.0), 3_000_000),
-    (Resolution(cell=9.0, speed=0.6, macro=7, jitter=3, weight=1.5, visits=5, patience=40), 5_000_000),
+    (Resolution(cell=9.0, speed=0.6, macro=7, jitter=3, weight=1.5, visits=5, patience=40, enemy_cell=24.0), 5_000_000),
     (Resolution(cell=6.0, speed=0.4, macro=4, weight=1.2, visits=2), 8_000_000),
 )
 """How a front is searched at its first, second … try, and the most ticks."""
@@ -130,7 +130,10 @@ class Route:
             self.urgency[target] *= 0.5
         for end in ends:
             before_it = front.moments[end.root]
-            self._add(Moment(end.words, end.tick, end.taken, end.mask, end.place, before_it, end.inputs), front.tour)
+            moment = Moment(
+                end.words, end.tick, end.taken, end.mask, end.place, end.routines, before=before_it, inputs=end.inputs
+            )
+            self._add(moment, front.tour)
         if self._most_now > before:
             self._stalled_steps = self._stalled_ticks = 0
         return None
@@ -191,7 +194,7 @@ class Route:
         self.ever_taken |= moment.taken
         self.most = max(self.most, front.count)
         self._most_now = max(self._most_now, self._promise(Front(*key))[0])
-        front.moments = sorted([*front.moments, moment], key=lambda moment: moment.tick)[: self.style.width]
+        front.add(moment, self.style.width)
 
     def _target(self, front: Front) -> int:
         """The piece to fetch next from a front, -1: the exit."""
