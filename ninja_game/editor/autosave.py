@@ -24,7 +24,7 @@ from ninja_game.formats.named_level import parse_levels
 FOLDER = "editing"
 """In the player's folder."""
 
-SPACING = 0.7
+SPACING = 0.4
 """Seconds from one autosave to the next, at least."""
 
 _LOCK = ".lock"

@@ -94,7 +94,7 @@ class EditorCommands:
             return
         self._finding = index % len(findings)
         finding = findings[self._finding]
-        places = finding_points(bench.draft, finding)
+        places = finding_points(bench.draft.level, finding)
         records = [number for number in finding.records if number < len(bench.draft.objects)]
         bench.choose(frozenset((n, part) for n in records for part in points(bench.draft.objects[n])))
         if records:

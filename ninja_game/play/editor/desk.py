@@ -52,6 +52,8 @@ class Desk:
         self.properties: list[Widget] = []
         self.shown_findings: list[Finding] = []
         self.shown_certificate = ""
+        self._signs_of: list[Finding] = []
+        self._sign_points: list[Point] = []
         self._look: tuple[object, ...] = ()
         self._marked: tuple[object, ...] = ()
         self._lay_out()
@@ -122,12 +124,20 @@ class Desk:
         self._marked = wanted
         routes: list[tuple[Route, Colour]] = [(session.last_try, palette.ghost)]
         routes.append((certifier.route, palette.faint if stale else palette.good))
-        signs = [point for finding in session.findings for point in finding_points(session.draft, finding)]
         marks = level_marks(
-            self.sheet.canvas, palette, session.draft, lines=self.lines, routes=routes if self.paths else (),
-            signs=list(dict.fromkeys(signs)), axes=_axes(session.bench.symmetry),
+            self.sheet.canvas, palette, session.draft, self.sheet.marks, lines=self.lines, signs=self._signs(),
+            routes=routes if self.paths else (), axes=_axes(session.bench.symmetry),
         )  # fmt: skip
         return self.sheet.show_marks(marks)
+
+    def _signs(self) -> list[Point]:
+        """Where the findings are, in the level that was examined."""
+        examined, findings = self.session.examined, self.session.findings
+        if findings is not self._signs_of:
+            self._signs_of = findings
+            found = [point for each in findings for point in finding_points(examined, each)] if examined else []
+            self._sign_points = list(dict.fromkeys(found))
+        return self._sign_points
 
     def _draw_panels(
         self, surface: pygame.Surface, widgets: Sequence[Widget], focus: Widget | None

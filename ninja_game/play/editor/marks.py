@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from functools import partial
 from itertools import pairwise
 from math import ceil, hypot
 from typing import NamedTuple
@@ -17,6 +18,7 @@ from ninja_game.play.editor.sheet import Mark
 from ninja_game.play.ui.canvas import Canvas, Colour, Point
 from ninja_game.play.ui.palette import Palette
 from ninja_game.play.view.sprites.draw_target import DrawTarget, is_near
+from ninja_game.sim.level import Level
 
 MIDDLE = (396.0, 300.0)
 SIGN = 7.0
@@ -95,31 +97,37 @@ def sign_mark(canvas: Canvas, palette: Palette, at: Point) -> Mark:
     return Mark(draw, (canvas.rect(x - 9, y - 9, 18, 18),))
 
 
-def finding_points(draft: Draft, finding: Finding) -> list[Point]:
+def finding_points(level: Level, finding: Finding) -> list[Point]:
     """Where a finding is, px."""
     places = [(24.0 * column + 12.0, 24.0 * row + 12.0) for column, row in finding.cells]
     for number in finding.records:
-        found = points(draft.objects[number]) if number < len(draft.objects) else {}
+        found = points(level.objects[number]) if number < len(level.objects) else {}
         place = found.get(SWITCH if finding.about_switch else BODY)
         places += [place] if place else []
     return [(min(max(x, 12.0), 780.0), min(max(y, 12.0), 588.0)) for x, y in places]
 
 
 def level_marks(
-    canvas: Canvas, palette: Palette, draft: Draft, *, lines: bool, routes: Sequence[tuple[Route, Colour]],
-    signs: Sequence[Point], axes: Sequence[tuple[Point, Point]],
+    canvas: Canvas, palette: Palette, draft: Draft, before: Mapping[Hashable, Mark], *, lines: bool,
+    routes: Sequence[tuple[Route, Colour]], signs: Sequence[Point], axes: Sequence[tuple[Point, Point]],
 ) -> dict[Hashable, Mark]:  # fmt: skip
-    """All marks by what they show: equal keys, equal marks."""
+    """All marks by what they show: equal keys, equal marks. Those of ``before`` are used again."""
     marks: dict[Hashable, Mark] = {}
+
+    def add(key: Hashable, make: Callable[[], Mark]) -> None:
+        marks[key] = before[key] if key in before else make()
+
     for a, b in axes:
-        marks["axis", a, b] = line_mark(canvas, palette.accent, a, b)
+        add(("axis", a, b), partial(line_mark, canvas, palette.accent, a, b))
     for record in draft.objects if lines else ():
-        found = points(record)
-        if has_switch(record) and len(found) == 2 and all(is_near(*point) for point in found.values()):
-            marks["switch", record] = line_mark(canvas, palette.switch, found[SWITCH], found[BODY], 0.8)
+        if has_switch(record):
+            found = points(record)
+            if len(found) == 2 and all(is_near(*point) for point in found.values()):
+                line = partial(line_mark, canvas, palette.switch, found[SWITCH], found[BODY], 0.8)
+                add(("switch", record), line)
     for route, colour in routes:
         if len(route) > 1:
-            marks["route", id(route), str(colour)] = route_mark(canvas, colour, route)
+            add(("route", id(route), str(colour)), partial(route_mark, canvas, colour, route))
     for at in signs[:100]:
-        marks["sign", at] = sign_mark(canvas, palette, at)
+        add(("sign", at), partial(sign_mark, canvas, palette, at))
     return marks

@@ -32,6 +32,17 @@ _HIDDEN = 4
 """Eighths as solid as others are the doors that a player cannot see yet."""
 
 
+_TIED = {kinds.DOOR, kinds.EXIT, kinds.FLOOR_GUARD}
+"""Kinds that look otherwise in another place: on a side of a cell, with a switch, on the floor."""
+
+
+def _model(record: ObjectSpec) -> ObjectSpec:
+    """The same object in the place in which it is asked for."""
+    if record.kind in _TIED:
+        return record
+    return record._replace(values=(300.0, 300.0, *record.values[2:]))
+
+
 class _Noted(DrawTarget):
     """Takes down which sprites would be drawn."""
 
@@ -54,13 +65,19 @@ class ObjectPictures:
         self._ninja: Sprite | None = None
 
     def learn(self, records: Iterable[ObjectSpec]) -> None:
-        """Find out about those that are not known yet."""
+        """Find out about those that are not known yet. What looks alike everywhere is asked for once, in one place."""
         new = [record for record in dict.fromkeys(records) if record not in self._kept]
-        for record in new:
-            self._kept[record] = []
         drawn = [record for record in new if well_formed(record) and record.kind != kinds.NINJA]
-        for start in range(0, len(drawn), _TOGETHER):
-            self._learn(drawn[start : start + _TOGETHER])
+        models = {record: _model(record) for record in drawn}
+        asked = [model for model in dict.fromkeys(models.values()) if model not in self._kept]
+        for start in range(0, len(asked), _TOGETHER):
+            self._learn(asked[start : start + _TOGETHER])
+        for record in new:
+            model = models.get(record, record)
+            dx, dy = (
+                (a - b for a, b in zip(record.values[:2], model.values[:2], strict=True)) if model != record else (0, 0)
+            )
+            self._kept[record] = [(key, x + dx, y + dy) for key, x, y in self._kept.get(model, [])]
 
     def _learn(self, records: list[ObjectSpec]) -> None:
         try:

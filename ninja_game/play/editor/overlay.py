@@ -9,7 +9,6 @@ from ninja_game.editor.brush import placed
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.records import carried, points
 from ninja_game.editor.stamp import Area, area_between, nearest
-from ninja_game.play.editor.object_pictures import ObjectPictures
 from ninja_game.play.editor.sheet import LevelSheet
 from ninja_game.play.ui.canvas import Canvas, Colour
 from ninja_game.play.view.sprites.draw_target import DrawTarget, is_near
@@ -28,7 +27,6 @@ class Overlay:
         self.canvas = Canvas(sheet.canvas.size)
         self.canvas.origin = origin
         self.target = DrawTarget(self.canvas, sheet.palette, sheet.book)
-        self._pictures = ObjectPictures(self.target)
         self._tiles: dict[tuple[int, tuple[int, int]], pygame.Surface] = {}
 
     @property
@@ -102,9 +100,9 @@ class Overlay:
             return
         record = placed(bench.record, *bench.pointer, bench.snap)
         images = [record] if record.kind in (NINJA, EXIT) else [carried(record, motion) for motion in motions]
-        self._pictures.learn(images)
+        self.sheet.pictures.learn(images)
         for image in images:
-            self._pictures.draw(self.target, image, alpha=GHOST)
+            self.sheet.pictures.draw(self.target, image, alpha=GHOST)
         x, y = points(record).get(0, bench.pointer)
         for a, b in (((x - 4, y), (x + 4, y)), ((x, y - 4), (x, y + 4))):
             self.target.line(self.sheet.palette.accent, *a, *b)

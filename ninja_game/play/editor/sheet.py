@@ -49,7 +49,7 @@ class LevelSheet:
         self._tiles = TileSheet(self.canvas, palette)
         self._order: list[ObjectSpec] = []
         self._rects: list[pygame.Rect] = []
-        self._marks: dict[Hashable, Mark] = {}
+        self.marks: dict[Hashable, Mark] = {}
         self._grid: pygame.Surface | None = None
 
     def show(self, draft: Draft) -> list[pygame.Rect]:
@@ -89,9 +89,9 @@ class LevelSheet:
 
     def show_marks(self, marks: dict[Hashable, Mark]) -> list[pygame.Rect]:
         """Show these marks; the px that changed. A mark with the key of an earlier one is the same."""
-        changed = [self._marks[key] for key in self._marks.keys() - marks.keys()]
-        changed += [marks[key] for key in marks.keys() - self._marks.keys()]
-        self._marks = marks
+        changed = [self.marks[key] for key in self.marks.keys() - marks.keys()]
+        changed += [marks[key] for key in marks.keys() - self.marks.keys()]
+        self.marks = marks
         dirty = [rect for mark in changed for rect in mark.rects]
         self._repaint(dirty)
         return dirty
@@ -129,7 +129,7 @@ class LevelSheet:
                     self.pictures.draw(target, record, alpha=_COVERED)
         if self._grid is not None:
             surface.blit(self._grid, area, area)
-        for mark in self._marks.values():
+        for mark in self.marks.values():
             if area.collidelist(mark.rects) >= 0:
                 mark.draw(target)
         surface.set_clip(None)

@@ -37,7 +37,7 @@ class ToolButton(Button):
         colour = theme.palette.text if self.enabled else theme.palette.faint
         theme.text(
             surface, self._shown(), x + w / 2, y + (h - 9) / 2, size=9, colour=colour, align="centre",
-            bold=self._lit() or focused, width=w - 4,
+            bold=self._lit() or focused,
         )  # fmt: skip
 
 

@@ -41,12 +41,16 @@ SORTS: list[tuple[str, object]] = [
 
 
 class Browser(ThumbnailScreen):
-    """A list at the left, the selected level at the right. The list is read anew whenever the screen is entered."""
+    """A list at the left, the selected level at the right. The list is read anew whenever the screen is entered.
+
+    ``edit``: opens a level in the editor.
+    """
 
     title = "Levels"
 
-    def __init__(self, app: App) -> None:
+    def __init__(self, app: App, edit: Callable[[Entry], object] | None = None) -> None:
         super().__init__(app)
+        self._edit = edit
         self.search = ""
         self.sort: object = "listed"
         self.message = ""
@@ -58,7 +62,7 @@ class Browser(ThumbnailScreen):
             (44, 112, 376, 8 * ROW), ROW, self._draw_row, self._play, empty="No level has these words",
             hint="Enter plays; right leads to the buttons, up to the search", selected=self._select,
         )  # fmt: skip
-        self.watch_best = Button((SIDE, 510, 320, 32), "Watch your best", self._watch)
+        self.watch_best = Button((SIDE, 510, 154, 32), "Watch your best", self._watch)
         self.entry_field = TextEntry((44, 66, 236, 32), "Search name or author", "", self._search)
 
     def enter(self) -> None:
@@ -80,7 +84,8 @@ class Browser(ThumbnailScreen):
             hint="No clock, quick save, rewind, slow motion; no records",
         )  # fmt: skip
         sort = Choice((288, 66, 132, 32), "", SORTS, lambda: self.sort, self._sort, hint="How the list is sorted")
-        return [self.list, self.entry_field, sort, play, practice, self.watch_best]
+        change = Button((SIDE + 166, 510, 154, 32), "Edit", self._change, hint="Open it in the editor")
+        return [self.list, self.entry_field, sort, play, practice, self.watch_best, *([change] if self._edit else [])]
 
     def handle(self, event: InputEvent) -> None:
         """A file dropped on the window is copied into the player's folder; coming back to the window looks again."""
@@ -157,6 +162,10 @@ class Browser(ThumbnailScreen):
             self.message = error.what
             return
         self.app.push(screen)
+
+    def _change(self) -> None:
+        if self._edit is not None and self.selected is not None:
+            self._edit(self.selected)
 
     def _watch(self) -> None:
         best = self.bests.get(self.selected.digest) if self.selected else None

@@ -23,6 +23,7 @@ from ninja_game.play.screen import Screen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.theme import Area
 from ninja_game.play.ui.widgets import Button, Widget
+from ninja_game.player.catalogue import Entry as LevelEntry
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
@@ -50,7 +51,7 @@ class MainMenu(MenuScreen):
         """One for each screen; the panel is as high as they need."""
         return [
             ("Play", self._opener(EpisodeGrid), "Play the episodes"),
-            ("Levels", self._opener(Browser), "Single levels, and your own files"),
+            ("Levels", self._opener(self._browser), "Single levels, and your own files"),
             ("Records", self._opener(RecordsScreen), "Your best runs, and what killed you"),
             ("Replays", self._opener(ReplaysScreen), "Watch runs again"),
             ("Editor", self._opener(EditorScreen), "Make levels of your own"),
@@ -59,6 +60,16 @@ class MainMenu(MenuScreen):
             ("Help", self._opener(HelpScreen), "How to move, and what everything does"),
             ("Quit", self.back, "Leave the game"),
         ]
+
+    def _browser(self, app: App) -> Browser:
+        """The levels, which can be opened in the editor from there."""
+
+        def edit(entry: LevelEntry) -> None:
+            screen = EditorScreen(app)
+            app.push(screen)
+            screen.commands.edit_entry(entry)
+
+        return Browser(app, edit)
 
     def _opener(self, screen: Callable[[App], Screen]) -> Callable[[], None]:
         return lambda: self.app.push(screen(self.app))

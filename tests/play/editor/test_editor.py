@@ -127,7 +127,7 @@ def test_problems_are_shown_where_they_are_and_a_click_goes_there(room: Maker) -
     room.wait(lambda: session.examined is room.draft.level, "findings")
     assert [finding.text for finding in session.findings] == ["it is inside a tile: its rockets explode at once"]
     room.frames(2)
-    assert [key for key in room.editor.desk.sheet._marks if key[0] == "sign"]  # type: ignore[index]
+    assert [key for key in room.editor.desk.sheet.marks if key[0] == "sign"]  # type: ignore[index]
     room.press("f4")
     assert session.bench.selection.parts == {(2, 0)}
     assert "Move it, or clear the tile." in room.editor.desk.hint

@@ -15,6 +15,7 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.play.editor.panels import Form, LevelChoice, Menu
 from ninja_game.play.editor.screen import EditorScreen
+from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
 from tests.support.level_maker import ROOM, Maker
 
@@ -30,6 +31,24 @@ def test_saved_levels_are_in_the_browser_at_once(room: Maker, tmp_path: Path) ->
     room.open("Levels")
     assert "Room" in [entry.title for entry in room.top().entries]  # type: ignore[attr-defined]
     assert not list((tmp_path / FOLDER).glob("*")) if (tmp_path / FOLDER).exists() else True
+
+
+def test_a_level_of_the_browser_is_edited_and_played_as_it_is_then(room: Maker) -> None:
+    room.chord("s", pygame.KMOD_LCTRL)
+    room.press("escape")
+    room.choose("Leave the editor")
+    browser = room.open("Levels")
+    assert isinstance(browser, Browser)
+    room.press("end")
+    change = next(widget for widget in browser.widgets if getattr(widget, "text", "") == "Edit")
+    room.mouse(*change.centre)
+    assert room.draft == ROOM
+    room.drag((300, 300))
+    room.chord("s", pygame.KMOD_LCTRL)
+    room.press("escape")
+    room.choose("Leave the editor")
+    assert room.top() is browser
+    assert browser.entries[-1].named.level.tile(12, 12) == 1
 
 
 def test_a_name_is_asked_for_where_there_is_none(maker: Maker, tmp_path: Path) -> None:

@@ -1,0 +1,135 @@
+"""Kill the editor at random moments of drawing and saving: at most two seconds of work may be lost, and never a file.
+
+    python3 tools/dev.py tool soak.editor_kills --kills 100
+
+A child process opens the editor in the player's folder, goes on with what the last one left, draws, saves now and
+then, and says what it has drawn and saved. It is killed (SIGKILL) after a random time. Then the folder must offer a
+draft that is at most two seconds old, and the saved file must be readable and as it was last saved.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tempfile
+import time
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection
+from pathlib import Path
+from random import Random
+
+from ninja_game.editor.autosave import recovered
+from ninja_game.errors import NinjaGameError
+from ninja_game.formats.load import load_levels
+from ninja_game.formats.n14.level_string import level_digest
+from tools.soak.kills import life
+
+LONGEST_LIFE = 2.5
+"""Seconds after its first word at which a child is killed at the latest."""
+
+MOST_LOST = 2.0
+"""Seconds of work that may be lost."""
+
+
+def edit(folder: str, seed: int, pipe: Connection) -> None:
+    """Draw for ever in the editor, by its own mouse events; say the digest of every state and when it was reached."""
+    from tests.support.level_maker import Maker
+
+    chance = Random(seed)
+    maker = Maker(Path(folder))
+    maker.open("Editor")
+    if maker.top() is not maker.editor:
+        maker.choose("Go on with it")
+    session = maker.editor.session
+    while True:
+        maker.press(chance.choice(("e", "d", "1", "grave", "3", "m")))
+        maker.drag(*((chance.uniform(30, 760), chance.uniform(30, 570)) for _ in range(chance.randrange(1, 4))))
+        session.bench.finish()
+        digest = level_digest(session.draft.level)
+        pipe.send(("drawn", digest, time.monotonic_ns()))
+        if chance.random() < 0.04:
+            pipe.send(("about", digest, 0))
+            session.save(Path(folder) / "levels" / "kept.txt", replacing=True)
+            if session.is_saved:
+                pipe.send(("saved", digest, time.monotonic_ns()))
+        time.sleep(0.01)
+
+
+@dataclass
+class Said:
+    """What the child of the present folder has said: states with their times, and what its file may hold."""
+
+    drawn: list[tuple[str, int]] = field(default_factory=list)
+    saved: set[str] = field(default_factory=set)
+
+    def note(self, facts: list[tuple[str, str, int]]) -> None:
+        """Take in what a child said."""
+        for kind, digest, at in facts:
+            if kind == "drawn":
+                self.drawn.append((digest, at))
+            elif kind == "saved":
+                self.saved = {digest}
+            elif kind == "about":
+                self.saved |= {digest}
+
+
+def seconds_lost(folder: Path, said: Said, killed_at: int) -> float:
+    """How old the first change is that is neither offered nor in the file; 0 if nothing is lost."""
+    there = {level_digest(found.draft.level) for found in recovered(folder)}
+    file = folder / "levels" / "kept.txt"
+    there |= {level_digest(load_levels(file)[0].level)} if file.exists() else set()
+    last = max((number for number, (digest, _) in enumerate(said.drawn) if digest in there), default=-1)
+    return (killed_at - said.drawn[last + 1][1]) / 1e9 if last + 1 < len(said.drawn) else 0.0
+
+
+def kill_test(kills: int, seed: int, folder: Path, *, report: bool = False) -> tuple[float, list[str]]:
+    """Kill so many editors; the most seconds that were lost, and everything that is wrong."""
+    chance = Random(seed)
+    said, worst = Said(), 0.0
+    wrong: list[str] = []
+    for number in range(kills):
+        home = folder / str(number // 10)
+        if number % 10 == 0:
+            said = Said()
+        said.drawn.clear()
+        facts = life(edit, home, chance.randrange(2**31), chance.random() * LONGEST_LIFE, settled=True)
+        killed_at = time.monotonic_ns()
+        said.note(facts)
+        try:
+            lost = seconds_lost(home, said, killed_at)
+            file = home / "levels" / "kept.txt"
+            if said.saved and level_digest(load_levels(file)[0].level) not in said.saved:
+                wrong.append(f"kill {number + 1}: the file is not as it was saved")
+        except (NinjaGameError, OSError) as error:
+            lost = 0.0
+            wrong.append(f"kill {number + 1}: {error}")
+        if not said.drawn:
+            wrong.append(f"kill {number + 1}: the editor did not start")
+        if lost > MOST_LOST:
+            wrong.append(f"kill {number + 1}: {lost:.2f} s lost")
+        worst = max(worst, lost)
+        if report and (number + 1) % 10 == 0:
+            print(f"{number + 1} kills, at most {worst:.2f} s lost, {len(wrong)} things wrong", flush=True)
+    return worst, wrong
+
+
+def main() -> int:
+    """Exit code 1 if more than two seconds, or a file, were lost."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", maxsplit=1)[0])
+    parser.add_argument("--kills", type=int, default=100)
+    parser.add_argument("--seed", type=int, default=1)
+    options = parser.parse_args()
+    os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
+    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+    os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
+    with tempfile.TemporaryDirectory() as folder:
+        worst, wrong = kill_test(options.kills, options.seed, Path(folder), report=True)
+    for text in wrong:
+        print(text)
+    print(f"{options.kills} kills, at most {worst:.2f} s lost, {len(wrong)} things wrong")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
