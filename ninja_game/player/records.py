@@ -82,7 +82,7 @@ class Records:
     def keep_replay(self, replay: Replay) -> int:
         """Save a replay because the player asked for it; its id."""
         with self.store.change() as db:
-            return _insert(db, replay, kept=True)
+            return self._insert(db, replay, kept=True)
 
     def replays(self) -> list[SavedReplay]:
         """The replays, newest first."""
@@ -132,7 +132,7 @@ class Records:
             best = self.level_best(level, replay.body)
             if best is not None and best.score >= level_score(replay.gold, replay.final_tick):
                 return False
-            number = _insert(db, replay, kept=False)
+            number = self._insert(db, replay, kept=False)
             db.execute("REPLACE INTO level_best (level, body, replay) VALUES (?, ?, ?)", (level, replay.body, number))
             db.execute(_DROP_UNNEEDED)
         return True
@@ -164,10 +164,38 @@ class Records:
             db.execute("DELETE FROM episode_replay WHERE episode = ? AND body = ?", (key, body))
             db.executemany(
                 "INSERT INTO episode_replay (episode, body, place, replay) VALUES (?, ?, ?, ?)",
-                [(key, body, place, _insert(db, replay, kept=False)) for place, replay in enumerate(replays)],
+                [(key, body, place, self._insert(db, replay, kept=False)) for place, replay in enumerate(replays)],
             )
             db.execute(_DROP_UNNEEDED)
         return True
+
+    def _insert(self, db: sqlite3.Connection, replay: Replay, *, kept: bool) -> int:
+        """Save a replay, once: the same run may be a level's best, part of an episode's best, and kept.
+
+        Joins an equal row only if that can be read: one with a damaged cell would be left out at the next start.
+        """
+        assert replay.level is not None  # noqa: S101 - attempts give replays with their levels
+        values = {
+            "level": _digest(replay),
+            "level_text": write_level_string(replay.level, exact=True),
+            "body": replay.body,
+            "outcome": replay.outcome,
+            "final_tick": replay.final_tick,
+            "gold": replay.gold,
+            "score": level_score(replay.gold, replay.final_tick) if replay.outcome == "exit" else 0,
+            "digest": replay.digest,
+            "inputs": replay.inputs,
+            "practice": int(replay.practice),
+        }
+        condition = " AND ".join(f"{column} = ?" for column in values)
+        for saved in self._saved(f"WHERE {condition}", *values.values()):
+            db.execute("UPDATE replay SET kept = max(kept, ?) WHERE id = ?", (kept, saved.id))
+            return saved.id
+        values |= {"name": replay.name, "player": replay.author, "made_at": now_text(), "kept": kept}
+        marks = ", ".join("?" * len(values))
+        cursor = db.execute(f"INSERT INTO replay ({', '.join(values)}) VALUES ({marks})", [*values.values()])
+        assert cursor.lastrowid is not None  # noqa: S101 - an INSERT has one
+        return cursor.lastrowid
 
 
 _BEST = "JOIN level_best ON level_best.replay = replay.id AND level_best.level = replay.level WHERE level_best.body = ?"
@@ -181,25 +209,3 @@ _DROP_UNNEEDED = f"DELETE FROM replay WHERE {_UNNEEDED}"
 def _digest(replay: Replay) -> str:
     assert replay.level is not None  # noqa: S101 - attempts give replays with their levels
     return replay.level_digest or level_digest(replay.level)
-
-
-def _insert(db: sqlite3.Connection, replay: Replay, *, kept: bool) -> int:
-    """Save a replay, once: the same run may be a level's best, part of an episode's best, and kept."""
-    assert replay.level is not None  # noqa: S101 - as above
-    found = db.execute(
-        "SELECT id FROM replay WHERE level = ? AND body = ? AND inputs = ? AND final_tick = ?",
-        (_digest(replay), replay.body, replay.inputs, replay.final_tick),
-    ).fetchone()
-    if found:
-        db.execute("UPDATE replay SET kept = max(kept, ?) WHERE id = ?", (kept, found[0]))
-        return int(found[0])
-    score = level_score(replay.gold, replay.final_tick) if replay.outcome == "exit" else 0
-    values = (
-        _digest(replay), write_level_string(replay.level, exact=True), replay.name, replay.author, replay.body,
-        replay.outcome, replay.final_tick, replay.gold, score, replay.digest, replay.inputs, now_text(), kept,
-        replay.practice,
-    )  # fmt: skip
-    marks = ", ".join("?" * len(values))
-    cursor = db.execute(f"INSERT INTO replay ({_WHOLE}) VALUES ({marks})", values)
-    assert cursor.lastrowid is not None  # noqa: S101 - an INSERT has one
-    return cursor.lastrowid

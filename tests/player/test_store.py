@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
-import os
 import sqlite3
 import subprocess
 import sys
 import time
-from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.player.playthrough import EpisodeRun, LevelRun
-from ninja_game.player.progress import LOCKED, UNLOCKED
-from ninja_game.player.records import Records
+from ninja_game.player.progress import UNLOCKED
 from ninja_game.player.saving import keep_replay
-from ninja_game.player.scoring import seconds_text
-from ninja_game.player.statistics import KILLERS
 from ninja_game.player.store import Store, schema
-from ninja_game.player.store.schema import MIGRATIONS, VERSION
+from ninja_game.player.store.migrations import MIGRATIONS, VERSION
 from tests.support.players import deadly_level, entry, episode, played, player_data, short_level
 
 
@@ -44,38 +39,6 @@ def test_record_and_its_replay_come_back_equal(tmp_path: Path) -> None:
     assert (replay.inputs, replay.final_tick, replay.digest, replay.level) == (
         expected.inputs, expected.final_tick, expected.digest, expected.level,
     )  # fmt: skip
-
-
-def test_a_damaged_table_whose_name_is_no_text_is_set_aside_too(tmp_path: Path) -> None:
-    path = tmp_path / "records.sqlite"
-    Store(path).close()
-    damaged = path.read_bytes().replace(b"level_best", b"l\xb1vel_best")
-    path.write_bytes(damaged.replace(b"CREATE TABLE l\xb1", b"CREATE TABLX l\xb1"))
-    store = Store(path)
-    assert "its tables cannot be read" in store.messages[0]
-    assert (tmp_path / "records.damaged-1.sqlite").is_file()
-    store.close()
-
-
-@pytest.mark.parametrize("damage", [b"no database at all" * 100, b"", b"SQLite format 3\0" + b"\xff" * 4000])
-def test_damaged_file_is_set_aside_and_the_game_starts(tmp_path: Path, damage: bytes) -> None:
-    path = tmp_path / "records.sqlite"
-    path.write_bytes(damage)
-    store = Store(path)
-    assert store.path == path
-    if damage:
-        assert "records.damaged-1.sqlite" in store.messages[0]
-        assert (tmp_path / "records.damaged-1.sqlite").read_bytes() == damage
-    assert Records(store).replays() == []
-
-
-def test_torn_pages_in_the_middle_are_noticed(tmp_path: Path) -> None:
-    saved_record(tmp_path)
-    path = tmp_path / "records.sqlite"
-    data = bytearray(path.read_bytes())
-    data[4096:] = os.urandom(len(data) - 4096)
-    path.write_bytes(data)
-    assert Store(path).messages
 
 
 def test_newer_file_is_set_aside(tmp_path: Path) -> None:
@@ -307,54 +270,6 @@ def test_damaged_file_costs_no_session_its_persistence(tmp_path: Path, count: in
     starts = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(count)]
     assert [start.communicate()[0].strip() for start in starts] == [""] * count
     assert [each.name for each in tmp_path.glob("records.damaged-*.sqlite")] == ["records.damaged-1.sqlite"]
-
-
-# --- damaged rows ---
-
-EDITS = [
-    f"UPDATE {table} SET {column} = {value}"
-    for table, columns in (
-        ("replay", ("name", "player", "body", "outcome", "final_tick", "gold", "score", "made_at", "kept", "inputs",
-                    "level_text", "level", "digest", "practice")),
-        ("level_best", ("level", "body")), ("level_mark", ("level", "fastest", "most_gold")),
-        ("episode_best", ("score", "made_at", "episode")),
-        ("episode_replay", ("episode", "place")), ("progress", ("beaten_episode", "reached_level")),
-        ("death", ("times",)), ("played", ("attempts", "ticks", "gold")), ("fact", ("value",)),
-    )
-    for column in columns
-    for value in ("x'ff00'", "'odd'", "-9e99", "9223372036854775807")
-]  # fmt: skip
-
-
-@pytest.mark.parametrize("edit", EDITS)
-def test_damaged_rows_are_left_out_and_play_goes_on(edit: str, tmp_path: Path) -> None:
-    data = player_data(tmp_path, episode())
-    run = EpisodeRun(data, episode())
-    for _ in range(5):
-        attempt = played(run.entry.named.level, lifetime=run.lifetime)
-        run.passed(attempt)
-        run.advance()
-    run.died(played(deadly_level()))
-    with suppress(sqlite3.IntegrityError):
-        data.store.connection.execute(edit)
-    data.close()
-    again = player_data(tmp_path, episode())
-    for saved in again.records.replays():
-        seconds_text(saved.score)
-        again.records.replay(saved.id)
-    again.records.level_bests()
-    best = again.records.episode_best(episode().key)
-    assert best is None or all(isinstance(number, int) for number in best.replays)
-    assert set(again.statistics.deaths()) == set(KILLERS)
-    seconds_text(again.statistics.played().ticks)
-    assert again.progress.state(99) in {UNLOCKED, LOCKED}
-    assert again.columns_complete in {0, 1}
-    run = EpisodeRun(again, episode())
-    for _ in range(5):
-        attempt = played(run.entry.named.level, lifetime=run.lifetime)
-        assert not any("Not saved" in notice for notice in run.passed(attempt))
-        run.advance()
-    assert again.progress.state(1) == UNLOCKED
 
 
 def test_practice_replay_carries_its_mark(tmp_path: Path) -> None:

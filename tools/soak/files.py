@@ -31,7 +31,6 @@ from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.warnings import level_warnings
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.records import SavedReplay
-from ninja_game.player.saving import REPLAY_KEPT, keep_replay
 from ninja_game.player.settings import Settings
 from ninja_game.player.settings_file import read_settings, write_changes
 from ninja_game.runs.run import RunTrace, trace_level
@@ -217,11 +216,10 @@ def read_database(folder: Path, rng: random.Random) -> None:
     path.write_bytes(whole[: rng.choice((len(whole), len(whole), rng.randrange(len(whole))))])
     data = PlayerData(folder)
     data.records.replays()
-    notice = keep_replay(data, parse_replay(replay_of_walk(final_tick=WALK_END + 1)))
+    kept = data.records.keep_replay(parse_replay(replay_of_walk()))
     data.close()
     data = PlayerData(folder)
-    there = [replay.final_tick for replay in data.records.replays()]
-    if notice == REPLAY_KEPT and WALK_END + 1 not in there:
+    if data.records.replay(kept) is None or kept not in [replay.id for replay in data.records.replays()]:
         raise AssertionError("a kept replay is gone")
     data.close()
 

@@ -1,4 +1,4 @@
-"""The tables of the records, and how a file is opened, checked and brought up to date (`docs/player-data.md`)."""
+"""How a file of records is opened, checked and brought up to date (`docs/player-data.md`)."""
 
 from __future__ import annotations
 
@@ -8,118 +8,16 @@ from contextlib import closing
 from pathlib import Path
 from urllib.parse import quote
 
+from ninja_game.player.store.migrations import MIGRATIONS, TABLES, VERSION
+
 APPLICATION_ID = 0x6E696E6A
 """Tells our files from other people's SQLite files."""
 
-MIGRATIONS = (
-    """
-    CREATE TABLE replay (
-        id INTEGER PRIMARY KEY,
-        level TEXT NOT NULL,          -- digest of the level
-        level_text TEXT NOT NULL,     -- the level itself, exact
-        name TEXT NOT NULL,
-        player TEXT NOT NULL,
-        body TEXT NOT NULL,
-        outcome TEXT NOT NULL,
-        final_tick INTEGER NOT NULL,
-        gold INTEGER NOT NULL,
-        score INTEGER NOT NULL,       -- ticks
-        digest TEXT NOT NULL,         -- of the world after the final tick
-        inputs BLOB NOT NULL,         -- one byte a tick
-        made_at TEXT NOT NULL,        -- UTC, ISO 8601
-        kept INTEGER NOT NULL         -- the player asked for it
-    );
-    CREATE VIEW saved_replay AS
-        SELECT id, level, name, player, body, outcome, final_tick, gold, score, made_at, kept FROM replay;
-    CREATE TABLE level_best (
-        level TEXT NOT NULL, body TEXT NOT NULL,
-        replay INTEGER NOT NULL REFERENCES replay (id),
-        PRIMARY KEY (level, body)
-    ) WITHOUT ROWID;
-    CREATE TABLE episode_best (
-        episode TEXT NOT NULL,        -- digest of its levels
-        body TEXT NOT NULL,
-        score INTEGER NOT NULL,
-        replays TEXT NOT NULL,        -- ids with blanks between, in the order of its levels
-        made_at TEXT NOT NULL,
-        PRIMARY KEY (episode, body)
-    ) WITHOUT ROWID;
-    CREATE TABLE progress (
-        grid_column INTEGER PRIMARY KEY,
-        reached_episode INTEGER NOT NULL, reached_level INTEGER NOT NULL,
-        beaten_episode INTEGER NOT NULL, beaten_level INTEGER NOT NULL
-    );
-    CREATE TABLE death (killer TEXT PRIMARY KEY, times INTEGER NOT NULL) WITHOUT ROWID;
-    """,
-    """
-    CREATE TABLE played (
-        level TEXT PRIMARY KEY,
-        attempts INTEGER NOT NULL, passes INTEGER NOT NULL, deaths INTEGER NOT NULL,
-        ticks INTEGER NOT NULL, gold INTEGER NOT NULL
-    ) WITHOUT ROWID;
-    CREATE TABLE fact (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
-    """,
-    # The digest of a replay became one of what the world shows; the older ones mean nothing any more.
-    "UPDATE replay SET digest = '';",
-    # An episode's replays get a table of their own; replays say whether they were made in practice.
-    """
-    ALTER TABLE replay ADD COLUMN practice INTEGER NOT NULL DEFAULT 0;
-    CREATE TABLE episode_replay (
-        episode TEXT NOT NULL, body TEXT NOT NULL,
-        place INTEGER NOT NULL,       -- of its level in the episode, from 0
-        replay INTEGER NOT NULL REFERENCES replay (id),
-        PRIMARY KEY (episode, body, place)
-    ) WITHOUT ROWID;
-    INSERT INTO episode_replay (episode, body, place, replay)
-        SELECT best.episode, best.body, id.key, replay.id
-        FROM (SELECT episode, body, '[' || replace(trim(replays), ' ', ',') || ']' AS ids FROM episode_best) AS best
-        JOIN json_each(CASE WHEN json_valid(best.ids) THEN best.ids ELSE '[]' END) AS id
-        JOIN replay ON replay.id = id.value;
-    CREATE TABLE new_best (
-        episode TEXT NOT NULL,        -- digest of its levels
-        body TEXT NOT NULL,
-        score INTEGER NOT NULL,
-        made_at TEXT NOT NULL,
-        PRIMARY KEY (episode, body)
-    ) WITHOUT ROWID;
-    INSERT INTO new_best (episode, body, score, made_at) SELECT episode, body, score, made_at FROM episode_best;
-    DROP TABLE episode_best;
-    ALTER TABLE new_best RENAME TO episode_best;
-    DROP VIEW saved_replay;
-    """,
-    # The fastest and the richest run of each level, from the runs that are here; progress in other packs.
-    """
-    CREATE TABLE level_mark (
-        level TEXT NOT NULL, body TEXT NOT NULL,
-        fastest INTEGER NOT NULL,     -- tick of the earliest exit contact
-        most_gold INTEGER NOT NULL,   -- pieces in the passed run that took the most
-        PRIMARY KEY (level, body)
-    ) WITHOUT ROWID;
-    INSERT INTO level_mark (level, body, fastest, most_gold)
-        SELECT level, body, min(final_tick), max(gold) FROM replay
-        WHERE outcome = 'exit' AND practice = 0 GROUP BY level, body;
-    CREATE TABLE new_progress (
-        pack TEXT NOT NULL,           -- its name; '' for the game's own
-        grid_column INTEGER NOT NULL,
-        reached_episode INTEGER NOT NULL, reached_level INTEGER NOT NULL,
-        beaten_episode INTEGER NOT NULL, beaten_level INTEGER NOT NULL,
-        PRIMARY KEY (pack, grid_column)
-    ) WITHOUT ROWID;
-    INSERT INTO new_progress SELECT '', grid_column, reached_episode, reached_level, beaten_episode, beaten_level
-        FROM progress;
-    DROP TABLE progress;
-    ALTER TABLE new_progress RENAME TO progress;
-    """,
-)
-"""Each brings a file from the version of its index to the next; they are never edited once released."""
-
-VERSION = len(MIGRATIONS)
-
-
-TABLES = {"replay", "level_best", "level_mark", "episode_best", "episode_replay", "progress", "death", "played", "fact"}
-
 OPENING_SECONDS = 1.0
 """How long a start waits for another program that has locked the file."""
+
+_WRITE_VERSION = 18
+"""Place of the byte in a file's header that is 1 or 2 where SQLite may write it."""
 
 
 class NewerFileError(Exception):
@@ -140,13 +38,13 @@ def open_database(name: str, source: Path | None = None, seconds: float = OPENIN
         connection.text_factory = _text
         if source is not None:
             _copy(source, connection)
-        _check_file(connection)
+        _check_file(connection, name)
+        _check_tables(connection)
         if connection.execute("PRAGMA journal_mode").fetchone()[0] != "wal":
             connection.execute("PRAGMA journal_mode = WAL")
         connection.execute("PRAGMA synchronous = FULL")
         connection.execute("PRAGMA foreign_keys = ON")
         _migrate(connection)
-        _check_tables(connection)
     except UnicodeDecodeError:
         # What SQLite says about a damaged schema holds its bytes, and Python fails to make a text of them.
         connection.close()
@@ -183,17 +81,35 @@ def _text(data: bytes) -> str:
     return data.decode("utf-8", "replace")
 
 
-def _check_file(connection: sqlite3.Connection) -> None:
-    """Raise sqlite3.DatabaseError unless this is a sound file of ours or an empty one, NewerFileError for a newer."""
+def _check_file(connection: sqlite3.Connection, name: str) -> None:
+    """Raise sqlite3.DatabaseError unless this is a sound file of ours or an empty one, NewerFileError for a newer.
+
+    Raises sqlite3.OperationalError where it can be read only, or not now.
+    """
     version = connection.execute("PRAGMA user_version").fetchone()[0]
     application = connection.execute("PRAGMA application_id").fetchone()[0]
-    empty = not connection.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
+    try:
+        empty = not connection.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
+        # A file that can be read only is opened without a word, and refuses the first save.
+        connection.execute("BEGIN IMMEDIATE")
+        connection.execute(f"PRAGMA user_version = {version}")
+        connection.execute("ROLLBACK")
+    except sqlite3.OperationalError as error:
+        if error.sqlite_errorcode == sqlite3.SQLITE_ERROR or _forbids_writing(name):
+            raise sqlite3.DatabaseError(f"its header is wrong: {error}") from None
+        raise
     if not empty and application != APPLICATION_ID:
         raise sqlite3.DatabaseError("not a file of this game")
     if version > VERSION:
         raise NewerFileError
     if connection.execute("PRAGMA quick_check(1)").fetchone()[0] != "ok":
         raise sqlite3.DatabaseError("its pages contradict each other")
+
+
+def _forbids_writing(name: str) -> bool:
+    """Whether a database's own header says that it can be read only, as those of formats after ours would."""
+    with Path(name).open("rb") as file:
+        return file.read(_WRITE_VERSION + 1)[_WRITE_VERSION:] > b"\2"
 
 
 def _migrate(connection: sqlite3.Connection) -> None:
@@ -225,7 +141,19 @@ def _statements(script: str) -> Iterator[str]:
 
 
 def _check_tables(connection: sqlite3.Connection) -> None:
-    """Raise sqlite3.DatabaseError where a table is missing."""
-    found = {name for (name,) in connection.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
-    if not found >= TABLES:
-        raise sqlite3.DatabaseError(f"without the table {min(TABLES - found)}")
+    """Raise sqlite3.DatabaseError where a table is missing, too many or other than in a sound file of its version."""
+    version = connection.execute("PRAGMA user_version").fetchone()[0]
+    with closing(sqlite3.connect(":memory:", isolation_level=None)) as sound:
+        for script in MIGRATIONS[:version]:
+            for statement in _statements(script):
+                sound.execute(statement)
+        for table in sorted(TABLES):
+            if _shape(connection, table) != _shape(sound, table):
+                raise sqlite3.DatabaseError(f"the table {table} is not as it should be")
+
+
+def _shape(connection: sqlite3.Connection, table: str) -> list[tuple[object, ...]]:
+    """The columns of a table and what they refer to; empty where it is missing."""
+    columns = connection.execute("SELECT * FROM pragma_table_info(?)", (table,))
+    references = connection.execute("SELECT * FROM pragma_foreign_key_list(?)", (table,))
+    return [*columns, *references]
