@@ -31,7 +31,7 @@ def command(pack: Path) -> None:
     from ninja_game.verification.pack_checks import make_pars
 
     opened = Pack(pack)
-    made = dict(with_progress(make_pars(opened), "levels"))
+    made = dict(with_progress(make_pars(opened), "level"))
     for file, pars in made.items():
         times = "  ".join(f"{medal} {seconds_text(pars.par(medal)):>7}" for medal in MARGINS)
         click.echo(f"{times}  difficulty {pars.difficulty or 0:6.2f}  {shown_text(file)}")
