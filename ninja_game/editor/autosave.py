@@ -53,6 +53,13 @@ class Autosave:
             self._kept = wanted
             self._job.ask((draft, source) if wanted else None)
 
+    def flush(self, draft: Draft, source: Source) -> None:
+        """Keep the draft now, if it has changed, and wait until it is kept."""
+        self._job.finish()
+        self._asked_at = -SPACING
+        self.look(draft, source)
+        self._job.finish()
+
     def _work(self, job: tuple[Draft, Source] | None) -> None:
         try:
             if job is None:

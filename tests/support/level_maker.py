@@ -66,8 +66,8 @@ class Maker(MenuDriver):
         button = next(widget for widget in panel.widgets if getattr(widget, "text", "") == text)
         self.mouse(*button.centre)
 
-    def wait(self, condition: object, what: str) -> None:
-        end = time.monotonic() + 60.0
+    def wait(self, condition: object, what: str, *, seconds: float = 60.0) -> None:
+        end = time.monotonic() + seconds
         while not condition():  # type: ignore[operator]
             assert time.monotonic() < end, what
             time.sleep(0.01)

@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 
 Action = Callable[[], object]
 
+NAMELESS = "My level"
+"""What a level is called if its maker gives it no name."""
+
 
 class EditorCommands:
     """Runs commands by name (``controls.COMMANDS``). ``step_palette``: goes on in the palette."""
@@ -52,7 +55,7 @@ class EditorCommands:
             self._table()[name]()
 
     def _table(self) -> dict[str, Action]:
-        bench, session, desk = self.session.bench, self.session, self.desk
+        bench, desk = self.session.bench, self.desk
         return {
             "help": lambda: self.app.push(HelpPage(self.app)), "menu": self.menu,
             "test": self.test, "test_here": lambda: self.test(here=True), "certify": self.certify,
@@ -68,7 +71,6 @@ class EditorCommands:
             "paths": lambda: setattr(desk, "paths", not desk.paths),
             "next_finding": lambda: self.go_to_finding(self._finding + 1),
             "next_entry": lambda: self.step_palette(1), "previous_entry": lambda: self.step_palette(-1),
-            "export_picture": session.export_picture,
         }  # fmt: skip
 
     # --- looking ---
@@ -170,10 +172,10 @@ class EditorCommands:
     def save_as(self) -> None:
         """Ask for the level's name, and write it into a file of that name."""
         session = self.session
-        fields = [("Name of the level", session.draft.name or "My level", 60)]
+        fields = [(f"Name of the level, or else {NAMELESS}", session.draft.name, 60)]
 
         def take(texts: list[str]) -> None:
-            name = texts[0].strip()
+            name = texts[0].strip() or NAMELESS
             folder = session.source.path.parent if session.source.path else self.app.player.folder / "levels"
             session.bench.finish()
             session.bench.history.change(replace(session.draft, name=name))

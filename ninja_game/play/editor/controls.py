@@ -83,7 +83,9 @@ def keys_of(name: str) -> str:
 
 def key_label_of(name: str) -> str:
     """What a key is called."""
-    return {"ctrl": "Ctrl", "delete": "Del"}.get(name) or key_label({"shift": "lshift"}.get(name, name))
+    return {"ctrl": "Ctrl", "delete": "Del", "minus": "-", "equals": "="}.get(name) or key_label(
+        {"shift": "lshift"}.get(name, name)
+    )
 
 
 def chord(event: pygame.Event) -> str:

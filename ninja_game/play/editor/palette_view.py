@@ -99,6 +99,9 @@ class PaletteView(Widget):
             chosen = (what.name if isinstance(what, Sort) else what) == in_hand
             canvas.fill_rect(surface, palette.background, *area)
             surface.blit(self._icon(theme, what, area), canvas.point(area[0], area[1]))
+            if isinstance(what, Sort):
+                at = area[0] + 1.5, area[1] + 1
+                theme.text(surface, key_label_of(what.key), *at, size=7, colour=palette.faint)
             if what in (EMPTY, FULL):
                 canvas.frame_rect(surface, palette.panel_edge, *area)
             if chosen:

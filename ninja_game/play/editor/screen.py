@@ -74,6 +74,11 @@ class EditorScreen(MenuScreen):
             self._entered = True
             self.commands.offer_recovered()
 
+    def leave(self) -> None:
+        """Covered or closed: what is edited is kept safe at once."""
+        super().leave()
+        self.session.autosave.flush(self.session.draft, self.session.source)
+
     def chime(self, name: str) -> None:
         """Editing is silent."""
 
@@ -182,6 +187,7 @@ class EditorScreen(MenuScreen):
         if event.type == pygame.MOUSEMOTION:
             desk.hovering = over
             if over or self._held:
+                desk.hint = ""
                 bench.move(*desk.overlay.canvas.logical(pos))
             elif self._dragged is not None:
                 self._dragged.drag(*self.app.canvas.logical(pos))

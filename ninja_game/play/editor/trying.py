@@ -45,7 +45,9 @@ class TryScreen(LevelScreen):
     """Plays a level; the back key leaves at once, whatever is going on. Raises LevelError for one without a ninja."""
 
     def __init__(self, app: App, name: str, level: Level, left: Left) -> None:
-        entry = Entry(NamedLevel(name or "Test", "", "", level, ""), "yours")
+        entry = Entry(
+            NamedLevel(f"{name}    {app.controls.name('back')}: back to the editor", "", "", level, ""), "yours"
+        )
         super().__init__(app, TryContext(app.player, entry, practice_mode=True))
         self._left = left
         self._last = b""
