@@ -31,6 +31,7 @@ GROUPS = {
         "info": "Show what is in level and replay files.",
         "check": "Certify levels: whether they can be passed, how fast, and what is odd.",
         "levels": "Check packs of levels, and make their tables of par times.",
+        "generate": "Make a new level, certified by the solver.",
         "convert": "Turn levels and recordings from one format into the other.",
     },
     "runs": {
@@ -49,7 +50,7 @@ MODULES = {
     name: ".".join(filter(None, ("ninja_game.cli", folder, name))) for folder, group in GROUPS.items() for name in group
 }
 
-COMPILING = ("verify", "trace", "bench", "solve", "improve", "check", "levels")
+COMPILING = ("verify", "trace", "bench", "solve", "improve", "check", "levels", "generate")
 """Those that may have to compile the rules first."""
 
 BAD_INPUT = 2

@@ -110,6 +110,10 @@ class ShownProgress:
         self.last = progress
         self._show(progress_text(progress))
 
+    def say(self, text: str) -> None:
+        """Show a line as it is."""
+        self._show(text)
+
     def of_level(self, name: str, progress: Progress) -> None:
         """Show how one of several searches stands."""
         self._show(f"{name}: {progress_text(progress)}")

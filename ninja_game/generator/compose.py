@@ -1,0 +1,99 @@
+"""One attempt at a level: ground plan, tiles, ninja and exit, gold, enemies, mines - or nothing, if it does not fit."""
+
+from __future__ import annotations
+
+from random import Random
+
+from ninja_game.generator.board import MIDDLE, Board, Cell, mirrored
+from ninja_game.generator.fixtures import place_fixtures
+from ninja_game.generator.gold import lay_gold
+from ninja_game.generator.hazards import place_enemies, place_mines
+from ninja_game.generator.layouts import LAYOUTS, frame
+from ninja_game.generator.route import Niche, place_route
+from ninja_game.generator.scene import Scene
+from ninja_game.generator.shaping import chosen_style
+from ninja_game.levels.warnings import level_findings
+from ninja_game.sim.level import COLUMNS, ROWS, TILES
+
+SOLID = 0.13, 0.37
+SHAPES = 20, 73
+MIRROR = 0.73
+OBJECTS = 50, 88
+"""What levels keep to: shares of the cells, tiles with a shape, objects (the quartiles of N's own levels)."""
+
+
+def compose(layout: str, chance: Random, difficulty: int) -> Scene | None:
+    """A level that keeps to all marks and has nothing odd; None if this attempt does not."""
+    board = Board()
+    frame(board, chance)
+    LAYOUTS[layout](board, chance)
+    _break_symmetry(board, chance)
+    niche = _niche(board, chance) if chance.random() < 0.4 else None
+    tiles = chosen_style(board, chance, *SHAPES)
+    if tiles is None or not SOLID[0] <= len(tiles) / TILES <= SOLID[1] or _mirror_share(tiles) < MIRROR:
+        return None
+    scene = place_route(board, tiles, niche, chance, far=22 + 3 * difficulty)
+    if scene is None:
+        return None
+    place_fixtures(scene, chance)
+    if not lay_gold(scene, chance):
+        return None
+    if not place_enemies(scene, chance, chance.choice((3, 4, 4)) + difficulty // 3, difficulty):
+        return None
+    place_mines(scene, chance, chance.choice((4, 6, 8)) + difficulty // 2)
+    if not OBJECTS[0] <= len(scene.objects) <= OBJECTS[1] or level_findings(scene.level):
+        return None
+    return scene
+
+
+def _mirror_share(tiles: dict[Cell, str]) -> float:
+    cells = [(c, r) for c in range(1, COLUMNS + 1) for r in range(1, ROWS + 1)]
+    return sum((cell in tiles) == (mirrored(cell) in tiles) for cell in cells) / TILES
+
+
+def _break_symmetry(board: Board, chance: Random) -> None:
+    """Once: a stone is missing at one side, or a ledge is there; or the plan stays as it is."""
+    sort = chance.choice(("missing", "ledge", "ledge", "none"))
+    if sort == "missing":
+        stones = [piece for piece in board.pieces() if len(piece) <= 12 and all(c > MIDDLE for c, _ in piece)]
+        if stones:
+            gone = chance.choice(stones)
+            board.cells -= set(gone)
+            for cell in gone:
+                board.stones.pop(cell, None)
+    elif sort == "ledge":
+        for _ in range(20):
+            column, row, width = chance.randint(2, 26), chance.randint(5, 18), chance.choice((3, 4, 5))
+            if board.free(column - 2, row - 3, width + 4, 7):
+                board.fill(column, row, width, chance.choice((1, 1, 2)), one_sided=True)
+                return
+
+
+def _niche(board: Board, chance: Random) -> Niche | None:
+    """A low roof beside a wall, over the exit, for one or two doors; None if there is no place for it."""
+    doors = chance.choice((1, 2, 2))
+    found = []
+    for column in range(1, COLUMNS - doors - 3):
+        for row in range(4, ROWS + 1):
+            wide = doors + 4
+            floor = all(board.solid((column + k, row + 1)) for k in range(wide))
+            if floor and board.solid((column - 1, row)) and board.free(column, row - 3, wide, 4):
+                found.append((column, row))
+    if not found:
+        return None
+    column, row = chance.choice(found)
+    right = chance.random() < 0.5 and _mirrored_too(board, column, row, doors + 4)
+    cells = [(column + k, row) for k in range(doors)]
+    roof = [(column + k, row - 1) for k in range(doors + 1)]
+    if right:
+        cells, roof = [mirrored(cell) for cell in cells], [mirrored(cell) for cell in roof]
+    board.cells |= set(roof)
+    out = mirrored((column, row)) if right else (column, row)
+    return Niche(out, tuple(cells), "left" if right else "right")
+
+
+def _mirrored_too(board: Board, column: int, row: int, wide: int) -> bool:
+    """Whether the mirrored place is as free."""
+    left = COLUMNS + 1 - (column + wide - 1)
+    floor = all(board.solid((left + k, row + 1)) for k in range(wide))
+    return floor and board.solid((left + wide, row)) and board.free(left, row - 3, wide, 4)

@@ -1,0 +1,146 @@
+"""A level that is being furnished: its tiles, what is open and where one can stand, and the objects placed so far."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import dist, hypot
+from typing import NamedTuple
+
+from ninja_game.formats.ascii.legend import TILE_OF_CHAR
+from ninja_game.formats.ascii.object_lines import Listed, read_object_line
+from ninja_game.generator.board import Board, Cell, steps_from
+from ninja_game.sim import kinds
+from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
+from ninja_game.sim.rules import CELL
+
+WIDTH = (COLUMNS + 2) * CELL
+"""px of the world from edge to edge."""
+
+ENEMIES = (kinds.TURRET, kinds.FLOOR_GUARD, kinds.DRONE, kinds.THWUMP, kinds.LAUNCHER)
+
+Point = tuple[float, float]
+"""px."""
+
+
+class Run(NamedTuple):
+    """Cells in a row that one can stand in: ``length`` of them from ``column`` on."""
+
+    column: int
+    row: int
+    length: int
+
+    @property
+    def middle(self) -> Point:
+        """The middle of its cells, px."""
+        return CELL * (self.column + self.length / 2), CELL * (self.row + 0.5)
+
+
+def spec(line: str) -> ObjectSpec:
+    """The record of a line of the list of an ASCII level."""
+    (listed,) = read_object_line(line)
+    assert isinstance(listed, Listed)  # noqa: S101 - lines of this package place objects
+    return listed.record
+
+
+def middle(cell: Cell) -> Point:
+    """A cell's middle, px."""
+    return CELL * (cell[0] + 0.5), CELL * (cell[1] + 0.5)
+
+
+def cell_of(point: Point) -> Cell:
+    """The cell of a point."""
+    return int(point[0] // CELL), int(point[1] // CELL)
+
+
+class Scene:
+    """A level in the making.
+
+    ``key``: what every route needs (ninja, exit, doors). ``fixtures``: harmless. ``hazards``: groups of objects
+    that belong together, as a rule one and its mirror image.
+    """
+
+    def __init__(self, board: Board, tiles: dict[Cell, str], start: Cell) -> None:
+        self.board = board
+        self.tiles = tiles
+        self.start = start
+        self.empty = {(c, r) for c in range(1, COLUMNS + 1) for r in range(1, ROWS + 1)} - tiles.keys()
+        self.steps = steps_from(start, self.empty)
+        self.key: list[ObjectSpec] = []
+        self.fixtures: list[ObjectSpec] = []
+        self.gold: list[ObjectSpec] = []
+        self.hazards: list[list[ObjectSpec]] = []
+
+    @property
+    def objects(self) -> list[ObjectSpec]:
+        """All objects, in the order of the level."""
+        return [*self.key, *self.fixtures, *self.gold, *(record for group in self.hazards for record in group)]
+
+    @property
+    def level(self) -> Level:
+        """The level as it is now."""
+        cells = ((c, r) for c in range(1, COLUMNS + 1) for r in range(1, ROWS + 1))
+        return Level(tuple(TILE_OF_CHAR[self.tiles.get(cell, ".")] for cell in cells), tuple(self.objects))
+
+    def count(self, *which: int) -> int:
+        """How many objects of these kinds there are."""
+        return sum(record.kind in which for record in self.objects)
+
+    def full(self, cell: Cell) -> bool:
+        """Whether a cell is a full tile or of the border."""
+        return self.tiles.get(cell) == "#" or not (1 <= cell[0] <= COLUMNS and 1 <= cell[1] <= ROWS)
+
+    def stands(self, cell: Cell) -> bool:
+        """Whether one can come to a cell and stand in it."""
+        column, row = cell
+        return cell in self.steps and (column, row - 1) in self.empty and self.full((column, row + 1))
+
+    def runs(self) -> list[Run]:
+        """Where one can stand, in reading order."""
+        found: list[Run] = []
+        for row in range(1, ROWS + 1):
+            for column in range(1, COLUMNS + 1):
+                if not self.stands((column, row)):
+                    continue
+                if found and found[-1].row == row and found[-1].column + found[-1].length == column:
+                    found[-1] = found[-1]._replace(length=found[-1].length + 1)
+                else:
+                    found.append(Run(column, row, 1))
+        return found
+
+    def clear_of(self, point: Point, *, key: float, other: float) -> bool:
+        """Whether a point is in a cell that can be reached, and so many px from all that is there."""
+        ok = cell_of(point) in self.steps
+        return ok and all(
+            dist(point, place) >= (key if record.kind in _KEY else max(other, _ROOM.get(record.kind, 0.0)))
+            for record in self.objects
+            for place in places(record)
+        )
+
+    def sees(self, a: Point, b: Point) -> bool:
+        """Whether no tile is between two points, as far as cells can tell."""
+        count = int(hypot(b[0] - a[0], b[1] - a[1]) // 8) + 1
+        line = ((a[0] + (b[0] - a[0]) * k / count, a[1] + (b[1] - a[1]) * k / count) for k in range(count + 1))
+        return all(cell_of(point) not in self.tiles for point in line)
+
+
+_KEY = (kinds.NINJA, kinds.EXIT, kinds.DOOR)
+_ROOM = {kinds.BOUNCE_BLOCK: 20.0, kinds.LAUNCH_PAD: 20.0, kinds.ONE_WAY: 16.0}
+"""px that stay free around fixtures."""
+
+
+def places(record: ObjectSpec) -> Iterator[Point]:
+    """Where an object and its switch are."""
+    x, y, *more = record.values
+    yield x, y
+    if record.kind == kinds.EXIT:
+        yield more[0], more[1]
+
+
+def flipped(point: Point) -> Point:
+    """The mirrored point."""
+    return WIDTH - point[0], point[1]
+
+
+def with_mirror(point: Point) -> list[Point]:
+    """A point and its mirror image; once where they are the same."""
+    return [point] if abs(point[0] - WIDTH / 2) < 1 else [point, flipped(point)]

@@ -1,0 +1,118 @@
+"""Generated levels: the same for the same seed, certified, lintless, about as hard as they were asked to be."""
+
+from __future__ import annotations
+
+from hashlib import sha256
+from pathlib import Path
+from statistics import mean
+from threading import Event
+
+import pytest
+from click.testing import CliRunner, Result
+
+from ninja_game.cli.main import cli
+from ninja_game.compile_cache import compiled_available
+
+if not compiled_available():
+    pytest.skip("Numba is not installed", allow_module_level=True)
+
+from ninja_game.batch.difficulty import difficulty
+from ninja_game.formats.load import load_levels, load_replays
+from ninja_game.generator.generate import Budget, Generated, generate
+from ninja_game.levels.warnings import level_warnings
+from ninja_game.runs.run import run_level
+
+SMALL = Budget(find=1_500_000, shorten=300_000, attempts=6, rounds=8, tries=64)
+
+GOLDEN = {
+    (1, 2): "7b802af7e1577003",
+    (2, 5): "47b124fa1e667077",
+    (3, 9): "098af87307770c80",
+}
+"""Digests of levels' texts with a small budget, first digits. Where they change, every seed makes another level."""
+
+
+def made(seed: int, wanted: int) -> Generated:
+    """The level of a seed with a small budget."""
+    level = generate(seed, wanted, budget=SMALL)
+    assert level is not None
+    return level
+
+
+@pytest.mark.parametrize("seed, wanted", GOLDEN)
+def test_a_seed_always_makes_the_same_level(seed: int, wanted: int) -> None:
+    assert sha256(made(seed, wanted).text.encode()).hexdigest()[:16] == GOLDEN[seed, wanted]
+
+
+@pytest.mark.parametrize("seed, wanted", [(11, 1), (12, 4), (13, 8)])
+def test_the_certificate_passes_the_level_and_gives_its_difficulty(seed: int, wanted: int) -> None:
+    level = made(seed, wanted)
+    run = run_level(level.level, level.run.inputs, memory="plain")
+    assert (run.outcome, run.end_tick) == ("exit", level.run.end_tick)
+    assert level.difficulty == round(difficulty(level.level, level.run.inputs, tries=SMALL.tries), 2)
+    assert level_warnings(level.level) == []
+
+
+def test_what_is_asked_for_changes_how_hard_it_is() -> None:
+    easy = mean(made(seed, 1).difficulty for seed in range(3))
+    hard = mean(made(seed, 8).difficulty for seed in range(3))
+    assert easy < 3 < hard
+
+
+def test_a_search_that_is_stopped_gives_nothing() -> None:
+    stop = Event()
+    stop.set()
+    assert generate(1, 5, stop=stop) is None
+
+
+def command(*words: str | Path) -> Result:
+    """`ninja-game generate WORDS…`."""
+    return CliRunner().invoke(cli, ["generate", *map(str, words)])
+
+
+@pytest.fixture(autouse=True)
+def small_budget(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ninja_game.generator.generate.DEFAULT", SMALL)
+
+
+def test_the_command_writes_level_and_certificate(tmp_path: Path) -> None:
+    level, replay = tmp_path / "level.txt", tmp_path / "level.replay.txt"
+    result = command("--seed", "4", "--difficulty", "2", "-o", level, "--replay", replay)
+    assert result.exit_code == 0, result.output
+    (named,) = load_levels(level)
+    assert named.name in result.stdout
+    assert named.author == "ninja-game generate"
+    (recording,) = load_replays(replay, level=named.level)
+    assert run_level(named.level, recording.playback(recording.ticks)).outcome == "exit"
+
+
+def test_without_a_name_nothing_is_overwritten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for _ in range(2):
+        assert command("--seed", "4", "--difficulty", "2").exit_code == 0
+    first, second = sorted(tmp_path.iterdir(), key=lambda path: len(path.name))
+    assert second.name == f"{first.stem}-2.txt"
+    assert first.read_text("utf-8") == second.read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    "words, told",
+    [
+        (["--difficulty", "11"], "difficulty"),
+        (["--seed", "-1"], "seed"),
+        (["-o", "nowhere/level.txt"], "nowhere"),
+        (["-o", "one.txt", "--replay", "one.txt"], "one file"),
+    ],
+)
+def test_bad_input_is_told(words: list[str], told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    result = command(*words)
+    assert result.exit_code == 2
+    assert told in result.stderr
+
+
+def test_a_seed_without_a_level_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ninja_game.generator.generate.DEFAULT", Budget(attempts=0))
+    result = command("--seed", "4")
+    assert result.exit_code == 1
+    assert "try another" in result.stdout
