@@ -13,7 +13,7 @@ Result = TypeVar("Result")
 class NewestJob(Generic[Job, Result]):
     """Calls ``work`` with the newest job, in a thread that begins with the first one.
 
-    ``result``: of the job that was finished last, None so far. ``count``: how many were finished.
+    ``result``: of the job that was finished last, None so far.
     """
 
     def __init__(self, work: Callable[[Job], Result]) -> None:
@@ -23,7 +23,6 @@ class NewestJob(Generic[Job, Result]):
         self._busy = False
         self._thread: Thread | None = None
         self.result: Result | None = None
-        self.count = 0
 
     def ask(self, job: Job) -> None:
         """Do this job next, instead of any that still waits."""
@@ -52,11 +51,8 @@ class NewestJob(Generic[Job, Result]):
                 job = self._waiting.pop()
                 self._busy = True
             try:
-                result: Result | None = self._work(job)
+                self.result = self._work(job)
             finally:
                 with self._news:
                     self._busy = False
                     self._news.notify_all()
-            with self._news:
-                self.result = result
-                self.count += 1

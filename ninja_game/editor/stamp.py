@@ -186,9 +186,3 @@ def nearest(draft: Draft, x: float, y: float, reach: float) -> Part | None:
             if distance <= best:
                 found, best = (number, part), distance
     return found
-
-
-def body_of(selection: Selection) -> int | None:
-    """The record whose properties are shown: the only one that is chosen."""
-    records = selection.records
-    return next(iter(records)) if len(records) == 1 else None

@@ -29,10 +29,12 @@ class ToolButton(Button):
         )
         self._shown = shown
         self._lit = lit
+        self.able: Callable[[], bool] = lambda: True
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         """Its text in a panel that is accented while it is in force."""
         theme.row(surface, self.area, chosen=self._lit(), focused=self._lit(), radius=3)
+        self.enabled = self.able()
         x, y, w, h = self.area
         colour = theme.palette.text if self.enabled else theme.palette.faint
         theme.text(
@@ -57,7 +59,9 @@ def toolbar(session: EditorSession, run: Callable[[str], object], grid: Callable
 
     add("menu", "File", 36)
     add("undo", "Undo", 40)
+    buttons[-1].able = lambda: session.bench.history.can_undo
     add("redo", "Redo", 40)
+    buttons[-1].able = lambda: session.bench.history.can_redo
     x += 5
     for name, text, width in zip(TOOLS, ("Brush", "Box", "Fill", "Select", "Pick"), (42, 34, 32, 44, 34), strict=True):
         add(name, text, width, tool(name))
