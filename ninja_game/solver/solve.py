@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
-from functools import cache
+from functools import cache, cached_property
 from math import inf
 from threading import Event
 
@@ -15,7 +15,8 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.inputs import press_jumps
 from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, verified_run
 from ninja_game.solver.heuristics import Heuristics
-from ninja_game.solver.legs.route import LEG_NODES, STYLES, Route, Style
+from ninja_game.solver.legs.route import LEG_NODES, Route
+from ninja_game.solver.legs.shorten import Shortener
 from ninja_game.solver.local_search import LocalSearch
 from ninja_game.solver.search import MORE
 from ninja_game.solver.search_memory import Resolution, open_start
@@ -24,6 +25,7 @@ from ninja_game.solver.task import (
     COOLING,
     LEGS_TICKS,
     SEARCH_COST,
+    SWEEP_TICKS,
     VARY,
     VARY_TICKS,
     Progress,
@@ -52,10 +54,9 @@ class _Job:
         self.shares = Shares()
         self.start = open_start(task.level, box=task.body == "box")
         self.heuristics = Heuristics(self.start.levels, self.start.worlds)
-        self._search: Search | None = None
-        self._leg_search: Search | None = None
+        self._shortener: Shortener | None = None
         self._turn = 2 * number
-        self._local_searches = self._routes = 0
+        self._local_searches = 0
 
     def run(self) -> None:
         """Find, vary, local search, until the end."""
@@ -63,11 +64,13 @@ class _Job:
         if not state.runs:
             self._find()
         while not self._over and state.runs:
-            if self.work < shares.vary_until * state.task.work_planned and not state.task.first:
+            if state.task.gold_wanted:
+                self._sweep()
+            elif self.work < shares.vary_until * state.task.work_planned and not state.task.first:
                 self._vary()
             else:
-                self._turn += 1
                 # The best run most of the time; now and then another one that may have more in it.
+                self._turn += 1
                 rank = (0, 1, 0, 2, 0)[self._turn % 5] if not state.task.first else 0
                 with state.lock:
                     inputs = state.runs[min(rank, len(state.runs) - 1)]
@@ -77,16 +80,17 @@ class _Job:
     def _over(self) -> bool:
         return self.state.over or bool(self.state.task.work and self.work >= self.state.task.work)
 
-    def _memory(self) -> Search:
-        """The search of this job, made when it is first needed."""
-        if self._search is None:
-            task = self.state.task
-            nodes = int(min(1_500_000, max(100_000, task.work_planned / 40)))
-            self._search = Search(self.start, self.heuristics, nodes=nodes)
-        return self._search
+    @cached_property
+    def _search(self) -> Search:
+        nodes = int(min(1_500_000, max(100_000, self.state.task.work_planned / 40)))
+        return Search(self.start, self.heuristics, nodes=nodes)
+
+    @cached_property
+    def _leg_search(self) -> Search:
+        return Search(self.start, self.heuristics, nodes=LEG_NODES)
 
     def _find(self) -> None:
-        route = self._new_route(Style(), bound=0)
+        route = Route(self._leg_search, gold=self.state.task.gold_wanted, seed=self.seed * 1000 + 1)
         if self.state.task.gold_wanted:
             self._follow(route, inf)
             return
@@ -94,18 +98,30 @@ class _Job:
             if self._over or self.state.runs:
                 return
             if turn:
-                # Switch by switch: for long ways.
-                self._follow(route, LEGS_TICKS)
+                self._follow(route, LEGS_TICKS)  # switch by switch: for long ways
             self._search_once(resolution, ticks, seed=turn, bound=0, until_found=True)
 
-    def _new_route(self, style: Style, *, bound: int) -> Route:
-        if self._leg_search is None:
-            self._leg_search = Search(self.start, self.heuristics, nodes=LEG_NODES)
-        self._routes += 1
-        seed = self.seed * 1000 + self._routes
-        return Route(self._leg_search, gold=self.state.task.gold_wanted, seed=seed, style=style, bound=bound)
+    def _sweep(self) -> None:
+        """Make a run with gold shorter, by sweeps of legs and then by a local search; what is found is submitted."""
+        best = self.state.runs[0]
+        if self._shortener is None:
+            self._shortener = Shortener(self._leg_search, best, seed=self.seed)
+        elif len(best) < self._shortener.ticks:
+            self._shortener.add_run(best)
+        until = self.work + SWEEP_TICKS * SEARCH_COST
 
-    def _follow(self, route: Route, ticks: float) -> bytes | None:
+        def over(played: int) -> bool:
+            self.work += played * SEARCH_COST
+            self.state.count(played, 0, "shortening")
+            return self._over
+
+        while self.work < until and not over(0):
+            found = self._shortener.sweep(over)
+            if found:
+                self.state.submit(found)
+        self._shorten(self.state.runs[0], self.shares.first_climb)
+
+    def _follow(self, route: Route, ticks: float) -> None:
         """Search a run in legs, for so many ticks; one that is found is submitted."""
         doing = f" of {route.gold} gold" if route.gold else ""
         until = self.work + ticks * SEARCH_COST
@@ -123,7 +139,6 @@ class _Job:
             self.state.note_gold(route.most, [self.heuristics.gold_ids[piece] for piece in route.never_taken()])
         if found:
             self.state.submit(found)
-        return found
 
     def _vary(self) -> None:
         turn = self._turn
@@ -134,17 +149,14 @@ class _Job:
             shortest = len(self.state.runs[0])
         resolution = resolution._replace(slack=resolution.slack * shortest)
         bound = shortest + max(4, shortest // 20)
-        if self.state.task.gold_wanted:
-            found = self._follow(self._new_route(STYLES[turn % len(STYLES)], bound=bound), VARY_TICKS)
-        else:
-            found = self._search_once(resolution, VARY_TICKS, seed=100 + turn, bound=bound, guided=guided)
+        found = self._search_once(resolution, VARY_TICKS, seed=100 + turn, bound=bound, guided=guided)
         self._shorten(found or self.state.runs[0], self.shares.first_climb)
 
     def _search_once(
         self, resolution: Resolution, ticks: int, *, seed: int, bound: int, guided: bool = False,
         until_found: bool = False,
     ) -> bytes | None:  # fmt: skip
-        search = self._memory()
+        search = self._search
         search.begin(resolution, seed=self.seed * 1000 + seed, bound=bound, guided=guided)
         ended, worlds = MORE, 0
         while ended == MORE and search.ticks < ticks and not self._over:

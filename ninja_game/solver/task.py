@@ -151,6 +151,9 @@ VARY = (
 """Searches for other routes. Those with ``slack`` (part of the best run's ticks) are guided by the search before."""
 VARY_TICKS = 12_000_000
 
+SWEEP_TICKS = 12_000_000
+"""Ticks that a run with gold is swept before it gets a local search."""
+
 COOLING = (6.0, 4.0, 2.5, 1.2, 0.4)
 """Temperatures of a local search, one after the other."""
 

@@ -17,6 +17,7 @@ from ninja_game.solver.certificate import verified_run
 from ninja_game.solver.heuristics import Heuristics
 from ninja_game.solver.legs.fronts import Front, Moment
 from ninja_game.solver.legs.route import Route
+from ninja_game.solver.legs.shorten import Shortener
 from ninja_game.solver.search_memory import open_start
 from ninja_game.solver.search_run import Search
 from ninja_game.solver.solve import Progress, Task, solve
@@ -100,3 +101,26 @@ def test_a_run_may_go_from_switch_to_switch_without_gold() -> None:
     runs = [route.step(lambda _: False) for _ in range(8)]
     assert verified_run(BEHIND_A_DOOR, next(filter(None, runs))).end_tick > 0
     assert len({mask for _, mask in route.fronts}) > 1
+
+
+def test_a_run_with_gold_in_a_bad_order_gets_much_shorter() -> None:
+    first = solve(Task(LINES, gold=-1, work=20_000_000, first_only=True))
+    assert first
+    start = open_start(LINES, box=False)
+    search = Search(start, Heuristics(start.levels, start.worlds), nodes=50_000)
+    shortener = Shortener(search, first.inputs, seed=1)
+    runs = [shortener.sweep(lambda _: False) for _ in range(4)]
+    best = min(filter(None, runs), key=len)
+    assert len(best) == shortener.ticks
+    assert verified_run(LINES, best, gold=all_gold(LINES)).end_tick < 0.85 * first.end_tick
+
+
+def test_shortening_a_run_with_gold_keeps_the_gold_and_is_the_same_every_time() -> None:
+    first = solve(Task(BEHIND_A_DOOR, gold=-1, work=20_000_000, first_only=True))
+    assert first
+    task = Task(BEHIND_A_DOOR, gold=-1, first=first.inputs, work=2_000_000)
+    better, again = solve(task), solve(task)
+    assert better
+    assert again
+    assert better.inputs == again.inputs
+    assert (better.gold, better.end_tick <= first.end_tick) == (all_gold(BEHIND_A_DOOR), True)

@@ -63,10 +63,6 @@ class Style:
     noise: float = 0.0
 
 
-STYLES = (Style(24, 60, 0.8), Style(16, 40, 0.7, 0.3), Style(40, 80, 0.9, 0.3), Style(20, 60, 0.65, 0.5))
-"""For routes shorter than one that is known, in turn."""
-
-
 class Route:
     """A search for runs with ``gold`` pieces (0: straight to the exit), shorter than ``bound`` ticks (0: any)."""
 

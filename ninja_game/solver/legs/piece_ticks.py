@@ -1,0 +1,82 @@
+"""About how many ticks it is from piece to piece: as legs took them, by distance fields where none was searched yet."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ninja_game.solver.distance_field import Field, point_at
+from ninja_game.solver.heuristics import Heuristics
+from ninja_game.solver.legs.fronts import Moment, pieces_of
+from ninja_game.solver.legs.tour import Distances
+
+FAR = 20_000.0
+"""Ticks that an unreachable piece counts."""
+FAILED = 200.0
+"""Ticks that a way counts at least which a leg did not find."""
+FIELDS_KEPT = 400
+MASKS_KEPT = 16
+
+
+class PieceTicks:
+    """Ticks between the pieces of a level, to be learned from the legs of its runs."""
+
+    def __init__(self, heuristics: Heuristics) -> None:
+        self._heuristics = heuristics
+        self._points = np.array([point_at(x, y) for x, y in heuristics.gold_places], np.int64)
+        count = len(self._points)
+        # The last row: from the start of the level.
+        self._measured: Distances = np.full((count + 1, count), np.nan)
+        self._factors: Distances = np.ones((count + 1, count))
+        self._distances: dict[int, Field] = {}
+        self._fields: dict[tuple[int, int], Field] = {}
+
+    def change(self, random: np.random.Generator, noise: float) -> None:
+        """Change all estimates at random by up to half of ``noise`` (a part of them), for other tours."""
+        self._factors = 1.0 + noise * (random.random(self._factors.shape) - 0.5)
+
+    def learn(self, before: Moment, after: Moment) -> None:
+        """Learn from a leg how many ticks it is from one piece to the next."""
+        new = list(pieces_of(after.taken & ~before.taken))
+        if len(new) == 1 and before.mask == after.mask:
+            row, ticks = _last_piece(before), max(1.0, float(after.tick - before.tick))
+            self._measured[row, new[0]] = np.fmin(self._measured[row, new[0]], ticks)
+
+    def note_failure(self, before: Moment, piece: int) -> None:
+        """Note that a leg did not reach a piece: it counts as farther from now on."""
+        row = _last_piece(before)
+        known = np.nan_to_num(self._measured[row, piece], nan=0.0)
+        self._measured[row, piece] = min(FAR, max(FAILED, 1.5 * known))
+
+    def estimate(self, moment: Moment) -> tuple[Distances, Distances, Distances]:
+        """Ticks from each piece to each, from a moment to each piece, and to the exit from each (last: the moment)."""
+        mask, here = moment.mask, point_at(*moment.place)
+        if mask not in self._distances:
+            if len(self._distances) >= MASKS_KEPT:
+                self._distances.clear()
+            self._distances[mask] = self._heuristics.gold_fields(mask, range(len(self._points)))
+        fields = self._distances[mask]
+        far = np.minimum(np.vstack([fields[:, self._points].T, fields[:, here]]).astype(float), FAR)
+        row = _last_piece(moment)
+        known = np.vstack([self._measured[:-1], self._measured[row]])
+        factors = np.vstack([self._factors[:-1], self._factors[row]])
+        ticks = np.where(np.isnan(known), far, known) * factors
+        exit_field = self.field(-1, mask, *moment.place)
+        home = np.append(exit_field[self._points], exit_field[here]).astype(float)
+        return ticks[:-1], ticks[-1], np.minimum(home, FAR)
+
+    def field(self, target: int, mask: int, x: float, y: float) -> Field:
+        """The field of a piece (-1: the exit) in a switch state, made when it is first wanted."""
+        if (target, mask) not in self._fields:
+            if len(self._fields) >= FIELDS_KEPT:
+                self._fields.clear()
+            heuristics = self._heuristics
+            field = heuristics.field(mask, x, y) if target < 0 else heuristics.gold_field(target, mask, x, y)
+            self._fields[target, mask] = field
+        return self._fields[target, mask]
+
+
+def _last_piece(moment: Moment) -> int:
+    """The piece collected last before a moment, -1 if there is none."""
+    while moment.before and moment.before.taken == moment.taken:
+        moment = moment.before
+    return max(pieces_of(moment.taken & ~(moment.before.taken if moment.before else 0)), default=-1)
