@@ -137,9 +137,10 @@ def table_of_set(rows: Sequence[Mapping[str, float]]) -> str:
     """The quartiles of the set beside the reference's, in Markdown."""
     lines = ["| per level | reference | ours | median within |", "|---|---|---|---|"]
     for key, row in (*ROWS.items(), ("difficulty", DIFFICULTY)):
-        ours = quartiles([each[key] for each in rows if key in each])
-        inside = "yes" if row.first <= ours[1] <= row.third else "no"
-        lines.append(f"| {row.title} | {_three(row[1:])} | {_three(ours)} | {inside} |")
+        values = [each[key] for each in rows if key in each]
+        ours = quartiles(values)
+        inside = "-" if not values else "yes" if row.first <= ours[1] <= row.third else "no"
+        lines.append(f"| {row.title} | {_three(row[1:])} | {_three(ours) if values else '-'} | {inside} |")
     return "\n".join(lines)
 
 
