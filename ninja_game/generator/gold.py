@@ -91,8 +91,8 @@ def lay_gold(scene: Scene, chance: Random) -> bool:
 
 
 def group_fits(scene: Scene, group: list[Point]) -> bool:
-    """Whether a whole group has room."""
-    return all(_fits(scene, point) for point in group)
+    """Whether a whole group has room, and some more to other groups."""
+    return all(scene.clear_of(point, key=FROM_KEY, other=2 * APART) for point in group)
 
 
 def _fits(scene: Scene, point: Point) -> bool:

@@ -7,7 +7,7 @@ from math import dist, hypot
 from random import Random
 
 from ninja_game.generator.board import MIDDLE, Cell
-from ninja_game.generator.scene import ENEMIES, Point, Scene, flipped, middle, spec, with_mirror
+from ninja_game.generator.scene import ENEMIES, Point, Scene, flipped, middle, places, spec, with_mirror
 from ninja_game.sim import kinds
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL
@@ -15,6 +15,8 @@ from ninja_game.sim.rules import CELL
 MOST_ENEMIES, MOST_MINES, MOST_OBJECTS = 7, 21, 88
 SAFE = 150.0
 """px from the ninja's start in which nothing waits."""
+BESIDE = 190.0
+"""px from exit and switches in which enemies are put first."""
 FROM_RUN = 17.0
 """px from a certified run at which a mine leaves it alone: their radii, and a little."""
 
@@ -90,12 +92,20 @@ def place_enemies(scene: Scene, chance: Random, wanted: int, difficulty: int) ->
             break
         lines = list(source(scene, chance))
         chance.shuffle(lines)
+        lines.sort(key=lambda line: not _on_the_way(scene, line))
         # Alone it breaks the symmetry; that is the exception.
         alone = chance.random() < 0.25 or source is launchers or wanted - scene.count(*ENEMIES) == 1
         group = next((group for line in lines if (group := _group(scene, line, alone))), None)
         if group:
             scene.hazards.append(group)
     return scene.count(*ENEMIES) >= 3
+
+
+def _on_the_way(scene: Scene, line: str) -> bool:
+    """Whether an enemy is near to something that one has to touch."""
+    x, y, *_ = spec(line).values
+    wanted = [point for record in scene.key[1:] for point in places(record)]
+    return any(dist((x, y), point) <= BESIDE for point in wanted)
 
 
 def _group(scene: Scene, line: str, alone: bool) -> list[ObjectSpec]:

@@ -188,7 +188,7 @@ def arches(board: Board, chance: Random) -> None:
         board.clear(left + 2, top + 2, width - 4, ROWS)
         board.fill(left, ROWS, width, 1)
     board.fill(1, chance.randint(5, 9), 2, 1)
-    board.fill(MIDDLE - 1, ROWS - 5, 3, 1)
+    board.fill(MIDDLE - 2, ROWS - 1, 5, 1)
 
 
 def valley(board: Board, chance: Random) -> None:

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from random import Random
 
+AUTHOR = "ninja-game generate"
+"""Who made the levels."""
+
 MOODS = (
     "Quiet", "Copper", "Hollow", "Crooked", "Sleepless", "Paper", "Salt", "Borrowed", "Northern", "Patient", "Velvet",
     "Rusty", "Second", "Hidden", "Restless", "Lunar", "Brittle", "Tidal", "Sunken", "Amber", "Narrow", "Distant",

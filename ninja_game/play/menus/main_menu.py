@@ -12,6 +12,7 @@ from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.menus.attract import Attract
 from ninja_game.play.menus.browser import Browser
+from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes.grid import EpisodeGrid
 from ninja_game.play.menus.help.screen import HelpScreen
 from ninja_game.play.menus.menu_screen import MenuScreen
@@ -51,6 +52,7 @@ class MainMenu(MenuScreen):
         """One for each screen; the panel is as high as they need."""
         return [
             ("Play", self._opener(EpisodeGrid), "Play the episodes"),
+            ("Daily", self._opener(DailyScreen), "The level of the day, made from its date"),
             ("Levels", self._opener(self._browser), "Single levels, and your own files"),
             ("Records", self._opener(RecordsScreen), "Your best runs, and what killed you"),
             ("Replays", self._opener(ReplaysScreen), "Watch runs again"),

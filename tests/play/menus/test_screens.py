@@ -15,6 +15,7 @@ from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
+from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes.grid import EpisodeGrid
 from ninja_game.play.menus.help.screen import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
@@ -29,6 +30,7 @@ from tests.support.menu_driver import MenuDriver
 
 ENTRIES = {
     "Play": EpisodeGrid,
+    "Daily": DailyScreen,
     "Levels": Browser,
     "Records": RecordsScreen,
     "Replays": ReplaysScreen,

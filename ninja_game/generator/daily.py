@@ -1,0 +1,81 @@
+"""The level of a day: generated from the date, kept as a pack in the player's folder of levels."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from datetime import date
+from pathlib import Path
+from threading import Event
+from typing import TYPE_CHECKING
+
+from ninja_game.files.reading import read_text
+from ninja_game.files.writing import write_atomically
+from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.formats.pack.files import CERTIFICATES, INDEX, PARS
+from ninja_game.formats.pack.pars import Pars, parse_pars, write_pars
+from ninja_game.formats.recording import parse_replays
+from ninja_game.formats.replay.text import write_replay
+from ninja_game.generator.naming import AUTHOR
+
+if TYPE_CHECKING:
+    from ninja_game.generator.generate import Generated
+
+FOLDER = "daily-levels"
+_INDEX = f'name = "Daily levels"\nauthor = "{AUTHOR}"\ncomment = "A level a day, from the date"\n'
+_DIGITS = 16
+_MONDAY = 2
+_OTHER_SEEDS = 9
+
+
+def daily_file(levels: Path, day: date) -> Path:
+    """Where the level of a day is kept, below the player's folder of levels."""
+    return levels / FOLDER / f"{day.isoformat()}.txt"
+
+
+def daily_difficulty(day: date) -> int:
+    """How hard the level of a day is to be: 2 on a Monday, 8 on a Sunday."""
+    return _MONDAY + day.weekday()
+
+
+def daily_seed(day: date) -> int:
+    """The date as a number, 20261122 for one."""
+    return day.year * 10_000 + day.month * 100 + day.day
+
+
+def make_daily(levels: Path, day: date, *, report: Callable[[str], None], stop: Event) -> bool:
+    """Generate the level of a day and keep it, its certificate, par times and difficulty; False if it was stopped.
+
+    Raises MemoryUnavailableError without Numba, another NinjaGameError or OSError where it cannot be kept.
+    """
+    # Only who makes a level needs NumPy.
+    from ninja_game.generator.generate import generate
+
+    for again in range(_OTHER_SEEDS + 1):
+        seed = daily_seed(day) + again * 10**8
+        made = generate(seed, daily_difficulty(day), report=report, stop=stop)
+        if stop.is_set():
+            return False
+        if made:
+            _keep(daily_file(levels, day), made)
+            return True
+    return False
+
+
+def _keep(file: Path, made: Generated) -> None:
+    """Write a level into the pack, whose table of pars grows by a line; the level last, so that all of it is there."""
+    from ninja_game.runs.verify import verify_recording
+    from ninja_game.solver.certificate import replay_of
+
+    pack = file.parent
+    (pack / CERTIFICATES).mkdir(parents=True, exist_ok=True)
+    if not (pack / INDEX).exists():
+        write_atomically(pack / INDEX, _INDEX)
+    replay = write_replay(replay_of(made.run, name=made.name, author=AUTHOR, level_author=AUTHOR))
+    write_atomically(pack / CERTIFICATES / f"{file.stem}.exit.replay.txt", replay)
+    verdict = verify_recording(parse_replays(replay, file=file.stem, level=made.level)[0])
+    level, run = level_digest(made.level)[:_DIGITS], verdict.xy_sha256[:_DIGITS]
+    table = pack / PARS
+    pars = parse_pars(read_text(table), file=str(table)) if table.exists() else {}
+    pars[file.name] = Pars(level, run, made.run.end_tick, None, made.difficulty)
+    write_atomically(table, write_pars(pars))
+    write_atomically(file, made.text)

@@ -1,0 +1,177 @@
+"""The daily level: made beside the window on the day's first visit, then played like any other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from datetime import date
+from pathlib import Path
+from threading import Event, Thread
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.compile_cache import choose_memory
+from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.files.user_folder import LEVELS
+from ninja_game.generator import daily
+from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menus.level_card import draw_pars, time_and_par
+from ninja_game.play.menus.thumbnails import ThumbnailScreen
+from ninja_game.play.ui.text_layout import counted, wrapped
+from ninja_game.play.ui.widgets import Button, Widget
+from ninja_game.player.catalogue import Entry
+from ninja_game.player.playthrough import LevelRun
+from ninja_game.player.scoring import seconds_text
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+LEFT, TOP, WIDE = 44, 74, 480
+SIDE, SIDE_WIDTH = 548, 200
+
+
+class _Maker:
+    """A thread that makes the level of a day. ``told``: how it stands; ``problem``: why there is none."""
+
+    def __init__(self, levels: Path, day: date) -> None:
+        self.told = "starting; the first time it compiles, which takes a minute or two"
+        self.problem = ""
+        self.stop = Event()
+        self._thread = Thread(target=self._run, args=(levels, day), daemon=True)
+        self._thread.start()
+
+    @property
+    def working(self) -> bool:
+        """Whether it goes on."""
+        return self._thread.is_alive()
+
+    def _run(self, levels: Path, day: date) -> None:
+        try:
+            choose_memory("compiled")
+            if not daily.make_daily(levels, day, report=self._tell, stop=self.stop):
+                self.problem = "No level could be made of this day."
+        except NinjaGameError as error:
+            self.problem = str(error)
+        except OSError as error:
+            self.problem = f"The level could not be kept: {error.strerror}"
+
+    def _tell(self, text: str) -> None:
+        self.told = text
+
+
+class DailyScreen(ThumbnailScreen):
+    """The level of today, large, with what is known about it; while it is made, how that stands."""
+
+    title = "Daily level"
+
+    def __init__(self, app: App) -> None:
+        super().__init__(app)
+        self.day = date.today()  # noqa: DTZ011 - the player's day
+        self.entry: Entry | None = None
+        self.message = ""
+        self._maker: _Maker | None = None
+        self._shown = ""
+        self.play = Button((SIDE, 390, SIDE_WIDTH, 36), "Play", self._play)
+        self.practice = Button(
+            (SIDE, 436, SIDE_WIDTH, 36), "Practise", lambda: self._play(practice=True),
+            hint="No clock, quick save, rewind, slow motion; no records",
+        )  # fmt: skip
+
+    @property
+    def file(self) -> Path:
+        """Where the level is, or will be."""
+        return daily.daily_file(self.player.folder / LEVELS, self.day)
+
+    def enter(self) -> None:
+        """Show the day's level; make it if it is not there."""
+        self._find()
+        super().enter()
+        if self.entry is None and not self.message:
+            self._maker = _Maker(self.player.folder / LEVELS, self.day)
+
+    def leave(self) -> None:
+        """What is being made is given up; it begins anew on the next visit."""
+        super().leave()
+        if self._maker:
+            self._maker.stop.set()
+            self._maker = None
+
+    @property
+    def making(self) -> bool:
+        """Whether the level is being made."""
+        return self._maker is not None
+
+    def build(self) -> Sequence[Widget]:
+        """What can be done with a level that is there."""
+        return [self.play, self.practice]
+
+    def _find(self) -> None:
+        """Look for the day's level in the player's folder; a message says why it cannot be read."""
+        catalogue = self.player.catalogue
+        catalogue.problems.clear()
+        there = (each for each in catalogue.singles() if Path(each.named.file) == self.file)
+        self.entry = next(there, None) if self.file.exists() else None
+        self.message = ""
+        if self.entry is None and self.file.exists():
+            self.message = next(iter(catalogue.problems), f"{self.file} is no level")
+        for button in (self.play, self.practice):
+            button.enabled = self.entry is not None
+
+    def update(self, real_ms: int) -> None:
+        """See whether the level is there, and how its making stands."""
+        super().update(real_ms)
+        maker = self._maker
+        if maker is None:
+            return
+        if not maker.working:
+            self._maker = None
+            self._find()
+            self.message = self.message or maker.problem
+            super().enter()
+        if maker.told != self._shown or not maker.working:
+            self._shown = maker.told
+            self.redraw = True
+
+    def _play(self, *, practice: bool = False) -> None:
+        if self.entry is None:
+            return
+        run = LevelRun(self.player, self.entry, practice_mode=practice or self.player.settings.practice)
+        try:
+            self.app.push(LevelScreen(self.app, run))
+        except LevelError as error:
+            self.message = error.what
+            self.redraw = True
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        """The picture at the left, the facts beside it."""
+        super().draw_frame(surface)
+        theme, palette, entry = self.app.theme, self.app.theme.palette, self.entry
+        theme.text(surface, f"{self.day:%A}, {self.day.isoformat()}", SIDE, TOP, size=12, colour=palette.faint)
+        if entry is None:
+            self.app.canvas.frame_rect(surface, palette.panel_edge, LEFT, TOP, WIDE, WIDE * 25 / 33, 1)
+            if self._maker:
+                theme.text(surface, "The level of the day is being made", LEFT + 20, TOP + 150, size=14)
+                theme.text(surface, self._maker.told, LEFT + 20, TOP + 178, size=11, colour=palette.faint)
+        else:
+            self._draw_entry(surface, entry)
+        if self.message:
+            for number, line in enumerate(wrapped(theme, self.message, WIDE - 40, 11)):
+                theme.text(surface, line, LEFT + 20, TOP + 150 + 18 * number, size=11, colour=palette.bad)
+
+    def _draw_entry(self, surface: pygame.Surface, entry: Entry) -> None:
+        theme = self.app.theme
+        self.thumbnails.draw(surface, entry, LEFT, TOP, WIDE)
+        theme.text(surface, entry.title, SIDE, TOP + 24, size=17, bold=True, width=SIDE_WIDTH)
+        best = self.player.records.level_bests().get(entry.digest)
+        mark = self.player.marks.all().get(entry.digest)
+        played = self.player.statistics.played(entry.digest)
+        lines = [f"{entry.all_gold} gold"]
+        if entry.pars and entry.pars.difficulty is not None:
+            lines.insert(0, f"difficulty {entry.pars.difficulty:.1f}")
+        lines.append(f"Your best: {seconds_text(best.score)} with {best.gold} gold" if best else "Not passed yet")
+        if played.attempts:
+            lines.append(f"{counted(played.attempts, 'try', 'tries')}, {counted(played.deaths, 'death', 'deaths')}")
+        lines.append(time_and_par(entry, mark))
+        for number, line in enumerate(lines):
+            theme.text(surface, line, SIDE, TOP + 60 + 20 * number, size=11, width=SIDE_WIDTH)
+        draw_pars(surface, theme, entry, mark, LEFT, TOP + WIDE * 25 / 33 + 12)

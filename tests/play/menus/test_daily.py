@@ -1,0 +1,112 @@
+"""The daily level: made once from the date, kept as a pack, played with par times and records; problems are told."""
+
+from __future__ import annotations
+
+from datetime import date
+from pathlib import Path
+from threading import Event
+from time import monotonic, sleep
+
+import pytest
+
+from ninja_game.compile_cache import compiled_available
+from ninja_game.formats.pack.pack import Pack
+from ninja_game.generator import daily
+from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menus.daily import DailyScreen
+from ninja_game.verification.pack_checks import certificate
+from tests.support.menu_driver import MenuDriver
+
+if not compiled_available():
+    pytest.skip("Numba is not installed", allow_module_level=True)
+
+from ninja_game.generator.generate import Budget
+
+MADE = daily.make_daily
+DAY = date(2026, 11, 23)
+
+
+@pytest.fixture
+def making(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> MenuDriver:
+    """The program, with real levels of the day from a small budget."""
+    small = Budget(find=1_500_000, shorten=300_000, attempts=6, rounds=2, tries=64)
+    monkeypatch.setattr("ninja_game.generator.generate.DEFAULT", small)
+    monkeypatch.setattr(daily, "make_daily", MADE)
+    return driver
+
+
+def opened(driver: MenuDriver) -> DailyScreen:
+    """The screen, when nothing is being made any more."""
+    screen = driver.open("Daily")
+    assert isinstance(screen, DailyScreen)
+    end = monotonic() + 120
+    while screen.making and monotonic() < end:
+        sleep(0.02)
+        driver.frames(1)
+    return screen
+
+
+def test_the_daily_level_is_made_once_played_and_in_the_list_of_levels(making: MenuDriver) -> None:
+    screen = opened(making)
+    assert screen.entry is not None, screen.message
+    assert screen.entry.pars is not None
+    assert screen.entry.pars.difficulty is not None
+    before = screen.file.read_bytes(), screen.file.stat().st_mtime_ns
+    making.press("return")
+    assert isinstance(making.top(), LevelScreen)
+    making.app.pop()
+    assert screen.entry.digest in {entry.digest for entry in making.player.catalogue.singles()}
+    making.press("escape")
+    assert opened(making).entry is not None
+    assert (screen.file.read_bytes(), screen.file.stat().st_mtime_ns) == before
+
+
+def test_a_second_day_joins_the_first(tmp_path: Path, making: MenuDriver) -> None:
+    for day in (DAY, date(2026, 11, 24)):
+        assert daily.make_daily(tmp_path, day, report=lambda _: None, stop=Event())
+    pack = Pack(tmp_path / daily.FOLDER)
+    assert len(pack.levels) == len(pack.pars) == 2
+    for file in pack.levels:
+        found = certificate(pack, file, "exit")
+        assert found is not None
+        assert found.problems == []
+
+
+def test_without_numba_it_is_said(making: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
+    screen = opened(making)
+    assert screen.entry is None
+    assert "needs Numba" in screen.message
+    making.frames(2)
+
+
+def test_a_file_that_is_no_level_is_told_and_stays(making: MenuDriver) -> None:
+    file = daily.daily_file(making.player.folder / "levels", date.today())  # noqa: DTZ011
+    file.parent.mkdir(parents=True)
+    file.write_text("ninja-game level 1\nname: mine\n")
+    screen = opened(making)
+    assert screen.entry is None
+    assert screen.message
+    assert file.read_text() == "ninja-game level 1\nname: mine\n"
+
+
+def test_leaving_gives_up_what_is_made(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    stopped = Event()
+
+    def slow(*_: object, stop: Event, **__: object) -> bool:
+        stop.wait(20)
+        stopped.set()
+        return False
+
+    monkeypatch.setattr(daily, "make_daily", slow)
+    screen = driver.open("Daily")
+    assert isinstance(screen, DailyScreen)
+    assert screen.making
+    driver.press("escape")
+    assert stopped.wait(5)
+    driver.frames(2)
+
+
+def test_it_gets_harder_over_the_week() -> None:
+    assert [daily.daily_difficulty(date(2026, 11, day)) for day in range(23, 30)] == [2, 3, 4, 5, 6, 7, 8]
+    assert daily.daily_seed(DAY) == 20261123
