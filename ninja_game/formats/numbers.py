@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from decimal import Decimal
-from functools import cache
+from functools import cache, lru_cache
 
 NAN = math.nan
 """The one NaN that reading gives; being one object, it makes equal texts equal tuples."""
@@ -24,6 +25,7 @@ _INFINITE_POWER = 512
 # Below this power every digit is worth 0.
 _LOWEST_POWER = -330
 _EXPONENT_LIMIT = 10**6
+_SMALLEST = math.ulp(0.0)
 
 
 def parse_number(text: str) -> float:
@@ -110,6 +112,7 @@ def format_number(value: float) -> str:
     return _odd_text(value) or _shortest_text(value, 15) or _plain(Decimal(f"{value:.15g}"))
 
 
+@lru_cache(maxsize=2**17)  # all numbers of a level at its limit of objects, which is written and then compared
 def format_exact(value: float) -> str:
     """The shortest decimal that ``parse_number`` reads as exactly this value; the nearest one where there is none.
 
@@ -133,20 +136,55 @@ def _shortest_text(value: float, digits: int) -> str:
     Looks at all texts: digit by digit, it keeps every sum that the digits behind can still make the value.
     """
     size = abs(value)
-    slack = size * 2.0**-46 + 1e-322  # more than all roundings of digits and sums together
+    unit = math.ulp(size)
     first = Decimal(size).adjusted() + 1
-    sums = {0.0: ""}
-    for power in range(first, max(first - digits, _LOWEST_POWER) - 1, -1):
-        worth = [_digit_value(digit, power) for digit in "0123456789"]
-        longer: dict[float, str] = {}
-        for total, text in sums.items():
-            for digit, more in enumerate(worth):
-                if -slack <= size - (total + more) <= worth[1] + slack:
-                    longer.setdefault(total + more, f"{text}{digit}")
-        sums = longer
-        if size in sums:
-            return "-" * (value < 0) + _plain(Decimal(f"{sums[size]}e{power}"))
-    return ""
+    # What is worth less than half a unit of the sum, which may lie just below a power of two, changes nothing.
+    last = max(first - digits, Decimal(unit).adjusted() - 1)
+    power, sums = _first_sums(size, first)
+    while size not in sums and power > last:
+        power -= 1
+        sums = _longer_sums(sums, size, power, (power - last + 1) * unit)
+    return "-" * (value < 0) + _plain(Decimal(f"{sums[size]}e{power}")) if size in sums else ""
+
+
+def _first_sums(size: float, first: int) -> tuple[int, dict[float, str]]:
+    """Sums and their digits down to a power of ten, which is given too: of all texts that may read as ``size``.
+
+    Where a unit of the sum is far below the 13th digit, these can only be the nearest 13 and those one less.
+    """
+    if not sys.float_info.min <= size < 1e308:
+        return min(first, sys.float_info.max_10_exp) + 1, {0.0: ""}
+    mantissa, exponent = f"{size:.12e}".split("e")
+    nearest = int(mantissa.replace(".", ""))
+    texts = [f"{digits:013}" for digits in (nearest - 1, nearest)]
+    sums = {_digit_sum(digits, int(exponent)): digits for digits in texts}
+    return int(exponent) - 12, sums
+
+
+def _longer_sums(sums: dict[float, str], size: float, power: int, roundings: float) -> dict[float, str]:
+    """Sums and their digits, each with one more digit, as far as the digits behind can make them ``size``.
+
+    ``roundings``: the most that these sums and those behind are rounded by.
+    """
+    worth = _digit_values(power)
+    one = worth[1]
+    slack = roundings + one * 2.0**-46 + 2 * _SMALLEST  # more than the roundings of the digits too
+    longer: dict[float, str] = {}
+    for total, text in sums.items():
+        rest = size - total
+        low, high = 0, 10
+        if one:
+            low = max(0, int(rest / one - slack / one - 0.01))
+            high = min(10, int(rest / one + slack / one + 0.01) + 1)
+        for digit in range(low, high):
+            if -slack <= size - (total + worth[digit]) <= one + slack:
+                longer.setdefault(total + worth[digit], f"{text}{digit}")
+    return longer
+
+
+@cache
+def _digit_values(power: int) -> tuple[float, ...]:
+    return tuple(_digit_value(digit, power) for digit in "0123456789")
 
 
 def _plain(number: Decimal) -> str:

@@ -12,6 +12,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from ninja_game.formats import numbers
 from ninja_game.formats.numbers import format_exact, format_number, parse_number
 from tests.support.strategies import decimal_texts
 
@@ -167,6 +168,31 @@ def readings_around(value: float) -> Iterator[float]:
 @given(st.floats(0.001, 1e6))
 @example(1.15)
 def test_exact_texts_read_as_the_same_value_where_any_text_does(value: float) -> None:
+    assert parse_number(format_exact(value)) == value or value not in readings_around(value)
+
+
+@pytest.mark.parametrize("exponent", [-300, -5, 2, 300])
+def test_writing_exactly_looks_at_few_sums(exponent: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = random.Random(exponent)
+    lengths = []
+
+    def counted(sums: dict[float, str], size: float, power: int, roundings: float) -> dict[float, str]:
+        lengths.append(len(sums))
+        return longer_sums(sums, size, power, roundings)
+
+    longer_sums = numbers._longer_sums
+    monkeypatch.setattr(numbers, "_longer_sums", counted)
+    for _ in range(1000):
+        value = parse_number(f"{rng.randrange(1, 10)}.{rng.randrange(10**24):024}e{exponent}")
+        assert parse_number(format_exact(value)) == value
+    assert sum(lengths) < 10_000
+    assert max(lengths) < 20
+
+
+@pytest.mark.parametrize(
+    "value", [5e-324, 2.2250738585072014e-308, 1e308, 1.7976931348623157e308, 1 + 2**-52, 10 - 2**-50]
+)
+def test_numbers_at_the_edges_of_floats_have_texts(value: float) -> None:
     assert parse_number(format_exact(value)) == value or value not in readings_around(value)
 
 
