@@ -239,7 +239,9 @@ def test_a_symmetric_stroke_is_drawn_in_all_its_images() -> None:
     assert [draft.tile(cell) for cell in ((3, 4), (29, 4), (3, 20), (29, 20))] == [2, 3, 5, 4]
     assert draft.tile((16, 12)) == 5
     assert [word(one, "direction") for one in draft.objects if one.kind != NINJA] == ["left", "right", "left", "right"]
-    assert sum(one.kind == NINJA for one in draft.objects) == 1
+    assert [one for one in draft.objects if one.kind == NINJA] == [record("ninja 2,2")]
+    way_out = record("exit 4,4 switch 6,6")
+    assert put(Draft(Level()), Stamp({}, (way_out,)), SYMMETRIES["both"]).objects == (way_out,)
 
 
 def test_the_ninja_comes_first_and_moves_when_it_is_put_again() -> None:
