@@ -9,7 +9,6 @@ later, with another piece, another resolution and more work; the more often it w
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -48,31 +47,19 @@ DOOR_WORTH = 0.5
 FAR = 20_000.0
 """Ticks that an unreachable piece counts in a tour."""
 FIELDS_KEPT = 400
-
-
-@dataclass(frozen=True)
-class Style:
-    """How broadly a route is searched: moments kept a front, ends wanted a leg, a factor of the weights.
-
-    ``noise``: by which part distances are changed at random, for other tours.
-    """
-
-    width: int = 12
-    ends: int = 24
-    weight: float = 1.0
-    noise: float = 0.0
+WIDTH = 12
+ENDS = 24
+"""Moments kept a front, and ends of a leg that are enough."""
 
 
 class Route:
-    """A search for runs with ``gold`` pieces (0: straight to the exit), shorter than ``bound`` ticks (0: any)."""
+    """A search for runs with ``gold`` pieces (0: straight to the exit)."""
 
-    def __init__(self, search: Search, *, gold: int, seed: int, style: Style = Style(), bound: int = 0) -> None:
+    def __init__(self, search: Search, *, gold: int, seed: int) -> None:
         self.search = search
         self.heuristics: Heuristics = search.heuristics
         self.gold = gold
         self.seed = seed
-        self.style = style
-        self.bound = bound
         self.steps = 0
         self.most = 0
         self.ever_taken = 0
@@ -95,7 +82,7 @@ class Route:
         self._add(self._first, [])
 
     def step(self, over: Callable[[int], bool]) -> bytes | None:
-        """Search one leg; a run to the exit with the gold, if it ends in one that is short enough.
+        """Search one leg; a run to the exit with the gold, if it ends in one.
 
         ``over``: called now and then with the ticks just simulated; true: stop.
         """
@@ -105,11 +92,10 @@ class Route:
         target = self._target(front)
         resolution, budget = LEGS[min(front.tries, len(LEGS) - 1)]
         budget *= 4 if target < 0 else 1
-        resolution = resolution._replace(weight=max(1.0, resolution.weight * self.style.weight))
         front.tries += 1
         self.steps += 1
         leg = self._leg(front, target)
-        self.search.begin_leg(leg, resolution, seed=self.seed * 10_000 + self.steps, bound=self.bound)
+        self.search.begin_leg(leg, resolution, seed=self.seed * 10_000 + self.steps, bound=0)
         before = self._most_now
         self._run(budget, over)
         self._stalled_ticks += self.search.ticks
@@ -118,7 +104,6 @@ class Route:
             best = self.search.best()
             if not best:
                 return None
-            self.bound = front.moments[best[0]].tick + len(best[1])
             return front.moments[best[0]].run() + best[1]
         ends = self.search.ends()
         if target >= 0 and not any(end.taken >> target & 1 for end in ends):
@@ -168,7 +153,7 @@ class Route:
             return Leg(roots, 0, front.mask, self.gold, 1, 0, self.heuristics.field)
         rollouts = ROLLOUTS if front.tries <= CAREFUL_TRIES else 0
         field = self.heuristics.field if target < 0 else partial(self._field, target)
-        return Leg(roots, front.count + 1, front.mask, NEVER, self.style.ends, rollouts, field)
+        return Leg(roots, front.count + 1, front.mask, NEVER, ENDS, rollouts, field)
 
     def _run(self, budget: int, over: Callable[[int], bool]) -> None:
         """Run the leg's search; from the first end or run to the exit on only as long again."""
@@ -190,7 +175,7 @@ class Route:
         self.ever_taken |= moment.taken
         self.most = max(self.most, front.count)
         self._most_now = max(self._most_now, self._promise(Front(*key))[0])
-        front.add(moment, self.style.width)
+        front.add(moment, WIDTH)
 
     def _target(self, front: Front) -> int:
         """The piece to fetch next from a front, -1: the exit."""
@@ -214,9 +199,7 @@ class Route:
         if mask not in self._distances:
             if len(self._distances) >= 16:
                 self._distances.clear()
-            fields = self.heuristics.gold_fields(mask, range(len(self._points)))
-            factors = 1.0 + self.style.noise * (np.random.default_rng([self.seed, 8]).random((len(fields), 1)) - 0.5)
-            self._distances[mask] = np.where(fields < UNREACHED, fields * factors, fields).astype(np.float32)
+            self._distances[mask] = self.heuristics.gold_fields(mask, range(len(self._points)))
         return self._distances[mask]
 
     def _field(self, target: int, mask: int, x: float, y: float) -> Field:

@@ -38,8 +38,8 @@ EXIT_FACTOR = 4
 WIDTH = 40
 ENDS = 80
 """Moments kept in a front, and ends of a leg."""
-BREADTH = 2
-"""Fronts that are searched on from at each level."""
+BREADTHS = (1, 2, 1, 2, 4)
+"""Fronts that are searched on from at each level, sweep by sweep."""
 FRONTS_KEPT = 6
 """Fronts kept at each level from sweep to sweep."""
 ROLLOUTS = 16
@@ -119,12 +119,13 @@ class Shortener:
         resolution = LEGS[self.sweeps % len(LEGS)]
         self.piece_ticks.change(self.random, NOISE * (self.sweeps % 3) / 2)
         first = 0 if self.sweeps % 3 == 0 else int(self.random.integers(max(self.levels)))
+        breadth = BREADTHS[self.sweeps % len(BREADTHS)]
         self.sweeps += 1
         level = first
         while level <= max(self.levels):
             fronts = sorted(self.levels.get(level, {}).values(), key=self._value)
             self.levels[level] = {(front.taken, front.mask): front for front in fronts[:FRONTS_KEPT]}
-            for front in fronts[:BREADTH]:
+            for front in fronts[:breadth]:
                 if self._value(front) > self.ticks * HOPE:
                     continue
                 found = self._leg(front, resolution, over)
