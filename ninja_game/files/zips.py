@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -11,6 +12,27 @@ from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
 
 _ENTRY = b"PK\1\2"
 _BLOCK = 2**20
+_MOST_OF_ENTRY = 512
+"""Bytes of the index for each file, on average: the library takes time by the square of what stands beside a name."""
+
+
+class _Index(io.RawIOBase):
+    """A file of which no more than the index of a zip is read at once; all that the library asks while it opens one."""
+
+    def __init__(self, file: IO[bytes], most: int) -> None:
+        self._file = file
+        self._most = max(most, 2**17)  # it looks for the end of the index in the last 64 KiB
+
+    def read(self, size: int = -1) -> bytes:
+        if size > self._most:
+            raise ValueError(f"an index of more than {self._most >> 10} KiB in a zip")
+        return self._file.read(size)
+
+    def seek(self, offset: int, whence: int = 0) -> int:
+        return self._file.seek(offset, whence)
+
+    def tell(self) -> int:
+        return self._file.tell()
 
 
 def open_zip(file: IO[bytes], *, most_files: int, most_bytes: int) -> ZipFile:
@@ -23,7 +45,8 @@ def open_zip(file: IO[bytes], *, most_files: int, most_bytes: int) -> ZipFile:
         raise ValueError(f"more than {most_files} files in a zip")
     file.seek(0)
     with _in_words():
-        archive = ZipFile(file)
+        archive = ZipFile(_Index(file, most_files * _MOST_OF_ENTRY))
+        archive.fp = file
     if sum(entry.file_size for entry in archive.infolist()) > most_bytes:
         raise ValueError(f"more than {most_bytes >> 20} MiB, unpacked")
     return archive

@@ -69,3 +69,13 @@ def test_only_common_ways_of_packing_are_unpacked() -> None:
     archive = open_zip(out, most_files=10, most_bytes=2**20)
     with pytest.raises(ValueError, match="packed in an unusual way"):
         unpacked(archive, archive.infolist()[0])
+
+
+def test_a_zip_whose_index_is_far_longer_than_its_names_is_refused_before_it_is_read() -> None:
+    extra = struct.pack("<HH", 7, 0) * 16_383
+    entry = (
+        struct.pack("<4s6B5H3L5H2L", b"PK\1\2", *[0] * 6, *[0] * 5, *[0] * 3, 1, len(extra), *[0] * 5) + b"a" + extra
+    )
+    end = struct.pack("<4s4H2LH", b"PK\5\6", 0, 0, 40, 40, 40 * len(entry), 0, 0)
+    with pytest.raises(ValueError, match="an index of more than 128 KiB"):
+        open_zip(io.BytesIO(40 * entry + end), most_files=64, most_bytes=2**20)
