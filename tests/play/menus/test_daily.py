@@ -20,7 +20,7 @@ from tests.support.menu_driver import MenuDriver
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
-from ninja_game.generator.generate import Budget
+from tests.support.golden_generated import SMALL
 
 MADE = daily.make_daily
 DAY = date(2026, 11, 23)
@@ -29,8 +29,7 @@ DAY = date(2026, 11, 23)
 @pytest.fixture
 def making(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> MenuDriver:
     """The program, with real levels of the day from a small budget."""
-    small = Budget(find=1_500_000, shorten=300_000, attempts=6, rounds=2, tries=64)
-    monkeypatch.setattr("ninja_game.generator.generate.DEFAULT", small)
+    monkeypatch.setattr("ninja_game.generator.generate.DEFAULT", SMALL)
     monkeypatch.setattr(daily, "make_daily", MADE)
     return driver
 
