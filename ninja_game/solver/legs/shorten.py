@@ -30,10 +30,10 @@ LEGS = (
     Resolution(cell=10.0, speed=0.7, macro=9, weight=1.0),
 )
 """How the legs of a sweep are searched, in turn."""
-LEG_TICKS = 400_000
+LEG_TICKS = 150_000
 LEG_EXTRA = 20_000
 """Most ticks of a leg, and how many it goes on at least after its first end."""
-EXIT_FACTOR = 4
+EXIT_FACTOR = 10
 """How many times more the last leg, to the exit, may take."""
 WIDTH = 40
 ENDS = 80
