@@ -12,8 +12,8 @@ from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
 
 _ENTRY = b"PK\1\2"
 _BLOCK = 2**20
-_MOST_OF_ENTRY = 512
-"""Bytes of the index for each file, on average: the library takes time by the square of what stands beside a name."""
+_MOST_OF_ENTRY, _MOST_OF_INDEX = 512, 2**23
+"""Bytes of the index: for each file, and in all. The library takes time by the square of what stands beside a name."""
 
 
 class _Index(io.RawIOBase):
@@ -45,7 +45,7 @@ def open_zip(file: IO[bytes], *, most_files: int, most_bytes: int) -> ZipFile:
         raise ValueError(f"more than {most_files} files in a zip")
     file.seek(0)
     with _in_words():
-        archive = ZipFile(_Index(file, most_files * _MOST_OF_ENTRY))
+        archive = ZipFile(_Index(file, min(most_files * _MOST_OF_ENTRY, _MOST_OF_INDEX)))
         archive.fp = file
     if sum(entry.file_size for entry in archive.infolist()) > most_bytes:
         raise ValueError(f"more than {most_bytes >> 20} MiB, unpacked")

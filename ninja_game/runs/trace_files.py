@@ -36,7 +36,7 @@ COLUMNS = (
 MOST_BYTES = 2**28
 """Of a CSV, or of all arrays in a .npz: a million ticks of the ninja are a seventh of it."""
 
-MOST_ARRAYS = 2**18
+MOST_ARRAYS = 2**16
 """In a .npz; a trace has nine."""
 
 _HEADER = re.compile(
