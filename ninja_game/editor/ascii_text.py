@@ -31,7 +31,8 @@ _RULER = re.compile(r";[\s\d]*")
 
 def ascii_text(draft: Draft) -> str:
     """A draft as a new text."""
-    return write_ascii_level(draft.level, name=draft.name, author=draft.author, comment=draft.comment)
+    name, author, comment, teaches = draft.about
+    return write_ascii_level(draft.level, name=name, author=author, comment=comment, teaches=teaches)
 
 
 def updated_text(text: str, opened: Draft, draft: Draft) -> str:
@@ -55,10 +56,10 @@ def reads_as(text: str, draft: Draft, *, named: bool = True) -> bool:
         read = parse_ascii_level(text)
     except LevelError:
         return False
-    about = (read.author, read.comment) == (draft.author, draft.comment) and (not named or read.name == draft.name)
+    given = (read.name if named else draft.name, read.author, read.comment, read.teaches)
     objects = read.level.objects
     return (
-        about
+        given == draft.about
         and read.level.tiles == draft.level.tiles
         and len(objects) == len(draft.objects)
         and all(map(same_record, objects, draft.objects))

@@ -22,6 +22,7 @@ class Draft:
     name: str = ""
     author: str = ""
     comment: str = ""
+    teaches: str = ""
 
     @property
     def objects(self) -> tuple[ObjectSpec, ...]:
@@ -29,9 +30,9 @@ class Draft:
         return self.level.objects
 
     @property
-    def about(self) -> tuple[str, str, str]:
-        """Name, author, comment."""
-        return self.name, self.author, self.comment
+    def about(self) -> tuple[str, str, str, str]:
+        """Name, author, comment, what it teaches."""
+        return self.name, self.author, self.comment, self.teaches
 
     def tile(self, cell: Cell) -> int:
         """The tile of a cell; a full one in the border."""
@@ -68,15 +69,15 @@ class Edit(NamedTuple):
     """What turns one draft into another, and back.
 
     ``tiles``: index, id before, id after. ``at``: where in the records ``removed`` gave way to ``added``. ``before``,
-    ``after``: name, author, comment.
+    ``after``: what the file says about the level.
     """
 
     tiles: tuple[tuple[int, int, int], ...]
     at: int
     removed: tuple[ObjectSpec, ...]
     added: tuple[ObjectSpec, ...]
-    before: tuple[str, str, str]
-    after: tuple[str, str, str]
+    before: tuple[str, str, str, str]
+    after: tuple[str, str, str, str]
 
     def inverse(self) -> Edit:
         """What takes this back, to the last bit."""

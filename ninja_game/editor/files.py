@@ -61,7 +61,7 @@ def open_source(path: Path, record: int = 0) -> Source:
 
 def draft_of(named: NamedLevel) -> Draft:
     """A level of any file as a draft."""
-    return Draft(named.level, named.name, named.author, named.comment)
+    return Draft(named.level, named.name, named.author, named.comment, named.teaches)
 
 
 def save(source: Source, draft: Draft, path: Path, *, replacing: bool = False) -> Source:

@@ -25,7 +25,7 @@ _TILE = re.compile(r"[0-Q]")
 
 @dataclass(frozen=True)
 class NamedLevel:
-    """A level with what its file says about it.
+    """A level with what its file says about it; only our readable files say what a level ``teaches``.
 
     ``form``: "ascii", "string", "file" or "replay", the format it was found in; ``record`` (from 0) and ``line`` (from
     1): where in ``file``.
@@ -39,6 +39,7 @@ class NamedLevel:
     record: int = 0
     line: int = 1
     form: str = "file"
+    teaches: str = ""
 
     @property
     def ascii(self) -> bool:
@@ -54,7 +55,8 @@ def parse_levels(text: str, *, file: str = "") -> list[NamedLevel]:
         return [NamedLevel(name, replay.level_author, "", level, file, form="replay")]
     if is_ascii_level(text):
         read = parse_ascii_level(text, file=file)
-        return [NamedLevel(read.name or Path(file).stem, read.author, read.comment, read.level, file, form="ascii")]
+        name = read.name or Path(file).stem
+        return [NamedLevel(name, read.author, read.comment, read.level, file, form="ascii", teaches=read.teaches)]
     if is_level_file(text):
         levels = [_named(record, file) for record in read_level_file(text, file=file) if record.level]
         if not levels:

@@ -67,6 +67,8 @@ def left_out(form: str, found: Sequence[NamedLevel | Recording], files: Iterable
         lost.append("the recordings (--to replay or --to file keeps them)")
     if form == "string" and any(named.author or named.comment for named in found):
         lost.append("names, authors and comments of levels")
+    if form != "ascii" and any(isinstance(named, NamedLevel) and named.teaches for named in found):
+        lost.append("what levels teach")
     if form == "replay" and any(recording.comment for recording in found):
         lost.append("comments of recordings")
     if any(map(_own_comments, filter(is_ascii_level, texts))):

@@ -294,4 +294,16 @@ def test_after_kill_9_at_most_two_seconds_are_lost(tmp_path: Path, root: Path) -
 
 def test_a_draft_says_what_its_file_said() -> None:
     named = load_levels(bundled_levels()[0])[0]
-    assert draft_of(named).about == (named.name, named.author, named.comment)
+    assert draft_of(named).about == (named.name, named.author, named.comment, named.teaches)
+
+
+def test_what_a_level_teaches_is_written_read_and_kept_beside_the_rest(tmp_path: Path) -> None:
+    source = open_source(hand_written(tmp_path))
+    path = hand_written(tmp_path)
+    saved = save(source, replace(source.draft, teaches="Jump off a slope: it throws you"), path)
+    assert path.read_text("utf-8") == HAND_WRITTEN.replace(
+        "name: Cave\n", "name: Cave\nteaches: Jump off a slope: it throws you\n"
+    )
+    assert open_source(path).draft == saved.draft
+    save(saved, replace(saved.draft, teaches="", comment="a line"), path)
+    assert open_source(path).draft == replace(source.draft, comment="a line")

@@ -87,7 +87,7 @@ def step(history: History, what: tuple[object, ...]) -> None:
             stamp = copied(draft, chosen_in(draft, area)).carried(Motion(dx=24.0 * dx))  # type: ignore[arg-type]
             history.change(pasted(draft, stamp)[0])
         case ("name", str(text)):
-            history.change(Draft(draft.level, text, draft.author, draft.comment))
+            history.change(Draft(draft.level, text, draft.author, draft.comment, text[:3]))
         case ("stroke", begin):
             (history.begin if begin else history.end)()
 

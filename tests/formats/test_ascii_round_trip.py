@@ -93,12 +93,12 @@ any_text = st.text(st.characters())
 """Halves of surrogate pairs too, which JSON can hold."""
 
 
-@given(any_text, any_text, any_text)
-@example("\ud800", '"\udfff"', "")
-def test_any_name_author_and_comment_come_back(name: str, author: str, comment: str) -> None:
-    text = write_ascii_level(Level(), name=name, author=author, comment=comment)
+@given(any_text, any_text, any_text, any_text)
+@example("\ud800", '"\udfff"', "", "\n")
+def test_whatever_a_header_says_comes_back(name: str, author: str, comment: str, teaches: str) -> None:
+    text = write_ascii_level(Level(), name=name, author=author, comment=comment, teaches=teaches)
     read = parse_ascii_level(text)
-    assert (read.name, read.author, read.comment) == (name, author, comment)
+    assert (read.name, read.author, read.comment, read.teaches) == (name, author, comment, teaches)
 
 
 def test_a_level_written_with_its_legend_reads_the_same() -> None:

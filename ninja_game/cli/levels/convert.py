@@ -131,8 +131,8 @@ def _ascii_text(level: NamedLevel, legend: bool) -> str:
     from ninja_game.formats.ascii.reader import write_ascii_level
 
     return write_ascii_level(
-        level.level, name=level.name, author=level.author, comment=level.comment, legend=legend
-    )  # fmt: skip
+        level.level, name=level.name, author=level.author, comment=level.comment, teaches=level.teaches, legend=legend
+    )
 
 
 def _strings_text(levels: Sequence[NamedLevel | Recording]) -> str:

@@ -20,12 +20,13 @@ __all__ = ["AsciiLevel", "is_ascii_level", "parse_ascii_level", "write_ascii_lev
 
 @dataclass(frozen=True)
 class AsciiLevel:
-    """A level as its file gives it: who made it, and what it is."""
+    """A level as its file gives it: who made it, what it is, and what it teaches."""
 
     name: str
     author: str
     comment: str
     level: Level
+    teaches: str = ""
 
 
 def is_ascii_level(text: str) -> bool:
@@ -56,7 +57,7 @@ def parse_ascii_level(text: str, *, file: str = "") -> AsciiLevel:
     assert picture is not None  # noqa: S101 - a broken picture has been raised as a problem
     level = merge_picture_and_list(picture, objects, tiles, problems)
     problems.raise_if_any()
-    return AsciiLevel(fields.get("name", ""), fields.get("author", ""), fields.get("comment", ""), level)
+    return AsciiLevel(**dict.fromkeys(HEADER_KEYS, "") | fields, level=level)
 
 
 def _check_first(lines: Sequence[Line], problems: Problems) -> None:

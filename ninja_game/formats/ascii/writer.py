@@ -22,7 +22,7 @@ from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 
 MAGIC = "ninja-game level"
 VERSION = 1
-HEADER_KEYS = ("name", "author", "comment")
+HEADER_KEYS = ("name", "author", "comment", "teaches")
 
 RULER = (
     ";    " + "".join(str(column // 10) if column > 9 else " " for column in range(1, COLUMNS + 1)) + "\n"
@@ -32,7 +32,7 @@ RULER = (
 
 
 def write_ascii_level(
-    level: Level, *, name: str = "", author: str = "", comment: str = "", legend: bool = False
+    level: Level, *, name: str = "", author: str = "", comment: str = "", teaches: str = "", legend: bool = False
 ) -> str:
     """A level in our ASCII format; reading it gives the same tiles, records, order and float64 values.
 
@@ -42,9 +42,9 @@ def write_ascii_level(
     parts = [visible_parts(record) for record in level.objects]
     drawn = drawn_only(level, parts)
     rows = picture_rows(level, parts)
-    fields = zip(HEADER_KEYS, (name, author, comment), strict=True)
+    fields = zip(HEADER_KEYS, (name, author, comment, teaches), strict=True)
     text = [f"{MAGIC} {VERSION}\n"]
-    text += [f"{key}: {header_text(value)}".rstrip() + "\n" for key, value in fields if value or key != "comment"]
+    text += [f"{key}: {header_text(value)}".rstrip() + "\n" for key, value in fields if value or key in HEADER_KEYS[:2]]
     text += ["\n", RULER]
     text += [f" {row:2d} {FRAME}{chars}{FRAME}\n" for row, chars in enumerate(rows, 1)]
     text.append(RULER)

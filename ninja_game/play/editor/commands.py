@@ -10,12 +10,14 @@ from typing import TYPE_CHECKING
 from ninja_game.editor.autosave import Recovered, recovered
 from ninja_game.editor.bench import TOOLS
 from ninja_game.editor.brush import SNAPS
+from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import SUFFIX, OccupiedError, Source, draft_of, new_source, open_source
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.records import points
 from ninja_game.editor.stamp import everything
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.shown_text import file_stem
+from ninja_game.formats.ascii.writer import HEADER_KEYS
 from ninja_game.play.editor.desk import Desk
 from ninja_game.play.editor.marks import finding_points
 from ninja_game.play.editor.panels import Form, HelpPage, LevelChoice, Menu
@@ -139,7 +141,7 @@ class EditorCommands:
             return
         rows = [
             ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
-            ("Open...", self.open, "Ctrl+O"), ("New", self.new, "Ctrl+N"), ("Name and author...", self.about, "F2"),
+            ("Open...", self.open, "Ctrl+O"), ("New", self.new, "Ctrl+N"), ("About the level...", self.about, "F2"),
             ("Copy as a string of N", session.copy_string, "To the clipboard"),
             ("Paste a string of N", session.paste_string, "From the clipboard; any format of levels"),
             ("Export a picture", session.export_picture, "A PNG file among your exports"),
@@ -184,18 +186,16 @@ class EditorCommands:
         self.app.push(Form(self.app, "Save as", fields, "Save", take))
 
     def about(self) -> None:
-        """Name, author, comment."""
-        draft = self.session.draft
-        prompts = ("Name", "Author", "Comment")
-        fields = [(prompt, text, 200) for prompt, text in zip(prompts, draft.about, strict=True)]
+        """Name, author, comment, what the level teaches."""
+        about = zip(HEADER_KEYS, self.session.draft.about, strict=True)
+        fields = [(key.capitalize(), text, 200) for key, text in about]
 
         def take(texts: list[str]) -> None:
-            name, author, comment = texts
             bench = self.session.bench
             bench.finish()
-            bench.history.change(replace(bench.draft, name=name, author=author, comment=comment))
+            bench.history.change(Draft(bench.draft.level, *texts))
 
-        self.app.push(Form(self.app, "About the level", fields, "Take over", take))
+        self.app.push(Form(self.app, "About the level", fields, "OK", take))
 
     def open(self) -> None:
         """Choose a level to edit."""

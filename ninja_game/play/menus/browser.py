@@ -189,7 +189,9 @@ class Browser(ThumbnailScreen):
         theme.text(surface, entry.title, SIDE, 320, size=17, bold=True, width=SIDE_WIDTH - 44)
         by = f"by {entry.named.author}" if entry.named.author else "author unknown"
         theme.text(surface, by, SIDE, 346, size=11, colour=palette.faint, width=SIDE_WIDTH)
-        theme.text(surface, entry.named.comment, SIDE, 364, size=11, width=SIDE_WIDTH)
+        teaches = entry.named.teaches and f"Teaches: {entry.named.teaches}"
+        for number, text in enumerate(filter(None, (entry.named.comment, teaches))):
+            theme.text(surface, text, SIDE, 364 + 13 * number, size=11, width=SIDE_WIDTH)
         best = self.bests.get(entry.digest)
         text = f"Your best: {seconds_text(best.score)} with {best.gold} gold" if best else "Not passed yet"
         theme.text(surface, text, SIDE, 390, size=12, colour=palette.good if best else palette.faint)
@@ -236,4 +238,4 @@ def _where(entry: Entry) -> str:
 
 
 def _words(entry: Entry) -> str:
-    return f"{entry.title} {entry.named.author} {entry.named.comment} {entry.episode} {entry.source}".casefold()
+    return f"{entry.title} {entry.named.author} {entry.named.comment} {entry.named.teaches} {entry.episode} {entry.source}".casefold()
