@@ -238,4 +238,6 @@ def _where(entry: Entry) -> str:
 
 
 def _words(entry: Entry) -> str:
-    return f"{entry.title} {entry.named.author} {entry.named.comment} {entry.named.teaches} {entry.episode} {entry.source}".casefold()
+    named = entry.named
+    words = entry.title, named.author, named.comment, named.teaches, entry.episode, entry.source
+    return " ".join(map(str, words)).casefold()
