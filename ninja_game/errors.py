@@ -17,6 +17,10 @@ class ArgumentError(NinjaGameError, ValueError):
     """An argument of the public API that is none of those it takes; says which are."""
 
 
+class MissingExtraError(NinjaGameError, ImportError):
+    """A part of the package needs a library that is not installed; says how to install it."""
+
+
 @dataclass(eq=False)
 class FormatError(NinjaGameError):
     """Text that cannot be read: where, what was found, what was expected, how to mend it.
