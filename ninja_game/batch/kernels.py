@@ -13,7 +13,7 @@ from ninja_game.sim.world import step
 @entry_point
 def run_worlds(
     levels: Sequence[TileMap],
-    level_of: Sequence[int],
+    level_of: Any,
     worlds: Sequence[World],
     inputs: Any,
     first: int,

@@ -6,9 +6,9 @@ what it did into it, so that observations look the same.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from operator import attrgetter
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,22 +18,32 @@ from ninja_game.batch.thread_pool import thread_pool
 from ninja_game.compile_cache import compiled
 from ninja_game.sim.kinds import KINDS
 from ninja_game.sim.level import Level
-from ninja_game.sim.loader import record_table
 from ninja_game.sim.memory.compiled import SLICE, load_worlds
 from ninja_game.sim.memory.declare import fields_of
 from ninja_game.sim.memory.layout import OBJECT, OBJECTS_START, STATE_START, Records, new_worlds, plain_copy
 from ninja_game.sim.memory.plain import WORLD_SCALARS, load_plain, restore_plain, save_plain
 from ninja_game.sim.memory.schema import Ninja, World
-from ninja_game.sim.world import step
 
 Numbers = NDArray[np.intp]
 """Numbers of worlds or levels."""
 
+R = TypeVar("R")
+Kernel: TypeAlias = Callable[..., R]
+
 
 class Worlds(Protocol):
-    """What a batch asks of a memory. ``records``: the worlds as an array of records, in one block."""
+    """What a batch asks of a memory.
+
+    ``records``: the worlds as an array of records, in one block. ``maps`` and ``worlds``: the levels, and the worlds,
+    as kernels take them: arrays of records, or lists of plain objects.
+    """
 
     records: Records
+    maps: Any
+    worlds: Any
+
+    def kernel(self, entry: Kernel[R]) -> Kernel[R]:
+        """The form of an entry point that takes ``maps`` and ``worlds``: its compiled twin, or itself."""
 
     def load(self, worlds: Numbers, levels: Numbers) -> None:
         """Start worlds afresh, each in the level of that number."""
@@ -68,12 +78,16 @@ class CompiledWorlds:
     """Worlds of the compiled memory. Every level is loaded once; a fresh world is a copy of bytes."""
 
     def __init__(self, levels: Sequence[Level], count: int, box: bool) -> None:
-        self._levels, self._fresh = load_worlds(compiled, levels, box=box)
+        self.maps, self._fresh = load_worlds(compiled, levels, box=box)
         slots = int(self._fresh["slots_used"].max())
-        self._block = block_of(count, slots)
-        self.records = self._block[:count]
-        self._bytes, self._fresh_bytes = bytes_of(self._block), bytes_of(self._fresh)
+        self.worlds = block_of(count, slots)
+        self.records = self.worlds[:count]
+        self._bytes, self._fresh_bytes = bytes_of(self.worlds), bytes_of(self._fresh)
         self._ticks_at_once = max(1, 8 * SLICE // (slots * count))
+
+    def kernel(self, entry: Kernel[R]) -> Kernel[R]:
+        """The compiled twin."""
+        return compiled(entry)
 
     def load(self, worlds: Numbers, levels: Numbers) -> None:
         """Start worlds afresh, each in the level of that number."""
@@ -87,7 +101,7 @@ class CompiledWorlds:
             rows = inputs[begin : begin + self._ticks_at_once]
 
             def work(first: int, last: int, rows: NDArray[np.uint8] = rows) -> int:
-                return kernel(self._levels, level_of, self._block, rows, first, last, int(stop))
+                return kernel(self.maps, level_of, self.worlds, rows, first, last, int(stop))
 
             ticks += thread_pool(threads).share(work, len(self.records), len(rows))
         return ticks
@@ -117,56 +131,59 @@ _KIND_VALUES = {number: attrgetter(*names) for number, names in _KIND_FIELDS.ite
 
 
 class PlainWorlds:
-    """Worlds of the plain memory, for where Numba is missing. ``records`` shows them as they are after each call."""
+    """Worlds of the plain memory, for where Numba is missing.
+
+    ``records`` shows them as they were after the last call; what a kernel does by itself is not shown.
+    """
 
     def __init__(self, levels: Sequence[Level], count: int, box: bool) -> None:
-        self._data = levels
+        self._levels = levels
         self._box = box
-        self._states = [load_plain(levels[0], box) for _ in range(count)]
+        fresh = [load_plain(level, box) for level in levels]
+        self.maps = [tiles for tiles, _ in fresh]
+        self._fresh = [save_plain(w) for _, w in fresh]
+        self.worlds = [load_plain(levels[0], box)[1] for _ in range(count)]
         self._playing = [0] * count
-        block = block_of(count, max(record_table(level).slots for level in levels))
+        block = block_of(count, max(w.slots_used for _, w in fresh))
         self.records = block[:count]
         self._shown = bytes_of(block)
 
+    def kernel(self, entry: Kernel[R]) -> Kernel[R]:
+        """The entry point itself."""
+        return entry
+
     def load(self, worlds: Numbers, levels: Numbers) -> None:
         """Start worlds afresh, each in the level of that number."""
-        for index, number in zip(worlds.tolist(), levels.tolist(), strict=True):
-            self._states[index] = load_plain(self._data[number], self._box)
-            self._playing[index] = number
-            self._shown[index] = 0
-            self._show(index)
+        self.restore(worlds, [self._fresh[number] for number in levels.tolist()], levels)
 
     def run(self, inputs: NDArray[np.uint8], level_of: Numbers, stop: bool, threads: int) -> int:  # noqa: ARG002
         """Run all worlds for all rows of ``inputs``, one after the other: the interpreter has one lock."""
-        ticks = 0
-        for index, (level, w) in enumerate(self._states):
-            for keys in inputs[:, index].tolist():
-                if stop and w.outcome:
-                    break
-                step(level, w, keys)
-                ticks += 1
+        ticks = run_worlds(self.maps, level_of, self.worlds, inputs, 0, len(self.worlds), int(stop))
+        for index in range(len(self.worlds)):
             self._show(index)
         return ticks
 
     def save(self, worlds: Numbers) -> list[Any]:
         """The states of worlds as tuples."""
-        return [save_plain(self._states[index][1]) for index in worlds.tolist()]
+        return [save_plain(self.worlds[index]) for index in worlds.tolist()]
 
     def restore(self, worlds: Numbers, states: Any, levels: Numbers) -> None:
         """Put worlds back to states that ``save`` gave for as many; a world of another level is made anew."""
         for index, state, number in zip(worlds.tolist(), states, levels.tolist(), strict=True):
             if self._playing[index] != number:
-                self.load(np.array([index]), np.array([number]))
-            restore_plain(self._states[index][1], state)
+                self.worlds[index] = load_plain(self._levels[number], self._box)[1]
+                self._playing[index] = number
+                self._shown[index] = 0
+            restore_plain(self.worlds[index], state)
             self._show(index)
 
     def world(self, index: int) -> World:
         """One world as plain objects: the world itself."""
-        return self._states[index][1]
+        return self.worlds[index]
 
     def _show(self, index: int) -> None:
         """Copy a world into its record."""
-        w = self._states[index][1]
+        w = self.worlds[index]
         record = self.records[index]
         for name, value in _SCALARS:
             record[name] = value(w)

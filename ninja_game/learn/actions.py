@@ -1,0 +1,58 @@
+"""Actions: which keys of the game are down during a step."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from gymnasium.error import InvalidAction
+from gymnasium.spaces import Discrete, MultiBinary, Space
+from numpy.typing import NDArray
+
+from ninja_game.errors import ArgumentError
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
+
+Keys = NDArray[np.uint8]
+
+ACTION_NAMES = ("left", "none", "right", "left+jump", "jump", "right+jump")
+"""The discrete actions, by number: 3 * jump + (0 left, 1 none, 2 right)."""
+
+DISCRETE_KEYS = np.array([jump + side for jump in (0, JUMP_HELD) for side in (KEY_LEFT, 0, KEY_RIGHT)], np.uint8)
+"""The keys of each."""
+BUTTON_KEYS = np.array([KEY_LEFT, KEY_RIGHT, JUMP_HELD], np.uint8)
+"""The key of each button: left, right, jump."""
+
+
+class Actions:
+    """One of the two action spaces. ``kind``: "discrete" (six numbers) or "buttons" (three keys, each up or down).
+
+    >>> actions = Actions("discrete")
+    >>> actions.space, actions.keys([0, 5], 2).tolist()
+    (Discrete(6), [1, 6])
+    >>> Actions("buttons").keys([[0, 1, 1]], 1).tolist()
+    [6]
+
+    Raises ArgumentError for another kind.
+    """
+
+    def __init__(self, kind: str) -> None:
+        if kind not in {"discrete", "buttons"}:
+            raise ArgumentError(f"actions are {kind!r}; expected 'discrete' or 'buttons'")
+        self.kind = kind
+        self.space: Space[Any] = Discrete(len(DISCRETE_KEYS)) if kind == "discrete" else MultiBinary(len(BUTTON_KEYS))
+        self._choices = len(DISCRETE_KEYS) if kind == "discrete" else 2
+        self._shape: tuple[int, ...] = self.space.shape or ()
+
+    def keys(self, actions: Any, count: int) -> Keys:
+        """The keys down in each of ``count`` worlds, uint8 (count,). Raises InvalidAction for what is no action."""
+        given = np.asarray(actions)
+        if given.shape != (count, *self._shape) or given.dtype.kind not in "iub":
+            found = f"{given.dtype} of shape {given.shape}"
+            raise InvalidAction(f"actions are {found}; expected whole numbers of shape {(count, *self._shape)}")
+        if not 0 <= given.min() <= given.max() < self._choices:
+            raise InvalidAction(f"actions are {given.min()} to {given.max()}; expected 0 to {self._choices - 1}")
+        if self.kind == "discrete":
+            keys: Keys = DISCRETE_KEYS[given]
+        else:
+            keys = given.astype(np.uint8) @ BUTTON_KEYS
+        return keys

@@ -1,0 +1,63 @@
+"""What environments call of a memory: the ticks of one action in some worlds, with what they earned."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ninja_game.sim.inputs import pressed
+from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
+from ninja_game.sim.world import step
+
+
+@entry_point
+def advance_worlds(
+    maps: Any,
+    level_of: Any,
+    worlds: Any,
+    which: Any,
+    first: int,
+    last: int,
+    keys: Any,
+    frame_skip: int,
+    time_limit: int,
+    weights: Any,
+    rewards: Any,
+    facts: Any,
+) -> int:
+    """Run worlds ``which[first:last]``, each with its ``keys`` for ``frame_skip`` ticks; the number of ticks run.
+
+    A world stops at its first exit contact or death, and at ``time_limit`` ticks. Jump is pressed, as at a keyboard,
+    where it is held and was not in the tick before. ``weights``: what an exit, a death, a piece of gold and a tick are
+    worth; ``rewards`` (worlds) receives the sum. ``facts`` (worlds x 5): outcome, ticks, gold, the events of all these
+    ticks as bits, and how the episode goes on: 0, 1 terminated, 2 truncated.
+    """
+    total = 0
+    for k in range(first, last):
+        index = which[k]
+        level = maps[level_of[index]]
+        w = worlds[index]
+        down = int(keys[index])
+        tick = w.tick
+        gold = w.gold
+        seen = 0
+        for _ in range(frame_skip):
+            step(level, w, pressed(down, w.ninja.jump_held))
+            for event in range(w.event_count):
+                seen |= 1 << w.events[event].kind
+            if w.outcome or w.tick >= time_limit:
+                break
+        ticks = w.tick - tick
+        reward = weights[2] * (w.gold - gold) + weights[3] * ticks
+        if w.outcome == OUTCOME_EXIT:
+            reward += weights[0]
+        elif w.outcome == OUTCOME_DEAD:
+            reward += weights[1]
+        rewards[index] = reward
+        facts[index, 0] = w.outcome
+        facts[index, 1] = w.tick
+        facts[index, 2] = w.gold
+        facts[index, 3] = seen
+        facts[index, 4] = 1 if w.outcome else 2 if w.tick >= time_limit else 0
+        total += ticks
+    return total

@@ -1,0 +1,94 @@
+"""Parts put together: one space, one memory that is written again and again, one call for some worlds.
+
+>>> from ninja_game.learn.observations.state_vector import StateVector
+>>> Observation(StateVector()).space.shape
+(30,)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+from gymnasium.spaces import Box, Dict, Space
+from numpy.typing import NDArray
+
+from ninja_game.errors import ArgumentError
+from ninja_game.learn.observations.part import Array, Part, Setting
+from ninja_game.learn.observations.state_vector import StateVector
+
+PARTS: dict[str, type[Part]] = {part.name: part for part in (StateVector,)}
+"""The parts, by name."""
+
+PartLike: TypeAlias = Part | str
+Observed: TypeAlias = Array | dict[str, Array]
+"""Observations of several worlds: (worlds, …), or such an array for each part."""
+
+
+def parts_of(observation: PartLike | Sequence[PartLike]) -> list[Part]:
+    """The parts that are meant: a part, the name of one, or several of those.
+
+    Raises ArgumentError for what is none, and for two of the same name.
+    """
+    given = [observation] if isinstance(observation, (str, Part)) else list(observation)
+    parts = []
+    for each in given:
+        part = PARTS[each]() if isinstance(each, str) and each in PARTS else each
+        if not isinstance(part, Part):
+            raise ArgumentError(f"a part of the observation is {each!r:.60}; expected a Part or one of {list(PARTS)}")
+        parts.append(part)
+    names = [part.name for part in parts]
+    if not parts or len(set(names)) < len(names):
+        raise ArgumentError(f"the parts of the observation are {names}; expected at least one, each once")
+    return parts
+
+
+class Observation:
+    """What is observed of a world.
+
+    One part alone gives its own Box, several give a Dict of theirs; with ``flat`` all of them give one float32 Box of
+    one dimension, part after part. Raises ArgumentError as ``parts_of`` does.
+    """
+
+    def __init__(self, observation: PartLike | Sequence[PartLike], *, flat: bool = False) -> None:
+        self.parts = parts_of(observation)
+        self.flat = flat
+        boxes: dict[str, Space[Any]] = {part.name: part.box for part in self.parts}
+        self.space: Space[Any] = Dict(boxes)
+        if flat:
+            low, high = ([getattr(box, end).ravel() for box in boxes.values()] for end in ("low", "high"))
+            self.space = Box(np.concatenate(low, dtype=np.float32), np.concatenate(high, dtype=np.float32))
+        elif len(boxes) == 1:
+            (self.space,) = boxes.values()
+
+    def memory(self, count: int) -> Observed:
+        """Zeroed memory for the observations of ``count`` worlds."""
+        if isinstance(self.space, Dict):
+            return {name: _zeros(box, count) for name, box in self.space.items()}
+        return _zeros(self.space, count)
+
+    def writers(self, memory: Observed, setting: Setting) -> list[Writer]:
+        """What writes the parts into ``memory``."""
+        writers, offset = [], 0
+        for part in self.parts:
+            array = memory[part.name] if isinstance(memory, dict) else memory
+            writers.append(Writer(part, array.reshape(len(array), -1), offset if self.flat else 0, setting))
+            offset += part.size
+        return writers
+
+
+class Writer:
+    """One part, ready to be written."""
+
+    def __init__(self, part: Part, out: Array, offset: int, setting: Setting) -> None:
+        self._kernel: Callable[..., None] = setting.kernel(part.kernel)
+        self._arguments = (out, offset, *part.tables(setting))
+
+    def __call__(self, maps: Any, level_of: NDArray[np.intp], worlds: Any, which: Array, first: int, last: int) -> None:
+        """Write the values of the worlds ``which[first:last]``."""
+        self._kernel(maps, level_of, worlds, which, first, last, *self._arguments)
+
+
+def _zeros(space: Space[Any], count: int) -> Array:
+    return np.zeros((count, *(space.shape or ())), space.dtype)

@@ -1,0 +1,91 @@
+"""What every part of an observation is: a name, a space, and a kernel that writes one world's values into a row."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+from gymnasium.spaces import Box
+from numpy.typing import NDArray
+
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import TileMap, World
+
+Array = NDArray[Any]
+
+
+class Setting(NamedTuple):
+    """What a part may know of the worlds when it makes its tables.
+
+    ``fresh``: of each level its map and a new world, as plain objects. ``time_limit``: ticks of an episode.
+    ``compiled``: whether kernels run compiled; ``kernel``: gives an entry point as these worlds run it.
+    """
+
+    fresh: Sequence[tuple[TileMap, World]]
+    time_limit: int
+    compiled: bool
+    kernel: Callable[[Callable[..., Any]], Callable[..., Any]]
+
+    def table(self, values: Any, dtype: Any) -> Any:
+        """A table for kernels: an array, or for the plain memory, which reads those slowly, a list."""
+        array = np.array(values, dtype)
+        return array if self.compiled else array.tolist()
+
+
+class Ragged:
+    """Rows of different length in one table: row i is ``values[starts[i]:starts[i + 1]]``."""
+
+    def __init__(self, rows: Sequence[Sequence[Any]]) -> None:
+        self.starts = np.cumsum([0, *(len(row) for row in rows)])
+        self.values = [value for row in rows for value in row]
+
+
+@dataclass(frozen=True)
+class Part(ABC):
+    """A part of an observation.
+
+    ``normalised``: numbers of about -1 to 1 (flags 0 or 1); else px, px/tick, ticks. Either way they lie in ``box``:
+    what is outside counts as its rim, NaN as 0.
+    """
+
+    name: ClassVar[str]
+    """Its key in a Dict of several parts."""
+
+    normalised: bool = True
+
+    @property
+    @abstractmethod
+    def box(self) -> Box:
+        """Shape, dtype and range of its values."""
+
+    @property
+    @abstractmethod
+    def kernel(self) -> Callable[..., None]:
+        """The entry point that writes it: ``kernel(maps, level_of, worlds, which, first, last, out, offset, *tables)``.
+
+        It writes the values of the worlds ``which[first:last]`` into their rows of ``out``, from column ``offset`` on.
+        """
+
+    @abstractmethod
+    def tables(self, setting: Setting) -> tuple[Any, ...]:
+        """The rest of the kernel's arguments: what never changes during an episode."""
+
+    @property
+    def size(self) -> int:
+        """How many values it has."""
+        return int(np.prod(self.box.shape))
+
+
+@fast
+def clamp(value: float, low: float, high: float) -> float:
+    """The value, or the end of the range that it lies beyond; 0 for NaN."""
+    if value < low:
+        return low
+    if value > high:
+        return high
+    if value != value:
+        return 0.0
+    return value

@@ -1,0 +1,151 @@
+"""Thousands of worlds as one vector environment of Gymnasium.
+
+>>> envs = NinjaVectorEnv(3, level="00-0-first-steps")
+>>> observations, infos = envs.reset(seed=7)
+>>> observations, rewards, terminations, truncations, infos = envs.step([2, 2, 5])
+>>> observations.shape, infos["ticks"].tolist()
+((3, 30), [4, 4, 4])
+>>> envs.close()
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from gymnasium.error import ClosedEnvironmentError, ResetNeeded
+from gymnasium.vector import AutoresetMode, VectorEnv
+from gymnasium.vector.utils import batch_space
+from numpy.typing import NDArray
+
+from ninja_game.errors import ArgumentError
+from ninja_game.learn.actions import Actions
+from ninja_game.learn.levels import DEFAULT_LEVEL, Origin
+from ninja_game.learn.observations.observation import Observed
+from ninja_game.learn.worlds import EnvWorlds
+
+Infos = dict[str, Any]
+
+
+class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
+    """``num_envs`` worlds that step together in compiled code.
+
+    ``level``, ``observation``, ``flat``, ``reward``, ``frame_skip``, ``time_limit``, ``body``, ``memory``, ``threads``:
+    as ``EnvWorlds`` takes them. ``actions``: "discrete" or "buttons". ``autoreset_mode``: "NextStep" (a world that has
+    ended begins a new episode in the next step, whose action it does not see), "SameStep" (it begins it at once; what
+    was is in ``infos["final_obs"]`` and ``["final_info"]``) or "Disabled" (you reset it, by ``options={"reset_mask":
+    …}``). ``copy``: whether observations are new arrays; else they are one memory that the next call writes anew.
+
+    ``reset(seed=s)`` gives world i the seed s + i, ``seed=[…]`` each its own. ``options``: ``"reset_mask"``, the worlds
+    to reset; ``"level"``, the name or number of the level to play, or one for each.
+
+    ``infos`` has (num_envs,) arrays: ``outcome`` (0 running, 1 exit, 2 dead), ``ticks`` and ``gold`` of the episode,
+    ``events`` of the step (bit k: event k of `sim/events.py`), ``level`` (a number, of ``worlds.source.names``).
+    """
+
+    def __init__(
+        self,
+        num_envs: int = 1,
+        level: Origin = DEFAULT_LEVEL,
+        *,
+        actions: str = "discrete",
+        autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
+        copy: bool = True,
+        **settings: Any,
+    ) -> None:
+        self.worlds = EnvWorlds(level, num_envs, **settings)
+        self.actions = Actions(actions)
+        self.num_envs = num_envs
+        self.copy = copy
+        self.autoreset_mode = AutoresetMode(autoreset_mode)
+        self.metadata = {"render_modes": [], "autoreset_mode": self.autoreset_mode}
+        self.single_action_space = self.actions.space
+        self.single_observation_space = self.worlds.observation.space
+        self.action_space = batch_space(self.single_action_space, num_envs)
+        self.observation_space = batch_space(self.single_observation_space, num_envs)
+        self._reset_before = False
+
+    def reset(
+        self, *, seed: int | Sequence[int] | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observed, Infos]:
+        """Begin new episodes. Raises ArgumentError for seeds, a mask or levels that do not fit the worlds."""
+        self._refuse_closed()
+        super().reset(seed=seed if isinstance(seed, int) else None)
+        options = options or {}
+        mask = options.get("reset_mask")
+        chosen = np.arange(self.num_envs) if mask is None else np.flatnonzero(self._checked_mask(mask))
+        if seed is None and not self._reset_before:
+            seed = self.np_random.integers(2**63, size=self.num_envs).tolist()
+        if seed is not None:
+            seeds = [seed + index for index in range(self.num_envs)] if isinstance(seed, int) else list(seed)
+            if len(seeds) != self.num_envs:
+                raise ArgumentError(f"{len(seeds)} seeds; expected {self.num_envs}, one for each world")
+            seed = [seeds[index] for index in chosen.tolist()]
+        self._reset_before = True
+        self.worlds.reset(chosen, seeds=seed, levels=options.get("level"))
+        reset = np.zeros(self.num_envs, np.bool_)
+        reset[chosen] = True
+        return self._shown(), self._infos(reset)
+
+    def _checked_mask(self, mask: Any) -> NDArray[np.bool_]:
+        if not isinstance(mask, np.ndarray) or mask.shape != (self.num_envs,) or mask.dtype != np.bool_:
+            raise ArgumentError(f"reset_mask is {mask!r:.60}; expected an array of {self.num_envs} truth values")
+        if not (self._reset_before or mask.all()):
+            raise ResetNeeded("the first reset is of all worlds; leave reset_mask out")
+        return mask
+
+    def step(self, actions: Any) -> tuple[Observed, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], Infos]:
+        """One step of every world.
+
+        Raises InvalidAction for what are no actions, ResetNeeded before the first reset and, without autoreset, for
+        worlds that have ended.
+        """
+        self._refuse_closed()
+        if not self._reset_before:
+            raise ResetNeeded("step before reset; call reset first")
+        keys = self.actions.keys(actions, self.num_envs)
+        worlds = self.worlds
+        ended = worlds.ended()
+        if ended.size and self.autoreset_mode is AutoresetMode.DISABLED:
+            raise ResetNeeded(f"worlds {ended.tolist()[:5]} … have ended; reset them with options={{'reset_mask': …}}")
+        worlds.step(keys, restart=ended)
+        rewards, terminated, truncated = worlds.rewards.copy(), worlds.terminated.copy(), worlds.truncated.copy()
+        final: Infos = {}
+        if self.autoreset_mode is AutoresetMode.SAME_STEP:
+            ended = worlds.ended()
+            if ended.size:
+                final = self._final(ended, terminated | truncated)
+                worlds.reset(ended)
+        return self._shown(), rewards, terminated, truncated, self._infos(np.ones(self.num_envs, np.bool_)) | final
+
+    def _final(self, ended: NDArray[np.intp], mask: NDArray[np.bool_]) -> Infos:
+        """What the worlds that have ended showed last."""
+        seen = self.worlds.observations
+        last = {name: part[ended] for name, part in seen.items()} if isinstance(seen, dict) else seen[ended]
+        final_obs = np.full(self.num_envs, None, dtype=object)
+        for row, index in enumerate(ended.tolist()):
+            final_obs[index] = {name: part[row] for name, part in last.items()} if isinstance(last, dict) else last[row]
+        return {"final_obs": final_obs, "_final_obs": mask, "final_info": self._infos(mask), "_final_info": mask.copy()}
+
+    def _shown(self) -> Observed:
+        seen = self.worlds.observations
+        if not self.copy:
+            return seen
+        return {name: part.copy() for name, part in seen.items()} if isinstance(seen, dict) else seen.copy()
+
+    def _infos(self, mask: NDArray[np.bool_]) -> Infos:
+        """Infos of the worlds in ``mask``, 0 for the others."""
+        worlds = self.worlds
+        values = {
+            "outcome": worlds.outcomes, "ticks": worlds.ticks, "gold": worlds.gold,
+            "events": worlds.events, "level": worlds.levels_now,
+        }  # fmt: skip
+        infos: Infos = {}
+        for name, value in values.items():
+            infos[name], infos[f"_{name}"] = np.where(mask, value, 0), mask.copy()
+        return infos
+
+    def _refuse_closed(self) -> None:
+        if self.closed:
+            raise ClosedEnvironmentError("this environment is closed; make a new one")

@@ -1,0 +1,233 @@
+"""Worlds as environments: n episodes side by side, for one world or thousands. Both faces for Gymnasium use this.
+
+>>> import numpy as np
+>>> from ninja_game import Input, parse_level
+>>> level = parse_level("0" * 713 + "|5^100,566!11^160,564,130,564")
+>>> worlds = EnvWorlds(level, 2)
+>>> for _ in range(6):
+...     ticks = worlds.step(np.array([Input.RIGHT, Input.LEFT], np.uint8))
+>>> worlds.ticks.tolist(), worlds.terminated.tolist(), worlds.rewards.tolist()
+([24, 24], [True, False], [1.0, 0.0])
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.batch.batch import Which, numbers_of
+from ninja_game.batch.thread_pool import cores, thread_pool
+from ninja_game.batch.worlds import CompiledWorlds, Numbers, PlainWorlds, Worlds
+from ninja_game.compile_cache import choose_memory
+from ninja_game.errors import ArgumentError
+from ninja_game.learn.actions import Keys
+from ninja_game.learn.draws import draws
+from ninja_game.learn.kernels import advance_worlds
+from ninja_game.learn.levels import Origin, level_source
+from ninja_game.learn.levels import Which as LevelWhich
+from ninja_game.learn.observations.observation import Observation, PartLike
+from ninja_game.learn.observations.part import Setting
+from ninja_game.learn.rewards import RewardTerm, reward_terms, weights_of
+from ninja_game.sim.digest import world_digest
+from ninja_game.sim.memory.plain import load_plain
+from ninja_game.sim.memory.schema import World
+from ninja_game.sim.rules import LIFETIME
+from ninja_game.sim.states import OUTCOME_EXIT
+from ninja_game.simulation import Body, is_box
+
+OUTCOME, TICKS, GOLD, EVENTS, ENDED = range(5)
+"""Columns of what the kernel tells of each world (``advance_worlds``)."""
+TERMINATED, TRUNCATED = 1, 2
+
+TOGETHER = 64
+"""Worlds that are run and then observed before the next ones: so many stay in the processor's cache."""
+
+
+@dataclass(frozen=True, eq=False)
+class EnvState:
+    """Saved worlds of an ``EnvWorlds``: only good for one with equal levels, body, memory and time limit."""
+
+    levels: Numbers
+    states: Any = field(repr=False)
+    facts: NDArray[np.int64] = field(repr=False)
+    owner: tuple[Any, ...] = field(repr=False)
+
+
+class EnvWorlds:
+    """``count`` worlds as episodes, one after the other.
+
+    ``level``: where the levels come from, as ``level_source`` takes it. Each world has a seed of its own; which level
+    its e-th episode plays depends on that seed and on e alone (and on what the source has learned, if it learns).
+    ``observation``, ``flat``: as ``Observation`` takes them. ``reward``: a term or several (`rewards.py`).
+    ``frame_skip``: ticks of a step. ``time_limit``: ticks after which an episode is truncated. ``body``, ``memory``,
+    ``threads``: as of a ``Batch``; neither memory nor threads change a result.
+
+    What it shows is written anew by each call; copy what you want to keep. (n: the number of worlds.)
+
+    ============  ====================  =======================================================================
+    observations  (n, …), or a dict     what the parts of the observation say
+    rewards       (n,) float64          what the last step earned
+    terminated    (n,) bool             whether the exit or death has been
+    truncated     (n,) bool             whether the time is over without either
+    outcomes      (n,) int64            0 running, 1 exit, 2 dead
+    ticks, gold   (n,) int64            ticks of the episode; pieces collected
+    events        (n,) int64            bit k: event k (`sim/events.py`) happened in the last step
+    levels_now    (n,) intp             which of ``levels`` each world plays
+    ============  ====================  =======================================================================
+
+    Raises what ``Batch`` raises, and ArgumentError for a frame skip or time limit below 1.
+    """
+
+    def __init__(
+        self,
+        level: Origin,
+        count: int,
+        *,
+        observation: PartLike | Sequence[PartLike] = "state",
+        flat: bool = False,
+        reward: RewardTerm | Sequence[RewardTerm] | None = None,
+        frame_skip: int = 4,
+        time_limit: int = LIFETIME,
+        body: Body = "circle",
+        memory: str = "auto",
+        threads: int | None = None,
+    ) -> None:
+        if min(count, frame_skip, time_limit) < 1:
+            found = f"{count} worlds, frame skip {frame_skip}, time limit {time_limit}"
+            raise ArgumentError(f"{found}; expected at least 1 of each")
+        self.source = level_source(level)
+        self.levels = self.source.levels
+        self.count, self.body, self.frame_skip, self.time_limit = count, body, frame_skip, time_limit
+        self.memory = choose_memory(memory)
+        self.threads = threads or cores()
+        make = CompiledWorlds if self.memory == "compiled" else PlainWorlds
+        self._worlds: Worlds = make(self.levels, count, is_box(body))
+        fresh = [load_plain(level, is_box(body)) for level in self.levels]
+        setting = Setting(fresh, time_limit, self.memory == "compiled", self._worlds.kernel)
+        self.observation = Observation(observation, flat=flat)
+        self.observations = self.observation.memory(count)
+        self._writers = self.observation.writers(self.observations, setting)
+        self._weights = setting.table(weights_of(reward_terms(reward)), np.float64)
+        self._advance = self._worlds.kernel(advance_worlds)
+        self._everyone: Numbers = np.arange(count, dtype=np.intp)
+        self.levels_now: Numbers = np.zeros(count, np.intp)
+        self._seeds, self._episodes = np.arange(count, dtype=np.uint64), np.zeros(count, np.uint64)
+        self.rewards = np.zeros(count)
+        self._facts = np.zeros((5, count), np.int64).T
+        self.outcomes, self.ticks, self.gold, self.events, _ = self._facts.T
+        self.terminated, self.truncated = np.zeros((2, count), np.bool_)
+        self.reset()
+
+    # --- time ---
+
+    def step(self, keys: Keys, restart: Numbers | None = None) -> int:
+        """One step of every world with its keys, uint8 (n,): sums of ``Input``; the number of ticks run.
+
+        ``restart``: worlds that do not step but begin a new episode instead, without a reward.
+        """
+        which = self._everyone
+        if restart is not None and restart.size:
+            steps = np.ones(self.count, np.bool_)
+            steps[restart] = False
+            which = np.flatnonzero(steps)
+            self._restart(restart)
+            self._observe(restart)
+
+        def work(first: int, last: int) -> int:
+            ticks = 0
+            for start in range(first, last, TOGETHER):
+                end = min(start + TOGETHER, last)
+                ticks += self._run(which, start, end, keys)
+                self._write(which, start, end)
+            return ticks
+
+        ticks = thread_pool(self.threads).share(work, len(which), self.frame_skip)
+        self._conclude()
+        ended = self.ended()
+        if ended.size:
+            self.source.report(self.levels_now[ended], self.outcomes[ended] == OUTCOME_EXIT)
+        return ticks
+
+    def _run(self, which: Numbers, first: int, last: int, keys: Keys) -> int:
+        worlds, facts = self._worlds, self._facts
+        return self._advance(
+            worlds.maps, self.levels_now, worlds.worlds, which, first, last,
+            keys, self.frame_skip, self.time_limit, self._weights, self.rewards, facts,
+        )  # fmt: skip
+
+    def _write(self, which: Numbers, first: int, last: int) -> int:
+        for write in self._writers:
+            write(self._worlds.maps, self.levels_now, self._worlds.worlds, which, first, last)
+        return 0
+
+    def _observe(self, which: Numbers) -> None:
+        thread_pool(self.threads).share(lambda first, last: self._write(which, first, last), len(which))
+
+    def _conclude(self) -> None:
+        np.equal(self._facts[:, ENDED], TERMINATED, out=self.terminated)
+        np.equal(self._facts[:, ENDED], TRUNCATED, out=self.truncated)
+
+    def ended(self) -> Numbers:
+        """The worlds whose episode is over."""
+        return np.flatnonzero(self._facts[:, ENDED])
+
+    # --- single worlds ---
+
+    def reset(
+        self, worlds: Which = None, *, seeds: Sequence[int] | None = None, levels: LevelWhich | None = None
+    ) -> None:
+        """Begin new episodes. ``seeds``: new seeds of these worlds; ``levels``: what they play, else it is drawn."""
+        numbers = numbers_of(worlds, self.count, "worlds")
+        if seeds is not None:
+            if len(seeds) != len(numbers):
+                raise ArgumentError(f"{len(seeds)} seeds for {len(numbers)} worlds; expected one for each")
+            self._seeds[numbers] = [seed % 2**64 for seed in seeds]
+            self._episodes[numbers] = 0
+        self._restart(numbers, levels)
+        self._observe(numbers)
+        self._conclude()
+
+    def _restart(self, numbers: Numbers, levels: LevelWhich | None = None) -> None:
+        drawn = self.source.choose(draws(self._seeds[numbers], self._episodes[numbers]))
+        self.levels_now[numbers] = drawn if levels is None else self.source.numbers(levels, len(numbers))
+        self._episodes[numbers] += np.uint64(1)
+        self._worlds.load(numbers, self.levels_now[numbers])
+        self._facts[numbers] = 0
+        self.rewards[numbers] = 0.0
+
+    def save(self, worlds: Which = None) -> EnvState:
+        """The states of worlds and of their episodes, to come back to."""
+        numbers = numbers_of(worlds, self.count, "worlds")
+        saved = self._worlds.save(numbers)
+        return EnvState(self.levels_now[numbers], saved, self._facts[numbers], self._owner())
+
+    def restore(self, state: EnvState, worlds: Which = None) -> None:
+        """Put saved states into worlds, the same or others, as many. Raises ArgumentError if they do not fit.
+
+        They show the observation of that moment, and no reward and no events.
+        """
+        numbers = numbers_of(worlds, self.count, "worlds")
+        if state.owner != self._owner() or len(state.levels) != len(numbers):
+            raise ArgumentError(f"{len(state.levels)} saved worlds do not fit {len(numbers)} of these")
+        self.levels_now[numbers] = state.levels
+        self._worlds.restore(numbers, state.states, state.levels)
+        self._facts[numbers] = state.facts
+        self._facts[numbers, EVENTS] = 0
+        self.rewards[numbers] = 0.0
+        self._observe(numbers)
+        self._conclude()
+
+    def world(self, index: int) -> World:
+        """One world as plain objects, for looking at it."""
+        return self._worlds.world(index)
+
+    def digest(self, index: int) -> str:
+        """Sha256 (hex) of one world in canonical form, as ``Simulation.digest``."""
+        return world_digest(self.world(index))
+
+    def _owner(self) -> tuple[Any, ...]:
+        return self.levels, self.body, self.memory, self.time_limit
