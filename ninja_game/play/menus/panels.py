@@ -49,8 +49,7 @@ class Panel(MenuScreen):
         if not self.redraw:
             return []
         canvas, theme, palette = self.app.canvas, self.app.theme, self.app.theme.palette
-        veil = pygame.Color(palette.tile)
-        veil.a = 130
+        veil = pygame.Color(palette.tile.r, palette.tile.g, palette.tile.b, 130)
         canvas.fill_rect(surface, veil, 0, 0, WIDTH, HEIGHT)
         x, y, w, h = self._box
         theme.window(surface, x, y, w, h)

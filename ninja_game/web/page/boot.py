@@ -1,0 +1,40 @@
+"""Starts the game in a page: ``import boot`` imports it, ``start`` builds it, ``turn`` makes each picture."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pygame.host import LINK  # type: ignore[import-not-found]
+
+from ninja_game.play.app import App, build_app
+from ninja_game.play.main import first_screen
+
+
+class _Game:
+    """``last``: the time of the last picture; ``due``: that of the next one, ms."""
+
+    app: App
+    last = due = 0.0
+
+
+def start(host: Any, level: str | None = None, replay: str | None = None) -> None:
+    """Open the game in the page of ``host`` (host.js): the main menu, or a file of levels or replays."""
+    LINK.page = host
+    first = first_screen(level, replay, body="circle", practice=False)
+    _Game.app = build_app()
+    _Game.app.push(first(_Game.app))
+    _Game.last = _Game.due = float(host.ticks())
+
+
+def turn(now: float) -> bool:
+    """One picture at a time in ms, if one is due; whether the game goes on."""
+    app = _Game.app
+    limit = app.settings.frame_limit
+    if limit:
+        if now < _Game.due - 2:
+            return True
+        _Game.due = max(_Game.due + 1000 / limit, now)
+    passed = int(now) - int(_Game.last)
+    _Game.last = now
+    app.frame(max(0, passed))
+    return app.running and bool(app.stack)

@@ -1,0 +1,118 @@
+// What the page does for shim/pygame: painting, sound, events, clipboard, full screen.
+import { Input } from "./input.js";
+import { Painter } from "./painter.js";
+import { Sounds } from "./sound.js";
+
+class Host {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.painter = new Painter(canvas);
+    this.sounds = new Sounds();
+    this.input = new Input(canvas, () => this.ratio, () => this.sounds.unlock());
+    this.rate = 60;
+    this.resize();
+  }
+
+  // To be called once Pyodide is loaded.
+  attach(pyodide) {
+    this.memory = pyodide._module;
+    this.files = pyodide.FS;
+    this.input.dropped = (name, bytes) => {
+      const path = `/tmp/${name.replaceAll("/", "_")}`;
+      this.files.writeFile(path, bytes);
+      return path;
+    };
+    this.input.listen();
+  }
+
+  // Read the canvas' size on the page.
+  resize() {
+    const box = this.canvas.getBoundingClientRect();
+    const size = [this.width, this.height];
+    this.ratio = window.devicePixelRatio || 1;
+    this.width = Math.max(1, Math.round(box.width * this.ratio));
+    this.height = Math.max(1, Math.round(box.height * this.ratio));
+    if (size[0] !== undefined && (size[0] !== this.width || size[1] !== this.height)) {
+      this.input.post("WINDOWSIZECHANGED", { x: this.width, y: this.height });
+    }
+  }
+
+  // Silence, and the focus lost; or both back.
+  pause(wanted) {
+    this.sounds.mute(wanted);
+    this.input.focus(!wanted);
+  }
+
+  key(code, down) {
+    this.input.key(code, down);
+  }
+
+  // --- called by shim/pygame ---
+
+  paint(address, count) {
+    this.painter.paint(new Float64Array(this.memory.HEAPF64.buffer, address, count));
+  }
+
+  events() {
+    return this.input.take();
+  }
+
+  ticks() {
+    return performance.now();
+  }
+
+  measure(text, size) {
+    const context = new OffscreenCanvas(1, 1).getContext("2d");
+    context.font = `${0.62 * size}px sans-serif`;
+    return Math.ceil(context.measureText(text).width);
+  }
+
+  letters(text) {
+    return this.painter.letters(text);
+  }
+
+  picture() {
+    return this.canvas.toDataURL("image/png").split(",")[1];
+  }
+
+  fullscreen(wanted) {
+    const done = wanted ? document.documentElement.requestFullscreen() : document.fullscreenElement && document.exitFullscreen();
+    if (done) done.catch(() => {});
+  }
+
+  typing(wanted) {
+    this.input.typing = wanted;
+  }
+
+  copy(text) {
+    navigator.clipboard.writeText(text).catch(() => {});
+  }
+
+  pasted() {
+    return this.input.clipboard;
+  }
+
+  sound(path) {
+    return this.sounds.add(this.files.readFile(path));
+  }
+
+  play(channel, sound, loops, fadeMs) {
+    this.sounds.play(channel, sound, loops, fadeMs);
+  }
+
+  stop(channel, fadeMs) {
+    this.sounds.stop(channel, fadeMs);
+  }
+
+  volume(channel, left, right) {
+    this.sounds.volume(channel, left, right);
+  }
+
+  busy(channel) {
+    return this.sounds.busy(channel);
+  }
+}
+
+export function createHost(canvas) {
+  return new Host(canvas);
+}

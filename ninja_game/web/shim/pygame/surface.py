@@ -1,0 +1,248 @@
+"""Surfaces: what is drawn on them becomes numbers in a display list, which JavaScript paints once a picture.
+
+A surface is *fresh* as long as only shapes were drawn on it: its numbers are its own. Blitted once, they are copied to
+where it is blitted; the second time it becomes a canvas of the page: from then on its numbers go to the common list.
+"""
+
+from __future__ import annotations
+
+from array import array
+from typing import Any
+
+from .color import packed
+from .rect import Rect, make
+
+SRCALPHA = 0x10000
+BLEND_RGBA_MULT, BLEND_PREMULTIPLIED = 8, 17
+
+(
+    TARGET, CANVAS, FREE, CLIP, IMAGE, STRETCH, FILL, SHIFT, UNSHIFT, POLYGON, DISC, RING, LINE, FRAME, TEXT,
+) = range(1, 16)  # fmt: skip
+"""Kinds of entries, each followed by its numbers (painter.js says which)."""
+
+LONGEST_COPY, LARGEST_COPY, ONE_SHAPE = 3000, 65536, 8
+"""Fresh surfaces of at most so many numbers and px, or of one simple shape, are copied to where they are blitted."""
+
+SCREEN = 1
+"""The number of the canvas that the player sees."""
+
+
+class DisplayList:
+    """``numbers``: what is to be painted next. ``target``: the number of the canvas on which the next entry paints."""
+
+    def __init__(self) -> None:
+        self.numbers = array("d")
+        self.target = 0
+        self.freed: list[int] = []
+        self.count = SCREEN
+
+    def canvas(self, width: int, height: int, *, opaque: bool) -> int:
+        """The number of a new canvas."""
+        number = self.freed.pop() if self.freed else self.count + 1
+        self.count = max(self.count, number)
+        self.numbers.extend((CANVAS, number, width, height, opaque))
+        self.target = number
+        return number
+
+    def free(self, number: int) -> None:
+        """Give a canvas back."""
+        self.numbers.extend((FREE, number))
+        self.freed.append(number)
+        if self.target == number:
+            self.target = 0
+
+    def clear(self) -> None:
+        """Start the next picture."""
+        del self.numbers[:]
+
+
+LIST = DisplayList()
+
+
+class Surface:
+    """A picture of ``size`` px, black, or transparent with the flag SRCALPHA.
+
+    ``opacity``: 0 to 1, of the whole picture. ``overdrawn``: whether a shape on it reaches beyond its edges.
+    """
+
+    def __init__(self, size: Any, flags: int = 0, depth: int = 0) -> None:
+        self.w, self.h = int(size[0]), int(size[1])
+        if self.w < 0 or self.h < 0:
+            raise ValueError("Invalid resolution for Surface")
+        self.alpha = bool(flags & SRCALPHA)
+        self._clip: tuple[int, int, int, int] = (0, 0, self.w, self.h)
+        self._painted_clip = self._clip
+        self._number = 0
+        self._own: array[float] | None = array("d")
+        self._blits = 0
+        self.opacity = 1.0
+        self.overdrawn = False
+        if not self.alpha:
+            self.settle()
+
+    def __del__(self) -> None:
+        if self._number:
+            LIST.free(self._number)
+
+    # --- the display list ---
+
+    def show(self, size: tuple[int, int]) -> None:
+        """Be the picture that the player sees."""
+        self.w, self.h = size
+        self.alpha, self.opacity, self._own, self._blits = False, 1.0, None, 0
+        self._clip = self._painted_clip = (0, 0, *size)
+        self._number = LIST.target = SCREEN
+        LIST.numbers.extend((CANVAS, SCREEN, *size, 1))
+
+    def forget(self) -> None:
+        """No longer be the picture that the player sees."""
+        self._number = 0
+
+    def settle(self) -> int:
+        """Become a canvas; its number."""
+        if self._own is not None:
+            own, self._own = self._own, None
+            self._number = LIST.canvas(self.w, self.h, opaque=not self.alpha)
+            LIST.numbers.extend(own)
+        return self._number
+
+    def entries(self) -> array[float]:
+        """Where the numbers of what is drawn on this surface go."""
+        if self._own is not None:
+            return self._own
+        numbers = LIST.numbers
+        if LIST.target != self._number:
+            LIST.target = self._number
+            numbers.extend((TARGET, self._number))
+        if self._clip != self._painted_clip:
+            self._painted_clip = self._clip
+            numbers.extend((CLIP, *self._clip))
+        return numbers
+
+    # --- what it is ---
+
+    def get_size(self) -> tuple[int, int]:
+        """Width and height, px."""
+        return self.w, self.h
+
+    def get_width(self) -> int:
+        """Width, px."""
+        return self.w
+
+    def get_height(self) -> int:
+        """Height, px."""
+        return self.h
+
+    size = property(get_size)
+    width = property(get_width)
+    height = property(get_height)
+
+    def get_rect(self, **place: Any) -> Rect:
+        """Its rectangle, at (0, 0) or where the keywords put it."""
+        rect = make(0, 0, self.w, self.h)
+        for name, value in place.items():
+            setattr(rect, name, value)
+        return rect
+
+    def set_clip(self, rect: Any) -> None:
+        """Draw only within a rectangle from now on; None: everywhere."""
+        whole = make(0, 0, self.w, self.h)
+        clip = whole if rect is None else Rect(rect).clip(whole)
+        self._clip = (clip.x, clip.y, clip.w, clip.h)
+        if self._own is not None and self._clip != self._painted_clip:
+            self.settle()
+
+    def get_clip(self) -> Rect:
+        """Where is drawn."""
+        return make(*self._clip)
+
+    def copy(self) -> Surface:
+        """Another surface with the same picture."""
+        twin = Surface((self.w, self.h), SRCALPHA * self.alpha)
+        if self._own is not None and twin._own is not None:
+            twin._own.extend(self._own)
+            twin.overdrawn = self.overdrawn
+        else:
+            twin.blit(self, (0, 0))
+        twin.opacity = self.opacity
+        return twin
+
+    # --- drawing ---
+
+    def fill(self, colour: Any, rect: Any = None, special_flags: int = 0) -> Rect:
+        """Put a colour in the place of what is there. With BLEND_RGBA_MULT: make the whole picture fainter."""
+        if special_flags == BLEND_RGBA_MULT:
+            self.opacity *= colour[3] / 255
+            return self.get_rect()
+        area = self.get_clip() if rect is None else Rect(rect).clip(self._clip)
+        if area.w:
+            if self._own is not None and rect is None:
+                del self._own[:]
+            number = packed(colour)
+            if number & 255 or self._own is None or len(self._own):
+                self.entries().extend((FILL, number, area.x, area.y, area.w, area.h))
+        return area
+
+    def blit(self, source: Surface, dest: Any, area: Any = None, special_flags: int = 0) -> Rect:
+        """Draw a picture, or an ``area`` of it, with its upper left corner at ``dest``; what was covered."""
+        dest_x, dest_y = dest.topleft if dest.__class__ is Rect else (int(dest[0]), int(dest[1]))
+        if area is None:
+            left, top, right, bottom = dest_x, dest_y, dest_x + source.w, dest_y + source.h
+        else:
+            ax, ay, aw, ah = Rect(area) if area.__class__ is not Rect else area
+            left, top = dest_x + max(0, -ax), dest_y + max(0, -ay)
+            right, bottom = dest_x + min(aw, source.w - ax), dest_y + min(ah, source.h - ay)
+            dest_x, dest_y = dest_x - ax, dest_y - ay
+        clip_x, clip_y, clip_w, clip_h = self._clip
+        whole = clip_x <= left and clip_y <= top and right <= clip_x + clip_w and bottom <= clip_y + clip_h
+        if not whole:
+            left, top = max(left, clip_x), max(top, clip_y)
+            right, bottom = min(right, clip_x + clip_w), min(bottom, clip_y + clip_h)
+        w, h = right - left, bottom - top
+        if w <= 0 or h <= 0:
+            return make(int(dest[0]), int(dest[1]), 0, 0)
+        self._draw(source, (left - dest_x, top - dest_y, w, h, left, top), copied=whole and area is None)
+        return make(left, top, w, h)
+
+    def _draw(self, source: Surface, numbers: tuple[int, ...], *, copied: bool) -> None:
+        """Put a picture on the list. ``copied``: as a whole, so that the numbers of a fresh one may be copied."""
+        own = source._own
+        if own is not None:
+            source._blits += 1
+            small = len(own) <= ONE_SHAPE or (len(own) <= LONGEST_COPY and source.w * source.h <= LARGEST_COPY)
+            if copied and small and not source.overdrawn and source._blits == 1 and source.opacity == 1.0:
+                entries = self.entries()
+                entries.extend((SHIFT, 1, *numbers[4:6]))
+                entries.extend(own)
+                entries.append(UNSHIFT)
+                return
+            source.settle()
+        self.settle()
+        self.entries().extend((IMAGE, source._number, *numbers, source.opacity))
+
+    def scaled(self, size: Any) -> Surface:
+        """The picture in another size. A fresh one stays sharp: its shapes are drawn in that size."""
+        small = Surface(size, SRCALPHA * self.alpha)
+        if self._own is not None and small._own is not None and self.opacity == 1.0:
+            small._own.extend((SHIFT, small.w / self.w, 0, 0))
+            small._own.extend(self._own)
+            small._own.append(UNSHIFT)
+            small.overdrawn = self.overdrawn
+        else:
+            number = self.settle()
+            small.settle()
+            small.entries().extend((STRETCH, number, self.w, self.h, small.w, small.h, self.opacity))
+        return small
+
+    def subsurface(self, rect: Any) -> Surface:
+        """A copy of a part."""
+        area = Rect(rect)
+        part = Surface(area.size, SRCALPHA * self.alpha)
+        part.blit(self, (0, 0), area)
+        return part
+
+    def convert(self) -> Surface:
+        """Itself: all surfaces have the format of the page."""
+        return self
+
+    convert_alpha = convert
