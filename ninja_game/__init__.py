@@ -28,7 +28,8 @@ if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
     from ninja_game.formats.recording import Recording
     from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
-    from ninja_game.runs.run import RunResult, RunTrace, record_replay, run_level, trace_level
+    from ninja_game.runs.run import RunResult, record_replay, run_level
+    from ninja_game.runs.run_trace import RunTrace, trace_level
     from ninja_game.runs.verify import Verdict, verify_recording
     from ninja_game.sim.inputs import Demo, Input
     from ninja_game.sim.level import Level, ObjectSpec
@@ -48,7 +49,7 @@ _HOMES = {
     "Recording": ("ninja_game.formats.recording", "Recording"),
     "Replay": ("ninja_game.formats.replay.text", "Replay"),
     "RunResult": ("ninja_game.runs.run", "RunResult"),
-    "RunTrace": ("ninja_game.runs.run", "RunTrace"),
+    "RunTrace": ("ninja_game.runs.run_trace", "RunTrace"),
     "SaveState": ("ninja_game.simulation", "SaveState"),
     "Simulation": ("ninja_game.simulation", "Simulation"),
     "Verdict": ("ninja_game.runs.verify", "Verdict"),
@@ -60,7 +61,7 @@ _HOMES = {
     "parse_replay": ("ninja_game.formats.replay.text", "parse_replay"),
     "record_replay": ("ninja_game.runs.run", "record_replay"),
     "run_level": ("ninja_game.runs.run", "run_level"),
-    "trace_level": ("ninja_game.runs.run", "trace_level"),
+    "trace_level": ("ninja_game.runs.run_trace", "trace_level"),
     "verify_recording": ("ninja_game.runs.verify", "verify_recording"),
     "write_demo": ("ninja_game.formats.n14.demo", "write_demo"),
     "write_replay": ("ninja_game.formats.replay.text", "write_replay"),

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.recording_reader import named_errors
-from ninja_game.runs.run import NINJA_RECORD, OBJECT_RECORD, RunTrace, run_level, trace_level
+from ninja_game.runs.run import run_level
+from ninja_game.runs.run_trace import NINJA_RECORD, OBJECT_RECORD, RunTrace, trace_level
 
 Records: TypeAlias = NDArray[np.void]
 """An array of NINJA_RECORD or OBJECT_RECORD."""

@@ -23,7 +23,7 @@ from numpy.typing import DTypeLike, NDArray
 from ninja_game.errors import FileError, FormatError
 from ninja_game.files.reading import open_regular
 from ninja_game.files.zips import open_zip, unpacked
-from ninja_game.runs.run import NINJA_RECORD, OBJECT_RECORD, RunTrace
+from ninja_game.runs.run_trace import NINJA_RECORD, OBJECT_RECORD, RunTrace
 from ninja_game.runs.trace import NINJA_NAME, rows
 from ninja_game.sim.inputs import MAX_TICKS, Input
 

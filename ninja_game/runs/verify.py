@@ -10,15 +10,15 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ninja_game.compile_cache import open_memory
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import RULES_VERSION, Replay
 from ninja_game.runs.recording_reader import named_errors
-from ninja_game.runs.run import RunResult, run_level, trace_level
+from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import press_jumps
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
-from ninja_game.sim.states import STATE_NAMES
-from ninja_game.simulation import Simulation
+from ninja_game.simulation import Simulation, is_box
 
 STRICT = {
     "outcome": "exit",
@@ -157,10 +157,10 @@ def _in_time(recording: Recording, run: RunResult, memory: str) -> bool:
     if run.ticks <= LIFETIME:
         return True
     inputs = recording.playback(run.ticks)
-    trace = trace_level(recording.level, inputs, body=recording.body, memory=memory, with_objects=False)
+    record = open_memory(memory, recording.level, box=is_box(recording.body)).trace(inputs, [], events=False)
     # After each tick but that of the end one tick of lifetime is gone; none may be the last.
     lived = run.ticks - (run.outcome != "running")
-    gold = trace.ninja["gold"][:lived].tolist()
+    gold = map(int, record.numbers[1 : 2 * lived : 2])
     return all(LIFETIME + GOLD_BONUS * got > tick for tick, got in enumerate(gold, 1))
 
 
@@ -189,8 +189,7 @@ def _missed_waypoint(replay: Replay, run: RunResult) -> Iterator[str]:
     for waypoint in replay.waypoints:
         if waypoint.tick >= run.ticks:
             return
-        x, y = run.positions[waypoint.tick].tolist()
-        here = waypoint._replace(x=x, y=y, state=STATE_NAMES[run.states[waypoint.tick]])
+        here = run.waypoint(waypoint.tick)
         for field, found, claimed in zip(waypoint._fields, here, waypoint, strict=True):
             if found != claimed:
                 yield f"tick {waypoint.tick}: ninja: {field} is {found}, the replay says {claimed} (agrees {passed})"

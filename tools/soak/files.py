@@ -33,7 +33,7 @@ from ninja_game.player.player_data import PlayerData
 from ninja_game.player.records import SavedReplay
 from ninja_game.player.settings import Settings
 from ninja_game.player.settings_file import read_settings, write_changes
-from ninja_game.runs.run import RunTrace, trace_level
+from ninja_game.runs.run_trace import RunTrace, trace_level
 from ninja_game.runs.trace import first_difference, rows, trace_digests
 from ninja_game.runs.trace_files import FiledTrace, read_traces, write_csv, write_npz
 from ninja_game.verification.checkpoint_log import CheckpointLog

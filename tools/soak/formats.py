@@ -28,7 +28,7 @@ from ninja_game.formats.recording import parse_replays, record_of
 from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
 from ninja_game.levels.warnings import level_warnings
 from ninja_game.runs.recording_reader import recordings_of, records_of
-from ninja_game.runs.run import trace_level
+from ninja_game.runs.run_trace import trace_level
 from ninja_game.runs.trace_files import FiledTrace, read_csv, write_csv
 from tools import ROOT
 from tools.soak.odd_texts import Trial, odd

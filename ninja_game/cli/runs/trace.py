@@ -18,7 +18,7 @@ from ninja_game.cli.run_options import jobs_option, level_given, level_option, m
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
-    from ninja_game.runs.run import RunTrace
+    from ninja_game.runs.run_trace import RunTrace
     from ninja_game.runs.trace_files import FiledTrace
     from ninja_game.verification.archive_tracing import Traced
 
