@@ -37,6 +37,8 @@ GROUPS = {
     "runs": {
         "verify": "Run recordings again and judge them.",
         "trace": "Show every tick of recordings: position, velocity, state, events.",
+        "splits": "Show when runs take gold, open doors and the exit, and end.",
+        "compare": "Compare two runs of a level: where they part, and how far one is ahead.",
         "bench": "Measure how fast the world is on this machine.",
         "solve": "Find a run to the exit, then shorten it.",
         "improve": "Shorten a run that exists.",
@@ -50,7 +52,7 @@ MODULES = {
     name: ".".join(filter(None, ("ninja_game.cli", folder, name))) for folder, group in GROUPS.items() for name in group
 }
 
-COMPILING = ("verify", "trace", "bench", "solve", "improve", "check", "levels", "generate")
+COMPILING = ("verify", "trace", "splits", "compare", "bench", "solve", "improve", "check", "levels", "generate")
 """Those that may have to compile the rules first."""
 
 BAD_INPUT = 2

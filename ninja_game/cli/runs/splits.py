@@ -1,0 +1,232 @@
+"""`ninja-game splits`: when runs take gold, touch switches and doors, and end; side by side."""
+
+from __future__ import annotations
+
+import csv
+import json
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ninja_game.cli.main import complain
+from ninja_game.cli.run_options import level_given, level_option, with_progress
+from ninja_game.files.shown_text import shown_text
+from ninja_game.sim.rules import TICKS_PER_SECOND
+
+if TYPE_CHECKING:
+    from ninja_game.formats.recording import Recording
+    from ninja_game.runs.splits import RunSplits, SplitRow
+
+WIDTH = 160
+"""Of a table in a pipe, letters."""
+
+COLUMNS = (
+    "level_digest",
+    "file",
+    "record",
+    "name",
+    "event",
+    "object",
+    "number",
+    "x",
+    "y",
+    "tick",
+    "behind",
+    "best_segment",
+)
+
+format_option = click.option(
+    "--format", "form", type=click.Choice(["text", "json", "csv"]), default="text", show_default=True,
+    help="What is written.",
+)  # fmt: skip
+
+picture_option = click.option(
+    "--picture", metavar="OUT.png", type=click.Path(dir_okay=False, path_type=Path),
+    help="Draw the paths over the level, and the speeds, into this file.",
+)  # fmt: skip
+
+
+@click.command()
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
+@click.option(
+    "--against", metavar="BEST", type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="The run that the others are measured against. [default: the fastest to the exit]",
+)  # fmt: skip
+@click.option("--gold/--no-gold", default=True, help="A split for each piece of gold, or for none.")
+@level_option
+@format_option
+@picture_option
+@click.pass_context
+def command(
+    ctx: click.Context, files: Sequence[Path], against: Path | None, gold: bool, level_path: Path | None, form: str,
+    picture: Path | None,
+) -> None:  # fmt: skip
+    """Show when runs take gold, open doors and the exit, and end.
+
+    FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Each level has a
+    table: a row a split, the tick of the best run, and how many ticks later (+) or earlier (-) each other run is
+    there. The column "segment" has the fewest ticks from the row above that any of the runs needs; their sum is the
+    "sum of best". Ticks count from 0; 40 are a second.
+
+    Exit code 0: all is well; 2: something cannot be read.
+
+    \b
+    Examples:
+      ninja-game splits first.replay.txt second.replay.txt
+      ninja-game splits my-runs/ --against best.replay.txt --no-gold
+      ninja-game splits demos.txt --format csv > splits.csv
+    """
+    from ninja_game.runs.splits import SPLIT_EVENTS, run_splits
+
+    level, events = level_given(level_path), [name for name in SPLIT_EVENTS if gold or name != "gold-taken"]
+    found, unreadable = readable(files, level)
+    best = readable([against], level)[0][:1] if against else []
+    runs = [run_splits(each, events) for each in with_progress(found, "run")]
+    bests = [run_splits(each, events) for each in best]
+    groups = {run.level_digest: [other for other in runs if other.level_digest == run.level_digest] for run in runs}
+    if not groups:
+        raise click.UsageError(f"{', '.join(map(str, files))}: no recordings here")
+    if bests and bests[0].level_digest not in groups:
+        raise click.UsageError(f"{against} is a run of another level")
+    tables = [_table(group, bests) for group in groups.values()]
+    if form == "json":
+        click.echo(json.dumps([_as_json(*table) for table in tables]))
+    elif form == "csv":
+        _write_csv(tables)
+    else:
+        _show(tables)
+    if picture:
+        draw(picture, [each.recording for each in tables[0][0]], [*files, *filter(None, [level_path, against])])
+    ctx.exit(2 if unreadable else 0)
+
+
+def readable(files: Iterable[Path], level: Any) -> tuple[list[Recording], int]:
+    """The recordings of files, and how many of them cannot be read; those are told on stderr."""
+    from ninja_game.runs.recording_reader import Unreadable, recordings_in
+
+    found, unreadable = [], 0
+    for each in recordings_in(files, level):
+        if isinstance(each, Unreadable):
+            unreadable += 1
+            complain(each.message)
+        else:
+            found.append(each)
+    return found, unreadable
+
+
+Table = tuple["list[RunSplits]", "list[SplitRow]"]
+"""The runs of a level, the best first, and the rows of their splits."""
+
+
+def _table(group: Sequence[RunSplits], given: Sequence[RunSplits]) -> Table:
+    from ninja_game.runs.splits import best_run, split_table
+
+    best = next((run for run in given if run.level_digest == group[0].level_digest), None) or best_run(group)
+    runs = [best, *(run for run in group if run is not best)]
+    return runs, split_table(runs, best)
+
+
+def titles(recordings: Sequence[Recording]) -> list[str]:
+    """What tells recordings apart: their names, or file and record where there is no name or two are the same."""
+    names = [shown_text(each.name) for each in recordings]
+    return [
+        name if name and names.count(name) == 1 else f"{Path(each.file).name.removesuffix('.replay.txt')}:{each.record}"
+        for name, each in zip(names, recordings, strict=True)
+    ]
+
+
+def _show(tables: Sequence[Table]) -> None:
+    """The tables for people."""
+    from rich.console import Console
+    from rich.table import Table as RichTable
+
+    from ninja_game.runs.splits import sum_of_best
+
+    console = Console(highlight=False, markup=False, width=None if sys.stdout.isatty() else WIDTH)
+    for runs, rows in tables:
+        best, (name, *others) = runs[0], titles([run.recording for run in runs])
+        console.print(f"{name}: {best.outcome} after {best.ticks} ticks, {best.gold} gold")
+        table = RichTable(box=None, pad_edge=False, header_style="bold")
+        table.add_column("split")
+        for name in ("x", "y", "tick", "segment", *others):
+            table.add_column(name, justify="right")
+        for row in rows:
+            first = row.ticks[0]
+            cells = [_behind(tick, first) for tick in row.ticks[1:]]
+            place = f"{row.split.x:.0f}", f"{row.split.y:.0f}"
+            table.add_row(str(row.split), *place, _number(first), _number(row.best_segment), *cells)
+        console.print(table)
+        last = sum_of_best(rows)
+        console.print(f"sum of best: tick {last}, {(last + 1) / TICKS_PER_SECOND:.3f} s\n")
+
+
+def _number(count: int | None) -> str:
+    return "" if count is None else str(count)
+
+
+def _behind(tick: int | None, best: int | None) -> str:
+    """A run's tick beside the best one's: the difference; the tick itself where only this run gets there."""
+    if tick is None:
+        return "-"
+    return f"{tick - best:+d}" if best is not None else str(tick)
+
+
+def _as_json(runs: Sequence[RunSplits], rows: Sequence[SplitRow]) -> dict[str, Any]:
+    """A table for programs."""
+    from ninja_game.runs.splits import sum_of_best
+
+    return {
+        "level_digest": runs[0].level_digest,
+        "runs": [
+            {"file": run.recording.file, "record": run.recording.record, "name": run.recording.name,
+             "outcome": run.outcome, "ticks": run.ticks, "gold": run.gold}
+            for run in runs
+        ],
+        "splits": [
+            {"event": row.split.event, "object": row.split.object_id, "number": row.split.number, "x": row.split.x,
+             "y": row.split.y, "ticks": row.ticks, "best_segment": row.best_segment}
+            for row in rows
+        ],
+        "sum_of_best_tick": sum_of_best(rows),
+    }  # fmt: skip
+
+
+def _write_csv(tables: Sequence[Table]) -> None:
+    """All tables as one, a line for each split of each run."""
+    writer = csv.writer(sys.stdout, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    for runs, rows in tables:
+        for row in rows:
+            for run, tick in zip(runs, row.ticks, strict=True):
+                if tick is not None:
+                    made, split = run.recording, row.split
+                    behind = "" if row.ticks[0] is None else tick - row.ticks[0]
+                    who = run.level_digest, made.file, made.record, made.name
+                    where = split.event, split.object_id, split.number, split.x, split.y
+                    writer.writerow([*who, *where, tick, behind, row.best_segment])
+
+
+def draw(picture: Path, recordings: Sequence[Recording], keep: Sequence[Path]) -> None:
+    """Write the picture of runs of one level. Raises ArgumentError where it would replace one of ``keep``, OSError."""
+    import io
+    import os
+
+    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    import pygame
+
+    from ninja_game.files.writing import write_atomically
+    from ninja_game.play.replay.paths import paths_picture
+    from ninja_game.play.ui.palette import PALETTES
+    from ninja_game.runs.run import run_level
+
+    runs = [run_level(each.level, each.playback(each.ticks), body=each.body).positions for each in recordings]
+    paths = list(zip(titles(recordings), runs, strict=True))
+    surface = paths_picture(recordings[0].level, paths, PALETTES["classic"], 1584)
+    data = io.BytesIO()
+    pygame.image.save(surface, data, "x.png")
+    write_atomically(picture, data.getvalue(), keep=keep)
+    click.echo(f"{picture}: {len(paths)} run{'s' * (len(paths) != 1)}", err=True)

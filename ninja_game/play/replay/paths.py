@@ -1,0 +1,77 @@
+"""A picture of runs: their paths over the level, and below it the ninja's speed over time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pygame
+from numpy.typing import NDArray
+
+from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
+from ninja_game.play.ui.palette import Palette
+from ninja_game.play.ui.theme import Theme
+from ninja_game.play.view.sprites.thumbnail import thumbnail
+from ninja_game.sim.level import Level
+from ninja_game.sim.rules import TICKS_PER_SECOND
+
+Path = tuple[str, NDArray[np.float64]]
+"""A run's name and its positions, float64 (ticks, 2), px."""
+
+COLOURS = tuple(map(pygame.Color, ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")))
+"""Of the paths in turn; people who see few colours can tell them apart."""
+
+PLOT_HEIGHT = 150
+"""Of the speeds, logical px."""
+
+_LEFT, _TOP, _BOTTOM = 40.0, 26.0, 22.0
+"""Margins of the plot, logical px."""
+
+
+def paths_picture(level: Level, paths: Sequence[Path], palette: Palette, width: int) -> pygame.Surface:
+    """The level with the paths, and the speeds (px/tick over seconds) below; ``width``: px of the picture."""
+    above = thumbnail(level, palette, width)
+    theme = Theme(palette, Canvas((width, round(width * HEIGHT / WIDTH))))
+    for number, (_, positions) in enumerate(paths):
+        draw_path(above, theme.canvas, positions, COLOURS[number % len(COLOURS)])
+    picture = pygame.Surface((width, above.get_height() + theme.canvas.px(PLOT_HEIGHT)))
+    picture.fill(palette.background)
+    picture.blit(above, (0, 0))
+    below = picture.subsurface((0, above.get_height(), width, theme.canvas.px(PLOT_HEIGHT)))
+    _draw_speeds(below, theme, paths)
+    return picture
+
+
+def draw_path(surface: pygame.Surface, canvas: Canvas, positions: NDArray[np.float64], colour: pygame.Color) -> None:
+    """A path as a line over a picture of its level."""
+    if len(positions) > 1:
+        points = [canvas.exact(x, y) for x, y in positions.tolist()]
+        pygame.draw.lines(surface, colour, False, points, max(1, canvas.px(1.5)))
+
+
+def _draw_speeds(surface: pygame.Surface, theme: Theme, paths: Sequence[Path]) -> None:
+    """The plot, with its axes and the names of the runs."""
+    canvas, faint = theme.canvas, theme.palette.faint
+    speeds = [np.hypot(*np.diff(positions, axis=0).T) for _, positions in paths]
+    seconds = max(1.0, *(len(positions) / TICKS_PER_SECOND for _, positions in paths))
+    fastest = max(1.0, *(float(speed.max(initial=0)) for speed in speeds))
+    floor, right = PLOT_HEIGHT - _BOTTOM, WIDTH - 14.0
+
+    def at(second: float, speed: float) -> tuple[float, float]:
+        x = _LEFT + (right - _LEFT) * second / seconds
+        return canvas.exact(x, floor - (floor - _TOP) * speed / fastest)
+
+    for speed in (0.0, fastest / 2, fastest):
+        pygame.draw.line(surface, faint, at(0, speed), at(seconds, speed))
+        theme.text(surface, f"{speed:.1f}", _LEFT - 5, at(0, speed)[1] / canvas.scale - 5, align="right", colour=faint)
+    step = max(1, round(seconds / 10))
+    for second in range(0, int(seconds) + 1, step):
+        theme.text(surface, f"{second} s", at(second, 0)[0] / canvas.scale, floor + 6, align="centre", colour=faint)
+    theme.text(surface, "px/tick", 6, 5, colour=faint)
+    x = _LEFT + 20
+    for number, (name, _) in enumerate(paths):
+        colour = COLOURS[number % len(COLOURS)]
+        points = [at((tick + 1) / TICKS_PER_SECOND, speed) for tick, speed in enumerate(speeds[number].tolist())]
+        if len(points) > 1:
+            pygame.draw.lines(surface, colour, False, points, max(1, canvas.px(1)))
+        x = theme.text(surface, name, x, 5, colour=colour, bold=True, width=150).right / canvas.scale + 16

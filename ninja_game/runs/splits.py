@@ -1,0 +1,139 @@
+"""Splits: the ticks at which a run takes gold, touches switches and doors, and ends; several runs side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import NamedTuple
+
+from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.formats.recording import Recording
+from ninja_game.runs.recording_reader import named_errors
+from ninja_game.simulation import Simulation
+
+SPLIT_EVENTS = ("gold-taken", "exit-opened", "lock-opened", "trap-closed", "door-opened", "won", "died")
+"""The events that are splits (`ninja_game/sim/events.py`)."""
+
+Key = tuple[str, int | None, int]
+"""What makes splits of two runs the same: event, id of the object, and the how manieth of these, from 0."""
+
+
+class Split(NamedTuple):
+    """Something that a run reaches: tick, event, id of its object (None: the ninja's own), place in px.
+
+    ``number``: how often the same has happened before in this run; automatic doors open again and again.
+    """
+
+    tick: int
+    event: str
+    object_id: int | None
+    number: int
+    x: float
+    y: float
+
+    @property
+    def key(self) -> Key:
+        """What it has in common with the same split of another run."""
+        return self.event, self.object_id, self.number
+
+    def __str__(self) -> str:
+        again = f", time {self.number + 1}" if self.number else ""
+        return self.event if self.object_id is None else f"{self.event} {self.object_id}{again}"
+
+
+@dataclass(frozen=True)
+class RunSplits:
+    """The splits of a run in order, until its end as ``verify`` has it; ``ticks``: ticks run."""
+
+    recording: Recording = field(repr=False)
+    outcome: str
+    ticks: int
+    gold: int
+    splits: tuple[Split, ...]
+
+    @property
+    def level_digest(self) -> str:
+        """The digest of the level: only runs of one level have a table together."""
+        return level_digest(self.recording.level)
+
+    @property
+    def by_key(self) -> dict[Key, Split]:
+        """The splits by what they have in common with those of other runs."""
+        return {split.key: split for split in self.splits}
+
+
+def run_splits(recording: Recording, events: Sequence[str] = SPLIT_EVENTS) -> RunSplits:
+    """Run a recording on the plain memory and note its splits, of these events only.
+
+    Raises LevelError naming file and record for a level that cannot be played.
+    """
+    with named_errors(recording):
+        run = Simulation(recording.level, body=recording.body)
+    splits: list[Split] = []
+    counts: dict[tuple[str, int | None], int] = {}
+    for keys in recording.playback(recording.ticks):
+        run.step_keys(keys)
+        for event in run.events:
+            if event.name in events:
+                number = counts.get((event.name, event.object_id), 0)
+                counts[event.name, event.object_id] = number + 1
+                # Who killed is told by traces; runs that die share the split.
+                id_ = None if event.name == "died" else event.object_id
+                splits.append(Split(run.tick - 1, event.name, id_, number, event.x, event.y))
+        if run.outcome != "running":
+            break
+    return RunSplits(recording, run.outcome, run.tick, run.gold, tuple(splits))
+
+
+class SplitRow(NamedTuple):
+    """A row of a table: a split, its tick in each run (None: not reached), and the shortest way to it in ticks.
+
+    ``best_segment``: the fewest ticks that any run needs from the split of the row before; None where no run goes
+    from that one to this one.
+    """
+
+    split: Split
+    ticks: tuple[int | None, ...]
+    best_segment: int | None
+
+
+def best_run(runs: Sequence[RunSplits]) -> RunSplits:
+    """The run that the others are measured against: the shortest of those that reach the exit, else the longest."""
+    passed = [run for run in runs if run.outcome == "exit"]
+    return min(passed, key=lambda run: run.ticks) if passed else max(runs, key=lambda run: run.ticks)
+
+
+def split_table(runs: Sequence[RunSplits], best: RunSplits) -> list[SplitRow]:
+    """A row for each split of ``best``, in its order; then for those that only other runs reach, by their tick."""
+    others = {split.key: split for run in runs for split in sorted(run.splits, reverse=True)}
+    known = best.by_key
+    order = [*best.splits, *sorted(split for key, split in others.items() if key not in known)]
+    indexed = [run.by_key for run in runs]
+    segments = _shortest_segments([best, *runs])
+    before: Key | None = None
+    rows = []
+    for split in order:
+        ticks = tuple(splits[split.key].tick if split.key in splits else None for splits in indexed)
+        rows.append(SplitRow(split, ticks, segments.get((before, split.key)) if split.key in known else None))
+        before = split.key
+    return rows
+
+
+def sum_of_best(rows: Sequence[SplitRow]) -> int:
+    """The tick at which a run would end that goes every segment as fast as the fastest of them.
+
+    A lower bound for nobody: the speed with which a run leaves a segment is part of the next one.
+    """
+    return sum(row.best_segment for row in rows if row.best_segment is not None) - 1
+
+
+def _shortest_segments(runs: Sequence[RunSplits]) -> dict[tuple[Key | None, Key], int]:
+    """The fewest ticks between each two splits that follow one another in some run; None is the start."""
+    shortest: dict[tuple[Key | None, Key], int] = {}
+    for run in runs:
+        points = [(None, -1), *((split.key, split.tick) for split in run.splits)]
+        for (before, start), (key, end) in pairwise(points):
+            assert key is not None  # noqa: S101 - only the start has none
+            shortest[before, key] = min(end - start, shortest.get((before, key), end - start))
+    return shortest
