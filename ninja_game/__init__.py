@@ -8,6 +8,7 @@ The public API, each name imported when it is first used:
 - many worlds: ``Batch``, ``BatchState``
 - recordings: ``load_replays(path)``, ``Recording``, ``verify_recording``, ``Verdict``; our replays: ``Replay``,
   ``record_replay``, ``parse_replay``, ``write_replay``; the demos of N: ``Demo``, ``parse_demo``, ``write_demo``
+- learning: ``gymnasium.make("ninja_game:Ninja-v0")``, ``ninja_game.learn``; docs/learning.md describes it
 - errors: everything raised on purpose is a ``NinjaGameError``
 
 docs/python-api.md describes them all.
@@ -18,6 +19,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from ninja_game.environments import register_with_gymnasium
 from ninja_game.errors import ArgumentError, DemoError, FormatError, LevelError, NinjaGameError, ReplayError
 
 if TYPE_CHECKING:
@@ -113,3 +115,6 @@ def __getattr__(name: str) -> Any:
     value = getattr(import_module(module), attribute)
     globals()[name] = value
     return value
+
+
+register_with_gymnasium()

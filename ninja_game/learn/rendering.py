@@ -1,0 +1,124 @@
+"""The game's own picture of an episode: as an array, in a window, or as text."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.levels.picture import level_picture
+from ninja_game.sim.kinds import BOUNCE_BLOCK, DRONE, EXIT, FLOOR_GUARD, GOLD, MINE, NINJA, THWUMP
+from ninja_game.sim.level import Level, ObjectSpec, makes_object
+from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.simulation import Body, Simulation
+
+if TYPE_CHECKING:
+    from ninja_game.play.window import Window
+
+_MOVING = {BOUNCE_BLOCK, FLOOR_GUARD, DRONE, THWUMP}
+_GONE_WHEN_0 = {GOLD, MINE}
+_NOWHERE = (0.0, 0.0)
+
+
+class EpisodePicture:
+    """Follows an episode by its inputs in a world of its own, and draws it as the game does.
+
+    ``size``: px, width and height. ``window``: show every tick in a window, at the game's speed.
+
+    Raises NinjaGameError for a window where there is no display.
+    """
+
+    def __init__(self, level: Level, body: Body, size: tuple[int, int], *, window: bool = False) -> None:
+        import pygame
+
+        from ninja_game.play.ui.canvas import Canvas
+        from ninja_game.play.view.render_context import OffscreenContext
+
+        self._pygame = pygame
+        self._canvas = Canvas
+        self._window: Window | None = None
+        if window:
+            from ninja_game.play.window import Window
+
+            self._window = Window(size, fullscreen=False)
+        self._clock = pygame.time.Clock()
+        self._context = OffscreenContext(size)
+        self._surface = pygame.Surface(size)
+        self.begin(level, body)
+
+    def begin(self, level: Level, body: Body) -> None:
+        """Show the start of a level."""
+        from ninja_game.play.view.level_view import LevelView
+
+        self._simulation = Simulation(level, body=body)
+        self._view = LevelView(self._context, self._simulation, audible=False)
+        self._show()
+
+    def follow(self, inputs: bytes, shown: int) -> None:
+        """Go on to the moment after these inputs, a byte a tick from the start of the level.
+
+        ``shown``: how many of the last ticks a window shows.
+        """
+        played = self._simulation.inputs
+        if not inputs.startswith(played):
+            self._simulation.reset()
+            self._view.on_seek()
+            played = b""
+        for tick in range(len(played), len(inputs)):
+            self._simulation.step_keys(inputs[tick])
+            self._view.on_tick()
+            if tick >= len(inputs) - shown:
+                self._show()
+
+    def _show(self) -> None:
+        """Show the present tick in the window, and wait until it is over; a window that is closed stays away."""
+        if self._window is None:
+            return
+        pygame = self._pygame
+        self._view.draw(self._window.surface)
+        pygame.display.flip()
+        for event in pygame.event.get():
+            if event.type == pygame.QUIT:
+                self.close()
+            elif event.type == pygame.VIDEORESIZE:
+                self._context.canvas = self._canvas(event.size)
+        self._clock.tick(TICKS_PER_SECOND)
+
+    def rgb(self) -> NDArray[np.uint8]:
+        """The picture, (height, width, 3): a new array."""
+        self._view.draw(self._surface)
+        return self._pygame.surfarray.array3d(self._surface).swapaxes(0, 1).copy()
+
+    def close(self) -> None:
+        """Close the window."""
+        if self._window is not None:
+            self._window = None
+            self._pygame.display.quit()
+
+
+def episode_text(level: Level, body: Body, inputs: bytes) -> str:
+    """The moment after these inputs as text: the level by quarter blocks and the legend's characters, then a line.
+
+    Gold that was taken and mines that exploded are gone, what moves is where it is now; of an open exit the switch is
+    gone.
+    """
+    run = Simulation(level, body=body)
+    for keys in inputs:
+        run.step_keys(keys)
+    seen = {each.id: (each.x, each.y, each.status) for each in run.objects}
+    objects, ninja = [], []
+    for number, record in enumerate(filter(makes_object, level.objects)):
+        x, y, status = seen.get(number, (*record.values[:2], 1))
+        values = record.values
+        if record.kind == NINJA:
+            ninja.append(ObjectSpec(NINJA, (run.ninja.x, run.ninja.y)))
+        elif record.kind in _MOVING:
+            objects.append(ObjectSpec(record.kind, (x, y, *values[2:])))
+        elif record.kind == EXIT and status:
+            objects.append(ObjectSpec(EXIT, (*values[:2], *_NOWHERE)))
+        elif status or record.kind not in _GONE_WHEN_0:
+            objects.append(record)
+    # A later record covers an earlier one.
+    picture = level_picture(Level(level.tiles, tuple(objects + ninja))).plain
+    return f"{picture}\ntick {run.tick}, {run.outcome}, {run.gold} gold"

@@ -1,0 +1,216 @@
+"""One world as a Gymnasium environment.
+
+>>> import gymnasium
+>>> env = gymnasium.make("ninja_game:Ninja-v0", level="00-0-first-steps")
+>>> observation, info = env.reset(seed=0)
+>>> observation, reward, terminated, truncated, info = env.step(5)
+>>> env.action_space, observation.shape, reward, info["outcome"], info["ticks"]
+(Discrete(6), (30,), 0.0, 'running', 4)
+>>> env.close()
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import gymnasium
+import numpy as np
+from gymnasium.error import ClosedEnvironmentError, ResetNeeded, UnsupportedMode
+
+from ninja_game.errors import ArgumentError
+from ninja_game.learn.actions import Actions
+from ninja_game.learn.levels import DEFAULT_LEVEL, Origin
+from ninja_game.learn.rendering import EpisodePicture, episode_text
+from ninja_game.learn.worlds import EnvState, EnvWorlds
+from ninja_game.sim.events import EVENT_NAMES
+from ninja_game.sim.inputs import JUMP_HELD, pressed
+from ninja_game.sim.level import Level
+from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.sim.states import OUTCOME_NAMES
+
+
+@dataclass(frozen=True, eq=False)
+class SavedEpisode:
+    """A moment of an episode, from ``NinjaEnv.save``: only good for environments of equal levels and settings."""
+
+    state: EnvState = field(repr=False)
+    inputs: bytes = field(repr=False)
+    running: bool
+
+
+class NinjaEnv(gymnasium.Env[Any, Any]):
+    """One world, an episode from its start to the exit or death (terminated), or to the time limit (truncated).
+
+    ``level``, ``observation``, ``flat``, ``reward``, ``frame_skip`` (ticks of a step), ``time_limit`` (ticks),
+    ``body``, ``memory``: as ``EnvWorlds`` takes them. ``actions``: "discrete" or "buttons" (``Actions``).
+    ``render_mode``: "human" (a window that shows every tick at the game's speed), "rgb_array" or "ansi" (text);
+    ``render_size``: px, width and height.
+
+    ``info``: ``outcome`` ("running", "exit", "dead"), ``ticks`` and ``gold`` of the episode, ``events`` (the names of
+    what happened in the last step, of ``EVENT_NAMES``), ``level`` (its name).
+
+    Raises ArgumentError for wrong arguments, LevelError for a level that cannot be played, UnsupportedMode for another
+    render mode. ``step`` and ``render`` raise ResetNeeded before the first reset, ``step`` also after the episode's
+    end; ``step`` raises InvalidAction; all raise ClosedEnvironmentError after ``close``.
+    """
+
+    metadata: dict[str, Any] = {"render_modes": ["human", "rgb_array", "ansi"], "render_fps": 10}  # noqa: RUF012
+
+    def __init__(
+        self,
+        level: Origin = DEFAULT_LEVEL,
+        *,
+        actions: str = "discrete",
+        render_mode: str | None = None,
+        render_size: tuple[int, int] = (528, 400),
+        **settings: Any,
+    ) -> None:
+        if render_mode not in {None, *self.metadata["render_modes"]}:
+            raise UnsupportedMode(f"render_mode is {render_mode!r}; expected one of {self.metadata['render_modes']}")
+        self.render_mode = render_mode
+        self._size = render_size
+        self._settings = settings
+        self._actions = Actions(actions)
+        self.action_space = self._actions.space
+        self.worlds = EnvWorlds(level, 1, threads=1, **settings)
+        self.observation_space = self.worlds.observation.space
+        # Recorders of films ask the environment itself how fast its steps are.
+        self.metadata = {**self.metadata, "render_fps": TICKS_PER_SECOND / self.worlds.frame_skip}
+        self._picture: EpisodePicture | None = None
+        self._inputs = bytearray()
+        self._started = self._running = self._closed = False
+        self._seed = 0
+
+    # --- episodes ---
+
+    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
+        """Begin an episode; its observation and info.
+
+        ``seed``: begin the sequence of levels of that seed. ``options``: ``{"level": …}``, this episode's level by its
+        name or number; or other levels, as ``level_source`` takes them, for this and all later episodes. Raises
+        ArgumentError for other options.
+        """
+        self._check_open()
+        super().reset(seed=seed)
+        new_seed = seed is not None or not self._started
+        if new_seed:
+            self._seed = int(self.np_random.integers(2**63)) if seed is None else seed
+        options = options or {}
+        if options.keys() - {"level"}:
+            raise ArgumentError(f"options are {sorted(options)}; expected 'level' or none")
+        level = options.get("level")
+        if level is not None and not isinstance(level, int | np.integer) and level not in self.worlds.source.names:
+            self.worlds = EnvWorlds(level, 1, threads=1, **self._settings)
+            level, new_seed = None, True
+        self.worlds.reset(seeds=[self._seed] if new_seed else None, levels=level)
+        self._inputs.clear()
+        self._started = self._running = True
+        if self._picture is not None:
+            self._picture.begin(self.level, self.worlds.body)
+        self._show(0)
+        return self._observation(), self._info()
+
+    def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+        """Hold the keys of an action for the ticks of a step: observation, reward, terminated, truncated, info."""
+        self._check_open()
+        if not self._running:
+            over = "the episode is over" if self._started else "no episode has begun"
+            raise ResetNeeded(f"{over}; call reset() before step()")
+        worlds = self.worlds
+        keys = self._actions.keys(np.asarray(action)[np.newaxis], 1)
+        worlds.step(keys)
+        down, held = int(keys[0]), self._inputs[-1] & JUMP_HELD if self._inputs else 0
+        ticks = int(worlds.ticks[0]) - len(self._inputs)
+        self._inputs += bytes([pressed(down, held)]).ljust(ticks, keys.tobytes())
+        terminated, truncated = bool(worlds.terminated[0]), bool(worlds.truncated[0])
+        self._running = not (terminated or truncated)
+        self._show(ticks)
+        return self._observation(), float(worlds.rewards[0]), terminated, truncated, self._info()
+
+    def _observation(self) -> Any:
+        observed = self.worlds.observations
+        if isinstance(observed, dict):
+            return {name: array[0].copy() for name, array in observed.items()}
+        return observed[0].copy()
+
+    def _info(self) -> dict[str, Any]:
+        worlds = self.worlds
+        return {
+            "outcome": OUTCOME_NAMES[worlds.outcomes[0]],
+            "ticks": int(worlds.ticks[0]),
+            "gold": int(worlds.gold[0]),
+            "events": [name for bit, name in enumerate(EVENT_NAMES) if int(worlds.events[0]) >> bit & 1],
+            "level": worlds.source.names[worlds.levels_now[0]],
+        }
+
+    @property
+    def level(self) -> Level:
+        """The level of this episode."""
+        level: Level = self.worlds.levels[self.worlds.levels_now[0]]
+        return level
+
+    @property
+    def inputs(self) -> bytes:
+        """The inputs of this episode, one byte a tick: what ``record_replay`` takes."""
+        return bytes(self._inputs)
+
+    def save(self) -> SavedEpisode:
+        """This moment, to come back to; which levels later episodes play is no part of it."""
+        self._check_started("save")
+        return SavedEpisode(self.worlds.save(), self.inputs, self._running)
+
+    def restore(self, saved: SavedEpisode) -> tuple[Any, dict[str, Any]]:
+        """Go back to a saved moment; its observation and info, without events.
+
+        Raises ArgumentError for a moment of other levels or settings.
+        """
+        self._check_started("restore")
+        self.worlds.restore(saved.state)
+        self._inputs[:] = saved.inputs
+        self._running = saved.running
+        if self._picture is not None:
+            self._picture.begin(self.level, self.worlds.body)
+        self._show(1)
+        return self._observation(), self._info()
+
+    # --- pictures ---
+
+    def render(self) -> Any:
+        """The present moment: an array (height, width, 3) uint8, a text, or None where a window shows it already."""
+        self._check_started("render")
+        if self.render_mode is None:
+            gymnasium.logger.warn("render() was called without a render mode: make the environment with render_mode=…")
+            return None
+        if self.render_mode == "ansi":
+            return episode_text(self.level, self.worlds.body, self.inputs)
+        picture = self._followed(0)
+        return None if self.render_mode == "human" else picture.rgb()
+
+    def _show(self, ticks: int) -> None:
+        """Show the last ticks in the window, if there is one."""
+        if self.render_mode == "human":
+            self._followed(ticks)
+
+    def _followed(self, ticks: int) -> EpisodePicture:
+        """The picture of the present moment; ``ticks``: how many of the last ticks a window shows."""
+        if self._picture is None:
+            window = self.render_mode == "human"
+            self._picture = EpisodePicture(self.level, self.worlds.body, self._size, window=window)
+        self._picture.follow(self.inputs, ticks)
+        return self._picture
+
+    def close(self) -> None:
+        """Close the window. May be called again."""
+        if self._picture is not None:
+            self._picture.close()
+        self._closed = True
+
+    def _check_open(self) -> None:
+        if self._closed:
+            raise ClosedEnvironmentError("the environment is closed; make another one")
+
+    def _check_started(self, what: str) -> None:
+        self._check_open()
+        if not self._started:
+            raise ResetNeeded(f"no episode has begun; call reset() before {what}()")
