@@ -65,5 +65,9 @@ class ReplayError(FormatError):
     """A replay text of ours that cannot be read, or does not fit its level."""
 
 
+class LinkError(FormatError):
+    """A link to a level, a pack or a replay that was cut or changed, or that carries too much."""
+
+
 class PackError(FormatError):
     """A pack of levels whose index is missing or wrong."""

@@ -26,6 +26,7 @@ GROUPS = {
         "edit": "Make a level, or change one, in a window.",
         "lab": "Drag, paint and watch: ten figures about how the world works.",
         "export": "Write a film of a recording: a GIF, or a folder of pictures.",
+        "link": "Make a link that carries a level, a pack or replays.",
     },
     "levels": {
         "info": "Show what is in level and replay files.",

@@ -28,14 +28,28 @@ EVERY = 15.0
 """Seconds between two lines of progress where nobody watches."""
 
 
-class LevelPath(click.Path):
-    """A file or folder; or the name of one of the game's own levels, which stands for its file."""
+class InputPath(click.Path):
+    """A file or folder that is there; or a link, which is kept as a path as it stands."""
 
     def __init__(self, *, dir_okay: bool = True) -> None:
         super().__init__(exists=True, dir_okay=dir_okay, path_type=Path)
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The path; usage error for what is not there."""
+        from ninja_game.formats.links.fragment import is_link
+
+        return Path(value) if is_link(value) else super().convert(value, param, ctx)
+
+
+class LevelPath(InputPath):
+    """The same; or the name of one of the game's own levels, which stands for its file."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """The path; usage error for what is neither there nor a name."""
+        from ninja_game.formats.links.fragment import is_link
+
+        if is_link(value):
+            return super().convert(value, param, ctx)
         own = _own_levels()
         there = Path(value).exists() or "\0" in str(value)
         if not there and str(value) not in own and not Path(value).suffix:

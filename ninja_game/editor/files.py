@@ -9,9 +9,11 @@ from pathlib import Path
 from ninja_game.editor.ascii_text import ascii_text, updated_text
 from ninja_game.editor.draft import Draft
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.reading import read_bytes, read_text
+from ninja_game.files.reading import read_bytes
 from ninja_game.files.shown_text import file_stem
 from ninja_game.files.writing import write_atomically
+from ninja_game.formats.links.fragment import is_link
+from ninja_game.formats.load import texts_of
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.sim.level import Level
@@ -43,18 +45,20 @@ def new_source(author: str = "") -> Source:
 
 
 def open_source(path: Path, record: int = 0) -> Source:
-    """The level number ``record`` of a file. Only our readable files, which hold one level, are written back.
+    """The level number ``record`` of a file or link. Only our readable files, which hold one level, are written back.
 
     Raises NinjaGameError for what cannot be read, OSError.
     """
-    data = read_bytes(path)
-    text = read_text(path)
-    levels = parse_levels(text, file=str(path))
+    linked = is_link(path)
+    data = b"" if linked else read_bytes(path)
+    texts = list(texts_of(path))
+    text = texts[0][1]
+    levels = [level for file, each in texts for level in parse_levels(each, file=file)]
     named = next((each for each in levels if each.record == record), None)
     if named is None:
         raise LevelError(f"there is no record {record}", str(path))
     draft = draft_of(named)
-    if not named.ascii:
+    if linked or not named.ascii:
         return Source(draft)
     return Source(draft, path, text, _digest(data), b"\r\n" in data)
 

@@ -1,22 +1,35 @@
-"""Load any file or folder of levels or recordings, whatever its format."""
+"""Load any file, folder or link of levels or recordings, whatever its format."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ninja_game.errors import LevelError, ReplayError
 from ninja_game.files.reading import SUFFIXES, read_text, text_files
+from ninja_game.formats.links.fragment import PLACE, is_link
+from ninja_game.formats.links.making import linked_texts
 from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.formats.pack.files import PackFiles, is_pack
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.sim.level import Level
 
-__all__ = ["NamedLevel", "Recording", "load_level", "load_levels", "load_replays", "parse_level"]
+__all__ = ["NamedLevel", "Recording", "load_level", "load_levels", "load_replays", "parse_level", "texts_of"]
+
+
+def texts_of(path: Path | str) -> Iterator[tuple[str, str]]:
+    """The name and the text of a file, of each file in a folder, or of what a link of levels or replays carries.
+
+    Raises FileError, LinkError; OSError for a file that cannot be opened.
+    """
+    if is_link(path):
+        yield from ((PLACE, text) for text in linked_texts(path, "level", "replay"))
+    else:
+        yield from ((str(file), read_text(file)) for file in text_files(Path(path)))
 
 
 def load_levels(path: Path | str) -> list[NamedLevel]:
-    """All levels of a file or folder: our ASCII levels, N level files, in-game strings, levels of recordings.
+    """All levels of a file, folder or link: our ASCII levels, N level files, in-game strings, levels of recordings.
 
     Of a pack, a folder or zip with ``pack.toml``, its level files only.
 
@@ -26,8 +39,7 @@ def load_levels(path: Path | str) -> list[NamedLevel]:
         pack = PackFiles(Path(path))
         levels = [level for name in pack.levels for level in parse_levels(pack.text(name), file=pack.place(name))]
     else:
-        files = text_files(Path(path))
-        levels = [level for file in files for level in parse_levels(read_text(file), file=str(file))]
+        levels = [level for file, text in texts_of(path) for level in parse_levels(text, file=file)]
     if not levels:
         raise LevelError("no levels here", str(path), expected=f"files *{', *'.join(SUFFIXES)}")
     return levels
@@ -56,14 +68,13 @@ def _one(levels: Sequence[NamedLevel], record: int, file: str) -> Level:
 
 
 def load_replays(path: Path | str, *, level: Level | None = None) -> list[Recording]:
-    """All recordings of a file or folder: our replays and ``$name#author#comment#level#demo#`` records.
+    """All recordings of a file, folder or link: our replays and ``$name#author#comment#level#demo#`` records.
 
     ``level``: what recordings that do not hold their level are played on.
 
     Raises ReplayError, DemoError or LevelError naming file and line; OSError for a file that cannot be opened.
     """
-    files = text_files(Path(path))
-    recordings = [found for file in files for found in parse_replays(read_text(file), file=str(file), level=level)]
+    recordings = [found for file, text in texts_of(path) for found in parse_replays(text, file=file, level=level)]
     if not recordings:
         raise ReplayError("no recordings here", str(path), expected=f"files *{', *'.join(SUFFIXES)}")
     return recordings

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pygame
 
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.resources import data_folder
+from ninja_game.formats.links.fragment import is_link, read_link
+from ninja_game.formats.links.making import recordings_of
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.files import is_pack
 from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App, build_app
 from ninja_game.play.screen import Screen
 from ninja_game.play.window import save_picture
@@ -33,9 +36,9 @@ def main(
 ) -> int:
     """Play: the program `ninja-game play`. Gives the exit code.
 
-    ``level_path``: a pack, whose episodes are offered, or a file of levels, played from number ``record`` on; without
-    it the main menu.
-    ``replay_path``: watch the recordings of a file.
+    ``level_path``: a pack, whose episodes are offered, or a file of levels, played from number ``record`` on, or a link
+    to one of them or to replays; without it the main menu.
+    ``replay_path``: watch the recordings of a file or link.
     ``frames``: end after so many pictures. ``screenshot``: write the last picture to this PNG file.
 
     Raises NinjaGameError for a file that cannot be read or written, and where there is no display.
@@ -81,7 +84,9 @@ def _save(app: App, path: Path) -> None:
 def first_screen(
     level_path: str | None, replay_path: str | None, *, body: Body, practice: bool, record: int = 0
 ) -> Callable[[App], Screen]:
-    """What makes the first screen. Files are read here, before a window opens; screens are imported when needed.
+    """What makes the first screen; behind what a link leads to is the main menu.
+
+    Files and links are read here, before a window opens; screens are imported when needed.
 
     Raises NinjaGameError for a file that cannot be read or a level that cannot be played.
     """
@@ -89,6 +94,8 @@ def first_screen(
         return _replays(replay_path)
     if level_path is None:
         return _main_menu
+    if is_link(level_path) and read_link(level_path).kind == "replay":
+        return _replays(level_path)
     if is_pack(Path(level_path)) and (body, practice, record) == ("circle", False, 0):
         return _episodes(Path(level_path))
     levels = load_levels(level_path)[record:]
@@ -99,6 +106,8 @@ def first_screen(
     def play(app: App) -> Screen:
         from ninja_game.play.level.screen import LevelScreen
 
+        if is_link(level_path):
+            app.push(_main_menu(app))
         practice_mode = practice or app.settings.practice
         return LevelScreen(app, FileRun(app.player, levels, body=body, practice_mode=practice_mode))
 
@@ -115,11 +124,23 @@ def _check(named: NamedLevel, body: Body) -> None:
 
 
 def _replays(path: str) -> Callable[[App], Screen]:
-    recordings = load_replays(Path(path))
+    return _watch(load_replays(path), over_menu=is_link(path))
 
+
+def watch_screen(texts: Sequence[str]) -> Callable[[App], Screen]:
+    """What makes the viewer, over the main menu, of texts of replays: the first is watched, others run beside it.
+
+    Raises NinjaGameError for what cannot be read.
+    """
+    return _watch(recordings_of(texts), over_menu=True)
+
+
+def _watch(recordings: Sequence[Recording], *, over_menu: bool) -> Callable[[App], Screen]:
     def watch(app: App) -> Screen:
         from ninja_game.play.replay.screen import ReplayScreen
 
+        if over_menu:
+            app.push(_main_menu(app))
         return ReplayScreen(app, recordings)
 
     return watch
@@ -130,7 +151,7 @@ def _episodes(path: Path) -> Callable[[App], Screen]:
     pack = Pack(path)
     if not pack.episodes:
         raise LevelError("no episodes in this pack", str(path), hint="`ninja-game levels lint` says what is odd")
-    own = path.resolve() == data_folder("levels").resolve()
+    own = not is_link(path) and path.resolve() == data_folder("levels").resolve()
 
     def choose(app: App) -> Screen:
         from ninja_game.play.menus.episodes.grid import EpisodeGrid

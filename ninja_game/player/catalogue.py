@@ -18,7 +18,7 @@ from ninja_game.files.resources import data_folder
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.formats.pack.files import is_pack
+from ninja_game.formats.pack.files import PackFiles, is_pack
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import Pars
@@ -79,13 +79,17 @@ class Episode:
 
 
 class EpisodeSet(NamedTuple):
-    """A pack as it is played. ``key``: "" for the game's own, else its name; ``singles``: levels in no episode."""
+    """A pack as it is played. ``key``: "" for the game's own, else its name; ``singles``: levels in no episode.
+
+    ``files``: where its texts are; None where there is no pack.
+    """
 
     key: str
     name: str
     columns: tuple[str, ...]
     episodes: dict[int, Episode]
     singles: tuple[Entry, ...]
+    files: PackFiles | None = None
 
     @property
     def levels(self) -> list[Entry]:
@@ -107,7 +111,7 @@ def episode_set(pack: Pack, key: str) -> EpisodeSet:
     placed = {level.file for levels in pack.episodes.values() for level in levels}
     singles = [level for level in pack.levels.values() if level.file not in placed]
     rest = tuple(Entry(level, source, pars=pars.get(level.file)) for level in singles)
-    return EpisodeSet(key, pack.name, pack.index.columns, episodes, rest)
+    return EpisodeSet(key, pack.name, pack.index.columns, episodes, rest, pack.files)
 
 
 class Catalogue:

@@ -14,6 +14,7 @@ DEFAULT_COLOUR = ""
 MOST_INPUTS = 16
 """Keys or buttons of one action at most."""
 
+_SITE = re.compile(r"https?://[!-~]+")
 _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 InputNames = Mapping[str, tuple[str, ...]]
@@ -24,8 +25,9 @@ InputNames = Mapping[str, tuple[str, ...]]
 class Settings:
     """Every setting. ``keys`` and ``pad`` hold only the actions whose inputs are not the default ones.
 
-    ``volume`` and ``loop_volume``: 0 to 99. ``dead_zone``: share of a stick's way that counts as rest.
-    ``ninja_colour``: colour of the ninja, "" or "#rrggbb". ``frame_limit``: pictures a second, 0: as the display.
+    ``volume`` and ``loop_volume``: 0 to 99. ``dead_zone``: share of a stick's way that counts as rest. ``site``:
+    address of the page with the game to which links lead, "" for none. ``ninja_colour``: "" or "#rrggbb".
+    ``frame_limit``: pictures a second, 0: as the display.
     """
 
     palette: str = DEFAULT_PALETTE
@@ -42,6 +44,7 @@ class Settings:
     loop_volume: int = 99
     practice: bool = False
     name: str = ""
+    site: str = ""
     dead_zone: float = 0.35
     keys: InputNames = field(default_factory=dict)
     pad: InputNames = field(default_factory=dict)
@@ -86,6 +89,10 @@ def _is_word(value: Any) -> bool:
     return isinstance(value, str) and re.fullmatch(r"[a-z-]{1,24}", value) is not None
 
 
+def _is_site(value: Any) -> bool:
+    return isinstance(value, str) and len(value) <= 200 and (not value or _SITE.fullmatch(value) is not None)
+
+
 def _is_colour(value: Any) -> bool:
     return isinstance(value, str) and (value == DEFAULT_COLOUR or _COLOUR.fullmatch(value) is not None)
 
@@ -115,6 +122,7 @@ RULES = {
     "loop_volume": _whole("sound", 0, 99),
     "practice": _flag("play"),
     "name": Rule("play", _is_name, "at most 40 printable characters"),
+    "site": Rule("play", _is_site, "'' or an address such as 'https://example.org/game/'"),
     "dead_zone": Rule("pad", _is_share, "a number from 0.05 to 0.95"),
     "keys": Rule("", _is_bindings, "lists of names of keys, such as jump = ['z', 'lshift']"),
     "pad": Rule("", _is_bindings, "lists of names of buttons, such as jump = ['a']"),

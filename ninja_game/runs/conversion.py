@@ -5,9 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from pathlib import Path
 
-from ninja_game.files.reading import read_text
 from ninja_game.formats.ascii.legend import legend_text
 from ninja_game.formats.ascii.reader import is_ascii_level
 from ninja_game.formats.ascii.writer import RULER
@@ -39,12 +37,14 @@ def replay_texts(recordings: Iterable[Recording]) -> Iterator[str]:
         yield write_replay(replace(new, level_name=level_name, level_author=author, practice=practice))
 
 
-def level_file_text(files: Iterable[Path], level: Level | None = None) -> str:
-    """All levels and recordings of files as one level file of N; ``level``: of recordings that leave theirs out.
+def level_file_text(texts: Iterable[tuple[str, str]], level: Level | None = None) -> str:
+    """All levels and recordings in texts as one level file of N; ``level``: of recordings that leave theirs out.
+
+    ``texts``: names of files and what they hold.
 
     Raises LevelError, ReplayError or DemoError for what cannot be read, or what such a file cannot hold.
     """
-    return write_level_file(record for file in files for record in _records(read_text(file), str(file), level))
+    return write_level_file(record for file, text in texts for record in _records(text, file, level))
 
 
 def _records(text: str, file: str, level: Level | None) -> Iterator[LevelRecord]:
@@ -59,9 +59,8 @@ def _records(text: str, file: str, level: Level | None) -> Iterator[LevelRecord]
     )
 
 
-def left_out(form: str, found: Sequence[NamedLevel | Recording], files: Iterable[Path]) -> list[str]:
-    """What ``form`` ("ascii", "string", "file" or "replay") does not hold of what was found in files, in words."""
-    texts = [read_text(file) for file in files]
+def left_out(form: str, found: Sequence[NamedLevel | Recording], texts: Sequence[str]) -> list[str]:
+    """What ``form`` ("ascii", "string", "file" or "replay") does not hold of what was found in texts, in words."""
     lost = []
     if form in ("ascii", "string") and any(map(holds_recordings, texts)):
         lost.append("the recordings (--to replay or --to file keeps them)")

@@ -10,8 +10,10 @@ from functools import lru_cache
 from pathlib import Path
 
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.reading import LeftOut, files_below, read_text
+from ninja_game.files.reading import LeftOut, files_below
 from ninja_game.formats.ascii.reader import is_ascii_level
+from ninja_game.formats.links.fragment import is_link
+from ninja_game.formats.load import texts_of
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.named_level import is_level_file, parse_levels
@@ -34,26 +36,26 @@ class Unreadable:
 
 
 def texts_in(paths: Iterable[Path]) -> Iterator[tuple[str, str, bool] | Unreadable]:
-    """Name and text of every file in files and folders, in order, and whether the caller named it; one at a time."""
+    """Name and text of every file in files, folders and links, and whether the caller named it; one at a time."""
     for path in paths:
-        if not path.is_dir():
-            yield _text_of(path, named=True)
+        if is_link(path) or not path.is_dir():
+            yield from _texts_of(path, named=True)
             continue
         empty = True
         for file in files_below(path):
             empty = False
-            yield Unreadable(str(file)) if isinstance(file, LeftOut) else _text_of(file, named=False)
+            yield from [Unreadable(str(file))] if isinstance(file, LeftOut) else _texts_of(file, named=False)
         if empty:
             yield Unreadable(f"{path}: no recordings here")
 
 
-def _text_of(path: Path, *, named: bool) -> tuple[str, str, bool] | Unreadable:
+def _texts_of(path: Path, *, named: bool) -> Iterator[tuple[str, str, bool] | Unreadable]:
     try:
-        return str(path), read_text(path), named
+        yield from ((file, text, named) for file, text in texts_of(path))
     except NinjaGameError as error:
-        return Unreadable(str(error))
+        yield Unreadable(str(error))
     except OSError as error:
-        return Unreadable(f"{path}: {error.strerror or error}")
+        yield Unreadable(f"{path}: {error.strerror or error}")
 
 
 def recordings_in(paths: Iterable[Path], level: Level | None = None) -> Iterator[Recording | Unreadable]:

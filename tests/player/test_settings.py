@@ -25,6 +25,7 @@ VALUES = {
     "volume": st.integers(0, 99),
     "loop_volume": st.integers(0, 99),
     "name": PRINTABLE,
+    "site": st.sampled_from(["", "https://example.org/game/?a=b&c=%20"]),
     "dead_zone": st.floats(0.05, 0.95),
     "keys": BINDINGS,
     "pad": BINDINGS,

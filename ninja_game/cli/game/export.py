@@ -8,11 +8,13 @@ from pathlib import Path
 import click
 
 from ninja_game.cli.game.play import pixels
+from ninja_game.cli.run_options import InputPath
 from ninja_game.errors import NinjaGameError
+from ninja_game.formats.links.fragment import is_link
 
 
 @click.command()
-@click.argument("replay", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.argument("replay", type=InputPath(dir_okay=False))
 @click.option(
     "-o", "--out", type=click.Path(path_type=Path),
     help="The film: NAME.gif, or a folder for one PNG picture a tick. Without it, the replay's name with .gif.",
@@ -25,7 +27,7 @@ from ninja_game.errors import NinjaGameError
 def command(replay: Path, out: Path | None, record: int, size: str, speed: float) -> None:
     """Write a film of a recording: a GIF, or a folder of pictures.
 
-    REPLAY is a replay of ours, or a level file with demos. A GIF of more than 600 ticks shows every second one.
+    REPLAY is a replay of ours, a level file with demos, or a link. A GIF of more than 600 ticks shows every second one.
 
     \b
     Examples:
@@ -38,8 +40,8 @@ def command(replay: Path, out: Path | None, record: int, size: str, speed: float
     recordings = load_replays(replay)
     if record >= len(recordings):
         raise NinjaGameError(f"{replay}: there is no record {record}; the last one is {len(recordings) - 1}")
-    path = out or Path(f"{replay.name.partition('.')[0]}.gif")
-    if path.exists() and path.samefile(replay):
+    path = out or Path("replay.gif" if is_link(replay) else f"{replay.name.partition('.')[0]}.gif")
+    if path.exists() and not is_link(replay) and path.samefile(replay):
         raise click.UsageError("the film would replace the replay")
     width_and_height = pixels(size)
 

@@ -9,7 +9,7 @@ from typing import Literal
 
 import click
 
-from ninja_game.cli.run_options import LevelPath
+from ninja_game.cli.run_options import InputPath, LevelPath
 
 
 @click.command()
@@ -22,7 +22,7 @@ from ninja_game.cli.run_options import LevelPath
     help="The ninja's body: the circle of the classic rules, or a box of the same size.",
 )  # fmt: skip
 @click.option("--practice", is_flag=True, help="No time limit, nothing counts.")
-@click.option("--replay", type=click.Path(exists=True, dir_okay=False), help="Watch the recordings of this file.")
+@click.option("--replay", type=InputPath(dir_okay=False), help="Watch the recordings of this file or link.")
 @click.option("--size", metavar="WIDTHxHEIGHT", help="Size of the window in px, e.g. 1584x1200.")
 @click.option("--frames", type=click.IntRange(1, 10**9), help="End after so many pictures.")
 @click.option("--screenshot", type=click.Path(dir_okay=False), help="Write the last picture to this PNG file.")
@@ -33,14 +33,15 @@ def command(
     record: int,
     body: Literal["circle", "box"],
     practice: bool,
-    replay: str | None,
+    replay: Path | None,
     size: str | None,
     frames: int | None,
     screenshot: str | None,
 ) -> None:
     """Play a level in a window.
 
-    LEVEL is a file of levels, or the name of one of the game's own; without it the game begins at its menu. A pack, a
+    LEVEL is a file of levels, the name of one of the game's own, or a link; without it the game begins at its menu.
+    Links hold everything that they need: no network is asked. A pack, a
     folder or zip with pack.toml, offers its episodes; with --practice, --body or --record its levels are played one
     after the other. The menus offer your own files and packs too: those in the folder `levels` of your folder for this
     game, which NINJA_GAME_HOME moves; a file that is dropped on the menu Levels is copied there.
@@ -52,6 +53,7 @@ def command(
       ninja-game play userlevels.txt --record 17
       ninja-game play my-pack.zip
       ninja-game play --replay run.replay.txt
+      ninja-game play 'https://example.org/game/#level=1.…'
       SDL_VIDEODRIVER=dummy ninja-game play --frames 40 --screenshot picture.png
     """
     if level is not None and replay is not None:
@@ -66,7 +68,7 @@ def command(
         path,
         body=body,
         size=window,
-        replay_path=replay,
+        replay_path=str(replay) if replay is not None else None,
         practice=practice,
         frames=frames,
         screenshot=screenshot,

@@ -10,6 +10,7 @@ import click
 
 from ninja_game.cli.run_options import LevelPath, level_given, level_option
 from ninja_game.errors import FileError, LevelError
+from ninja_game.formats.links.fragment import is_link
 
 if TYPE_CHECKING:
     from ninja_game.formats.load import NamedLevel, Recording
@@ -33,7 +34,7 @@ def command(
 ) -> None:
     """Turn levels and recordings from one format into the other.
 
-    IN is a file or folder in any format; OUT a file, a folder, or - for the terminal. What is written:
+    IN is a file, folder or link in any format; OUT a file, a folder, or - for the terminal. What is written:
 
     \b
       ascii   levels as a picture and a list of objects; several: one file each, in the folder OUT
@@ -54,12 +55,11 @@ def command(
       ninja-game convert run.replay.txt run.demo
       ninja-game convert first.nlevel -
     """
-    from ninja_game.files.reading import text_files
-    from ninja_game.formats.load import load_levels, load_replays
+    from ninja_game.formats.load import load_levels, load_replays, texts_of
     from ninja_game.runs.conversion import left_out, level_file_text, replay_texts
 
     output = Output(target, sources, force=force)
-    files = [file for source in sources for file in text_files(source)]
+    texts = [named for source in sources for named in texts_of(source)]
     level = level_given(level_path)
     form = form or next((form for suffix, form in FORM_OF_NAME.items() if target.lower().endswith(suffix)), "")
     if level and form not in ("replay", "file", ""):
@@ -76,10 +76,10 @@ def command(
         if form == "ascii":
             output.write_each([_ascii_text(named, legend) for named in levels], levels, ".txt")
     if form == "file":
-        output.write(level_file_text(files, level))
+        output.write(level_file_text(texts, level))
     elif form == "string":
         output.write(_strings_text(found))
-    if lost := left_out(form, found, files):
+    if lost := left_out(form, found, [text for _, text in texts]):
         click.echo(f"left out: {', '.join(lost)}", err=True)
 
 
@@ -88,7 +88,7 @@ class Output:
 
     def __init__(self, target: str, sources: Sequence[Path], *, force: bool) -> None:
         self.target = target
-        self.sources = sources
+        self.sources = [source for source in sources if not is_link(source)]
         self.force = force
 
     def write(self, text: str) -> None:

@@ -14,7 +14,7 @@ from typing import IO, TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.main import complain
-from ninja_game.cli.run_options import jobs_option, level_given, level_option, memory_option, with_progress
+from ninja_game.cli.run_options import InputPath, jobs_option, level_given, level_option, memory_option, with_progress
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 
 
 @click.command()
-@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=InputPath())
 @click.option("--record", type=click.IntRange(min=0), help="Only this one of a file's recordings, counted from 0.")
 @click.option("--ticks", type=click.IntRange(1, MOST_TICKS), help="Exactly so many ticks, whatever happens.")
 @click.option("--after", type=click.IntRange(0, MOST_TICKS), help="So many ticks more than `verify` would run.")

@@ -11,7 +11,7 @@ from typing import IO, TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.main import complain
-from ninja_game.cli.run_options import jobs_option, with_progress
+from ninja_game.cli.run_options import InputPath, jobs_option, with_progress
 from ninja_game.files.shown_text import shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
@@ -24,13 +24,13 @@ FAILED = 1
 
 
 @click.command()
-@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=InputPath())
 @click.option(
     "--memory", type=click.Choice(["auto", "plain", "compiled", "both"]), default="auto", show_default=True,
     help="Plain Python, or compiled by Numba; both: compare them in every tick.",
 )  # fmt: skip
 @click.option(
-    "--level", metavar="LEVELS", type=click.Path(exists=True, path_type=Path),
+    "--level", metavar="LEVELS", type=InputPath(),
     help="The level that counts, or a file of them: a run on any other fails. One level is also that of recordings "
     "without.",
 )  # fmt: skip
@@ -65,10 +65,10 @@ def command(
 ) -> None:
     """Run recordings again and judge them.
 
-    FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Every recording
-    runs until the exit, death, or the end of its inputs. A replay of ours must do what it says; any other recording
-    must reach the exit. With --strict it must reach the exit of a level that counts (one of the game's own or of
-    --level), in time, by keys that a keyboard can make, under today's rules, outside practice.
+    FILE is a replay of ours, a file of $name#author#comment#level#demo# records, a folder of them, or a link. Every
+    recording runs until the exit, death, or the end of its inputs. A replay of ours must do what it says; any other
+    recording must reach the exit. With --strict it must reach the exit of a level that counts (one of the game's own
+    or of --level), in time, by keys that a keyboard can make, under today's rules, outside practice.
 
     Exit code 0: all of them did; 1: some did not; 2: something cannot be read.
 
@@ -107,9 +107,10 @@ def command(
 def _reported(results: Iterable[Result], report: Path, files: Sequence[Path], stack: ExitStack) -> Iterator[Result]:
     """The same results, written to a report as they pass."""
     from ninja_game.files.writing import open_atomically
+    from ninja_game.formats.links.fragment import is_link
     from ninja_game.verification.verify_many import write_report
 
-    out = stack.enter_context(open_atomically(report, keep=files))
+    out = stack.enter_context(open_atomically(report, keep=[file for file in files if not is_link(file)]))
     return write_report(results, out) if report.suffix.lower() == ".json" else _write_table(results, out)
 
 

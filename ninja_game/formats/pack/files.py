@@ -1,4 +1,4 @@
-"""The files of a pack, a folder or a zip. A zip is read in memory; nothing of it is ever written to the disk."""
+"""The files of a pack: a folder, a zip or a link. A zip or link stays in memory; nothing of it goes to the disk."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from zipfile import ZipFile, ZipInfo
 from ninja_game.errors import FileError
 from ninja_game.files.reading import MAX_BYTES, decoded, files_in, read_bytes
 from ninja_game.files.zips import open_zip, unpacked
+from ninja_game.formats.links.fragment import PLACE, is_link
+from ninja_game.formats.links.making import pack_link, pack_texts
 
 INDEX, PARS, CERTIFICATES = "pack.toml", "pars.toml", "certificates"
 """The index, the table of par times, the folder of replays."""
@@ -26,14 +28,19 @@ LEVEL_FILES = re.compile(r"[^/\\:]+\.txt", re.IGNORECASE)
 class PackFiles:
     """What lies in a pack: ``names``, as "pack.toml" or "certificates/a.exit.replay.txt", sorted.
 
-    Raises FileError for what is no zip, or a zip beyond the limits; OSError as it comes.
+    Raises FileError for what is no zip, or a zip beyond the limits, LinkError for a broken link; OSError as it comes.
     """
 
     def __init__(self, path: Path) -> None:
         self.path = path
         self._zip: ZipFile | None = None
         self._entries: dict[str, ZipInfo] = {}
-        if path.is_dir():
+        self._texts: dict[str, str] = {}
+        if is_link(path):
+            self.path = Path(PLACE)
+            self._texts = pack_texts(path)
+            self.names = tuple(sorted(self._texts))
+        elif path.is_dir():
             inside = [*files_in(path), *(f"{CERTIFICATES}/{name}" for name in files_in(path / CERTIFICATES))]
             self.names = tuple(sorted(inside))
         else:
@@ -68,12 +75,19 @@ class PackFiles:
 
     def text(self, name: str) -> str:
         """A file's text with plain line ends. Raises FileError; OSError as it comes."""
+        if name in self._texts:
+            return self._texts[name]
         return decoded(self._bytes(name), self.place(name))
 
+    def link(self) -> str:
+        """The pack as a link, without its certificates. Raises LinkError for one that is too large."""
+        wanted = [name for name in (INDEX, PARS) if name in self.names] + self.levels
+        return pack_link({name: self.text(name) for name in wanted})
+
     def _bytes(self, name: str) -> bytes:
-        if self._zip is None:
+        if self._zip is None and not self._texts:
             return read_bytes(self.path / name, MOST_BYTES)
-        if name not in self._entries:
+        if self._zip is None or name not in self._entries:
             raise FileError("not in the pack", self.place(name))
         if self._entries[name].file_size > MOST_BYTES:
             raise FileError("the file is too large", self.place(name), expected=f"at most {MOST_BYTES >> 20} MiB")
@@ -84,7 +98,9 @@ class PackFiles:
 
 
 def is_pack(path: Path) -> bool:
-    """Whether a path looks like a pack: a folder with an index, or a file that is called a zip."""
+    """Whether a path looks like a pack: a folder with an index, a file that is called a zip, a link of a pack."""
+    if is_link(path):
+        return "#pack" in str(path)
     try:
         return (path / INDEX).is_file() if path.is_dir() else path.suffix.lower() == ".zip"
     except OSError:

@@ -142,7 +142,7 @@ class EditorCommands:
         rows = [
             ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
             ("Open...", self.open, "Ctrl+O"), ("New", self.new, "Ctrl+N"), ("About the level...", self.about, "F2"),
-            ("Copy as a string of N", session.copy_string, "To the clipboard"),
+            ("Copy a link", session.copy_link, "Opens the level"), ("Copy as a string of N", session.copy_string, ""),
             ("Paste a string of N", session.paste_string, "From the clipboard; any format of levels"),
             ("Export a picture", session.export_picture, "A PNG file among your exports"),
             ("Keep the solver's run", session.keep_certificate, "As a replay among yours"),

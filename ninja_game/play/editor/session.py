@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING
@@ -18,10 +17,9 @@ from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, draft_of_text, free_path, level_string, new_source, save
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.user_folder import export_path
-from ninja_game.files.writing import write_atomically
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
+from ninja_game.play.clipboard import copy_level_link, copy_text, write_export
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.play.window import save_picture
 from ninja_game.player.saving import keep_replay
@@ -130,7 +128,7 @@ class EditorSession:
     def export_picture(self) -> None:
         """A picture of the level among the player's exports."""
         surface = thumbnail(self.draft.level, self.app.theme.palette, PICTURE_WIDTH)
-        self._export(".png", lambda path: save_picture(surface, path))
+        write_export(self.app, self.name, ".png", lambda path: save_picture(surface, path))
 
     def copy_string(self) -> None:
         """The level as an in-game string of N, in the clipboard; in a file where there is none."""
@@ -139,11 +137,11 @@ class EditorSession:
         except NinjaGameError as error:
             self.app.notify(f"No string of N can say this level: {error}")
             return
-        try:
-            pygame.scrap.put_text(text)
-            self.app.notify(f"In the clipboard: {len(text)} characters")
-        except pygame.error:
-            self._export(".nlevel", lambda path: write_atomically(path, text + "\n"))
+        copy_text(self.app, text, title=self.name, suffix=".nlevel")
+
+    def copy_link(self) -> None:
+        """The level as a link, in the clipboard; in a file where there is none."""
+        copy_level_link(self.app, self.draft, self.name)
 
     def paste_string(self) -> None:
         """The level of a text in the clipboard, in any format, in the place of this one; it can be undone."""
@@ -157,15 +155,6 @@ class EditorSession:
             self.app.notify("The level of the clipboard; undo brings yours back")
         except NinjaGameError:
             self.app.notify("There is no level in the clipboard: copy its text first")
-
-    def _export(self, suffix: str, write: Callable[[Path], object]) -> None:
-        try:
-            path = export_path(self.app.player.folder, self.name, suffix)
-            write(path)
-        except (OSError, NinjaGameError) as error:
-            self.app.notify(f"Not written: {getattr(error, 'strerror', '') or error}")
-        else:
-            self.app.notify(f"Saved: {path}")
 
     # --- tests and certificates ---
 

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.formats.links.making import replay_link
+from ninja_game.play.clipboard import copy_link
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.level.hud_text import hud_view
@@ -152,6 +154,11 @@ class LevelScreen(Screen):
         player = self.app.player
         self.app.notify(keep_replay(player, self.attempt.replay(self.context.title, player.settings.name)))
 
+    def copy_link(self) -> None:
+        """This run as a link, in the clipboard."""
+        title, name = self.context.title, self.app.player.settings.name
+        copy_link(self.app, lambda: replay_link([self.attempt.replay(title, name)]), title=title)
+
     # --- events ---
 
     def handle(self, event: InputEvent) -> None:
@@ -213,6 +220,7 @@ PhaseActions = dict[str, Callable[[LevelScreen], None]]
 
 _END: PhaseActions = {
     "retry": LevelScreen.retry, "replay": LevelScreen.watch_replay, "export": LevelScreen.keep_replay,
+    "link": LevelScreen.copy_link,
     "back": LevelScreen.back, "quit": LevelScreen.quit,
 }  # fmt: skip
 """What dead and passed have in common."""

@@ -13,9 +13,10 @@ from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.reading import read_bytes
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.load import load_levels
+from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.menus.level_card import all_gold_and_medal, draw_pars
+from ninja_game.play.menus.level_card import all_gold_and_medal, draw_pars, where_from
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.play.menus.watch_replay import watch
 from ninja_game.play.ui.list_view import ListView
@@ -84,8 +85,18 @@ class Browser(ThumbnailScreen):
             hint="No clock, quick save, rewind, slow motion; no records",
         )  # fmt: skip
         sort = Choice((288, 66, 132, 32), "", SORTS, lambda: self.sort, self._sort, hint="How the list is sorted")
-        change = Button((SIDE + 166, 510, 154, 32), "Edit", self._change, hint="Open it in the editor")
-        return [self.list, self.entry_field, sort, play, practice, self.watch_best, *([change] if self._edit else [])]
+        change = Button((SIDE + 166, 510, 71, 32), "Edit", self._change, hint="Open it in the editor")
+        link = Button((SIDE + 249, 510, 71, 32), "Copy link", self._copy_link, hint="Whoever opens the link plays it")
+        return [
+            self.list,
+            self.entry_field,
+            sort,
+            play,
+            practice,
+            self.watch_best,
+            *([change] * bool(self._edit)),
+            link,
+        ]
 
     def handle(self, event: InputEvent) -> None:
         """A file dropped on the window is copied into the player's folder; coming back to the window looks again."""
@@ -167,6 +178,11 @@ class Browser(ThumbnailScreen):
         if self._edit is not None and self.selected is not None:
             self._edit(self.selected)
 
+    def _copy_link(self) -> None:
+        """The selected level as a link, in the clipboard."""
+        if self.selected is not None:
+            copy_level_link(self.app, self.selected.named, self.selected.title)
+
     def _watch(self) -> None:
         best = self.bests.get(self.selected.digest) if self.selected else None
         if best is not None:
@@ -202,7 +218,7 @@ class Browser(ThumbnailScreen):
         if played.attempts:
             text = f"{counted(played.attempts, 'try', 'tries')}, {counted(played.deaths, 'death', 'deaths')}"
             theme.text(surface, text, SIDE, 408, size=10.5, colour=palette.faint)
-        theme.text(surface, _where(entry), SIDE, 424, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
+        theme.text(surface, where_from(entry), SIDE, 424, size=10.5, colour=palette.faint, width=SIDE_WIDTH)
         mark = self.marks.get(entry.digest)
         all_gold_and_medal(surface, theme, entry, mark, SIDE + SIDE_WIDTH - 10, 330)
         draw_pars(surface, theme, entry, mark, SIDE, 443)
@@ -226,15 +242,6 @@ class Browser(ThumbnailScreen):
         if entry.pars and entry.pars.difficulty is not None:
             hard = f"{entry.pars.difficulty:.1f}"
             theme.text(surface, hard, x + w - 48, y + 32, size=10, colour=palette.faint, align="right")
-
-
-def _where(entry: Entry) -> str:
-    """Where a level comes from, and how hard it is."""
-    pack = entry.source if entry.source not in {"game", "yours"} else ""
-    parts = [pack, f"Episode {entry.episode}" if entry.episode else "Your folder" if entry.source == "yours" else ""]
-    if entry.pars and entry.pars.difficulty is not None:
-        parts.append(f"difficulty {entry.pars.difficulty:.1f}")
-    return "    ".join(filter(None, parts))
 
 
 def _words(entry: Entry) -> str:

@@ -39,3 +39,12 @@ def draw_pars(surface: pygame.Surface, theme: Theme, entry: Entry, mark: Mark | 
         draw_medal(surface, theme, medal, x + 8, y + 8, 16, reached=reached)
         theme.text(surface, seconds_text(par), x + 20, y + 3.5, size=9.5)
         x += 80
+
+
+def where_from(entry: Entry) -> str:
+    """Where a level comes from, and how hard it is."""
+    pack = entry.source if entry.source not in {"game", "yours"} else ""
+    parts = [pack, f"Episode {entry.episode}" if entry.episode else "Your folder" if entry.source == "yours" else ""]
+    if entry.pars and entry.pars.difficulty is not None:
+        parts.append(f"difficulty {entry.pars.difficulty:.1f}")
+    return "    ".join(filter(None, parts))

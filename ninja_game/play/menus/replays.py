@@ -12,9 +12,11 @@ from ninja_game.files.reading import LeftOut, files_below
 from ninja_game.files.resources import bundled_replays
 from ninja_game.files.user_folder import export_path
 from ninja_game.files.writing import write_atomically
+from ninja_game.formats.links.making import recording_link, replay_link
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
+from ninja_game.play.clipboard import copy_link
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question
@@ -37,7 +39,7 @@ FILES_SHOWN = 300
 
 OUTCOMES = {"exit": "passed", "dead": "death", "running": "unfinished"}
 YOU = "you"
-HINT = "Enter: watch it. Delete: remove a saved one. E: write it as a text file, to share"
+HINT = "Enter: watch it. Delete: remove a saved one. E: write it as a text file. C: copy a link to it"
 
 
 class ReplayRow(NamedTuple):
@@ -99,9 +101,11 @@ class ReplaysScreen(MenuScreen):
             watch(self.app, [self.player.records.replay(source.id)])
 
     def handle(self, event: InputEvent) -> None:
-        """The export key writes a text file."""
+        """The export key writes a text file, the link key copies a link."""
         if "export" in event.pressed and self.rows:
             self._export(self.rows[self.list.index])
+        elif "link" in event.pressed and self.rows:
+            self._copy_link(self.rows[self.list.index])
         else:
             super().handle(event)
 
@@ -119,6 +123,17 @@ class ReplaysScreen(MenuScreen):
             except (OSError, NinjaGameError) as error:
                 self.message = str(error)
         self.redraw = True
+
+    def _copy_link(self, row: ReplayRow) -> None:
+        """A replay as a link, in the clipboard."""
+
+        def make() -> str:
+            if isinstance(row.source, Recording):
+                return recording_link([row.source])
+            replay = self.player.records.replay(row.source.id)
+            return replay_link([replay] if replay else [])
+
+        copy_link(self.app, make, title=row.text)
 
     def act(self, action: str, *, held: bool = False) -> None:
         """Delete asks first; all else as in other menus."""

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def watch(app: App, replays: Iterable[Replay | None]) -> bool:
     """Watch replays of the records one after another; whether there were any. Those that have gone are left out."""
     runs = [
-        RecordedRun(replay.name or "Replay", replay.level, replay.playback(replay.ticks), replay.body)
+        RecordedRun(replay.name or "Replay", replay.level, replay.playback(replay.ticks), replay.body, replay)
         for replay in replays
         if replay is not None and replay.level is not None
     ]

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import Replay
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Body, SaveState, Simulation
 
@@ -17,12 +18,13 @@ MOST_STATES = 300
 
 @dataclass(frozen=True)
 class RecordedRun:
-    """Inputs (one byte a tick) on a level."""
+    """Inputs (one byte a tick) on a level; ``replay``: the replay that they are from, if any."""
 
     title: str
     level: Level
     inputs: bytes
     body: Body = "circle"
+    replay: Replay | None = field(default=None, repr=False, compare=False)
 
 
 def recorded_run(recording: Recording) -> RecordedRun:
@@ -30,7 +32,17 @@ def recorded_run(recording: Recording) -> RecordedRun:
     title = recording.name or "replay"
     if recording.author:
         title += f" - {recording.author}"
-    return RecordedRun(title, recording.level, recording.playback(recording.ticks), recording.body)
+    return RecordedRun(title, recording.level, recording.playback(recording.ticks), recording.body, recording.replay)
+
+
+def replay_of(run: RecordedRun) -> Replay:
+    """The replay that a run is from, with its level inside; of other runs one that is made by running it."""
+    if run.replay:
+        return replace(run.replay, level=run.level)
+    # It imports NumPy, which playing does without.
+    from ninja_game.runs.run import record_replay
+
+    return record_replay(run.level, bytes(run.inputs) or bytes(1), body=run.body, name=run.title)
 
 
 class Playback:

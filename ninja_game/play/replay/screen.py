@@ -7,13 +7,15 @@ from typing import TYPE_CHECKING
 
 import pygame
 
+from ninja_game.formats.links.making import replay_link
 from ninja_game.formats.recording import Recording
+from ninja_game.play.clipboard import copy_link
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.level.run_clock import RunClock
 from ninja_game.play.replay.export import ExportJob
-from ninja_game.play.replay.playback import Playback, RecordedRun, recorded_run
+from ninja_game.play.replay.playback import Playback, RecordedRun, recorded_run, replay_of
 from ninja_game.play.replay.seek_bar import ReplayBar
 from ninja_game.play.screen import Screen
 from ninja_game.play.view.level_view import LevelView
@@ -154,7 +156,7 @@ class ReplayScreen(Screen):
             "frame_back": lambda: self.step(-1), "frame_forward": lambda: self.step(1),
             "faster": lambda: self._change_speed(1), "slower": lambda: self._change_speed(-1),
             "retry": lambda: self.show(self.index), "jump": lambda: self.show(self.index + 1),
-            "export": self.start_export, "ghost": self._toggle_ghosts,
+            "export": self.start_export, "link": self.copy_link, "ghost": self._toggle_ghosts,
             "back": self.app.pop, "quit": self.app.pop,
         }.get(action)  # fmt: skip
         if deed is not None:
@@ -191,6 +193,10 @@ class ReplayScreen(Screen):
             self.export = ExportJob(self.run, self.app.settings, self.app.player.folder)
             self.export.start()
 
+    def copy_link(self) -> None:
+        """This run as a link, in the clipboard."""
+        copy_link(self.app, lambda: replay_link([replay_of(self.run)]), title=self.run.title)
+
     # --- picture ---
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
@@ -217,5 +223,6 @@ class ReplayScreen(Screen):
         key = self.app.controls.name
         return (
             f"{key('frame_back')} {key('frame_forward')}: tick by tick    {key('left')} {key('right')}: a second    "
-            f"{key('slower')} {key('faster')}: speed    {key('export')}: film    {key('back')}: leave"
+            f"{key('slower')} {key('faster')}: speed    {key('export')}: film    "
+            f"{key('link')}: link    {key('back')}: leave"
         )

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import pygame
 
+from ninja_game.play.clipboard import copy_link
+from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.episodes.cells import LEFT, LOOKS, MOST_HIGH, TOP, WIDE, Cells, draw_look
 from ninja_game.play.menus.level_card import all_gold_and_medal, time_and_par
@@ -84,7 +86,11 @@ class EpisodeGrid(ThumbnailScreen):
             before = self.player.catalogue.preceding(self.episode)
             return f"Locked: pass episode {before.number if before else 0} first"
         cheated = self._state(self.number) == CHEATED
-        return "Enter: play, without records (reached in practice)" if cheated else "Enter: play this episode"
+        return (
+            "Enter: play, without records (reached in practice)"
+            if cheated
+            else f"Enter: play this episode    {self.app.controls.name('link')}: copy a link to the pack"
+        )
 
     @property
     def _below(self) -> float:
@@ -120,6 +126,13 @@ class EpisodeGrid(ThumbnailScreen):
         self._look_for_packs(str(key))
         self.grid.arrange(self.pack.episodes)
         self.practice.area = LEFT, self._below, WIDE, 30
+
+    def handle(self, event: InputEvent) -> None:
+        """The link key copies a link to the pack."""
+        if "link" in event.pressed and self.pack.files:
+            copy_link(self.app, self.pack.files.link, title=self.pack.name)
+        else:
+            super().handle(event)
 
     # --- go ---
 
