@@ -43,7 +43,7 @@ OUTCOME, TICKS, GOLD, EVENTS, ENDED = range(5)
 """Columns of what the kernel tells of each world (``advance_worlds``)."""
 TERMINATED, TRUNCATED = 1, 2
 
-TOGETHER = 64
+TOGETHER = 256
 """Worlds that are run and then observed before the next ones: so many stay in the processor's cache."""
 
 
@@ -107,7 +107,7 @@ class EnvWorlds:
         make = CompiledWorlds if self.memory == "compiled" else PlainWorlds
         self._worlds: Worlds = make(self.levels, count, is_box(body))
         fresh = [load_plain(level, is_box(body)) for level in self.levels]
-        setting = Setting(fresh, time_limit, self.memory == "compiled", self._worlds.kernel)
+        setting = Setting(fresh, count, time_limit, self.memory == "compiled", self._worlds.kernel)
         self.observation = Observation(observation, flat=flat)
         self.observations = self.observation.memory(count)
         self._writers = self.observation.writers(self.observations, setting)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 from gymnasium.spaces import Box
@@ -17,14 +17,16 @@ from ninja_game.sim.memory.schema import TileMap, World
 Array = NDArray[Any]
 
 
-class Setting(NamedTuple):
+@dataclass(frozen=True)
+class Setting:
     """What a part may know of the worlds when it makes its tables.
 
-    ``fresh``: of each level its map and a new world, as plain objects. ``time_limit``: ticks of an episode.
-    ``compiled``: whether kernels run compiled; ``kernel``: gives an entry point as these worlds run it.
+    ``fresh``: of each level its map and a new world, as plain objects. ``count``: worlds. ``time_limit``: ticks of an
+    episode. ``compiled``: whether kernels run compiled; ``kernel``: gives an entry point as these worlds run it.
     """
 
     fresh: Sequence[tuple[TileMap, World]]
+    count: int
     time_limit: int
     compiled: bool
     kernel: Callable[[Callable[..., Any]], Callable[..., Any]]
@@ -36,11 +38,16 @@ class Setting(NamedTuple):
 
 
 class Ragged:
-    """Rows of different length in one table: row i is ``values[starts[i]:starts[i + 1]]``."""
+    """Tuples of numbers, several for each level, in one table: level i has ``starts[i]`` to ``starts[i + 1]``."""
 
-    def __init__(self, rows: Sequence[Sequence[Any]]) -> None:
-        self.starts = np.cumsum([0, *(len(row) for row in rows)])
-        self.values = [value for row in rows for value in row]
+    def __init__(self, levels: Sequence[Sequence[tuple[float, ...]]]) -> None:
+        self.starts = np.cumsum([0, *(len(rows) for rows in levels)])
+        self.rows = [row for rows in levels for row in rows]
+
+    def columns(self, setting: Setting, width: int) -> list[Any]:
+        """The starts, and ``width`` columns of float64, as tables for kernels."""
+        columns = np.array(self.rows, np.float64).reshape(-1, width).T
+        return [setting.table(self.starts, np.int64), *(setting.table(column, np.float64) for column in columns)]
 
 
 @dataclass(frozen=True)

@@ -84,115 +84,132 @@ class StateVector(Part):
         return observe_state
 
     def tables(self, setting: Setting) -> tuple[Any, ...]:
-        """Factors and limits of the values; slots of the exits; slots and places of the gold."""
+        """Factors and limits of the values; slots and places of exits and gold; each world's last nearest gold."""
         box = self.box
         factors = [1.0 / scale if self.normalised else 1.0 for _, _, scale in FIELDS.values()]
-        exits = Ragged([[o.slot for o in w.objects if o.kind == EXIT] for _, w in setting.fresh])
+        exits = Ragged([[exit_row(w, o.slot) for o in w.objects if o.kind == EXIT] for _, w in setting.fresh])
         gold = Ragged([[(o.slot, o.x, o.y) for o in w.objects if o.kind == GOLD] for _, w in setting.fresh])
-        slots, xs, ys = zip(*gold.values, strict=True) if gold.values else ((), (), ())
         return (
-            setting.table(np.stack([factors, box.low, box.high], axis=1), np.float64),
-            setting.table(exits.starts, np.int64),
-            setting.table(exits.values, np.int64),
-            setting.table(gold.starts, np.int64),
-            setting.table(slots, np.int64),
-            setting.table(xs, np.float64),
-            setting.table(ys, np.float64),
+            *(setting.table(values, np.float64) for values in (factors, box.low, box.high)),
+            *exits.columns(setting, 5),
+            *gold.columns(setting, 3),
+            setting.table([0] * setting.count, np.int64),
         )
+
+
+def exit_row(w: World, slot: int) -> tuple[float, ...]:
+    """Slot and place of an exit, place of its switch."""
+    o = w.objects[slot]
+    switch = w.objects[o.partner]
+    return slot, o.x, o.y, switch.x, switch.y
 
 
 @entry_point
 def observe_state(
     maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
-    scale: Any, exit_starts: Any, exits: Any, gold_starts: Any, gold: Any, gold_x: Any, gold_y: Any,
+    factors: Any, lows: Any, highs: Any,
+    exit_starts: Any, exits: Any, exit_x: Any, exit_y: Any, switch_x: Any, switch_y: Any,
+    gold_starts: Any, gold: Any, gold_x: Any, gold_y: Any, nearest: Any,
 ) -> None:  # fmt: skip
-    """Write the state vector of some worlds: the ninja, the exit, the gold."""
+    """Write the state vector of some worlds."""
     for k in range(first, last):
         index = which[k]
         level = level_of[index]
         w = worlds[index]
-        row = out[index]
-        write_ninja(w, row, offset, scale)
-        write_exit(w, row, offset, scale, exits, exit_starts[level], exit_starts[level + 1])
-        write_gold(w, row, offset, scale, gold, gold_x, gold_y, gold_starts[level], gold_starts[level + 1])
+        n = w.ninja
+        observe_ninja(w, out, index, offset, factors, lows, highs)
+        for j in range(offset + FIRST_EXIT, offset + FIRST_STATE):
+            out[index, j] = 0.0
+        chosen, is_open = choose_exit(
+            w, exits, exit_x, exit_y, switch_x, switch_y, exit_starts[level], exit_starts[level + 1]
+        )
+        if chosen >= 0:
+            out[index, offset + FIRST_EXIT] = 1.0
+            out[index, offset + FIRST_EXIT + 1] = 1.0 if is_open else 0.0
+            put(out, index, offset, FIRST_EXIT + 2, factors, lows, highs, exit_x[chosen] - n.x)
+            put(out, index, offset, FIRST_EXIT + 3, factors, lows, highs, exit_y[chosen] - n.y)
+            if not is_open:
+                put(out, index, offset, FIRST_EXIT + 4, factors, lows, highs, switch_x[chosen] - n.x)
+                put(out, index, offset, FIRST_EXIT + 5, factors, lows, highs, switch_y[chosen] - n.y)
+        chosen = nearest_gold(w, gold, gold_x, gold_y, gold_starts[level], gold_starts[level + 1], nearest[index])
+        if chosen >= 0:
+            nearest[index] = chosen
+            out[index, offset + FIRST_GOLD] = 1.0
+            put(out, index, offset, FIRST_GOLD + 1, factors, lows, highs, gold_x[chosen] - n.x)
+            put(out, index, offset, FIRST_GOLD + 2, factors, lows, highs, gold_y[chosen] - n.y)
 
 
 @fast
-def put(row: Any, offset: int, j: int, scale: Any, value: float) -> None:
+def put(out: Any, index: int, offset: int, j: int, factors: Any, lows: Any, highs: Any, value: float) -> None:
     """Write value j: times its factor, within its limits."""
-    row[offset + j] = clamp(value * scale[j][0], scale[j][1], scale[j][2])
+    out[index, offset + j] = clamp(value * factors[j], lows[j], highs[j])
 
 
 @fast
-def write_ninja(w: World, row: Any, offset: int, scale: Any) -> None:
+def observe_ninja(w: World, out: Any, index: int, offset: int, factors: Any, lows: Any, highs: Any) -> None:
     """The first 13 values and the state."""
     n = w.ninja
     cell = cell_at(n.x, n.y)
-    put(row, offset, 0, scale, n.x)
-    put(row, offset, 1, scale, n.y)
-    put(row, offset, 2, scale, n.x - (CENTRE_X[cell] - HALF))
-    put(row, offset, 3, scale, n.y - (CENTRE_Y[cell] - HALF))
-    put(row, offset, 4, scale, n.x - n.prev_x)
-    put(row, offset, 5, scale, n.y - n.prev_y)
-    put(row, offset, 6, scale, float(n.in_air))
-    put(row, offset, 7, scale, float(n.near_wall))
-    put(row, offset, 8, scale, n.wall_x if n.near_wall else 0.0)
-    put(row, offset, 9, scale, 0.0 if n.in_air else n.floor_x)
-    put(row, offset, 10, scale, 0.0 if n.in_air else n.floor_y)
-    put(row, offset, 11, scale, float(n.jump_held))
-    put(row, offset, 12, scale, float(n.jump_timer) if n.state == JUMPING else 0.0)
+    put(out, index, offset, 0, factors, lows, highs, n.x)
+    put(out, index, offset, 1, factors, lows, highs, n.y)
+    put(out, index, offset, 2, factors, lows, highs, n.x - (CENTRE_X[cell] - HALF))
+    put(out, index, offset, 3, factors, lows, highs, n.y - (CENTRE_Y[cell] - HALF))
+    put(out, index, offset, 4, factors, lows, highs, n.x - n.prev_x)
+    put(out, index, offset, 5, factors, lows, highs, n.y - n.prev_y)
+    out[index, offset + 6] = float(n.in_air)
+    out[index, offset + 7] = float(n.near_wall)
+    put(out, index, offset, 8, factors, lows, highs, n.wall_x if n.near_wall else 0.0)
+    put(out, index, offset, 9, factors, lows, highs, 0.0 if n.in_air else n.floor_x)
+    put(out, index, offset, 10, factors, lows, highs, 0.0 if n.in_air else n.floor_y)
+    out[index, offset + 11] = float(n.jump_held)
+    put(out, index, offset, 12, factors, lows, highs, float(n.jump_timer) if n.state == JUMPING else 0.0)
     for state in range(8):
-        row[offset + FIRST_STATE + state] = 1.0 if n.state == state else 0.0
+        out[index, offset + FIRST_STATE + state] = 1.0 if n.state == state else 0.0
 
 
 @fast
-def write_exit(w: World, row: Any, offset: int, scale: Any, exits: Any, start: int, end: int) -> None:
-    """Six values: is there one, is it open, the ways to it and to its switch."""
+def choose_exit(
+    w: World, exits: Any, exit_x: Any, exit_y: Any, switch_x: Any, switch_y: Any, start: int, end: int
+) -> tuple[int, bool]:
+    """The exit that counts, -1: none, and whether it is open."""
     n = w.ninja
     best = FAR
-    chosen = 0
+    chosen = -1
+    chosen_open = False
     for k in range(start, end):
-        o = w.objects[exits[k]]
-        goal = o if o.is_open else w.objects[o.partner]
-        dx = goal.x - n.x
-        dy = goal.y - n.y
+        is_open = w.objects[int(exits[k])].is_open == 1
+        dx = (exit_x[k] if is_open else switch_x[k]) - n.x
+        dy = (exit_y[k] if is_open else switch_y[k]) - n.y
         distance = dx * dx + dy * dy
-        nearer = distance < best
-        if chosen and w.objects[chosen].is_open != o.is_open:
-            nearer = o.is_open == 1
-        if nearer or not chosen:
+        better = distance < best if is_open == chosen_open else is_open
+        if better or chosen < 0:
             best = distance
-            chosen = exits[k]
-    for j in range(FIRST_EXIT, FIRST_GOLD):
-        row[offset + j] = 0.0
-    if chosen:
-        o = w.objects[chosen]
-        row[offset + FIRST_EXIT] = 1.0
-        row[offset + FIRST_EXIT + 1] = float(o.is_open)
-        put(row, offset, FIRST_EXIT + 2, scale, o.x - n.x)
-        put(row, offset, FIRST_EXIT + 3, scale, o.y - n.y)
-        if not o.is_open:
-            put(row, offset, FIRST_EXIT + 4, scale, w.objects[o.partner].x - n.x)
-            put(row, offset, FIRST_EXIT + 5, scale, w.objects[o.partner].y - n.y)
+            chosen = k
+            chosen_open = is_open
+    return chosen, chosen_open
 
 
 @fast
-def write_gold(
-    w: World, row: Any, offset: int, scale: Any, gold: Any, gold_x: Any, gold_y: Any, start: int, end: int
-) -> None:
-    """Three values: is some left, the way to the nearest piece."""
+def nearest_gold(w: World, gold: Any, gold_x: Any, gold_y: Any, start: int, end: int, guess: int) -> int:
+    """The nearest piece that is left, the first of those equally near; -1: none.
+
+    A world's objects are far away in memory, the level's table is near: they are asked last. With a good ``guess``,
+    such as the last nearest piece, only one of them is asked.
+    """
     x = w.ninja.x
     y = w.ninja.y
     best = FAR
     chosen = -1
+    if start <= guess < end and not w.objects[int(gold[guess])].taken:
+        dx = gold_x[guess] - x
+        dy = gold_y[guess] - y
+        best = dx * dx + dy * dy
+        chosen = guess
     for k in range(start, end):
         dx = gold_x[k] - x
         dy = gold_y[k] - y
         distance = dx * dx + dy * dy
-        # A world's objects are far away in memory, the level's table is near: they are asked last.
-        if distance < best and not w.objects[gold[k]].taken:
+        if (distance < best or (distance == best and k < chosen)) and not w.objects[int(gold[k])].taken:
             best = distance
             chosen = k
-    row[offset + FIRST_GOLD] = 0.0 if chosen < 0 else 1.0
-    put(row, offset, FIRST_GOLD + 1, scale, 0.0 if chosen < 0 else gold_x[chosen] - x)
-    put(row, offset, FIRST_GOLD + 2, scale, 0.0 if chosen < 0 else gold_y[chosen] - y)
+    return chosen

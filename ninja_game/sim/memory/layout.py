@@ -20,6 +20,9 @@ _SIZES = {"f8": 8, "f4": 4, "i8": 8, "i4": 4, "i2": 2, "u1": 1}
 _REFUSED = set(dir(np.recarray)) | set(dir(np.record))
 """Names that NumPy's record types answer themselves: such a field would silently read something else."""
 
+HUGE_PAGE = 1 << 21
+"""Bytes of a huge page."""
+
 Records = NDArray[np.void]
 
 
@@ -93,12 +96,16 @@ def new_worlds(count: int, objects: int) -> Records:
     """``count`` zeroed worlds in one block, each with room for ``objects`` slots, as an array of records.
 
     The records are spaced by what they use, not by the full capacity: the array's stride is smaller than its item.
-    Unused capacity lies in untouched pages at the end of the block (huge pages would make it resident).
+    Unused capacity lies in untouched pages at the end of the block. What is used lies in huge pages, if it fills some:
+    a tick meets a handful of places of a world, and small pages would make most of them misses of the address cache.
     """
     stride = _align(used_bytes(objects), 64)
     block = mmap.mmap(-1, (count - 1) * stride + WORLD.itemsize)
-    if hasattr(mmap, "MADV_NOHUGEPAGE"):
-        block.madvise(mmap.MADV_NOHUGEPAGE)
+    if hasattr(mmap, "MADV_HUGEPAGE"):
+        huge = count * stride // HUGE_PAGE * HUGE_PAGE
+        block.madvise(mmap.MADV_NOHUGEPAGE, huge)
+        if huge:
+            block.madvise(mmap.MADV_HUGEPAGE, 0, huge)
     return np.ndarray((count,), WORLD, block, 0, (stride,))
 
 
