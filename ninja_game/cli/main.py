@@ -44,6 +44,9 @@ GROUPS = {
         "solve": "Find a run to the exit, then shorten it.",
         "improve": "Shorten a run that exists.",
     },
+    "web": {
+        "site": "Build the game as a page in a browser: a folder for any static host.",
+    },
     "": {"completion": "Set up completion of commands and options in your shell."},
 }
 """Commands with their first lines of help, by folder; ``ninja_game.cli.FOLDER.NAME`` holds one as ``command``."""

@@ -34,7 +34,7 @@ class Window:
             pygame.display.quit()
             raise NinjaGameError("there is no display; SDL_VIDEODRIVER=dummy plays without one")
         _prefer_shared_memory()
-        pygame.display.set_icon(_icon())
+        pygame.display.set_icon(icon(_ICON))
         pygame.display.set_mode(size or fitting_size(), pygame.RESIZABLE)
         pygame.display.set_caption(TITLE)
         self.fullscreen = False
@@ -102,14 +102,15 @@ def fitting_size() -> tuple[int, int]:
     return WIDTH * factor, HEIGHT * factor
 
 
-def _icon() -> pygame.Surface:
-    """The running ninja, as the game draws it."""
+def icon(size: int, *, corner: float = 1 / 6) -> pygame.Surface:
+    """The running ninja, as the game draws it. ``size``: px; ``corner``: radius of the corners, as a share of it."""
     from ninja_game.play.view.ninja.figure import ninja_sprite
     from ninja_game.play.view.ninja.pose import run_pose
 
     palette = PALETTES["classic"]
-    icon = pygame.Surface((_ICON, _ICON), pygame.SRCALPHA)
-    pygame.draw.rect(icon, palette.background, icon.get_rect(), border_radius=_ICON // 6)
-    sprite = ninja_sprite(_ICON / 28, palette, run_pose(0.1, 5.0), 1, (5, 0), colour=palette.ninja)
-    sprite.blit(icon, (_ICON // 2, _ICON // 2))
-    return icon
+    picture = pygame.Surface((size, size), pygame.SRCALPHA)
+    pygame.draw.rect(picture, palette.background, picture.get_rect(), border_radius=int(size * corner))
+    scale = size / 28 if corner else size / 40
+    sprite = ninja_sprite(scale, palette, run_pose(0.1, 5.0), 1, (5, 0), colour=palette.ninja)
+    sprite.blit(picture, (size // 2, size // 2))
+    return picture

@@ -26,6 +26,16 @@ def start(host: Any, level: str | None = None, replay: str | None = None) -> Non
     _Game.last = _Game.due = float(host.ticks())
 
 
+def app() -> App:
+    """The running game."""
+    return _Game.app
+
+
+def resume() -> None:
+    """Go on after a time without turns: it does not count."""
+    _Game.last = _Game.due = float(LINK.page.ticks())
+
+
 def turn(now: float) -> bool:
     """One picture at a time in ms, if one is due; whether the game goes on."""
     app = _Game.app

@@ -15,6 +15,9 @@ for (let k = 0; k < 10; k++) SCANCODES[`Digit${(k + 1) % 10}`] = 30 + k;
 for (let k = 0; k < 10; k++) SCANCODES[`Numpad${(k + 1) % 10}`] = 89 + k;
 for (let k = 1; k <= 12; k++) SCANCODES[`F${k}`] = 57 + k;
 
+// The code of a key by its scancode.
+export const codeOf = (scancode) => Object.keys(SCANCODES).find((code) => SCANCODES[code] === scancode);
+
 // What those keys mean whose meaning is a control character; printing keys mean their character.
 const CONTROLS = { Enter: 13, Escape: 27, Backspace: 8, Tab: 9, Space: 32, Delete: 127 };
 const MODIFIERS = [["Shift", 1], ["Control", 64], ["Alt", 256], ["Meta", 1024]];

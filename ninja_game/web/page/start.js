@@ -1,0 +1,140 @@
+// The page: loads the game, runs it turn by turn, keeps the player's folder, and says what went wrong.
+import { keepForLater, newerVersion, progress, startPython } from "./loading.js";
+import { createHost } from "./host.js";
+import { codeOf } from "./input.js";
+import { Panel } from "./panel.js";
+import { PlayerFolder, takeTurn } from "./storage.js";
+import { Touch } from "./touch.js";
+import { button, showTrouble } from "./trouble.js";
+
+const PAGE_STATE_MS = 100; // how often the page looks at what the game shows
+const KEEP_AFTER_MS = 3000; // when the game runs, what the next visit needs is put aside
+const ESCAPE = 41; // its scancode
+const canvas = document.getElementById("stage");
+const game = document.getElementById("game");
+
+class Page {
+  async start() {
+    if (await newerVersion()) return location.reload();
+    const taken = () => this.stop("The game has been opened in another tab", "It goes on there; your records are in one place at a time.");
+    this.taken = taken;
+    if (!(await takeTurn(taken))) return this.openElsewhere();
+    await this.load();
+  }
+
+  openElsewhere() {
+    const here = button("Play here instead", async () => {
+      await takeTurn(this.taken, { byForce: true });
+      document.getElementById("trouble").close();
+      this.load().catch(failed);
+    });
+    showTrouble("Two pages must not write the same records.", "The game is open in another tab or window", "Close it there, or go on here.", here);
+  }
+
+  async load() {
+    const { python, boot, services, keep } = await startPython();
+    this.python = python;
+    this.boot = boot;
+    this.folder = new PlayerFolder(python.FS);
+    await this.folder.open();
+    game.hidden = false; // before the host asks for the canvas' size
+    this.host = createHost(canvas);
+    this.host.attach(python);
+    boot.start(this.host);
+    this.services = services.PageServices(boot.app());
+    this.touch = new Touch((action, down) => this.press(action, down));
+    this.panel = new Panel(this);
+    this.listen();
+    await this.openLink();
+    this.turn(performance.now());
+    document.getElementById("start").remove();
+    canvas.focus();
+    setTimeout(() => {
+      keep();
+      keepForLater();
+    }, KEEP_AFTER_MS);
+  }
+
+  // A level or a replay in the address: opened at once. A text of a stranger: nothing but Python's own reader sees it.
+  async openLink() {
+    if (location.hash.length < 2) return;
+    const message = this.services.open_link(location.href);
+    if (message) this.panel.tell("This link cannot be opened", message);
+  }
+
+  listen() {
+    const shown = () => this.pause(document.hidden);
+    document.addEventListener("visibilitychange", shown);
+    addEventListener("pagehide", () => this.folder.saveChanges(() => {}));
+    addEventListener("blur", () => this.touch.release());
+    addEventListener("hashchange", () => this.openLink().catch(failed));
+    addEventListener("beforeunload", (event) => (this.state === "play" || this.folder.saving) && event.preventDefault());
+    new ResizeObserver(() => this.host.resize()).observe(canvas);
+    addEventListener("pointermove", () => this.stirred(), { passive: true });
+  }
+
+  // The pointer and the page's button show themselves while the mouse moves.
+  stirred() {
+    document.body.classList.remove("still");
+    clearTimeout(this.still);
+    this.still = setTimeout(() => document.body.classList.toggle("still", this.state === "play"), 2000);
+  }
+
+  pause(wanted) {
+    this.paused = wanted;
+    this.host.pause(wanted);
+    if (wanted) this.touch.release();
+    else this.boot.resume();
+  }
+
+  turn(now) {
+    if (this.stopped) return;
+    requestAnimationFrame((next) => this.turn(next));
+    if (this.paused || this.folder.saving) return;
+    try {
+      if (!this.boot.turn(now)) return this.stop("The game has ended", "Close this tab, or begin anew.");
+      this.folder.saveChanges((text) => this.services.notify(text));
+      if (now - (this.looked ?? -PAGE_STATE_MS) >= PAGE_STATE_MS) this.look(now);
+    } catch (error) {
+      failed(error);
+    }
+  }
+
+  // A touch button is the player's first key of its action; in menus there is one key for going back.
+  press(action, down) {
+    if (action === "jump" && this.state === "level") action = "confirm";
+    const code = action === "back" ? ESCAPE : this.services.scancodes(action)[0];
+    if (code) this.host.key(codeOf(code), down);
+  }
+
+  // What the page itself shows follows what the game shows.
+  look(now) {
+    this.looked = now;
+    const state = this.services.state();
+    if (state !== this.state) {
+      this.state = state;
+      this.touch.release();
+      this.touch.show(state);
+      if (state !== "play") document.body.classList.remove("still");
+    }
+    for (const name of this.folder.newExports()) this.folder.download(name);
+  }
+
+  stop(title, advice, error = "Nothing is lost.") {
+    this.stopped = true;
+    this.host?.pause(true);
+    showTrouble(error, title, advice);
+  }
+}
+
+const page = new Page();
+
+function failed(error) {
+  console.error(error);
+  if (!page.stopped) page.stop("Something went wrong", "Your records are kept. Please report the text below, and load the page again.", error);
+}
+
+addEventListener("error", (event) => event.error && failed(event.error));
+addEventListener("unhandledrejection", (event) => failed(event.reason));
+progress(2, "Loading the game");
+page.start().catch(failed);

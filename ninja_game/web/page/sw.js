@@ -1,0 +1,44 @@
+// Keeps the page for visits without a network. What is large has been kept by the page itself (loading.js).
+const build = {{build}};
+const PREFIX = `ninja-game ${new URL(".", location.href).pathname} `;
+
+self.addEventListener("install", (event) => {
+  event.waitUntil(
+    (async () => {
+      const cache = await caches.open(PREFIX + build.id);
+      await cache.addAll(["./", ...build.small].map((name) => new Request(name, { cache: "reload" })));
+      for (const name of Object.keys(build.sizes)) {
+        if (!(await cache.match(`${name}?v=${build.id}`))) await cache.add(`${name}?v=${build.id}`);
+      }
+    })(),
+  );
+});
+
+self.addEventListener("activate", (event) => {
+  event.waitUntil(
+    (async () => {
+      for (const name of await caches.keys()) {
+        if (name.startsWith(PREFIX) && name !== PREFIX + build.id) await caches.delete(name);
+      }
+      await self.clients.claim();
+    })(),
+  );
+});
+
+// The page asks for this when it starts, before anything is loaded.
+self.addEventListener("message", (event) => event.data === "take over" && self.skipWaiting());
+
+self.addEventListener("fetch", (event) => {
+  const url = new URL(event.request.url);
+  if (event.request.method !== "GET" || url.origin !== location.origin) return;
+  event.respondWith(
+    (async () => {
+      const cache = await caches.open(PREFIX + build.id);
+      const plain = url.href.split("#")[0];
+      return (await cache.match(plain)) ?? (event.request.mode === "navigate" && inFolder(url) ? await cache.match("./") : null) ?? fetch(event.request);
+    })(),
+  );
+});
+
+// The game's own page with a query; other pages beside it (a board, a gallery) are not ours.
+const inFolder = (url) => url.origin + url.pathname === new URL("./", location.href).href || url.pathname.endsWith("/index.html");

@@ -1,0 +1,60 @@
+"""What the page asks of the game: which screen is on, keys for touch, verdicts on a file, the player's data."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.files.resources import bundled_levels
+from ninja_game.formats.load import load_levels
+from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.play.app import App
+from ninja_game.play.input.scancodes import scancode_named
+from ninja_game.play.level.play import Phase
+from ninja_game.play.level.screen import LevelScreen
+from ninja_game.runs.recording_reader import Unreadable, recordings_in
+from ninja_game.runs.verify import judged, verify_recording
+
+
+class PageServices:
+    """The page's door to a running game."""
+
+    def __init__(self, app: App) -> None:
+        self.app = app
+
+    def state(self) -> str:
+        """What is on the screen: "play" while a level runs, "level" before and after that, else "menu"."""
+        top = self.app.top if self.app.stack else None
+        if not isinstance(top, LevelScreen):
+            return "menu"
+        return "play" if top.phase is Phase.PLAY else "level"
+
+    def scancodes(self, action: str) -> list[int]:
+        """The keys that mean an action, as the player has bound them."""
+        return [code for code in map(scancode_named, self.app.controls.keys.get(action, ())) if code]
+
+    def notify(self, text: str) -> None:
+        """Show a line below the stage."""
+        self.app.notify(text)
+
+    def verdicts(self, name: str, data: bytes) -> Iterator[str]:
+        """A verdict on every recording in a file, one by one: JSON as of ``ninja-game verify --json``.
+
+        ``{"unreadable": message}`` for what cannot be read.
+        """
+        names = {level_digest(each.level): each.name for path in bundled_levels() for each in load_levels(path)}
+        with TemporaryDirectory() as folder:
+            path = Path(folder) / Path(name).name
+            path.write_bytes(bytes(data))
+            for found in recordings_in([path]):
+                try:
+                    verdict = found if isinstance(found, Unreadable) else verify_recording(found, "plain")
+                except NinjaGameError as error:
+                    verdict = Unreadable(str(error))
+                if isinstance(verdict, Unreadable):
+                    yield json.dumps({"unreadable": verdict.message})
+                else:
+                    yield json.dumps(judged(verdict, names, only_these=False, strict=False).as_json() | {"file": name})

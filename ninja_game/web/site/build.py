@@ -1,0 +1,154 @@
+"""Builds the folder: the page, Pyodide, the game as one archive, icons, manifest, licences; what it weighs."""
+
+from __future__ import annotations
+
+import gzip
+import hashlib
+import io
+import json
+from collections.abc import Iterable
+from pathlib import Path
+from typing import NamedTuple
+
+from ninja_game import __version__
+from ninja_game.errors import FileError
+from ninja_game.files.reading import read_utf8
+from ninja_game.files.resources import PACKAGE
+from ninja_game.files.writing import write_atomically
+from ninja_game.web.site.game_archive import game_archive, licence_of
+from ninja_game.web.site.pyodide_files import pyodide_files, smaller_library
+
+MARK = "ninja-game-site.json"
+"""The file that tells a folder of ours, with the names of what was written into it."""
+
+ICONS = {"icons/64.png": (64, 1 / 6), "icons/192.png": (192, 1 / 6), "icons/512.png": (512, 1 / 6)}
+MASKABLE = "icons/maskable-512.png"
+"""An icon that systems cut to their own shape: nothing of it is in the corners."""
+
+LARGE = ("pyodide/pyodide.asm.wasm", "pyodide/python_stdlib.zip", "game.tar.gz")
+"""What the page fetches with progress and keeps itself; the service worker keeps the rest."""
+
+TEMPLATES = ("index.html", "sw.js")
+"""Files of the page that know the version."""
+
+
+class SiteFile(NamedTuple):
+    """A file of a site and what it weighs, bytes: as it is, and as a host compresses it."""
+
+    name: str
+    size: int
+    compressed: int
+
+
+def build_site(out: Path, pyodide: Path | None, cache: Path) -> list[SiteFile]:
+    """Write the site into the folder ``out``, new, empty, or a site of ours; what it holds now.
+
+    ``pyodide``: a folder with the files of its npm package; None gets it by npm into the folder ``cache``.
+    Raises FileError for a folder with other things in it, NinjaGameError where Pyodide cannot be had; OSError.
+    """
+    before = _own_files(out)
+    python = pyodide_files(pyodide, cache)
+    about = json.loads(python.pop("pyodide-lock.json"))["info"]
+    files = _page() | _pyodide(python) | {"game.tar.gz": game_archive()} | _icons() | _licences()
+    files |= _stamped(files, about)
+    for name, content in files.items():
+        (out / name).parent.mkdir(parents=True, exist_ok=True)
+        write_atomically(out / name, content)
+    write_atomically(out / MARK, json.dumps({"version": __version__, "files": sorted(files)}, indent=1) + "\n")
+    for name in before - set(files):
+        (out / name).unlink(missing_ok=True)
+    return [SiteFile(name, len(data), len(gzip.compress(data, 9))) for name, data in sorted(files.items())]
+
+
+def _own_files(out: Path) -> set[str]:
+    """What an earlier build has written there. Raises FileError for a folder that is not ours."""
+    if not out.exists() or (out.is_dir() and not any(out.iterdir())):
+        return set()
+    hint = "name a new folder, or remove that one yourself"
+    try:
+        names = json.loads(read_utf8(out / MARK))["files"]
+    except (OSError, ValueError, LookupError, TypeError):
+        raise FileError(
+            "this is no site of ninja-game", str(out), expected="a new or empty folder", hint=hint
+        ) from None
+    return {name for name in names if isinstance(name, str) and (out / name).resolve().is_relative_to(out.resolve())}
+
+
+def _page() -> dict[str, bytes]:
+    """The page's own files, without what Python runs."""
+    folder = PACKAGE / "web" / "page"
+    return {
+        path.name: path.read_bytes() for path in sorted(folder.iterdir()) if path.suffix in {".html", ".css", ".js"}
+    }
+
+
+def _pyodide(files: dict[str, bytes]) -> dict[str, bytes]:
+    changed = files | {"python_stdlib.zip": smaller_library(files["python_stdlib.zip"])}
+    return {f"pyodide/{name}": content for name, content in changed.items()}
+
+
+def _icons() -> dict[str, bytes]:
+    """The icons, as the game draws its ninja."""
+    import pygame
+
+    from ninja_game.play.window import icon
+
+    icons = {}
+    for name, (size, corner) in (ICONS | {MASKABLE: (512, 0.0)}).items():
+        png = io.BytesIO()
+        pygame.image.save(icon(size, corner=corner), png, "icon.png")
+        icons[name] = png.getvalue()
+    return icons
+
+
+def _licences() -> dict[str, bytes]:
+    own = {path.name: path.read_bytes() for path in (PACKAGE / "web" / "licences").glob("*.txt")}
+    packages = {f"{name}.txt": licence_of(name).encode() for name in ("ninja-game", "tomlkit")}
+    return {f"licences/{name}": content for name, content in (own | packages).items()}
+
+
+def _stamped(files: dict[str, bytes], about: dict[str, str]) -> dict[str, bytes]:
+    """The manifest, and what knows the version: index.html and the service worker. ``about``: Pyodide's."""
+    manifest = json.dumps(_manifest(), indent=1).encode()
+    everything = files | {"manifest.webmanifest": manifest}
+    build = {
+        "version": __version__,
+        "id": _digest(everything.items()),
+        "pyodide": about,
+        "sizes": {name: len(files[name]) for name in LARGE},
+        "small": sorted(
+            name for name in everything if name not in LARGE and not name.startswith(("licences/", "sw.js"))
+        ),
+    }
+    # Within a script element; no "<" may stand in it.
+    text = json.dumps(build).replace("<", "\\u003c").encode()
+    stamped = {name: files[name].replace(b"{{build}}", text) for name in TEMPLATES}
+    return stamped | {"manifest.webmanifest": manifest}
+
+
+def _digest(files: Iterable[tuple[str, bytes]]) -> str:
+    whole = hashlib.sha256()
+    for name, content in sorted(files):
+        whole.update(f"{name} {len(content)}\n".encode() + content)
+    return whole.hexdigest()[:16]
+
+
+def _manifest() -> dict[str, object]:
+    """What a browser needs to install the page as a program."""
+    icons = [
+        {"src": name, "sizes": f"{size}x{size}", "type": "image/png", "purpose": "any"}
+        for name, (size, _) in ICONS.items()
+    ]
+    return {
+        "name": "ninja-game",
+        "short_name": "ninja-game",
+        "description": "A platform game in the style of N: run, jump, collect gold, reach the exit.",
+        "start_url": "./",
+        "scope": "./",
+        "display": "standalone",
+        "orientation": "any",
+        "background_color": "#cacad0",
+        "theme_color": "#cacad0",
+        "categories": ["games"],
+        "icons": [*icons, {"src": MASKABLE, "sizes": "512x512", "type": "image/png", "purpose": "maskable"}],
+    }

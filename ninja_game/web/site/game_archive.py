@@ -1,0 +1,59 @@
+"""The game as the page gets it: one archive of what the package holds, unpacked there as it is installed here."""
+
+from __future__ import annotations
+
+import gzip
+import io
+import tarfile
+from collections.abc import Iterator
+from importlib.metadata import distribution
+from importlib.util import find_spec
+from pathlib import Path
+
+from ninja_game.files.resources import PACKAGE, data_folder
+
+LEFT_OUT = ("cli", "learn", "web/site", "web/board", "web/gallery", "web/page", "web/licences", "data")
+"""Folders of the package that a page has no use for."""
+
+
+def game_archive() -> bytes:
+    """A compressed tar of the package, its data and the library for TOML; the same bytes for the same files."""
+    packed = io.BytesIO()
+    with tarfile.open(fileobj=packed, mode="w", format=tarfile.USTAR_FORMAT) as archive:
+        for name, content in sorted(_files()):
+            entry = tarfile.TarInfo(name)
+            entry.size = len(content)
+            archive.addfile(entry, io.BytesIO(content))
+    return gzip.compress(packed.getvalue(), 9, mtime=0)
+
+
+def _files() -> Iterator[tuple[str, bytes]]:
+    """Name in the archive and content of every file."""
+    for path in PACKAGE.rglob("*.py"):
+        name = path.relative_to(PACKAGE).as_posix()
+        if not name.startswith(tuple(f"{folder}/" for folder in LEFT_OUT)):
+            yield f"ninja_game/{name}", path.read_bytes()
+    yield "boot.py", (PACKAGE / "web" / "page" / "boot.py").read_bytes()
+    for folder in ("levels", "assets"):
+        root = data_folder(folder)
+        for path in root.rglob("*"):
+            if path.is_file() and path.suffix != ".md":
+                yield f"ninja_game/data/{folder}/{path.relative_to(root).as_posix()}", path.read_bytes()
+    for path in _package("tomlkit").rglob("*.py"):
+        yield f"tomlkit/{path.relative_to(_package('tomlkit')).as_posix()}", path.read_bytes()
+
+
+def _package(name: str) -> Path:
+    """The folder of an installed package."""
+    spec = find_spec(name)
+    assert spec is not None  # noqa: S101 - one of our requirements
+    assert spec.origin is not None  # noqa: S101 - likewise
+    return Path(spec.origin).parent
+
+
+def licence_of(name: str) -> str:
+    """The text of an installed package's licence, "" where it has none."""
+    for path in distribution(name).files or ():
+        if path.name.upper().startswith("LICEN"):
+            return path.read_text("utf-8")
+    return ""

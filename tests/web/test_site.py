@@ -1,0 +1,138 @@
+"""The folder of the page: what is in it, that it is the same each time, and that nothing else is ever overwritten."""
+
+from __future__ import annotations
+
+import gzip
+import io
+import json
+import tarfile
+import threading
+import urllib.error
+import urllib.request
+from http.server import ThreadingHTTPServer
+from pathlib import Path
+from zipfile import ZipFile
+
+import pytest
+from click.testing import CliRunner
+
+from ninja_game.cli.main import cli
+from ninja_game.errors import FileError, NinjaGameError
+from ninja_game.web.site import build, pyodide_files
+from ninja_game.web.site.serve import site_server
+
+
+@pytest.fixture
+def pyodide(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with stand-ins for Pyodide's files, small ones, that count as the right version."""
+    folder = tmp_path / "pyodide"
+    folder.mkdir()
+    library = io.BytesIO()
+    with ZipFile(library, "w") as packed:
+        for name in ("json/__init__.py", "tkinter/__init__.py", "encodings/utf_8.py", "encodings/big5.py", "this.py"):
+            packed.writestr(name, "pass\n")
+    files = {name: name.encode() for name in pyodide_files.DIGESTS}
+    files |= {"python_stdlib.zip": library.getvalue(), "pyodide-lock.json": b'{"info": {"abi_version": "1<"}}'}
+    for name, content in files.items():
+        (folder / name).write_bytes(content)
+        monkeypatch.setitem(pyodide_files.DIGESTS, name, pyodide_files.digest_of(content))
+    return folder
+
+
+def names_in(folder: Path) -> set[str]:
+    return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
+
+
+def test_the_same_files_give_the_same_site_and_old_ones_go(pyodide: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    first = build.build_site(out, pyodide, tmp_path)
+    names = names_in(out)
+    assert {file.name for file in first} | {build.MARK} == names
+    assert {"index.html", "sw.js", "manifest.webmanifest", "start.js", "game.tar.gz", "licences/MPL-2.0.txt"} <= names
+    before = {name: (out / name).read_bytes() for name in names}
+    (out / "mine.txt").write_text("not of the site")
+    mark = json.loads((out / build.MARK).read_text())
+    mark["files"] += ["old.js", "../outside.txt"]
+    (out / build.MARK).write_text(json.dumps(mark))
+    (out / "old.js").write_text("of an earlier version")
+    (tmp_path / "outside.txt").write_text("not in the folder")
+    build.build_site(out, pyodide, tmp_path)
+    assert {name: (out / name).read_bytes() for name in names} == before
+    assert names_in(out) == names | {"mine.txt"}
+    assert (tmp_path / "outside.txt").exists()
+
+
+def test_the_page_knows_its_version_and_sizes(pyodide: Path, tmp_path: Path) -> None:
+    build.build_site(tmp_path / "out", pyodide, tmp_path)
+    page = (tmp_path / "out" / "index.html").read_text()
+    about = json.loads(page.split('id="build">')[1].split("</script>")[0])
+    assert about["pyodide"] == {"abi_version": "1<"}
+    assert "1<" not in page
+    assert about["sizes"] == {name: (tmp_path / "out" / name).stat().st_size for name in build.LARGE}
+    assert {"index.html", "start.js", "icons/192.png", "manifest.webmanifest"} <= set(about["small"])
+    assert "{{" not in page + (tmp_path / "out" / "sw.js").read_text()
+    for icon in json.loads((tmp_path / "out" / "manifest.webmanifest").read_text())["icons"]:
+        assert (tmp_path / "out" / icon["src"]).read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_archive_holds_the_game_and_nothing_that_the_page_cannot_use(pyodide: Path, tmp_path: Path) -> None:
+    build.build_site(tmp_path / "out", pyodide, tmp_path)
+    packed = gzip.decompress((tmp_path / "out" / "game.tar.gz").read_bytes())
+    with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
+        names = set(archive.getnames())
+    wanted = {"boot.py", "ninja_game/play/main.py", "ninja_game/web/shim/pygame/__init__.py", "tomlkit/__init__.py"}
+    assert wanted | {"ninja_game/data/levels/00-0-first-steps.txt", "ninja_game/data/assets/sounds/jump.wav"} <= names
+    assert not [name for name in names if "/cli/" in name or "/learn/" in name or name.endswith((".pyc", ".md"))]
+    with ZipFile(tmp_path / "out" / "pyodide" / "python_stdlib.zip") as library:
+        assert library.namelist() == ["json/__init__.py", "encodings/utf_8.py"]
+
+
+def test_a_folder_with_other_things_is_left_alone(pyodide: Path, tmp_path: Path) -> None:
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "index.html").write_text("mine")
+    with pytest.raises(FileError, match=r"no site of ninja-game.*new or empty folder"):
+        build.build_site(tmp_path / "mine", pyodide, tmp_path)
+    assert names_in(tmp_path / "mine") == {"index.html"}
+
+
+def test_other_files_than_those_of_the_version_are_refused(pyodide: Path, tmp_path: Path) -> None:
+    (pyodide / "pyodide.mjs").write_bytes(b"other")
+    with pytest.raises(NinjaGameError, match=r"pyodide\.mjs: not the file of Pyodide"):
+        build.build_site(tmp_path / "out", pyodide, tmp_path)
+    assert not (tmp_path / "out").exists()
+
+
+def test_without_npm_the_command_says_what_to_do(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    result = CliRunner().invoke(cli, ["site", str(tmp_path / "out")])
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert "npm, which gets Pyodide, is not installed" in result.stderr
+    assert "--pyodide FOLDER" in result.stderr
+    assert CliRunner().invoke(cli, ["site"]).exit_code == 2
+
+
+@pytest.fixture
+def server(tmp_path: Path) -> ThreadingHTTPServer:
+    (tmp_path / "a.wasm").write_bytes(b"\0asm")
+    (tmp_path / "manifest.webmanifest").write_text("{}")
+    (tmp_path / "empty").mkdir()
+    server = site_server(tmp_path, 0)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    return server
+
+
+def test_the_local_server_names_the_kinds_of_files_and_lists_nothing(server: ThreadingHTTPServer) -> None:
+    address = f"http://127.0.0.1:{server.server_port}"
+    try:
+        for name, kind in (("a.wasm", "application/wasm"), ("manifest.webmanifest", "application/manifest+json")):
+            with urllib.request.urlopen(f"{address}/{name}") as answer:
+                assert (answer.headers["Content-Type"], answer.headers["Cache-Control"]) == (kind, "no-cache")
+        with pytest.raises(urllib.error.HTTPError, match="404") as refused:
+            urllib.request.urlopen(f"{address}/empty/")
+        refused.value.close()
+        with pytest.raises(NinjaGameError, match="--port"):
+            site_server(Path(), server.server_port)
+    finally:
+        server.shutdown()
+        server.server_close()
