@@ -1,10 +1,12 @@
-"""Work beside the window: one thread that does the newest job and forgets those before it."""
+"""Work beside the window: one thread that does the newest job and forgets those before it; at once in a page."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from threading import Condition, Thread
 from typing import Generic, TypeVar
+
+from ninja_game.runtime import IN_PAGE, beside
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")
@@ -26,11 +28,13 @@ class NewestJob(Generic[Job, Result]):
 
     def ask(self, job: Job) -> None:
         """Do this job next, instead of any that still waits."""
+        if IN_PAGE:
+            self.result = self._work(job)
+            return
         with self._news:
             self._waiting[:] = [job]
             if self._thread is None:
-                self._thread = Thread(target=self._run, daemon=True)
-                self._thread.start()
+                self._thread = beside(self._run)
             self._news.notify_all()
 
     @property

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from ninja_game.compile_cache import compiled_available
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.resources import how_to_install
+from ninja_game.runtime import beside
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Body, Simulation
@@ -79,8 +80,7 @@ class Certifier:
         self.level, self.run, self.route, self.share = level, None, (), 0.0
         self.text = "Getting ready (the first time this takes a minute or two)"
         self._stop = False
-        self._thread = Thread(target=self._work, args=(level, lambda: self._stop), daemon=True)
-        self._thread.start()
+        self._thread = beside(lambda: self._work(level, lambda: self._stop))
 
     def stop(self) -> None:
         """End the search; what was found stays."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from ninja_game.runtime import IN_PAGE, ONLY_ON_A_DESKTOP
+
 PACKAGE = Path(__file__).resolve().parent.parent
 CHECKOUT = {name: PACKAGE.parent / name for name in ("levels", "assets")}
 """Where a checkout has what an installed package has in its folder ``data``."""
@@ -32,6 +34,8 @@ def bundled_replays() -> list[Path]:
 
 def how_to_install(extra: str) -> str:
     """What gets an optional part of the program: in a checkout its own tool, else pip of the Python that runs this."""
+    if IN_PAGE:
+        return ONLY_ON_A_DESKTOP
     tool = PACKAGE.parent / "tools" / "dev.py"
     if tool.is_file():
         return f"start the command as 'python3 {tool} run ...', which installs what is missing"

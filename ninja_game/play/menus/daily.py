@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from datetime import date
 from pathlib import Path
-from threading import Event, Thread
+from threading import Event
 from typing import TYPE_CHECKING
 
 import pygame
@@ -22,6 +22,7 @@ from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.player.scoring import seconds_text
+from ninja_game.runtime import IN_PAGE, ONLY_ON_A_DESKTOP, beside
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
@@ -37,8 +38,7 @@ class _Maker:
         self.told = "starting; the first time it compiles, which takes a minute or two"
         self.problem = ""
         self.stop = Event()
-        self._thread = Thread(target=self._run, args=(levels, day), daemon=True)
-        self._thread.start()
+        self._thread = beside(lambda: self._run(levels, day))
 
     @property
     def working(self) -> bool:
@@ -46,6 +46,9 @@ class _Maker:
         return self._thread.is_alive()
 
     def _run(self, levels: Path, day: date) -> None:
+        if IN_PAGE:
+            self.problem = f"The level of the day is made on your own machine: {ONLY_ON_A_DESKTOP}."
+            return
         try:
             choose_memory("compiled")
             if not daily.make_daily(levels, day, report=self._tell, stop=self.stop):

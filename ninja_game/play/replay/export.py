@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import io
-import threading
 from collections.abc import Callable, Iterator
 from itertools import pairwise
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 import pygame
@@ -20,6 +20,7 @@ from ninja_game.play.ui.palette import ROLES, Palette, mixed, palette_named
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.render_context import OffscreenContext
 from ninja_game.player.settings import Settings
+from ninja_game.runtime import IN_PAGE, ONLY_ON_A_DESKTOP, beside
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 
@@ -93,7 +94,12 @@ def export_film(
 def write_gif(
     pictures: Iterator[pygame.Surface], length: int, path: Path, size: tuple[int, int], speed: float, palette: Palette
 ) -> None:
-    """Write ``length`` pictures of ``size`` px, one a tick, as a GIF in the colours of a palette. Raises OSError."""
+    """Write ``length`` pictures of ``size`` px, one a tick, as a GIF in the colours of a palette.
+
+    Raises OSError, and NinjaGameError in a page, which has no library for GIFs.
+    """
+    if IN_PAGE:
+        raise NinjaGameError(ONLY_ON_A_DESKTOP)
     from PIL import Image
 
     tick_ms = 1000 / TICKS_PER_SECOND / speed
@@ -149,16 +155,17 @@ class ExportJob:
         self._wanted = True
         self.done = False
         self.result = ""
-        self._thread = threading.Thread(target=self._make, daemon=True)
+        self._thread: Thread
 
     def start(self) -> None:
         """Begin."""
-        self._thread.start()
+        self._thread = beside(self._make)
 
     def cancel(self) -> None:
         """Give up, and wait until it is given up."""
         self._wanted = False
-        self._thread.join(5)
+        if self._thread.is_alive():
+            self._thread.join(5)
 
     @property
     def percent(self) -> int:
