@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import random
 from typing import Any
 
@@ -17,9 +18,10 @@ host: Any
 
 
 class _Clock:
-    """``last``: the time of the last picture; ``due``: that of the next one, ms."""
+    """``last``: the time of the last picture; ``due``: that of the next one, ms. ``top``: its screen."""
 
     last = due = 0.0
+    top: Any = None
 
 
 def start(page: Any, level: str | None = None, replay: str | None = None) -> None:
@@ -31,6 +33,10 @@ def start(page: Any, level: str | None = None, replay: str | None = None) -> Non
     first = first_screen(level, replay, body="circle", practice=False)
     app = build_app()
     app.push(first(app))
+    # Play makes no cyclic garbage, and to look for it takes longer than a picture may: only when the screen changes.
+    gc.collect()
+    gc.freeze()
+    gc.disable()
     _Clock.last = _Clock.due = float(host.ticks())
 
 
@@ -55,4 +61,9 @@ def turn(now: float) -> bool:
     passed = int(now) - int(_Clock.last)
     _Clock.last = now
     app.frame(max(0, passed))
-    return app.running and bool(app.stack)
+    if not (app.running and app.stack):
+        return False
+    if app.top is not _Clock.top:
+        _Clock.top = app.top
+        gc.collect()
+    return True

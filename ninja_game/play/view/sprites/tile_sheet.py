@@ -19,7 +19,8 @@ class TileSheet:
         self.canvas = canvas
         self.palette = palette
         self.surface = pygame.Surface(canvas.size, pygame.SRCALPHA)
-        self._solid = [False] * (GRID_COLUMNS * GRID_ROWS)
+        # A bit for each column of a row that is not empty.
+        self._rows = [0] * GRID_ROWS
         self._pictures: dict[tuple[int, int, int, float, float], pygame.Surface] = {}
 
     def show(self, level: TileMap) -> None:
@@ -34,15 +35,16 @@ class TileSheet:
 
     def draw(self, column: int, row: int, tile: int) -> None:
         """Show a tile in a cell, in the place of what is there."""
-        place = row * GRID_COLUMNS + column
-        filled = SHAPE[tile] != EMPTY
-        if not filled and not self._solid[place]:
+        bit = 1 << column
+        filled, before = SHAPE[tile] != EMPTY, self._rows[row] & bit
+        if not filled and not before:
             return
         rect, scale = self.cell(column, row), self.canvas.scale
-        if self._solid[place]:
+        if before:
+            self._rows[row] ^= bit
             self.surface.fill((0, 0, 0, 0), rect)
-        self._solid[place] = filled
         if filled:
+            self._rows[row] |= bit
             # How far the cell's true corner lies beside its px: in eighths, so that few pictures are drawn.
             shift = round(8 * (24 * column * scale - rect.left)) / 8, round(8 * (24 * row * scale - rect.top)) / 8
             key = tile, *rect.size, *shift
@@ -55,8 +57,8 @@ class TileSheet:
         scale = 24 * self.canvas.scale
         first_column, last_column = max(0, int(area.left / scale)), min(GRID_COLUMNS - 1, int(area.right / scale))
         first_row, last_row = max(0, int(area.top / scale)), min(GRID_ROWS - 1, int(area.bottom / scale))
-        for row in range(first_row, last_row + 1):
-            start = row * GRID_COLUMNS
-            if True in self._solid[start + first_column : start + last_column + 1]:
+        columns = (1 << max(0, last_column + 1)) - (1 << min(first_column, GRID_COLUMNS))
+        for row in range(first_row, last_row + 1):  # noqa: SIM110 - a hundred times a picture
+            if self._rows[row] & columns:
                 return True
         return False

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain
 from math import ceil, floor
 from typing import Any
 
@@ -13,11 +14,11 @@ from .surface import DISC, FILL, FRAME, LINE, POLYGON, RING, Surface
 
 def _clipped(surface: Surface, x: int, y: int, right: int, bottom: int) -> Rect:
     """The part of a box that is drawn; of no size where that is nothing."""
-    clip_x, clip_y, clip_w, clip_h = surface._clip
-    x1, y1 = max(x, clip_x), max(y, clip_y)
-    x2, y2 = min(right, clip_x + clip_w), min(bottom, clip_y + clip_h)
-    if x1 != x or y1 != y or x2 != right or y2 != bottom:
-        surface.overdrawn = True
+    x1, y1, x2, y2 = surface._bounds
+    if x1 <= x and y1 <= y and right <= x2 and bottom <= y2:
+        return make(x, y, right - x, bottom - y)
+    surface.overdrawn = True
+    x1, y1, x2, y2 = max(x, x1), max(y, y1), min(right, x2), min(bottom, y2)
     return make(x1, y1, x2 - x1, y2 - y1) if x1 < x2 and y1 < y2 else make(x, y, 0, 0)
 
 
@@ -25,7 +26,7 @@ def polygon(surface: Surface, color: Any, points: Sequence[Any], width: int = 0)
     """A filled polygon, or its outline."""
     if width:
         return lines(surface, color, True, points, width)
-    flat = [int(value) for point in points for value in point]
+    flat = [*map(int, chain.from_iterable(points))]
     xs, ys = flat[::2], flat[1::2]
     entries = surface.entries()
     entries.extend((POLYGON, packed(color), len(xs)))

@@ -70,7 +70,9 @@ class Rect:
         """Shifted by (x, y)."""
         if x.__class__ is tuple:
             x, y = x
-        return make(self.x + int(x), self.y + int(y), self.w, self.h)
+        rect = _new(Rect)
+        rect.x, rect.y, rect.w, rect.h = self.x + int(x), self.y + int(y), self.w, self.h
+        return rect
 
     def inflate(self, x: float, y: float) -> Rect:
         """Larger by x and y, about the same centre."""

@@ -10,7 +10,7 @@ from array import array
 from typing import Any
 
 from .color import packed
-from .rect import Rect, make
+from .rect import Rect, _new, make
 
 SRCALPHA = 0x10000
 BLEND_RGBA_MULT, BLEND_PREMULTIPLIED = 8, 17
@@ -70,8 +70,7 @@ class Surface:
         if self.w < 0 or self.h < 0:
             raise ValueError("Invalid resolution for Surface")
         self.alpha = bool(flags & SRCALPHA)
-        self._clip: tuple[int, int, int, int] = (0, 0, self.w, self.h)
-        self._painted_clip = self._clip
+        self._bounds = self._painted = (0, 0, self.w, self.h)
         self._number = 0
         self._own: array[float] | None = array("d")
         self._blits = 0
@@ -89,8 +88,9 @@ class Surface:
     def show(self, size: tuple[int, int]) -> None:
         """Be the picture that the player sees."""
         self.w, self.h = size
-        self.alpha, self.opacity, self._own, self._blits = False, 1.0, None, 0
-        self._clip = self._painted_clip = (0, 0, *size)
+        self.alpha = self.overdrawn = False
+        self.opacity, self._own, self._blits = 1.0, None, 0
+        self._bounds = self._painted = (0, 0, *size)
         self._number = LIST.target = SCREEN
         LIST.numbers.extend((CANVAS, SCREEN, *size, 1))
 
@@ -114,9 +114,10 @@ class Surface:
         if LIST.target != self._number:
             LIST.target = self._number
             numbers.extend((TARGET, self._number))
-        if self._clip != self._painted_clip:
-            self._painted_clip = self._clip
-            numbers.extend((CLIP, *self._clip))
+        if self._bounds is not self._painted:
+            if self._bounds != self._painted:
+                numbers.extend((CLIP, *self.get_clip()))
+            self._painted = self._bounds
         return numbers
 
     # --- what it is ---
@@ -148,13 +149,14 @@ class Surface:
         """Draw only within a rectangle from now on; None: everywhere."""
         whole = make(0, 0, self.w, self.h)
         clip = whole if rect is None else Rect(rect).clip(whole)
-        self._clip = (clip.x, clip.y, clip.w, clip.h)
-        if self._own is not None and self._clip != self._painted_clip:
+        self._bounds = (clip.x, clip.y, clip.x + clip.w, clip.y + clip.h)
+        if self._own is not None and self._bounds != self._painted:
             self.settle()
 
     def get_clip(self) -> Rect:
         """Where is drawn."""
-        return make(*self._clip)
+        x1, y1, x2, y2 = self._bounds
+        return make(x1, y1, x2 - x1, y2 - y1)
 
     def copy(self) -> Surface:
         """Another surface with the same picture."""
@@ -174,51 +176,62 @@ class Surface:
         if special_flags == BLEND_RGBA_MULT:
             self.opacity *= colour[3] / 255
             return self.get_rect()
-        area = self.get_clip() if rect is None else Rect(rect).clip(self._clip)
+        area = self.get_clip() if rect is None else Rect(rect).clip(self.get_clip())
         if area.w:
             if self._own is not None and rect is None:
                 del self._own[:]
             number = packed(colour)
             if number & 255 or self._own is None or len(self._own):
+                # What takes something away cannot be copied on top of something else.
+                self.overdrawn = self.overdrawn or number & 255 < 255
                 self.entries().extend((FILL, number, area.x, area.y, area.w, area.h))
         return area
 
     def blit(self, source: Surface, dest: Any, area: Any = None, special_flags: int = 0) -> Rect:
         """Draw a picture, or an ``area`` of it, with its upper left corner at ``dest``; what was covered."""
-        dest_x, dest_y = dest.topleft if dest.__class__ is Rect else (int(dest[0]), int(dest[1]))
-        if area is None:
-            left, top, right, bottom = dest_x, dest_y, dest_x + source.w, dest_y + source.h
+        # The most frequent call of all, some 200 times a picture: hence attributes instead of smaller functions.
+        if dest.__class__ is Rect:
+            left, top = dest.x, dest.y
         else:
-            ax, ay, aw, ah = Rect(area) if area.__class__ is not Rect else area
-            left, top = dest_x + max(0, -ax), dest_y + max(0, -ay)
-            right, bottom = dest_x + min(aw, source.w - ax), dest_y + min(ah, source.h - ay)
-            dest_x, dest_y = dest_x - ax, dest_y - ay
-        clip_x, clip_y, clip_w, clip_h = self._clip
-        whole = clip_x <= left and clip_y <= top and right <= clip_x + clip_w and bottom <= clip_y + clip_h
-        if not whole:
-            left, top = max(left, clip_x), max(top, clip_y)
-            right, bottom = min(right, clip_x + clip_w), min(bottom, clip_y + clip_h)
-        w, h = right - left, bottom - top
+            left, top = int(dest[0]), int(dest[1])
+        x = y = 0
+        w, h = source.w, source.h
+        if area is not None:
+            x, y, w, h = (area.x, area.y, area.w, area.h) if area.__class__ is Rect else Rect(area)
+            left, top = left + max(0, -x), top + max(0, -y)
+            x, y, w, h = max(0, x), max(0, y), min(w, w + x, source.w - x), min(h, h + y, source.h - y)
+        x1, y1, x2, y2 = self._bounds
+        cut = left < x1 or top < y1 or left + w > x2 or top + h > y2
+        if cut:
+            right, bottom = min(left + w, x2), min(top + h, y2)
+            x, y = x + max(0, x1 - left), y + max(0, y1 - top)
+            left, top = max(left, x1), max(top, y1)
+            w, h = right - left, bottom - top
         if w <= 0 or h <= 0:
             return make(int(dest[0]), int(dest[1]), 0, 0)
-        self._draw(source, (left - dest_x, top - dest_y, w, h, left, top), copied=whole and area is None)
-        return make(left, top, w, h)
+        if source._own is None or not self._copy(source, left, top, whole=not cut and area is None):
+            if self._own is not None:
+                self.settle()
+            entries = LIST.numbers if LIST.target == self._number and self._bounds is self._painted else self.entries()
+            entries.extend((IMAGE, source._number, x, y, w, h, left, top, source.opacity))
+        rect = _new(Rect)
+        rect.x, rect.y, rect.w, rect.h = left, top, w, h
+        return rect
 
-    def _draw(self, source: Surface, numbers: tuple[int, ...], *, copied: bool) -> None:
-        """Put a picture on the list. ``copied``: as a whole, so that the numbers of a fresh one may be copied."""
+    def _copy(self, source: Surface, left: int, top: int, *, whole: bool) -> bool:
+        """Copy the numbers of a fresh picture, if it is ``whole``, small, shown for the first time; else settle it."""
         own = source._own
-        if own is not None:
-            source._blits += 1
-            small = len(own) <= ONE_SHAPE or (len(own) <= LONGEST_COPY and source.w * source.h <= LARGEST_COPY)
-            if copied and small and not source.overdrawn and source._blits == 1 and source.opacity == 1.0:
-                entries = self.entries()
-                entries.extend((SHIFT, 1, *numbers[4:6]))
-                entries.extend(own)
-                entries.append(UNSHIFT)
-                return
+        assert own is not None  # noqa: S101 - it is fresh
+        source._blits += 1
+        small = len(own) <= ONE_SHAPE or (len(own) <= LONGEST_COPY and source.w * source.h <= LARGEST_COPY)
+        if not (whole and small and source._blits == 1 and source.opacity == 1.0) or source.overdrawn:
             source.settle()
-        self.settle()
-        self.entries().extend((IMAGE, source._number, *numbers, source.opacity))
+            return False
+        entries = self.entries()
+        entries.extend((SHIFT, 1, left, top))
+        entries.extend(own)
+        entries.append(UNSHIFT)
+        return True
 
     def scaled(self, size: Any) -> Surface:
         """The picture in another size. A fresh one stays sharp: its shapes are drawn in that size."""
