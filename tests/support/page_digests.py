@@ -1,4 +1,4 @@
-"""Digests of runs, for a page and for here alike: this file is read by Pyodide too, and imports only what a page has."""
+"""Digests of runs, for a page and for here alike: Pyodide reads this file too, so it imports only what a page has."""
 
 from __future__ import annotations
 
