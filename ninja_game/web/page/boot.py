@@ -11,33 +11,28 @@ from pygame.host import LINK  # type: ignore[import-not-found]
 from ninja_game.play.app import App, build_app
 from ninja_game.play.main import first_screen
 
-app: App
-"""The game, after ``start``."""
-host: Any
-"""The page's host.js, after ``start``."""
 
+class _Game:
+    """``last``: the time of the last picture; ``due``: that of the next one, ms. ``top``: the screen it showed."""
 
-class _Clock:
-    """``last``: the time of the last picture; ``due``: that of the next one, ms. ``top``: its screen."""
-
+    app: App
     last = due = 0.0
     top: Any = None
 
 
-def start(page: Any, level: str | None = None, replay: str | None = None) -> None:
-    """Open the game in a page with this host.js: the main menu, or a file of levels or replays."""
-    global app, host
-    LINK.page = host = page
+def start(host: Any, level: str | None = None, replay: str | None = None) -> None:
+    """Open the game in the page of ``host`` (host.js): the main menu, or a file of levels or replays."""
+    LINK.page = host
     # A page may start from a picture of the memory, which holds the state of chance too.
     random.seed()
     first = first_screen(level, replay, body="circle", practice=False)
-    app = build_app()
-    app.push(first(app))
+    _Game.app = build_app()
+    _Game.app.push(first(_Game.app))
     # Play makes no cyclic garbage, and to look for it takes longer than a picture may: only when the screen changes.
     gc.collect()
     gc.freeze()
     gc.disable()
-    _Clock.last = _Clock.due = float(host.ticks())
+    resume()
 
 
 def app() -> App:
@@ -52,18 +47,19 @@ def resume() -> None:
 
 def turn(now: float) -> bool:
     """One picture at a time in ms, if one is due; whether the game goes on."""
+    app = _Game.app
     limit = app.settings.frame_limit
     if limit:
         # A display shows its pictures not quite evenly: one that comes a little early is the one that is due.
-        if now < _Clock.due - 2:
+        if now < _Game.due - 2:
             return True
-        _Clock.due = max(_Clock.due + 1000 / limit, now)
-    passed = int(now) - int(_Clock.last)
-    _Clock.last = now
+        _Game.due = max(_Game.due + 1000 / limit, now)
+    passed = int(now) - int(_Game.last)
+    _Game.last = now
     app.frame(max(0, passed))
     if not (app.running and app.stack):
         return False
-    if app.top is not _Clock.top:
-        _Clock.top = app.top
+    if app.top is not _Game.top:
+        _Game.top = app.top
         gc.collect()
     return True
