@@ -14,7 +14,6 @@ for (let k = 0; k < 26; k++) SCANCODES[`Key${String.fromCharCode(65 + k)}`] = 4 
 for (let k = 0; k < 10; k++) SCANCODES[`Digit${(k + 1) % 10}`] = 30 + k;
 for (let k = 0; k < 10; k++) SCANCODES[`Numpad${(k + 1) % 10}`] = 89 + k;
 for (let k = 1; k <= 12; k++) SCANCODES[`F${k}`] = 57 + k;
-const CODES = Object.fromEntries(Object.entries(SCANCODES).map(([code, number]) => [number, code]));
 
 // The code of a key by its scancode.
 export const codeOf = (scancode) => Object.keys(SCANCODES).find((code) => SCANCODES[code] === scancode);
@@ -109,10 +108,9 @@ export class Input {
     this.held.delete(code);
   }
 
-  // A key of a screen keyboard or a touch button; code: KeyboardEvent.code, or a scancode.
+  // A key of a screen keyboard or a touch button; code as KeyboardEvent.code.
   key(code, down) {
     this.pressed();
-    if (typeof code === "number") code = CODES[code];
     if (!(code in SCANCODES)) return;
     if (!down) return this.release(code);
     if (this.held.has(code)) return;

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from .display_list import LIST
 from .host import LINK
-from .surface import LIST, Surface
+from .surface import Surface
 
 
 class _Window:

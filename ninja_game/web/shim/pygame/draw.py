@@ -8,8 +8,9 @@ from math import ceil, floor
 from typing import Any
 
 from .color import packed
+from .display_list import DISC, FILL, FRAME, LINE, POLYGON, RING
 from .rect import Rect, make
-from .surface import DISC, FILL, FRAME, LINE, POLYGON, RING, Surface
+from .surface import Surface
 
 
 def _clipped(surface: Surface, x: int, y: int, right: int, bottom: int) -> Rect:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from .color import packed
+from .display_list import TEXT
 from .host import LINK
-from .surface import SRCALPHA, TEXT, Surface
+from .surface import SRCALPHA, Surface
 
 
 def init() -> None:
