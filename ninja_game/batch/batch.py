@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ninja_game.batch.thread_pool import cores
-from ninja_game.batch.worlds import CompiledWorlds, Numbers, PlainWorlds, Worlds
+from ninja_game.batch.worlds import Numbers, make_worlds
 from ninja_game.compile_cache import choose_memory
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.digest import world_digest
@@ -98,8 +98,7 @@ class Batch:
         self.body = body
         self.memory = choose_memory(memory)
         self.threads = threads or cores()
-        make = CompiledWorlds if self.memory == "compiled" else PlainWorlds
-        self._worlds: Worlds = make(self.levels, count, is_box(body))
+        self._worlds = make_worlds(self.memory, self.levels, count, box=is_box(body))
         self._levels_now: Numbers = np.arange(count, dtype=np.intp) % len(self.levels)
         self._look()
         self.reset()

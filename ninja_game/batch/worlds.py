@@ -20,6 +20,7 @@ from ninja_game.sim.kinds import KINDS
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.compiled import SLICE, load_worlds
 from ninja_game.sim.memory.declare import fields_of
+from ninja_game.sim.memory.interface import MemoryName
 from ninja_game.sim.memory.layout import OBJECT, OBJECTS_START, STATE_START, Records, new_worlds, plain_copy
 from ninja_game.sim.memory.plain import WORLD_SCALARS, load_plain, restore_plain, save_plain
 from ninja_game.sim.memory.schema import Ninja, World
@@ -194,3 +195,8 @@ class PlainWorlds:
         for slot, o in enumerate(w.objects):
             if slot:
                 objects[_KIND_FIELDS[o.kind]][slot] = _KIND_VALUES[o.kind](o)
+
+
+def make_worlds(memory: MemoryName, levels: Sequence[Level], count: int, *, box: bool) -> Worlds:
+    """``count`` worlds of a memory, not loaded yet. Raises LevelError for a level that cannot be played."""
+    return (CompiledWorlds if memory == "compiled" else PlainWorlds)(levels, count, box)

@@ -6,8 +6,14 @@ threads and whatever the order in which their episodes end.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
+
+from ninja_game.batch.worlds import Numbers
+from ninja_game.errors import ArgumentError
+from ninja_game.learn.levels import LevelSource, Which
 
 Draws = NDArray[np.uint64]
 
@@ -29,3 +35,24 @@ def _mix(state: Draws) -> Draws:
     state = (state ^ state >> np.uint64(30)) * _FIRST
     state = (state ^ state >> np.uint64(27)) * _SECOND
     return state ^ state >> np.uint64(31)
+
+
+class LevelSequences:
+    """Which levels ``count`` worlds play, episode after episode: what their seeds draw of a source."""
+
+    def __init__(self, source: LevelSource, count: int) -> None:
+        self._source = source
+        self._seeds, self._episodes = np.arange(count, dtype=np.uint64), np.zeros(count, np.uint64)
+
+    def seed(self, worlds: Numbers, seeds: Sequence[int]) -> None:
+        """Begin the sequences of these seeds. Raises ArgumentError for another number of them."""
+        if len(seeds) != len(worlds):
+            raise ArgumentError(f"{len(seeds)} seeds for {len(worlds)} worlds; expected one for each")
+        self._seeds[worlds] = [seed % 2**64 for seed in seeds]
+        self._episodes[worlds] = 0
+
+    def next(self, worlds: Numbers, chosen: Which | None) -> Numbers:
+        """The numbers of the levels of the next episodes of these worlds, drawn or ``chosen``; either is an episode."""
+        drawn = draws(self._seeds[worlds], self._episodes[worlds])
+        self._episodes[worlds] += np.uint64(1)
+        return self._source.choose(drawn) if chosen is None else self._source.numbers(chosen, len(worlds))

@@ -13,7 +13,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -21,17 +21,19 @@ from numpy.typing import NDArray
 
 from ninja_game.batch.batch import Which, numbers_of
 from ninja_game.batch.thread_pool import cores, thread_pool
-from ninja_game.batch.worlds import CompiledWorlds, Numbers, PlainWorlds, Worlds
+from ninja_game.batch.worlds import Numbers, make_worlds
 from ninja_game.compile_cache import choose_memory
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Keys
-from ninja_game.learn.draws import draws
+from ninja_game.learn.draws import LevelSequences
+from ninja_game.learn.goal_distance import GoalDistance
 from ninja_game.learn.kernels import advance_worlds
 from ninja_game.learn.levels import Origin, level_source
 from ninja_game.learn.levels import Which as LevelWhich
 from ninja_game.learn.observations.observation import Observation, PartLike
 from ninja_game.learn.observations.part import Setting
-from ninja_game.learn.rewards import RewardTerm, reward_terms, weights_of
+from ninja_game.learn.rewards import DistanceShaping, RewardTerm, reward_terms, weights_of
+from ninja_game.learn.shaping import Shaping
 from ninja_game.sim.digest import world_digest
 from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.memory.schema import World
@@ -53,6 +55,7 @@ class EnvState:
 
     levels: Numbers
     states: Any = field(repr=False)
+    starts: NDArray[np.float64] = field(repr=False)
     facts: NDArray[np.int64] = field(repr=False)
     owner: tuple[Any, ...] = field(repr=False)
 
@@ -63,8 +66,9 @@ class EnvWorlds:
     ``level``: where the levels come from, as ``level_source`` takes it. Each world has a seed of its own; which level
     its e-th episode plays depends on that seed and on e alone (and on what the source has learned, if it learns).
     ``observation``, ``flat``: as ``Observation`` takes them. ``reward``: a term or several (`rewards.py`).
-    ``frame_skip``: ticks of a step. ``time_limit``: ticks after which an episode is truncated. ``body``, ``memory``,
-    ``threads``: as of a ``Batch``; neither memory nor threads change a result.
+    ``frame_skip``: ticks of a step. ``time_limit``: ticks after which an episode is truncated. ``goal_distance``: make
+    ``goal`` (``GoalDistance``: how far each world is from the exit) even if no reward and no part needs it. ``body``,
+    ``memory``, ``threads``: as of a ``Batch``; neither memory nor threads change a result.
 
     What it shows is written anew by each call; copy what you want to keep. (n: the number of worlds.)
 
@@ -92,34 +96,43 @@ class EnvWorlds:
         reward: RewardTerm | Sequence[RewardTerm] | None = None,
         frame_skip: int = 4,
         time_limit: int = LIFETIME,
+        goal_distance: bool = False,
         body: Body = "circle",
         memory: str = "auto",
         threads: int | None = None,
     ) -> None:
-        if min(count, frame_skip, time_limit) < 1:
-            found = f"{count} worlds, frame skip {frame_skip}, time limit {time_limit}"
-            raise ArgumentError(f"{found}; expected at least 1 of each")
+        for name, number in (("worlds", count), ("frame_skip", frame_skip), ("time_limit", time_limit)):
+            if not isinstance(number, int | np.integer) or number < 1:
+                raise ArgumentError(f"{name} is {number!r:.60}; expected a whole number, at least 1")
         self.source = level_source(level)
         self.levels = self.source.levels
         self.count, self.body, self.frame_skip, self.time_limit = count, body, frame_skip, time_limit
         self.memory = choose_memory(memory)
         self.threads = threads or cores()
-        make = CompiledWorlds if self.memory == "compiled" else PlainWorlds
-        self._worlds: Worlds = make(self.levels, count, is_box(body))
+        self._worlds = make_worlds(self.memory, self.levels, count, box=is_box(body))
         fresh = [load_plain(level, is_box(body)) for level in self.levels]
         setting = Setting(fresh, count, time_limit, self.memory == "compiled", self._worlds.kernel)
         self.observation = Observation(observation, flat=flat)
+        terms = reward_terms(reward)
+        shaping = [term for term in terms if isinstance(term, DistanceShaping)]
+        self._guided = any(part.needs_goal for part in self.observation.parts)
+        wanted = goal_distance or self._guided or bool(shaping)
+        self.goal = GoalDistance(self.levels, self._worlds, setting) if wanted else None
+        self._shaping = Shaping(shaping, self.goal) if self.goal and shaping else None
         self.observations = self.observation.memory(count)
-        self._writers = self.observation.writers(self.observations, setting)
-        self._weights = setting.table(weights_of(reward_terms(reward)), np.float64)
+        self._writers = self.observation.writers(self.observations, replace(setting, goal=self.goal))
         self._advance = self._worlds.kernel(advance_worlds)
         self._everyone: Numbers = np.arange(count, dtype=np.intp)
+        self._levels = LevelSequences(self.source, count)
         self.levels_now: Numbers = np.zeros(count, np.intp)
-        self._seeds, self._episodes = np.arange(count, dtype=np.uint64), np.zeros(count, np.uint64)
         self.rewards = np.zeros(count)
         self._facts = np.zeros((5, count), np.int64).T
         self.outcomes, self.ticks, self.gold, self.events, _ = self._facts.T
         self.terminated, self.truncated = np.zeros((2, count), np.bool_)
+        weights = setting.table(weights_of(terms), np.float64)
+        # What the kernels take, first and last.
+        self._places = (self._worlds.maps, self.levels_now, self._worlds.worlds)
+        self._episodes = (frame_skip, time_limit, weights, self.rewards, self._facts)
         self.reset()
 
     # --- time ---
@@ -135,33 +148,33 @@ class EnvWorlds:
             steps[restart] = False
             which = np.flatnonzero(steps)
             self._restart(restart)
-            self._observe(restart)
 
         def work(first: int, last: int) -> int:
             ticks = 0
             for start in range(first, last, TOGETHER):
                 end = min(start + TOGETHER, last)
-                ticks += self._run(which, start, end, keys)
+                ticks += self._advance(*self._places, which, start, end, keys, *self._episodes)
+                if self.goal:
+                    self.goal.measure(self.levels_now, which, start, end)
                 self._write(which, start, end)
             return ticks
 
         ticks = thread_pool(self.threads).share(work, len(which), self.frame_skip)
         self._conclude()
+        if self.goal:
+            moved = self.goal.settle(self.levels_now)
+            if self._guided:
+                self._observe(moved)
+        if self._shaping:
+            self._shaping.add(self.rewards, which, self.terminated)
         ended = self.ended()
         if ended.size:
             self.source.report(self.levels_now[ended], self.outcomes[ended] == OUTCOME_EXIT)
         return ticks
 
-    def _run(self, which: Numbers, first: int, last: int, keys: Keys) -> int:
-        worlds, facts = self._worlds, self._facts
-        return self._advance(
-            worlds.maps, self.levels_now, worlds.worlds, which, first, last,
-            keys, self.frame_skip, self.time_limit, self._weights, self.rewards, facts,
-        )  # fmt: skip
-
     def _write(self, which: Numbers, first: int, last: int) -> int:
         for write in self._writers:
-            write(self._worlds.maps, self.levels_now, self._worlds.worlds, which, first, last)
+            write(*self._places, which, first, last)
         return 0
 
     def _observe(self, which: Numbers) -> None:
@@ -183,27 +196,32 @@ class EnvWorlds:
         """Begin new episodes. ``seeds``: new seeds of these worlds; ``levels``: what they play, else it is drawn."""
         numbers = numbers_of(worlds, self.count, "worlds")
         if seeds is not None:
-            if len(seeds) != len(numbers):
-                raise ArgumentError(f"{len(seeds)} seeds for {len(numbers)} worlds; expected one for each")
-            self._seeds[numbers] = [seed % 2**64 for seed in seeds]
-            self._episodes[numbers] = 0
+            self._levels.seed(numbers, seeds)
         self._restart(numbers, levels)
-        self._observe(numbers)
         self._conclude()
 
     def _restart(self, numbers: Numbers, levels: LevelWhich | None = None) -> None:
-        drawn = self.source.choose(draws(self._seeds[numbers], self._episodes[numbers]))
-        self.levels_now[numbers] = drawn if levels is None else self.source.numbers(levels, len(numbers))
-        self._episodes[numbers] += np.uint64(1)
+        self.levels_now[numbers] = self._levels.next(numbers, levels)
         self._worlds.load(numbers, self.levels_now[numbers])
         self._facts[numbers] = 0
+        self._look(numbers, None)
+
+    def _look(self, numbers: Numbers, starts: NDArray[np.float64] | None) -> None:
+        """Worlds are where they did not step to: measure, no reward. ``starts``: of their episodes, None: here."""
         self.rewards[numbers] = 0.0
+        if self.goal:
+            self.goal.begin(self.levels_now, numbers)
+            self.goal.start[numbers] = self.goal.ticks[numbers] if starts is None else starts
+        if self._shaping:
+            self._shaping.begin(numbers)
+        self._observe(numbers)
 
     def save(self, worlds: Which = None) -> EnvState:
         """The states of worlds and of their episodes, to come back to."""
         numbers = numbers_of(worlds, self.count, "worlds")
-        saved = self._worlds.save(numbers)
-        return EnvState(self.levels_now[numbers], saved, self._facts[numbers], self._owner())
+        starts = self.goal.start[numbers] if self.goal else np.zeros(len(numbers))
+        saved = self._worlds.save(numbers), starts, self._facts[numbers]
+        return EnvState(self.levels_now[numbers], *saved, self._owner())
 
     def restore(self, state: EnvState, worlds: Which = None) -> None:
         """Put saved states into worlds, the same or others, as many. Raises ArgumentError if they do not fit.
@@ -217,8 +235,7 @@ class EnvWorlds:
         self._worlds.restore(numbers, state.states, state.levels)
         self._facts[numbers] = state.facts
         self._facts[numbers, EVENTS] = 0
-        self.rewards[numbers] = 0.0
-        self._observe(numbers)
+        self._look(numbers, state.starts)
         self._conclude()
 
     def world(self, index: int) -> World:
@@ -230,4 +247,4 @@ class EnvWorlds:
         return world_digest(self.world(index))
 
     def _owner(self) -> tuple[Any, ...]:
-        return self.levels, self.body, self.memory, self.time_limit
+        return self.levels, self.body, self.memory, self.time_limit, self.goal is not None

@@ -87,7 +87,7 @@ def spread(costs: Costs, blocked: Blocks, field: Field, queue: NDArray[np.int32]
             start = j * ACROSS + i
             if costs[start] == 0.0 or (blocked[start] >> k) & 1:
                 continue
-            value = np.float32(field[point] + MOVE_TICKS[k] * costs[start])
+            value = np.float32(float(field[point]) + MOVE_TICKS[k] * float(costs[start]))
             if value < field[start] - np.float32(1e-3):
                 field[start] = value
                 if not waiting[start]:

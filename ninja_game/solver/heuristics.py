@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ninja_game.compile_cache import compiled
+from ninja_game.compile_cache import fastest
 from ninja_game.sim import kinds
 from ninja_game.sim.memory.layout import Records
 from ninja_game.sim.rules import STRIDE
@@ -60,13 +60,16 @@ class Switchable(NamedTuple):
 
 
 class Heuristics:
-    """Distance fields of one level, by switch_state."""
+    """Distance fields of one level, by switch_state.
 
-    def __init__(self, levels: Records, worlds: Records) -> None:
+    ``levels``: the level as kernels take it; ``worlds``: a new world in it, in records.
+    """
+
+    def __init__(self, levels: Any, worlds: Records) -> None:
         used = int(worlds["slots_used"][0])
         objects = worlds["objects"][0][:used]
         self.costs = np.zeros(POINTS, np.float32)
-        compiled(free_points)(levels, self.costs)
+        fastest(free_points)(levels, self.costs)
         self.blocked = np.zeros(POINTS, np.uint8)
         self._queue = np.zeros(POINTS + 1, np.int32)
         self._waiting = np.zeros(POINTS, np.uint8)
@@ -159,7 +162,7 @@ class Heuristics:
             free = [point for point in near if costs[point] > 0.0]
             free = free or [point for point in _points_about(x, y, 22.0) if costs[point] > 0.0] or near
             field[free] = np.minimum(field[free], np.float32(value))
-        compiled(spread)(costs, self.blocked, field, self._queue, self._waiting)
+        fastest(spread)(costs, self.blocked, field, self._queue, self._waiting)
         return field
 
     def _closed(self, switch_state: int, door_cost: float) -> Costs:

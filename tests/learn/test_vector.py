@@ -156,7 +156,8 @@ def test_a_reset_that_does_not_fit_is_refused(call: dict[str, Any]) -> None:
 @pytest.mark.parametrize(
     "settings",
     [
-        {"num_envs": 0}, {"level": "no such level"}, {"frame_skip": 0}, {"time_limit": 0}, {"body": "square"},
+        {"num_envs": 0}, {"level": "no such level"}, {"frame_skip": 0}, {"frame_skip": "4"},
+        {"time_limit": 2.5}, {"observation": 3}, {"time_limit": 0}, {"body": "square"},
         {"memory": "fast"}, {"actions": "keys"}, {"observation": "sight"}, {"observation": ["state", "state"]},
         {"observation": []}, {"reward": "exit"}, {"reward": [1.0]},
     ],

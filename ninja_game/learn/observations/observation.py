@@ -31,7 +31,8 @@ def parts_of(observation: PartLike | Sequence[PartLike]) -> list[Part]:
 
     Raises ArgumentError for what is none, and for two of the same name.
     """
-    given = [observation] if isinstance(observation, (str, Part)) else list(observation)
+    several = isinstance(observation, Sequence) and not isinstance(observation, str)
+    given: Any = observation if several else [observation]
     parts = []
     for each in given:
         part = PARTS[each]() if isinstance(each, str) and each in PARTS else each

@@ -23,6 +23,7 @@ class Setting:
 
     ``fresh``: of each level its map and a new world, as plain objects. ``count``: worlds. ``time_limit``: ticks of an
     episode. ``compiled``: whether kernels run compiled; ``kernel``: gives an entry point as these worlds run it.
+    ``goal``: their ``GoalDistance``, for parts that ask for one.
     """
 
     fresh: Sequence[tuple[TileMap, World]]
@@ -30,6 +31,7 @@ class Setting:
     time_limit: int
     compiled: bool
     kernel: Callable[[Callable[..., Any]], Callable[..., Any]]
+    goal: Any = None
 
     def table(self, values: Any, dtype: Any) -> Any:
         """A table for kernels: an array, or for the plain memory, which reads those slowly, a list."""
@@ -60,6 +62,9 @@ class Part(ABC):
 
     name: ClassVar[str]
     """Its key in a Dict of several parts."""
+
+    needs_goal: ClassVar[bool] = False
+    """Whether it reads ``Setting.goal``."""
 
     normalised: bool = True
 

@@ -1,0 +1,122 @@
+"""How far each world's ninja is from the exit, in ticks, by the solver's distance fields.
+
+A level has one field for each *switch state*: which exits are open and which doors are switched. It is made when a
+world first reaches that state, and kept. The fields know walls, mines and doors, not jumps: an estimate, no promise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ninja_game.batch.worlds import Numbers, Worlds, make_worlds
+from ninja_game.compile_cache import choose_memory
+from ninja_game.learn.observations.part import Ragged, Setting
+from ninja_game.sim.kinds import EXIT
+from ninja_game.sim.level import Level
+from ninja_game.sim.memory.declare import entry_point
+from ninja_game.solver.distance_field import POINTS, point_at
+from ninja_game.solver.heuristics import Heuristics
+
+SPARE_FIELDS = 1024
+"""Fields that are kept although no world is in their state; 53 KB each, once made."""
+
+FARTHEST = 20_000.0
+"""Ticks that an unreachable place counts."""
+
+NO_STATE = NO_ROW = -1
+
+
+class GoalDistance:
+    """Ticks to the exit of ``count`` worlds.
+
+    ``ticks`` (n,) float64; ``states`` (n,) int64: the switch states, a bit for each of ``Heuristics.switches``;
+    ``start`` (n,) float64: ticks at the episode's start; ``fields`` (rows, POINTS) float32 and ``rows`` (n,): the field
+    of each world's switch state.
+    """
+
+    def __init__(self, levels: Sequence[Level], worlds: Worlds, setting: Setting) -> None:
+        self._levels, self._worlds, self._setting = levels, worlds, setting
+        self._kernel = worlds.kernel(measure_distance)
+        self._made: dict[int, Heuristics] = {}
+        count = setting.count
+        self.ticks, self.start = np.zeros((2, count))
+        self.states = np.full(count, NO_STATE, np.int64)
+        self.rows = np.zeros(count, np.int64)
+        self.fields = np.zeros((count + SPARE_FIELDS, POINTS), np.float32)
+        self._free = list(range(len(self.fields)))
+        self._row_of: dict[tuple[int, int], int] = {}
+        self._stale = np.zeros(count, np.bool_)
+        slots = Ragged([[(slot,) for slot in self._heuristics(number).slots.tolist()] for number in range(len(levels))])
+        self._switches = slots.columns(setting, 1)
+
+    def _heuristics(self, number: int) -> Heuristics:
+        """The fields of a level, which any memory makes alike: the fastest does."""
+        if number not in self._made:
+            one = np.zeros(1, np.intp)
+            alone = make_worlds(choose_memory("auto"), [self._levels[number]], 1, box=False)
+            alone.load(one, one)
+            self._made[number] = Heuristics(alone.maps, alone.records)
+        return self._made[number]
+
+    def begin(self, level_of: Numbers, which: Numbers) -> None:
+        """Worlds have begun an episode, or were put elsewhere: forget what was."""
+        self.states[which] = NO_STATE
+        self.measure(level_of, which, 0, len(which))
+        self.settle(level_of)
+
+    def measure(self, level_of: Numbers, which: Numbers, first: int, last: int) -> None:
+        """Look how far the worlds ``which[first:last]`` are now; not yet those whose switch state is another."""
+        worlds = self._worlds
+        self._kernel(
+            worlds.maps, level_of, worlds.worlds, which, first, last,
+            *self._switches, self.states, self._stale, self.fields, self.rows, self.ticks,
+        )  # fmt: skip
+
+    def settle(self, level_of: Numbers) -> Numbers:
+        """Give the worlds whose switch state is another their fields, and measure them; their numbers."""
+        stale = np.flatnonzero(self._stale)
+        if stale.size:
+            self._stale[stale] = False
+            self.rows[stale] = NO_ROW
+            for index in stale.tolist():
+                self.rows[index] = self._row(int(level_of[index]), int(self.states[index]))
+            self.measure(level_of, stale, 0, len(stale))
+        return stale
+
+    def _row(self, level: int, state: int) -> int:
+        """The row of a field, made if it is not there."""
+        key = (level, state)
+        if key not in self._row_of:
+            if not self._free:
+                used = set(self.rows.tolist())
+                self._free = [row for row in range(len(self.fields)) if row not in used]
+                self._row_of = {known: row for known, row in self._row_of.items() if row in used}
+            self._row_of[key] = row = self._free.pop()
+            n = self._setting.fresh[level][1].ninja
+            np.minimum(self._heuristics(level).field(state, n.x, n.y), np.float32(FARTHEST), out=self.fields[row])
+        return self._row_of[key]
+
+
+@entry_point
+def measure_distance(
+    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int,
+    starts: Any, switches: Any, states: Any, stale: Any, fields: Any, rows: Any, ticks: Any,
+) -> None:  # fmt: skip
+    """Write the switch states of some worlds and their ``ticks`` to the exit; ``stale``: the state is another now."""
+    for k in range(first, last):
+        index = which[k]
+        level = level_of[index]
+        w = worlds[index]
+        state = 0
+        for bit in range(starts[level], starts[level + 1]):
+            o = w.objects[int(switches[bit])]
+            if o.is_open if o.kind == EXIT else o.switched:
+                state |= 1 << (bit - starts[level])
+        if state != states[index]:
+            states[index] = state
+            stale[index] = True
+        else:
+            ticks[index] = fields[rows[index], point_at(w.ninja.x, w.ninja.y)]
