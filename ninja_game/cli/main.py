@@ -47,6 +47,7 @@ GROUPS = {
     "web": {
         "site": "Build the game as a page in a browser: a folder for any static host.",
     },
+    "learn": {"learn": "Make demonstrations for learning agents, and measure agents."},
     "": {"completion": "Set up completion of commands and options in your shell."},
 }
 """Commands with their first lines of help, by folder; ``ninja_game.cli.FOLDER.NAME`` holds one as ``command``."""
@@ -56,7 +57,9 @@ MODULES = {
     name: ".".join(filter(None, ("ninja_game.cli", folder, name))) for folder, group in GROUPS.items() for name in group
 }
 
-COMPILING = ("verify", "trace", "splits", "compare", "bench", "solve", "improve", "check", "levels", "generate")
+COMPILING = (
+    "verify", "trace", "splits", "compare", "bench", "solve", "improve", "check", "levels", "generate", "learn",
+)  # fmt: skip
 """Those that may have to compile the rules first."""
 
 BAD_INPUT = 2

@@ -1,0 +1,76 @@
+"""`ninja-game learn demos`: recordings as observations, actions and rewards."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+
+from ninja_game.cli.main import complain
+from ninja_game.cli.run_options import level_given, level_option, memory_option, with_progress
+
+
+@click.command(name="demos")
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
+@click.option("--output", "-o", type=click.Path(dir_okay=False, path_type=Path), help="Write arrays to this .npz file.")
+@click.option("--minari", "dataset", metavar="NAME", help="Write a data set of Minari, called such as ninja/set-v0.")
+@click.option(
+    "--observation", "parts", metavar="PART", multiple=True, default=("state",), show_default=True,
+    help="What is observed, as `Ninja-v0` has it; may be given several times.",
+)  # fmt: skip
+@click.option("--flat", is_flag=True, help="Put all parts into one row of numbers.")
+@click.option("--actions", type=click.Choice(["discrete", "buttons"]), default="discrete", show_default=True)
+@level_option
+@memory_option
+def command(
+    files: Sequence[Path],
+    output: Path | None,
+    dataset: str | None,
+    parts: Sequence[str],
+    flat: bool,
+    actions: str,
+    level_path: Path | None,
+    memory: str,
+) -> None:
+    """Make demonstrations of recordings: what an environment shows, is told and pays, a step a tick.
+
+    FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Recordings that
+    no agent could have made, since they press jump anew while it is held, are left out and named.
+
+    \b
+    Examples:
+      ninja-game learn demos levels/certificates -o demos.npz
+      ninja-game learn demos levels/certificates --minari ninja/set-v0
+    """
+    if (output is None) == (dataset is None):
+        raise click.UsageError("where to? give --output FILE.npz or --minari NAME")
+    if output is not None and output.suffix != ".npz":
+        raise click.UsageError(f"{output}: expected a name that ends in .npz")
+    from ninja_game.errors import ArgumentError
+    from ninja_game.files.writing import check_output
+    from ninja_game.formats.load import load_replays
+    from ninja_game.learn.demonstrations import UnplayableRecordingError, demonstration, write_minari, write_npz
+
+    if output is not None:
+        check_output(output, keep=files)
+    level = level_given(level_path)
+    recordings = [recording for file in files for recording in load_replays(file, level=level)]
+    observation = parts[0] if len(parts) == 1 else list(parts)
+    settings: dict[str, Any] = {"observation": observation, "flat": flat, "actions": actions}
+    made = []
+    for recording in with_progress(recordings, "recording"):
+        try:
+            made.append(demonstration(recording, memory=memory, **settings))
+        except UnplayableRecordingError as error:
+            complain(f"left out: {error}")
+    if not made:
+        raise ArgumentError("none of these recordings can be a demonstration")
+    if output is not None:
+        write_npz(output, made)
+    else:
+        write_minari(str(dataset), made, **settings)
+    steps, passed = sum(len(each.rewards) for each in made), sum(each.outcome == "exit" for each in made)
+    left = f", {len(recordings) - len(made)} left out" * (len(made) < len(recordings))
+    click.echo(f"{output or dataset}: {len(made)} demonstrations, {steps:,} steps, {passed} to the exit{left}")

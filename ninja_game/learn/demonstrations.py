@@ -1,0 +1,166 @@
+"""Demonstrations: recordings as what an environment shows, is told and pays, for learning from them.
+
+>>> from ninja_game import load_replays
+>>> episode = demonstration(load_replays("levels/certificates/00-0-first-steps.exit.replay.txt")[0])
+>>> episode.observations.shape, episode.actions.shape, episode.rewards.sum().item(), episode.outcome
+((150, 30), (149,), 1.0, 'exit')
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import gymnasium
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.errors import ArgumentError, MissingExtraError, NinjaGameError
+from ninja_game.files.resources import how_to_install
+from ninja_game.files.writing import write_atomically
+from ninja_game.formats.recording import Recording
+from ninja_game.learn.actions import BUTTON_KEYS, DISCRETE_KEYS
+from ninja_game.learn.observations.observation import Observed
+from ninja_game.learn.single import NinjaEnv
+from ninja_game.runs.run import run_level
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, KEYS_DOWN
+
+_BOTH = KEY_LEFT + KEY_RIGHT
+_ACTION_OF_KEYS = np.array(
+    [DISCRETE_KEYS.tolist().index(keys & JUMP_HELD if keys & _BOTH == _BOTH else keys) for keys in range(KEYS_DOWN + 1)]
+)
+"""The discrete action of keys that are down; left and right together are as none (ninja.md §3)."""
+
+
+class UnplayableRecordingError(NinjaGameError):
+    """A recording that no agent could have made in an environment; says why."""
+
+
+@dataclass(frozen=True, eq=False)
+class Demonstration:
+    """A recording of T ticks as T steps of an environment with frame skip 1.
+
+    ``observations``: (T + 1, …), from the first reset to after the last step, or a dict of such arrays. ``actions``:
+    (T,) int64, of buttons (T, 3) int8. ``rewards``: (T,) float64. ``terminations``, ``truncations``: (T,) bool; what
+    ends before the exit or death ends truncated. ``name``: of the recording.
+    """
+
+    name: str
+    observations: Observed
+    actions: NDArray[Any]
+    rewards: NDArray[np.float64]
+    terminations: NDArray[np.bool_]
+    truncations: NDArray[np.bool_]
+    outcome: str
+    gold: int
+
+
+def demonstration(recording: Recording, **settings: Any) -> Demonstration:
+    """What an environment makes of a recording. ``settings``: of ``NinjaEnv``, but level, body, frame skip, time limit.
+
+    An environment presses jump when its key goes down; N also has recordings that press it anew while it is down. If
+    that makes another run of a recording, it is an UnplayableRecordingError.
+    """
+    keys = recording.playback(recording.ticks)
+    made = NinjaEnv(recording.level, body=recording.body, frame_skip=1, time_limit=len(keys), **settings)
+    buttons = made.action_space.shape != ()
+    down = np.frombuffer(keys, np.uint8) & KEYS_DOWN
+    actions = ((down[:, np.newaxis] & BUTTON_KEYS) > 0).astype(np.int8) if buttons else _ACTION_OF_KEYS[down]
+    seen = [made.reset()[0]]
+    rewards: list[float] = []
+    info: dict[str, Any] = {}
+    terminated = False
+    for action in actions:
+        observation, reward, terminated, truncated, info = made.step(action)
+        seen.append(observation)
+        rewards.append(reward)
+        if terminated or truncated:
+            break
+    ticks = len(rewards)
+    if made.inputs != keys[:ticks] and not _same_run(recording, made.inputs):
+        what = "it presses jump anew while the key is down"
+        raise UnplayableRecordingError(f"{recording.file}: {recording.name}: {what}")
+    terminations, truncations = np.zeros((2, ticks), np.bool_)
+    terminations[-1], truncations[-1] = terminated, not terminated
+    observations = _stacked(seen)
+    return Demonstration(
+        recording.name, observations, actions[:ticks], np.array(rewards), terminations, truncations,
+        info["outcome"], info["gold"],
+    )  # fmt: skip
+
+
+def _same_run(recording: Recording, inputs: bytes) -> bool:
+    """Whether other inputs make the run that was recorded."""
+    recorded = run_level(recording.level, recording.playback(recording.ticks), body=recording.body)
+    return recorded == run_level(recording.level, inputs, body=recording.body)
+
+
+def _stacked(seen: Sequence[Any]) -> Observed:
+    if isinstance(seen[0], dict):
+        return {name: np.stack([each[name] for each in seen]) for name in seen[0]}
+    return np.stack(seen)
+
+
+def arrays(episodes: Sequence[Demonstration]) -> dict[str, NDArray[Any]]:
+    """Episodes one after the other, N steps in all, under the names that Minari gives its arrays.
+
+    ``observations`` (N, …) before and ``next_observations`` after each step (of several parts: "observations/NAME"),
+    ``actions``, ``rewards``, ``terminations``, ``truncations`` (N,), ``episode_ids`` (N,): which episode a step is of,
+    ``names`` (episodes,). Raises ArgumentError without episodes.
+    """
+    if not episodes:
+        raise ArgumentError("there are no demonstrations to write")
+    found: dict[str, NDArray[Any]] = {}
+    for name, first, last in (("observations", None, -1), ("next_observations", 1, None)):
+        parts = [each.observations for each in episodes]
+        for key in parts[0] if isinstance(parts[0], dict) else [""]:
+            rows = [part[key] if isinstance(part, dict) else part for part in parts]
+            found[f"{name}/{key}" if key else name] = np.concatenate([row[first:last] for row in rows])
+    for name in ("actions", "rewards", "terminations", "truncations"):
+        found[name] = np.concatenate([getattr(each, name) for each in episodes])
+    found["episode_ids"] = np.repeat(np.arange(len(episodes)), [len(each.rewards) for each in episodes])
+    found["names"] = np.array([each.name for each in episodes])
+    return found
+
+
+def write_npz(path: Path, episodes: Sequence[Demonstration]) -> None:
+    """Write ``arrays`` of episodes as a NumPy file. Raises ArgumentError without episodes, FileError, OSError."""
+    named: dict[str, Any] = {**arrays(episodes)}
+    write_atomically(path, lambda file: np.savez_compressed(file, **named))
+
+
+def write_minari(dataset: str, episodes: Sequence[Demonstration], **settings: Any) -> Any:
+    """Write episodes as the data set ``dataset`` of Minari ("name-v0"), where Minari keeps its sets; the set.
+
+    ``settings``: those of the demonstrations, in words and numbers, so that the set knows its environment.
+
+    Raises MissingExtraError without Minari, ArgumentError without episodes or for a name that Minari does not take.
+    """
+    try:
+        import minari
+        from minari.data_collector import EpisodeBuffer
+    except ModuleNotFoundError as error:
+        raise MissingExtraError(f"data sets of Minari need it; {how_to_install('minari')}") from error
+    if not episodes:
+        raise ArgumentError("there are no demonstrations to write")
+    buffers = [
+        EpisodeBuffer(
+            id=number, observations=each.observations, actions=each.actions, rewards=each.rewards.tolist(),
+            terminations=each.terminations.tolist(), truncations=each.truncations.tolist(),
+        )
+        for number, each in enumerate(episodes)
+    ]  # fmt: skip
+    env = gymnasium.make("ninja_game:Ninja-v0", frame_skip=1, **settings)
+    try:
+        with env, warnings.catch_warnings():
+            # Minari misses an author's address, a link and scores, which recordings have not.
+            warnings.simplefilter("ignore", UserWarning)
+            return minari.create_dataset_from_buffers(
+                dataset, buffers, env=env, jpeg_encoding=False, data_format="hdf5", algorithm_name="recordings",
+                requirements=["ninja-game[learn]"], description="Recordings of ninja-game, one step a tick",
+            )  # fmt: skip
+    except ValueError as error:
+        raise ArgumentError(f"{dataset}: {error}") from None

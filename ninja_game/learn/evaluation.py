@@ -1,0 +1,195 @@
+"""Evaluation: how often an agent passes each of some levels, as a table.
+
+A policy looks at observations and is tried in many episodes that differ by sticky actions and a start that waits; a
+planner gives the actions for a level, and is believed only what an environment says of them.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Iterator
+from dataclasses import asdict, astuple, dataclass, fields
+from math import isnan
+from typing import Any, Protocol, TypeAlias, runtime_checkable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.learn.actions import DISCRETE_KEYS
+from ninja_game.learn.levels import LevelSource, Origin, level_source
+from ninja_game.learn.sticky import LONGEST_WAIT, REPEAT, StickyActions
+from ninja_game.learn.worlds import EnvWorlds
+from ninja_game.sim.level import Level
+from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
+
+EVALUATION_SEED = 1_000_000
+"""The first seed of evaluations; agents are trained with seeds below it."""
+TIME_LIMIT = 2000
+"""Ticks, 50 s: longer than any certificate to the exit of the set."""
+
+
+Actions: TypeAlias = Iterator[NDArray[np.integer]]
+
+
+class Policy(Protocol):
+    """An agent that looks and acts. ``settings``: the keywords of the environment that it is made for."""
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Keywords of ``NinjaEnv``, but level and body; the actions are discrete."""
+
+    def reset(self, count: int, seed: int) -> None:
+        """Begin with so many worlds."""
+
+    def act(self, observations: Any) -> NDArray[np.integer]:
+        """The action of each world, (n,), by the observations of all."""
+
+
+@runtime_checkable
+class Planner(Protocol):
+    """An agent that finds all actions for a level before it plays. ``settings``: as of a ``Policy``."""
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """Keywords of ``NinjaEnv``, but level and body; the actions are discrete."""
+
+    def plan(self, level: Level, seed: int) -> NDArray[np.integer]:
+        """The actions, one a step."""
+
+
+@dataclass(frozen=True)
+class LevelResult:
+    """Episodes in one level: how many were passed, ended by death, by the time; and what was reached.
+
+    ``ticks``: the median of those that were passed, NaN without any; ``gold``, ``reward``: means of all.
+    """
+
+    level: str
+    episodes: int
+    passed: int
+    dead: int
+    late: int
+    ticks: float
+    gold: float
+    reward: float
+
+    @property
+    def rate(self) -> float:
+        """The share of episodes that were passed."""
+        return self.passed / self.episodes
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """What an agent reached. ``levels_sha256``: of the levels themselves; equal evaluations have equal ones."""
+
+    agent: str
+    levels_sha256: str
+    seed: int
+    repeat: float
+    longest_wait: int
+    time_limit: int
+    results: list[LevelResult]
+
+    def often_passed(self, rate: float = 0.9) -> int:
+        """How many levels were passed in that share of their episodes or more."""
+        return sum(each.rate >= rate for each in self.results)
+
+    def text(self) -> str:
+        """The table for people, a line a level, and a last one over all."""
+        lines = [f"{'level':<26} {'passed':>11} {'dead':>6} {'late':>6} {'ticks':>7} {'gold':>6} {'reward':>8}"]
+        for each in self.results:
+            ticks = "-" if isnan(each.ticks) else f"{each.ticks:.0f}"
+            passed = f"{each.passed}/{each.episodes}"
+            ends = f"{passed:>11} {each.dead:>6} {each.late:>6}"
+            lines.append(f"{each.level:<26.26} {ends} {ticks:>7} {each.gold:>6.1f} {each.reward:>8.2f}")
+        passed, episodes = (sum(getattr(each, name) for each in self.results) for name in ("passed", "episodes"))
+        often = f"{self.often_passed()} of {len(self.results)} levels in 90 % of their episodes or more"
+        lines.append(f"{self.agent}: {passed} of {episodes} episodes passed ({passed / episodes:.1%}), {often}")
+        return "\n".join(lines)
+
+    def json(self) -> str:
+        """Everything as one JSON object; what is no number is null."""
+        rows = [{**asdict(each), "rate": each.rate} for each in self.results]
+        for row in rows:
+            row["ticks"] = None if isnan(row["ticks"]) else row["ticks"]
+        return json.dumps({**asdict(self), "results": rows, "often_passed": self.often_passed()}, indent=1)
+
+    def csv(self) -> str:
+        """The table for spreadsheets, a row a level."""
+        text = io.StringIO()
+        rows = csv.writer(text, lineterminator="\n")
+        rows.writerow(["agent", *(field.name for field in fields(LevelResult)), "rate"])
+        rows.writerows([self.agent, *astuple(each), each.rate] for each in self.results)
+        return text.getvalue()
+
+
+def evaluate(
+    agent: Policy | Planner,
+    levels: Origin = "test",
+    *,
+    name: str = "agent",
+    episodes: int = 20,
+    seed: int = EVALUATION_SEED,
+    repeat: float = REPEAT,
+    longest_wait: int = LONGEST_WAIT,
+    time_limit: int = TIME_LIMIT,
+    memory: str = "auto",
+) -> Evaluation:
+    """The table of an agent on levels.
+
+    ``episodes``: of a policy in each level; of a planner's one. ``seed``: equal seeds give equal tables; a level's row
+    does not depend on the other levels. ``repeat``, ``longest_wait``: of ``StickyActions``, for policies.
+    """
+    source = level_source(levels)
+    rows = level_results(agent, source, episodes, seed, repeat, longest_wait, time_limit, memory)
+    return Evaluation(name, source.digest, seed, repeat, longest_wait, time_limit, list(rows))
+
+
+def level_results(
+    agent: Policy | Planner, source: LevelSource, episodes: int, seed: int, repeat: float, longest_wait: int,
+    time_limit: int, memory: str,
+) -> Iterator[LevelResult]:  # fmt: skip
+    """The rows of the table, one by one, as they are made (arguments: ``evaluate``)."""
+    settings = {**agent.settings, "time_limit": time_limit, "memory": memory}
+    settings.pop("actions", None)
+    for level_name, level in zip(source.names, source.levels, strict=True):
+        if isinstance(agent, Planner):
+            worlds = EnvWorlds(level, 1, **settings)
+            actions: Actions = iter(np.asarray(agent.plan(level, seed)).reshape(-1, 1))
+        else:
+            worlds = EnvWorlds(level, episodes, **settings)
+            chance = [seed, int(level_digest(level)[:8], 16)]
+            sticky = StickyActions(episodes, chance, repeat=repeat, longest_wait=longest_wait)
+            actions = _chosen(agent, worlds, sticky, seed)
+        yield _played(level_name, worlds, actions)
+
+
+def _chosen(agent: Policy, worlds: EnvWorlds, sticky: StickyActions, seed: int) -> Actions:
+    """What a policy does, step by step."""
+    agent.reset(worlds.count, seed)
+    while True:
+        yield sticky.played(agent.act(worlds.observations))
+
+
+def _played(name: str, worlds: EnvWorlds, actions: Actions) -> LevelResult:
+    """One episode in every world; where the actions come to an end, what runs still is late."""
+    outcomes, ticks, gold = np.zeros((3, worlds.count), np.int64)
+    rewards = np.zeros(worlds.count)
+    running = np.ones(worlds.count, np.bool_)
+    for chosen in actions:
+        worlds.step(DISCRETE_KEYS[chosen])
+        rewards[running] += worlds.rewards[running]
+        for kept, now in ((outcomes, worlds.outcomes), (ticks, worlds.ticks), (gold, worlds.gold)):
+            kept[running] = now[running]
+        running &= ~(worlds.terminated | worlds.truncated)
+        if not running.any():
+            break
+    passed, dead = outcomes == OUTCOME_EXIT, outcomes == OUTCOME_DEAD
+    return LevelResult(
+        name, worlds.count, int(passed.sum()), int(dead.sum()), int((~passed & ~dead).sum()),
+        float(np.median(ticks[passed])) if passed.any() else float("nan"), float(gold.mean()), float(rewards.mean()),
+    )  # fmt: skip
