@@ -123,7 +123,9 @@ class Evaluation:
         text = io.StringIO()
         rows = csv.writer(text, lineterminator="\n")
         rows.writerow(["agent", *(field.name for field in fields(LevelResult)), "rate"])
-        rows.writerows([self.agent, *astuple(each), each.rate] for each in self.results)
+        for each in self.results:
+            row = [self.agent, *astuple(each), each.rate]
+            rows.writerow(["" if isinstance(value, float) and isnan(value) else value for value in row])
         return text.getvalue()
 
 

@@ -1,0 +1,40 @@
+"""docs/learning.md: its commands are run here, its Python by pytest itself; its tables tell what there is."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from ninja_game.cli.main import cli
+from ninja_game.environments import ENVIRONMENTS
+from ninja_game.files.resources import data_folder
+
+DOC = (Path(__file__).resolve().parents[2] / "docs" / "learning.md").read_text("utf-8")
+COMMANDS = [
+    line
+    for block in re.findall(r"^```sh\n(.*?)^```$", DOC, re.MULTILINE | re.DOTALL)
+    for line in block.splitlines()
+    if line.startswith("ninja-game ")
+]
+SHORTER = {"levels/certificates": "levels/certificates/00-0-first-steps.exit.replay.txt"}
+"""What a command of the page is run with instead, so that a test takes seconds."""
+
+
+@pytest.mark.parametrize("line", COMMANDS)
+def test_a_command_of_the_page_does_what_it_says(line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MINARI_DATASETS_PATH", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "levels").symlink_to(data_folder("levels"))
+    words = [SHORTER.get(word, word) for word in shlex.split(line)[1:]]
+    result = CliRunner().invoke(cli, words)
+    assert result.exit_code == 0, result.output
+    assert result.stdout
+
+
+def test_the_page_tells_every_id() -> None:
+    section = DOC.partition("## Ids and versions")[2].partition("\n## ")[0]
+    assert set(re.findall(r"`(Ninja\w*-v\d+)`", section)) == set(ENVIRONMENTS)
