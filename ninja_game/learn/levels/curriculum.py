@@ -13,7 +13,7 @@ from ninja_game.files.resources import data_folder
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.files import PARS
 from ninja_game.formats.pack.pars import parse_pars
-from ninja_game.learn.levels import LevelSource, Origin, level_source
+from ninja_game.learn.levels.source import LevelSource, Origin, level_source
 
 UNPASSED_WEIGHT = 0.1
 """What is added to the share of failures: so a level that is always passed is still played now and then."""

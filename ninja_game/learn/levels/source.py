@@ -1,4 +1,4 @@
-"""Levels to learn in: where they come from, and which of them an episode is played in.
+"""Where levels come from, and which of them an episode is played in.
 
 >>> level_source("00-1-mind-the-gap").names
 ['00-1-mind-the-gap']
@@ -87,7 +87,7 @@ def level_source(origin: Origin) -> LevelSource:
     "00-0-first-steps"        a level of the game, by the name of its file
     "set"                     all of the game's levels, in playing order
     "train", "test"           the set in two parts that never change places: of each episode one level is for testing
-    "curriculum"              the levels for training from the easiest on (``ninja_game.learn.curriculum``);
+    "curriculum"              the levels for training from the easiest on (``ninja_game.learn.levels.curriculum``);
                               "curriculum:ORIGIN": those of another origin
     "generated:3:1-8"         generated levels of difficulty 3, seeds 1 to 8; made when they are asked for, in some
                               seconds each (docs/generator.md)
@@ -114,7 +114,7 @@ def level_source(origin: Origin) -> LevelSource:
         return _named(parse_levels(origin))
     word, _, rest = origin.partition(":")
     if word == "curriculum":
-        from ninja_game.learn.curriculum import Curriculum
+        from ninja_game.learn.levels.curriculum import Curriculum
 
         return Curriculum(rest or "train")
     if word == "generated":

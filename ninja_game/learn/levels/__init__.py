@@ -1,0 +1,14 @@
+"""Levels to learn in: where they come from, and which of them an episode is played in."""
+
+from __future__ import annotations
+
+from ninja_game.learn.levels.source import (
+    DEFAULT_LEVEL,
+    LevelSource,
+    Origin,
+    Which,
+    generated_levels,
+    level_source,
+)
+
+__all__ = ["DEFAULT_LEVEL", "LevelSource", "Origin", "Which", "generated_levels", "level_source"]
