@@ -24,7 +24,8 @@ from ninja_game.web.site.serve import site_server
 
 @pytest.fixture
 def pyodide(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with stand-ins for Pyodide's files, small ones, that count as the right version."""
+    """A folder with stand-ins for Pyodide's files, small ones, that count as the right version; no Node.js."""
+    monkeypatch.setattr("ninja_game.web.site.bytecode.shutil.which", lambda _: None)
     folder = tmp_path / "pyodide"
     folder.mkdir()
     library = io.BytesIO()
@@ -84,7 +85,7 @@ def test_the_archive_holds_the_game_and_nothing_that_the_page_cannot_use(pyodide
     assert wanted | {"ninja_game/data/levels/00-0-first-steps.txt", "ninja_game/data/assets/sounds/jump.wav"} <= names
     assert not [name for name in names if "/cli/" in name or "/learn/" in name or name.endswith((".pyc", ".md"))]
     with ZipFile(tmp_path / "out" / "pyodide" / "python_stdlib.zip") as library:
-        assert library.namelist() == ["json/__init__.py", "encodings/utf_8.py"]
+        assert library.namelist() == ["encodings/utf_8.py", "json/__init__.py"]
 
 
 def test_a_folder_with_other_things_is_left_alone(pyodide: Path, tmp_path: Path) -> None:
@@ -103,7 +104,7 @@ def test_other_files_than_those_of_the_version_are_refused(pyodide: Path, tmp_pa
 
 
 def test_without_npm_the_command_says_what_to_do(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setattr("ninja_game.web.site.pyodide_files.shutil.which", lambda _: None)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     result = CliRunner().invoke(cli, ["site", str(tmp_path / "out")])
     assert (result.exit_code, result.stdout) == (2, "")

@@ -15,8 +15,9 @@ from ninja_game.errors import FileError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.resources import PACKAGE
 from ninja_game.files.writing import write_atomically
-from ninja_game.web.site.game_archive import game_archive, licence_of
-from ninja_game.web.site.pyodide_files import pyodide_files, smaller_library
+from ninja_game.web.site.bytecode import compiled
+from ninja_game.web.site.game_archive import game_archive, game_files, licence_of
+from ninja_game.web.site.pyodide_files import library_files, library_of, pyodide_files
 
 MARK = "ninja-game-site.json"
 """The file that tells a folder of ours, with the names of what was written into it."""
@@ -48,8 +49,11 @@ def build_site(out: Path, pyodide: Path | None, cache: Path) -> list[SiteFile]:
     """
     before = _own_files(out)
     python = pyodide_files(pyodide, cache)
-    about = json.loads(python.pop("pyodide-lock.json"))["info"]
-    files = _page() | _pyodide(python) | {"game.tar.gz": game_archive()} | _icons() | _licences()
+    about = json.loads(python["pyodide-lock.json"])["info"]
+    library, game = compiled(library_files(python["python_stdlib.zip"]), dict(game_files()), python)
+    python["python_stdlib.zip"] = library_of(library)
+    files = {f"pyodide/{name}": content for name, content in python.items() if not name.endswith(".json")}
+    files |= {"game.tar.gz": game_archive(game)} | _page() | _icons() | _licences()
     files |= _stamped(files, about)
     for name, content in files.items():
         (out / name).parent.mkdir(parents=True, exist_ok=True)
@@ -80,11 +84,6 @@ def _page() -> dict[str, bytes]:
     return {
         path.name: path.read_bytes() for path in sorted(folder.iterdir()) if path.suffix in {".html", ".css", ".js"}
     }
-
-
-def _pyodide(files: dict[str, bytes]) -> dict[str, bytes]:
-    changed = files | {"python_stdlib.zip": smaller_library(files["python_stdlib.zip"])}
-    return {f"pyodide/{name}": content for name, content in changed.items()}
 
 
 def _icons() -> dict[str, bytes]:

@@ -5,33 +5,44 @@ from __future__ import annotations
 import gzip
 import io
 import tarfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from importlib.metadata import distribution
 from importlib.util import find_spec
 from pathlib import Path
 
 from ninja_game.files.resources import PACKAGE, data_folder
 
-LEFT_OUT = ("cli", "learn", "web/site", "web/board", "web/gallery", "web/page", "web/licences", "data")
-"""Folders of the package that a page has no use for."""
+LEFT_OUT = (
+    "batch",
+    "cli",
+    "learn",
+    "verification",
+    "web/site",
+    "web/board",
+    "web/gallery",
+    "web/page",
+    "web/licences",
+    "data",
+)
+"""What of the package a page has no use for."""
 
 
-def game_archive() -> bytes:
-    """A compressed tar of the package, its data and the library for TOML; the same bytes for the same files."""
+def game_archive(files: Mapping[str, bytes]) -> bytes:
+    """A compressed tar of files; the same bytes for the same files."""
     packed = io.BytesIO()
     with tarfile.open(fileobj=packed, mode="w", format=tarfile.USTAR_FORMAT) as archive:
-        for name, content in sorted(_files()):
+        for name, content in sorted(files.items()):
             entry = tarfile.TarInfo(name)
             entry.size = len(content)
             archive.addfile(entry, io.BytesIO(content))
     return gzip.compress(packed.getvalue(), 9, mtime=0)
 
 
-def _files() -> Iterator[tuple[str, bytes]]:
-    """Name in the archive and content of every file."""
+def game_files() -> Iterator[tuple[str, bytes]]:
+    """Name and content of every file of the package, its data, and the library for TOML."""
     for path in PACKAGE.rglob("*.py"):
         name = path.relative_to(PACKAGE).as_posix()
-        if not name.startswith(tuple(f"{folder}/" for folder in LEFT_OUT)):
+        if not name.startswith(LEFT_OUT):
             yield f"ninja_game/{name}", path.read_bytes()
     yield "boot.py", (PACKAGE / "web" / "page" / "boot.py").read_bytes()
     for folder in ("levels", "assets"):

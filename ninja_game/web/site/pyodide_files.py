@@ -8,8 +8,9 @@ import shutil
 import subprocess
 import tarfile
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
-from zipfile import ZIP_DEFLATED, ZipFile
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.reading import read_bytes
@@ -27,12 +28,13 @@ DIGESTS = {
 """SHA-256 of the files of that version; whatever has others is refused."""
 
 UNUSED = frozenset((
-    "_pyio", "_pyrepl", "antigravity", "bdb", "cProfile", "cmd", "code", "compileall", "ctypes", "curses",
-    "dbm", "doctest", "ensurepip", "filecmp", "fileinput", "ftplib", "getpass", "idlelib", "imaplib", "lib2to3",
-    "mailbox", "modulefinder", "multiprocessing", "netrc", "nturl2path", "optparse", "pdb", "pickletools", "plistlib",
-    "poplib", "profile", "pstats", "pty", "pyclbr", "pydoc", "pydoc_data", "quopri", "rlcompleter", "sched", "shelve",
-    "smtplib", "socketserver", "symtable", "tabnanny", "this", "timeit", "tkinter", "trace", "tracemalloc", "tty",
-    "turtle", "turtledemo", "unittest", "venv", "wave", "webbrowser", "wsgiref", "xml", "xmlrpc", "zipapp",
+    "_pydatetime", "_pyio", "_pyrepl", "antigravity", "bdb", "cProfile", "cmd", "code", "compileall", "configparser",
+    "ctypes", "curses", "dbm", "doctest", "email", "ensurepip", "filecmp", "fileinput", "ftplib", "getpass", "html",
+    "http", "idlelib", "imaplib", "lib2to3", "mailbox", "mimetypes", "modulefinder", "multiprocessing", "netrc",
+    "nturl2path", "optparse", "pdb", "pickletools", "plistlib", "poplib", "profile", "pstats", "pty", "pyclbr",
+    "pydoc", "pydoc_data", "quopri", "rlcompleter", "sched", "shelve", "smtplib", "socketserver", "symtable",
+    "tabnanny", "this", "timeit", "tkinter", "trace", "tracemalloc", "tty", "turtle", "turtledemo", "unittest",
+    "venv", "wave", "webbrowser", "wsgiref", "xml", "xmlrpc", "zipapp",
 ))  # fmt: skip
 """Modules of the standard library that a page has no use for."""
 
@@ -111,13 +113,22 @@ def _fetch(kept: Path) -> None:
                     write_atomically(kept / name, file.read())
 
 
-def smaller_library(library: bytes) -> bytes:
-    """The standard library, a zip, without ``UNUSED`` and rare encodings; the same bytes in every build."""
+def library_files(library: bytes) -> dict[str, bytes]:
+    """The files of the standard library, a zip, without ``UNUSED`` and rare encodings."""
+    files = {}
+    with ZipFile(io.BytesIO(library)) as old:
+        for name in old.namelist():
+            top, _, rest = name.partition("/")
+            rare = top == "encodings" and rest.removesuffix(".py") not in ENCODINGS
+            if not name.endswith("/") and top.removesuffix(".py") not in UNUSED and not rare:
+                files[name] = old.read(name)
+    return files
+
+
+def library_of(files: Mapping[str, bytes]) -> bytes:
+    """A library of these files; the same bytes for the same files."""
     out = io.BytesIO()
-    with ZipFile(io.BytesIO(library)) as old, ZipFile(out, "w", ZIP_DEFLATED, compresslevel=9) as new:
-        for entry in old.infolist():
-            top, _, rest = entry.filename.removesuffix("/").partition("/")
-            rare = top == "encodings" and rest and rest.removesuffix(".py") not in ENCODINGS
-            if top.removesuffix(".py") not in UNUSED and not rare:
-                new.writestr(entry, old.read(entry), ZIP_DEFLATED, 9)
+    with ZipFile(out, "w") as packed:
+        for name, content in sorted(files.items()):
+            packed.writestr(ZipInfo(name), content, ZIP_DEFLATED, 9)
     return out.getvalue()
