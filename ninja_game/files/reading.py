@@ -85,6 +85,15 @@ def text_files(path: Path) -> list[Path]:
     return [file for file in files_below(path) if isinstance(file, Path)]
 
 
+def path_below(folder: Path, name: str) -> Path | None:
+    """The path of a name in a folder or below it; None for one that leads elsewhere: texts come from strangers."""
+    try:
+        path = (folder / name).resolve()
+        return path if path.is_relative_to(folder.resolve()) else None
+    except (OSError, ValueError, RuntimeError):
+        return None
+
+
 def open_regular(path: Path) -> IO[bytes]:
     """A regular file, open for reading. Raises FileError for a folder, device or pipe; OSError as it comes."""
     try:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ninja_game.errors import LevelError, ReplayError
-from ninja_game.files.reading import read_text
+from ninja_game.files.reading import path_below, read_text
 from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level
 from ninja_game.formats.lines import numbered_lines
@@ -118,7 +118,7 @@ def level_of_replay(replay: Replay, file: str, level: Level | None = None) -> Le
         return replay.level
     source = "the given level"
     if replay.level_path:
-        path = _path_below(Path(file).parent, replay.level_path)
+        path = path_below(Path(file).parent, replay.level_path)
         source = str(path)
         if path is not None and os.path.isfile(path):  # noqa: PTH113 - Path.is_file() fails on long names
             level = _level_at(path, replay.level_record, file)
@@ -132,15 +132,6 @@ def level_of_replay(replay: Replay, file: str, level: Level | None = None) -> Le
         hint = "the level was changed after the recording"
         raise ReplayError("not the level of this replay", file, found=source, expected=replay.level_digest, hint=hint)
     return level
-
-
-def _path_below(folder: Path, name: str) -> Path | None:
-    """The path of a name in a folder or below it; None for one that leads elsewhere: replays come from strangers."""
-    try:
-        path = (folder / name).resolve()
-        return path if path.is_relative_to(folder.resolve()) else None
-    except (OSError, ValueError, RuntimeError):
-        return None
 
 
 def _level_at(path: Path, record: int, file: str) -> Level:

@@ -13,7 +13,7 @@ from ninja_game.formats.n14.level_file import LevelRecord, is_demo, read_level_f
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
 from ninja_game.formats.named_level import is_level_file, level_of_replay
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
-from ninja_game.sim.inputs import Demo
+from ninja_game.sim.inputs import Demo, fitted_demo
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import Body
 
@@ -59,7 +59,7 @@ def record_of(recording: Recording) -> LevelRecord:
     demo = recording.demo
     if recording.body != "circle":
         raise ReplayError("a run with another body is no demo of N", recording.file, found=recording.body)
-    if recording.replay:
+    if recording.replay and recording.replay.demo_length is None:
         # A demo of length N runs N + 1 ticks, the last one without inputs of its own (game.md §4.4).
         inputs = recording.playback(recording.ticks)
         short = Demo(inputs[:-1], float(len(inputs) - 1))
@@ -83,7 +83,8 @@ def parse_replays(text: str, *, file: str = "", level: Level | None = None) -> l
     """All recordings in a text of any format. Raises ReplayError, DemoError or LevelError."""
     if is_replay(text):
         replay = parse_replay(text, file=file)
-        demo = Demo(replay.inputs, float(len(replay.inputs)))
+        length = float(len(replay.inputs)) if replay.demo_length is None else replay.demo_length
+        demo = fitted_demo(replay.inputs, length)
         found = level_of_replay(replay, file, level)
         return [Recording(replay.name or Path(file).stem, replay.author, "", found, demo, file, replay=replay)]
     if not is_ascii_level(text) and is_level_file(text):

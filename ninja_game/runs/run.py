@@ -18,7 +18,8 @@ from typing import TYPE_CHECKING, Any
 from ninja_game.compile_cache import open_memory
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
-from ninja_game.formats.replay.text import WAYPOINT_TICKS, Replay, Waypoint
+from ninja_game.formats.replay.sections import Waypoint
+from ninja_game.formats.replay.text import WAYPOINT_TICKS, Replay
 from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.inputs import check_inputs, first_ticks
 from ninja_game.sim.level import Level

@@ -84,7 +84,8 @@ def verify_recording(recording: Recording, memory: str = "auto") -> Verdict:
 
     Raises LevelError naming file and record for a level that cannot be played.
     """
-    replay, body = recording.replay, recording.body
+    body = recording.body
+    replay = recording.replay if recording.replay and not recording.replay.loose else None
     one_memory = "plain" if memory == "both" else memory
     with named_errors(recording):
         claims_digest = bool(replay and replay.digest)
@@ -114,7 +115,7 @@ def verify_recording(recording: Recording, memory: str = "auto") -> Verdict:
         xy_sha256=run.xy_sha256,
         possible_by_keyboard=press_jumps(inputs[:sampled]) == inputs[:sampled],
         in_time=in_time,
-        practice=bool(replay and replay.practice),
+        practice=bool(recording.replay and recording.replay.practice),
         complete=not recording.demo.missing,
         problems=tuple(problems),
     )

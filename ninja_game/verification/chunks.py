@@ -1,12 +1,13 @@
 """Recordings cut into chunks that can be verified anywhere: some files, or some records of a large one.
 
-A chunk carries its text, so that it can be sent to a machine that does not see the files, as JSON. Only levels that a
-replay of ours names by path are read where the chunk is verified; ``self_contained`` puts them inside first.
+A chunk carries its text, so that it can be sent to a machine that does not see the files, as JSON. Only what a
+replay of ours names by path is read where the chunk is verified; ``self_contained`` puts it inside first.
 """
 
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from hashlib import sha256
@@ -21,6 +22,8 @@ from ninja_game.runs.recording_reader import Unreadable, recording_of_text, reco
 from ninja_game.runs.verify import Verdict, verify_recording
 from ninja_game.sim.level import Level
 from ninja_game.verification.workers import ClusterError
+
+_INCLUDE = re.compile(r"^[ \t]+include[ \t]", re.MULTILINE)
 
 RECORDS = 64
 """Records a chunk at most: enough that sending it is cheap beside running it."""
@@ -72,14 +75,14 @@ def chunks_in(paths: Iterable[Path]) -> Iterator[Chunk]:
 
 
 def self_contained(chunk: Chunk) -> Chunk:
-    """The same chunk with the level inside, where a replay of ours names it by path; what is wrong stays as it is."""
+    """The same chunk with the level inside, where a replay of ours names it by path, and the inputs it takes in; what is wrong stays as it is."""
     if not is_replay(chunk.text):
         return chunk
     try:
         parsed = parse_replay(chunk.text, file=chunk.file)
-        if parsed.level is not None or not parsed.level_path:
+        if not (parsed.level_path or _INCLUDE.search(chunk.text)):
             return chunk
-        level = level_of_replay(parsed, chunk.file)
+        level = level_of_replay(parsed, chunk.file) if parsed.level_path else parsed.level
         return replace(chunk, text=write_replay(replace(parsed, level=level, level_path="")))
     except NinjaGameError as error:
         return replace(chunk, problem=str(error))

@@ -17,7 +17,8 @@ from ninja_game.formats.load import NamedLevel, load_levels
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.legacy_demo import write_legacy_demo
 from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay.text import Replay, Waypoint
+from ninja_game.formats.replay.sections import Waypoint
+from ninja_game.formats.replay.text import Replay
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.inputs import Demo

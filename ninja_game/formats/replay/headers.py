@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections.abc import Sequence
 from difflib import get_close_matches
@@ -10,10 +11,13 @@ from typing import TypeVar
 
 from ninja_game.errors import ReplayError
 from ninja_game.formats.lines import Line
+from ninja_game.formats.numbers import parse_number
 
 W = TypeVar("W", bound=str)
 
 REQUIRED = ("rules", "body", "final-tick", "outcome", "gold", "inputs")
+CLAIMS = ("rules", "outcome", "gold", "digest", "waypoints")
+"""A replay without any of these is loose: it needs its inputs only."""
 SECTIONS = ("inputs", "level-data", "waypoints")
 KEYS = (
     *REQUIRED,
@@ -24,6 +28,7 @@ KEYS = (
     "level-digest",
     "digest",
     "practice",
+    "demo-length",
     "level-data",
     "waypoints",
 )
@@ -61,7 +66,8 @@ class Headers:
                 raise ReplayError("a header given twice", file, number, 1, repr(key), hint="keep one of them")
             # The value keeps its column, so that messages can name it.
             self.lines[key] = [(number, " " * match.start(2) + match[2])]
-        missing = [repr(key) for key in REQUIRED if key not in self.lines]
+        self.loose = not any(key in self.lines for key in CLAIMS)
+        missing = [repr(key) for key in (("inputs",) if self.loose else REQUIRED) if key not in self.lines]
         if missing:
             raise ReplayError("an incomplete replay", file, expected=f"a line with {', '.join(missing)}")
 
@@ -103,6 +109,15 @@ class Headers:
         if not _COUNT.fullmatch(self.raw(key)):
             raise self.error(key, f"no number in '{key}'", "a whole number from 0")
         return int(self.raw(key))
+
+    def number(self, key: str) -> float | None:
+        """A number as N writes them; None without the header."""
+        if key not in self.lines:
+            return None
+        value = parse_number(self.raw(key))
+        if math.isnan(value):
+            raise self.error(key, f"no number in '{key}'", "a number, such as 902")
+        return value
 
     def choice(self, key: str, choices: Sequence[W]) -> W:
         """One of a few words."""

@@ -3,40 +3,36 @@
 from __future__ import annotations
 
 import json
-import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
 
 from ninja_game.errors import ReplayError
-from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
+from ninja_game.formats.ascii.reader import write_ascii_level
 from ninja_game.formats.lines import Line, numbered_lines
 from ninja_game.formats.n14.level_string import level_digest
-from ninja_game.formats.numbers import NAN
+from ninja_game.formats.numbers import format_number
 from ninja_game.formats.replay.headers import COUNT_LIMIT, Headers
-from ninja_game.formats.replay.input_runs import read_inputs, write_inputs
-from ninja_game.sim.inputs import MAX_TICKS, first_ticks
+from ninja_game.formats.replay.includes import included_beside
+from ninja_game.formats.replay.input_runs import Marker, write_inputs
+from ninja_game.formats.replay.input_text import read_inputs
+from ninja_game.formats.replay.sections import Waypoint, read_level, read_waypoints
+from ninja_game.sim.inputs import MAX_TICKS, Demo, first_ticks
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import BODIES, Body
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 MAGIC = "ninja-game replay"
-VERSION = 2
-"""Version 1 had another digest: of the world's inner state."""
+VERSION = 3
+"""Version 1 had another digest: of the world's inner state. Version 2 had no last line."""
+OLDEST_VERSION = 2
+"""Still read."""
+LAST_LINE = "end"
+"""Of a replay with claims, so that a cut one is noticed."""
 RULES_VERSION = 1
 """The rules that replays are recorded under; a change of the world that changes any replay raises it."""
 
 OUTCOMES = ("exit", "dead", "running")
-
-
-class Waypoint(NamedTuple):
-    """Where the ninja is after a tick: px, and its state by name."""
-
-    tick: int
-    x: float
-    y: float
-    state: str
 
 
 WAYPOINT_TICKS = TICKS_PER_SECOND
@@ -72,6 +68,13 @@ class Replay:
     level_author: str = ""
     waypoints: tuple[Waypoint, ...] = ()
     practice: bool = False
+    markers: tuple[Marker, ...] = ()
+    demo_length: float | None = None
+
+    @property
+    def loose(self) -> bool:
+        """Whether it claims nothing of what comes of its inputs."""
+        return not self.outcome
 
     @property
     def ticks(self) -> int:
@@ -80,6 +83,8 @@ class Replay:
 
     def playback(self, ticks: int) -> bytes:
         """The input of each of the first ``ticks`` ticks."""
+        if self.demo_length is not None:
+            return Demo(self.inputs, self.demo_length).playback(ticks)
         return first_ticks(self.inputs, ticks)
 
 
@@ -98,19 +103,26 @@ def parse_replay(text: str, *, file: str = "") -> Replay:
     level inside.
     """
     lines = [(number, line) for number, line in numbered_lines(text) if not line.startswith(";")]
-    _check_first_line(lines, file)
-    headers = Headers(lines[1:], file)
-    level, level_name, level_author = _read_level(headers.section("level-data"), file)
+    version = _check_first_line(lines, file)
+    ended = lines[-1][1].rstrip() == LAST_LINE
+    headers = Headers(lines[1:-1] if ended else lines[1:], file)
+    if version >= 3 and not ended and not headers.loose:
+        hint = f"its last line is '{LAST_LINE}'; where you have changed it by hand, `ninja-game record` writes it anew"
+        raise ReplayError("the replay is cut", file, lines[-1][0], hint=hint)
+    level, level_name, level_author = read_level(headers.section("level-data"), file)
+    inputs = read_inputs(headers.section("inputs"), file=file, include=included_beside(file))
+    length = headers.number("demo-length")
+    last = len(inputs.keys) - 1 if length is None else Demo(inputs.keys, length).end
     replay = Replay(
-        inputs=read_inputs(headers.section("inputs"), file=file),
-        final_tick=headers.count("final-tick"),
-        outcome=headers.choice("outcome", OUTCOMES),
+        inputs=inputs.keys,
+        final_tick=headers.count("final-tick") if "final-tick" in headers.lines else max(0, last),
+        outcome="" if headers.loose else headers.choice("outcome", OUTCOMES),
         gold=headers.count("gold"),
         digest=headers.digest("digest"),
         name=headers.text("name"),
         author=headers.text("author"),
-        body=headers.choice("body", BODIES),
-        rules=headers.count("rules"),
+        body=headers.choice("body", BODIES) if "body" in headers.lines else BODIES[0],
+        rules=RULES_VERSION if headers.loose else headers.count("rules"),
         level_digest=headers.digest("level-digest"),
         level_path=headers.text("level"),
         level_record=headers.count("level-record"),
@@ -119,6 +131,8 @@ def parse_replay(text: str, *, file: str = "") -> Replay:
         level_author=level_author,
         waypoints=read_waypoints(headers.section("waypoints"), file),
         practice="practice" in headers.lines and headers.choice("practice", ("yes", "no")) == "yes",
+        markers=inputs.markers,
+        demo_length=length,
     )
     problem = _contradiction(replay)
     if problem:
@@ -128,55 +142,20 @@ def parse_replay(text: str, *, file: str = "") -> Replay:
     return replay
 
 
-def _check_first_line(lines: Sequence[Line], file: str) -> None:
-    """Raise ReplayError unless the first line says what this is."""
+def _check_first_line(lines: Sequence[Line], file: str) -> int:
+    """The version that the first line tells. Raises ReplayError unless it says what this is."""
     number, first = lines[0] if lines else (1, "")
     match = _FIRST_LINE.fullmatch(first)
     expected = f"'{MAGIC} {VERSION}' in the first line"
     if match is None:
         raise ReplayError("not a replay of ninja-game", file, number, 1, repr(first[:40]), expected)
-    if int(match[1]) != VERSION:
+    if not OLDEST_VERSION <= int(match[1]) <= VERSION:
         what, hint = "unknown version of the replay format", "a replay from a newer ninja-game needs a newer ninja-game"
         if int(match[1]) == 1:
             what = "a replay written by an older version of ninja-game, with a digest that is no longer used"
-            hint = f"write '{MAGIC} {VERSION}' in the first line and delete the line 'digest:'"
+            hint = f"write '{MAGIC} {OLDEST_VERSION}' in the first line and delete the line 'digest:'"
         raise ReplayError(what, file, number, 1, match[1], str(VERSION), hint)
-
-
-def _level_text(level: Level, replay: Replay) -> str:
-    return write_ascii_level(level, name=replay.level_name, author=replay.level_author)
-
-
-def _read_level(lines: Sequence[Line], file: str) -> tuple[Level | None, str, str]:
-    """The embedded ASCII level (None without one), its name and author. Raises LevelError with the replay's line."""
-    if not lines:
-        return None, "", ""
-    text = [""] * lines[-1][0]
-    for number, line in lines:
-        text[number - 1] = line
-    read = parse_ascii_level("\n".join(text), file=file)
-    level = read.level
-    # With one and the same NaN everywhere a replay equals the one that was written.
-    one_nan = [tuple(NAN if math.isnan(value) else value for value in record.values) for record in level.objects]
-    records = [record._replace(values=values) for record, values in zip(level.objects, one_nan, strict=True)]
-    return Level(level.tiles, tuple(records)), read.name, read.author
-
-
-def read_waypoints(lines: Sequence[Line], file: str) -> tuple[Waypoint, ...]:
-    """The waypoints of a replay, a line each: tick, x, y, state. Raises ReplayError with the line."""
-    waypoints: list[Waypoint] = []
-    for number, line in lines:
-        words = line.split()
-        try:
-            tick, x, y, state = words
-            waypoint = Waypoint(int(tick), float(x), float(y), state)
-        except ValueError:
-            expected = "tick, x, y and state, such as 39 166.5 563.0 jumping"
-            raise ReplayError("not a waypoint", file, number, 3, repr(line.strip()[:40]), expected) from None
-        if waypoint.tick <= (waypoints[-1].tick if waypoints else -1):
-            raise ReplayError("waypoints out of order", file, number, 3, words[0], "ticks that grow")
-        waypoints.append(waypoint)
-    return tuple(waypoints)
+    return int(match[1])
 
 
 def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
@@ -188,11 +167,11 @@ def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
                 f"a number that '{key}' cannot have", found=str(count), expected="a whole number from 0"
             )
     for key, word, words in (("body", replay.body, BODIES), ("outcome", replay.outcome, OUTCOMES)):
-        if word not in words:
+        if word not in words and (key, word) != ("outcome", ""):
             return key, ReplayError(f"an unknown {key}", found=repr(word), expected=" or ".join(words))
     if replay.ticks > MAX_TICKS:
         return "final-tick", ReplayError("the replay is too long", expected=f"at most {MAX_TICKS} ticks")
-    if len(replay.inputs) > replay.ticks:
+    if len(replay.inputs) > (replay.ticks if replay.demo_length is None else replay.final_tick):
         found = f"{len(replay.inputs)} ticks of inputs"
         hint = "raise final-tick or shorten the inputs"
         return "final-tick", ReplayError(
@@ -221,21 +200,30 @@ def write_replay(replay: Replay) -> str:
         "level": _text(replay.level_path),
         "level-record": str(replay.level_record or ""),
         "level-digest": replay.level_digest,
-        "rules": str(replay.rules),
         "body": replay.body,
-        "final-tick": str(replay.final_tick),
-        "outcome": replay.outcome,
-        "gold": str(replay.gold),
-        "digest": replay.digest,
         "practice": "yes" * replay.practice,
+        **_claims(replay),
     }
     lines = [f"{MAGIC} {VERSION}", *(f"{key}: {value}" for key, value in headers.items() if value)]
-    lines += ["inputs:", *(f"  {line}" for line in write_inputs(replay.inputs))]
+    lines += ["inputs:", *(f"  {line}" for line in write_inputs(replay.inputs, replay.markers))]
     if replay.waypoints:
         lines += ["waypoints:", *(f"  {tick} {x!r} {y!r} {state}" for tick, x, y, state in replay.waypoints)]
     if replay.level is not None:
-        lines += ["level-data:", *(f"  {line}".rstrip() for line in _level_text(replay.level, replay).splitlines())]
+        text = write_ascii_level(replay.level, name=replay.level_name, author=replay.level_author)
+        lines += ["level-data:", *(f"  {line}".rstrip() for line in text.splitlines())]
+    lines += [] if replay.loose else [LAST_LINE]
     return "\n".join(lines) + "\n"
+
+
+def _claims(replay: Replay) -> dict[str, str]:
+    """The headers that tell how far a run goes, and what comes of it."""
+    final_tick = {"final-tick": str(replay.final_tick)}
+    if not replay.loose:
+        told = {"outcome": replay.outcome, "gold": str(replay.gold), "digest": replay.digest}
+        return {"rules": str(replay.rules), **final_tick, **told}
+    if replay.demo_length is not None:
+        return {"demo-length": format_number(replay.demo_length)}
+    return final_tick if replay.final_tick != max(0, len(replay.inputs) - 1) else {}
 
 
 def _text(value: str) -> str:

@@ -185,7 +185,7 @@ def _row_of(saved: SavedReplay) -> ReplayRow:
 
 def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
     replay = recording.replay
-    if replay is None:
+    if replay is None or replay.loose:
         result = f"recording, {seconds_text(recording.ticks)}"
     else:
         result = _result(replay.outcome, replay.gold, replay.final_tick)

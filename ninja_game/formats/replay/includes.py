@@ -1,0 +1,29 @@
+"""Files that the inputs of a replay take in."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ninja_game.errors import NinjaGameError, ReplayError
+from ninja_game.files.reading import path_below, read_text
+from ninja_game.formats.replay.input_text import Include
+
+
+def included_beside(file: str) -> Include | None:
+    """Reads files in the folder of ``file`` or below it, as inputs name them; None where there is no such folder."""
+    if not file:
+        return None
+
+    def include(name: str) -> tuple[str, str]:
+        path = path_below(Path(file).parent, name)
+        if path is None or not name:
+            raise ReplayError(
+                "a file outside", found=repr(name[:40]), expected="one in the replay's folder or below it"
+            )
+        try:
+            return str(path), read_text(path)
+        except (OSError, NinjaGameError) as error:
+            why = error.strerror if isinstance(error, OSError) else str(error)
+            raise ReplayError("a file that cannot be taken in", found=repr(name[:40]), hint=why or "") from None
+
+    return include

@@ -1,0 +1,187 @@
+"""Reading inputs that people wrote: runs, comments, repeat blocks, markers, other files (`docs/replay-format.md`)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from ninja_game.errors import ReplayError
+from ninja_game.formats.lines import Line, numbered_lines
+from ninja_game.formats.replay.input_runs import KEY_NAMES, Marker
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, MAX_TICKS, pressed
+
+MOST_INCLUDES = 100
+"""Files that a text may take in, the same one each time anew."""
+
+DEEPEST = 8
+"""How deep files may take in others, and blocks may lie in blocks."""
+
+_WORD = re.compile(r";.*|\(|\)[^ \t();]*|[^ \t();]+")
+_RUN = re.compile(r"(\.|L?R?J?)([!-]?)(?:\*([1-9][0-9]{0,6}))?")
+_BLOCK_END = re.compile(r"\)(?:\*([1-9][0-9]{0,6}))?")
+_MARKER = re.compile(r"#([\w.-]{1,100})")
+_INCLUDE = re.compile(r"[ \t]*include[ \t]+([^;]*)(?:;.*)?")
+
+_KEY_BITS = {text: keys for keys, text in enumerate(KEY_NAMES)}
+
+
+class Inputs(NamedTuple):
+    """The keys of every tick, one byte each, and the names of some ticks."""
+
+    keys: bytes
+    markers: tuple[Marker, ...] = ()
+
+
+Include = Callable[[str], tuple[str, str]]
+"""From a name in a text to a file's path and text. Raises ReplayError."""
+
+Run = tuple[int, str, int]
+"""Keys that are down, "!", "-" or "" as mark, number of ticks."""
+
+
+def read_inputs(lines: Iterable[Line], *, file: str = "", include: Include | None = None) -> Inputs:
+    """The inputs that numbered lines describe. ``include``: reads the files that they name; None: there are none.
+
+    Raises ReplayError with file, line and column for anything else, and for more than a million ticks.
+    """
+    reader = _Reader(include)
+    return _as_inputs(reader.block(lines, [file]).items)
+
+
+@dataclass
+class _Block:
+    """Runs and the names of markers, in order; ``ticks``: of all runs. ``place``: where it begins."""
+
+    place: tuple[str, int, int]
+    items: list[Run | str] = field(default_factory=list)
+    ticks: int = 0
+
+    def add(self, items: Iterable[Run | str], ticks: int, place: tuple[str, int, int]) -> None:
+        """Append runs of so many ticks. Raises ReplayError for more than a million in all."""
+        self.ticks += ticks
+        if self.ticks > MAX_TICKS:
+            found, expected = f"{self.ticks} ticks", f"at most {MAX_TICKS}"
+            raise ReplayError("the replay is too long", *place, found=found, expected=expected)
+        self.items += items
+
+
+class _Reader:
+    """Reads the lines of a text and of the files that it names."""
+
+    def __init__(self, include: Include | None) -> None:
+        self._include = include
+        self._included = 0
+
+    def block(self, lines: Iterable[Line], files: list[str]) -> _Block:
+        """All of a file as one block; ``files``: those that led here, it being the last."""
+        stack = [_Block((files[-1], 0, 0))]
+        seen: set[str] = set()
+        for number, line in lines:
+            named = _INCLUDE.fullmatch(line)
+            if named:
+                place = files[-1], number, len(line) - len(line.lstrip()) + 1
+                read = self._file(named[1].strip(), files, place)
+                stack[-1].add(read.items, read.ticks, place)
+                continue
+            for word in _WORD.finditer(line):
+                self._word(word[0], stack, seen, (files[-1], number, word.start() + 1))
+        if len(stack) > 1:
+            raise ReplayError("a block that does not end", *stack[-1].place, "'('", hint="close it: (R*3 RJ)*4")
+        return stack[0]
+
+    def _word(self, text: str, stack: list[_Block], seen: set[str], place: tuple[str, int, int]) -> None:
+        """One word of a line."""
+        if text.startswith(";"):
+            return
+        if text == "(":
+            if len(stack) > DEEPEST:
+                raise ReplayError("too many blocks in blocks", *place, expected=f"at most {DEEPEST}")
+            stack.append(_Block(place))
+        elif text.startswith(")"):
+            _end_block(text, stack, place)
+        elif text.startswith("#"):
+            name = _MARKER.fullmatch(text)
+            if not name:
+                expected = "a name of letters, digits, '-', '_' and '.', such as #first-jump"
+                raise ReplayError("not a marker", *place, repr(text[:30]), expected)
+            if name[1] in seen:
+                raise ReplayError("a marker given twice", *place, repr(text), hint="choose another name")
+            seen.add(name[1])
+            stack[-1].items.append(name[1])
+        else:
+            match = _RUN.fullmatch(text)
+            if match is None or not match[1]:
+                raise _bad_run(text, *place)
+            count = int(match[3] or 1)
+            stack[-1].add([(_KEY_BITS[match[1]], match[2], count)], count, place)
+
+    def _file(self, name: str, files: list[str], place: tuple[str, int, int]) -> _Block:
+        """The block of another file."""
+        self._included += 1
+        if self._include is None:
+            raise ReplayError("a text that is in no folder takes in no file", *place, repr(name[:40]))
+        if self._included > MOST_INCLUDES or len(files) > DEEPEST:
+            expected = f"at most {MOST_INCLUDES}, {DEEPEST} deep"
+            raise ReplayError("too many files taken in", *place, repr(name[:40]), expected)
+        try:
+            path, text = self._include(name)
+        except ReplayError as error:
+            error.file, error.line, error.column = place
+            raise
+        if path in files:
+            raise ReplayError("a file that takes in itself", *place, repr(name[:40]))
+        return self.block(numbered_lines(text), [*files, path])
+
+
+def _end_block(text: str, stack: list[_Block], place: tuple[str, int, int]) -> None:
+    """Close the innermost block and repeat it; its markers name ticks of the first pass."""
+    match = _BLOCK_END.fullmatch(text)
+    if not match:
+        raise ReplayError("not the end of a block", *place, repr(text[:30]), "')' and a count, such as )*4")
+    if len(stack) == 1:
+        raise ReplayError("the end of a block that has not begun", *place, repr(text[:30]), hint="open it with '('")
+    block, count = stack.pop(), int(match[1] or 1)
+    again = [item for item in block.items if not isinstance(item, str)]
+    ticks = block.ticks * count
+    if stack[-1].ticks + ticks <= MAX_TICKS:
+        block.items += again * (count - 1)
+    stack[-1].add(block.items, ticks, place)
+
+
+def _as_inputs(items: Iterable[Run | str]) -> Inputs:
+    """Runs as ticks: unmarked, the jump triggers where it is held and was not before. The first of equal names counts."""
+    keys = bytearray()
+    markers: dict[str, Marker] = {}
+    for item in items:
+        if isinstance(item, str):
+            markers.setdefault(item, Marker(len(keys), item))
+            continue
+        down, mark, count = item
+        if mark == "!":
+            down |= JUMP_PRESSED
+        held_before = keys[-1] & JUMP_HELD if keys else 0
+        keys.append(down if mark else pressed(down, held_before))
+        keys.extend(bytes([down]) * (count - 1))
+    return Inputs(bytes(keys), tuple(markers.values()))
+
+
+def _bad_run(text: str, file: str, line: int, column: int) -> ReplayError:
+    """The error for a word that is no run, with the likeliest way to mend it."""
+    keys, star, count = text.partition("*")
+    if star and not re.fullmatch("[1-9][0-9]{0,6}", count):
+        hint = "a count is a whole number from 1"
+    elif star and not keys:
+        hint = "a count stands next to its keys, without a blank: R*33"
+    elif set(keys.upper()) <= set("LRJ!-."):
+        hint = f"write {_in_order(keys.upper())}{star}{count}"
+    else:
+        hint = "L left, R right, J jump, . no key"
+    return ReplayError("not an input run", file, line, column, repr(text[:30]), "keys and a count, such as R*30", hint)
+
+
+def _in_order(keys: str) -> str:
+    """The same keys as the notation has them: L, R, J, each once, then the mark."""
+    mark = "!" if "!" in keys else "-" if "-" in keys else ""
+    return ("".join(key for key in "LRJ" if key in keys) or ".") + mark
