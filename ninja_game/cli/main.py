@@ -36,6 +36,7 @@ GROUPS = {
         "convert": "Turn levels and recordings from one format into the other.",
     },
     "runs": {
+        "record": "Run inputs that a person wrote, and write what comes of them.",
         "verify": "Run recordings again and judge them.",
         "trace": "Show every tick of recordings: position, velocity, state, events.",
         "splits": "Show when runs take gold, open doors and the exit, and end.",

@@ -12,7 +12,7 @@ from typing import IO
 
 from ninja_game.errors import FileError
 
-SUFFIXES = (".txt", ".nlevel", ".level", ".replay", ".demo")
+SUFFIXES = (".txt", ".nlevel", ".level", ".replay", ".demo", ".tas")
 """Which files of a folder are looked at."""
 
 MAX_BYTES = 64 * 2**20

@@ -12,7 +12,10 @@ from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import LevelRecord, is_demo, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
 from ninja_game.formats.named_level import is_level_file, level_of_replay
+from ninja_game.formats.replay.includes import included_beside
+from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
+from ninja_game.formats.tas_lines import in_our_notation, is_tas_text
 from ninja_game.sim.inputs import Demo, fitted_demo
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import Body
@@ -76,7 +79,7 @@ def holds_recordings(text: str) -> bool:
         return False
     if is_level_file(text):
         return any(record.demo for record in read_level_file(text))
-    return is_demo("".join(text.split()))
+    return is_demo("".join(text.split())) or is_tas_text(text)
 
 
 def parse_replays(text: str, *, file: str = "", level: Level | None = None) -> list[Recording]:
@@ -92,6 +95,8 @@ def parse_replays(text: str, *, file: str = "", level: Level | None = None) -> l
     if is_demo("".join(text.split())):
         record = LevelRecord(Path(file).stem, "", "", "", "".join(text.split()), line=1)
         return _read_recordings([record], file, level)
+    if is_tas_text(text):
+        return [_recording_of_lines(text, file, level)]
     raise ReplayError(
         "no recording",
         file,
@@ -99,6 +104,16 @@ def parse_replays(text: str, *, file: str = "", level: Level | None = None) -> l
         found=repr(text[:40]),
         expected="a replay of ours or $name#author#comment#level#demo#",
     )
+
+
+def _recording_of_lines(text: str, file: str, level: Level | None) -> Recording:
+    """Inputs in the notation of another tool, as a loose replay. Raises ReplayError."""
+    if level is None:
+        raise ReplayError("inputs without a level", file, hint="give it with --level")
+    read = read_inputs(in_our_notation(text, file), file=file, include=included_beside(file))
+    last = max(0, len(read.keys) - 1)
+    replay = Replay(read.keys, last, "", name=Path(file).stem, level=level, markers=read.markers)
+    return Recording(replay.name, "", "", level, Demo(read.keys, float(len(read.keys))), file, replay=replay)
 
 
 def _read_recordings(records: Iterable[LevelRecord], file: str, level: Level | None) -> list[Recording]:

@@ -11,7 +11,7 @@ from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.resources import data_folder
 from ninja_game.formats.links.fragment import is_link, read_link
 from ninja_game.formats.links.making import recordings_of
-from ninja_game.formats.load import load_levels, load_replays
+from ninja_game.formats.load import load_level, load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.files import is_pack
 from ninja_game.formats.pack.pack import Pack
@@ -20,6 +20,7 @@ from ninja_game.play.app import App, build_app
 from ninja_game.play.screen import Screen
 from ninja_game.play.window import save_picture
 from ninja_game.player.playthrough import FileRun
+from ninja_game.sim.level import Level
 from ninja_game.simulation import Body, Simulation
 
 
@@ -38,7 +39,7 @@ def main(
 
     ``level_path``: a pack, whose episodes are offered, or a file of levels, played from number ``record`` on, or a link
     to one of them or to replays; without it the main menu.
-    ``replay_path``: watch the recordings of a file or link.
+    ``replay_path``: watch the recordings of a file or link; ``level_path`` is then the level of those without one.
     ``frames``: end after so many pictures. ``screenshot``: write the last picture to this PNG file.
 
     Raises NinjaGameError for a file that cannot be read or written, and where there is no display.
@@ -91,11 +92,11 @@ def first_screen(
     Raises NinjaGameError for a file that cannot be read or a level that cannot be played.
     """
     if replay_path:
-        return _replays(replay_path)
+        return _replays(replay_path, load_level(level_path, record) if level_path else None)
     if level_path is None:
         return _main_menu
     if is_link(level_path) and read_link(level_path).kind == "replay":
-        return _replays(level_path)
+        return _replays(level_path, None)
     if is_pack(Path(level_path)) and (body, practice, record) == ("circle", False, 0):
         return _episodes(Path(level_path))
     levels = load_levels(level_path)[record:]
@@ -123,8 +124,8 @@ def _check(named: NamedLevel, body: Body) -> None:
         raise
 
 
-def _replays(path: str) -> Callable[[App], Screen]:
-    return _watch(load_replays(path), over_menu=is_link(path))
+def _replays(path: str, level: Level | None) -> Callable[[App], Screen]:
+    return _watch(load_replays(path, level=level), over_menu=is_link(path))
 
 
 def watch_screen(texts: Sequence[str]) -> Callable[[App], Screen]:

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
+from ninja_game.errors import ReplayError
 from ninja_game.formats.ascii.legend import legend_text
 from ninja_game.formats.ascii.reader import is_ascii_level
 from ninja_game.formats.ascii.writer import RULER
@@ -13,7 +14,8 @@ from ninja_game.formats.n14.level_file import LevelRecord, read_level_file, writ
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.named_level import NamedLevel, is_level_file, parse_levels
 from ninja_game.formats.recording import Recording, holds_recordings, parse_replays, record_of
-from ninja_game.formats.replay.text import is_replay, write_replay
+from ninja_game.formats.replay.text import RULES_VERSION, Replay, is_replay, write_replay
+from ninja_game.formats.tas_lines import write_celeste, write_libtas
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.level import Level
@@ -31,10 +33,37 @@ def replay_texts(recordings: Iterable[Recording]) -> Iterator[str]:
         with named_errors(each):
             inputs = each.playback(each.ticks)
             new = record_replay(each.level, inputs, body=each.body, name=each.name, author=each.author)
-        level_name, author, practice = each.name, "", False
-        if each.replay:
-            level_name, author, practice = each.replay.level_name, each.replay.level_author, each.replay.practice
-        yield write_replay(replace(new, level_name=level_name, level_author=author, practice=practice))
+        old = each.replay or replace(new, level_name=each.name)
+        markers = tuple(marker for marker in old.markers if marker.tick <= len(new.inputs))
+        new = replace(new, level_name=old.level_name, level_author=old.level_author)
+        yield write_replay(replace(new, practice=old.practice, markers=markers))
+
+
+def input_texts(recordings: Iterable[Recording], form: str) -> Iterator[str]:
+    """All inputs of each recording, not run: as a loose replay ("inputs"), or in another tool's notation.
+
+    ``form``: "inputs", "celeste" or "libtas". Raises ReplayError for what the tools' notations cannot hold.
+    """
+    for each in recordings:
+        loose = _loose(each)
+        keys = loose.inputs if loose.demo_length is None else loose.playback(loose.ticks)
+        try:
+            if form == "celeste":
+                yield write_celeste(keys, loose.markers)
+            else:
+                yield write_libtas(keys) if form == "libtas" else write_replay(loose)
+        except ReplayError as error:
+            raise replace(error, file=each.file, line=each.line) from None
+
+
+def _loose(recording: Recording) -> Replay:
+    """A recording without its claims."""
+    old = recording.replay
+    if old is None:
+        demo = recording.demo
+        old = Replay(demo.inputs, demo.end, "", name=recording.name, author=recording.author, demo_length=demo.length)
+    claimless = replace(old, outcome="", gold=0, digest="", waypoints=(), rules=RULES_VERSION)
+    return replace(claimless, level=recording.level, level_digest="", level_path="", level_record=0)
 
 
 def level_file_text(texts: Iterable[tuple[str, str]], level: Level | None = None) -> str:
@@ -68,7 +97,9 @@ def left_out(form: str, found: Sequence[NamedLevel | Recording], texts: Sequence
         lost.append("names, authors and comments of levels")
     if form != "ascii" and any(isinstance(named, NamedLevel) and named.teaches for named in found):
         lost.append("what levels teach")
-    if form == "replay" and any(recording.comment for recording in found):
+    if form in ("celeste", "libtas"):
+        lost.append("levels, names and authors")
+    if form in ("replay", "inputs") and any(recording.comment for recording in found):
         lost.append("comments of recordings")
     if any(map(_own_comments, filter(is_ascii_level, texts))):
         lost.append("comment lines")

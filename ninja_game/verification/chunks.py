@@ -75,7 +75,7 @@ def chunks_in(paths: Iterable[Path]) -> Iterator[Chunk]:
 
 
 def self_contained(chunk: Chunk) -> Chunk:
-    """The same chunk with the level inside, where a replay of ours names it by path, and the inputs it takes in; what is wrong stays as it is."""
+    """The same chunk with the level inside, where a replay of ours names it by path; what is wrong stays as it is."""
     if not is_replay(chunk.text):
         return chunk
     try:

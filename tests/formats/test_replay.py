@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 
 from ninja_game.errors import DemoError, ReplayError
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
-from ninja_game.formats.replay.input_runs import read_inputs, write_inputs
+from ninja_game.formats.replay.input_runs import write_inputs
+from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
 from ninja_game.sim.level import Level, ObjectSpec
 from tests.support.strategies import inputs, replays
@@ -20,7 +21,7 @@ from tests.support.strategies import inputs, replays
 LEVEL = parse_level_string("0" * 713 + "|5^60,540!11^708,540,396,540")
 REPLAY = Replay(bytes([2, 2, 14, 6, 0]), 9, "exit", 3, name="A walk", level_path="../levels/hill.txt", digest="0f" * 32)
 TEXT = """\
-ninja-game replay 2
+ninja-game replay 3
 name: A walk
 level: ../levels/hill.txt
 rules: 1
@@ -31,6 +32,7 @@ gold: 3
 digest: 0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f0f
 inputs:
   R*2 RJ*2 .
+end
 """
 
 
@@ -39,10 +41,14 @@ def test_a_replay_is_written_in_one_way() -> None:
     assert parse_replay(TEXT) == REPLAY
 
 
+def test_version_2_has_no_last_line_and_is_still_read() -> None:
+    assert parse_replay(TEXT.replace("replay 3", "replay 2").removesuffix("end\n")) == REPLAY
+
+
 def test_headers_may_come_in_any_order_with_comments_and_blank_lines() -> None:
     first, *others = TEXT.replace("inputs:\n  R*2 RJ*2 .", "inputs: R*2\n\n;\n  RJ*2\n\t.").splitlines()
-    head, body = others[:8], others[8:]
-    assert parse_replay("\r\n".join(["", "; hello", first, *body, "", *reversed(head)])) == REPLAY
+    head, body = others[:8], others[8:-1]
+    assert parse_replay("\r\n".join(["", "; hello", first, *body, "", *reversed(head), "end"])) == REPLAY
 
 
 def test_ticks_beyond_the_inputs_have_no_key() -> None:
@@ -82,22 +88,22 @@ def test_an_embedded_level_keeps_numbers_that_no_level_string_of_n_can_say(x: fl
 )
 def test_the_trigger_is_written_only_where_the_keys_do_not_tell_it(ticks: list[int], text: str) -> None:
     assert write_inputs(bytes(ticks)) == [text]
-    assert read_inputs([(1, text)]) == bytes(ticks)
+    assert read_inputs([(1, text)]).keys == bytes(ticks)
 
 
 def test_marked_runs_count_for_each_of_their_ticks() -> None:
-    assert read_inputs([(1, "RJ!*3 RJ-*2 J*1")]) == bytes([14, 14, 14, 6, 6, 4])
+    assert read_inputs([(1, "RJ!*3 RJ-*2 J*1")]).keys == bytes([14, 14, 14, 6, 6, 4])
 
 
 def test_long_inputs_are_wrapped() -> None:
     lines = write_inputs(bytes([1, 2] * 200))
     assert max(map(len, lines)) <= 100
-    assert read_inputs(enumerate(lines)) == bytes([1, 2] * 200)
+    assert read_inputs(enumerate(lines)).keys == bytes([1, 2] * 200)
 
 
 @given(inputs)
 def test_inputs_read_back_equal(ticks: bytes) -> None:
-    assert read_inputs(enumerate(write_inputs(ticks))) == ticks
+    assert read_inputs(enumerate(write_inputs(ticks))).keys == ticks
 
 
 def test_a_byte_that_is_no_input_is_refused() -> None:
@@ -119,9 +125,10 @@ def test_a_byte_that_is_no_input_is_refused() -> None:
         ("RJ*2", "RJ*", "a.txt:11:7: ~a count is"),
         ("RJ*2", "!", "a.txt:11:7: ~write .!"),
         ("RJ*2", ".*9999999", "a.txt:11:7: the replay is too long; found 10000001 ticks; expected at most 1000000"),
-        ("replay 2", "replay 3", "a.txt:1:1: unknown version of the replay format; found 3; expected 2; ~newer"),
-        ("replay 2", "replay 1", "a.txt:1:1: a replay written by an older version~; write 'ninja-game replay 2'"),
-        ("ninja-game", "ninja", "a.txt:1:1: not a replay of ninja-game; found 'ninja replay 2'; expected 'ninja-game"),
+        ("replay 3", "replay 4", "a.txt:1:1: unknown version of the replay format; found 4; expected 3; ~newer"),
+        ("end\n", "", "a.txt:11: the replay is cut; its last line is 'end'"),
+        ("replay 3", "replay 1", "a.txt:1:1: a replay written by an older version~; write 'ninja-game replay 2'"),
+        ("ninja-game", "ninja", "a.txt:1:1: not a replay of ninja-game; found 'ninja replay 3'; expected 'ninja-game"),
         ("body: circle", "body: square", "a.txt:5:7: an unknown body; found 'square'; expected circle or box"),
         ("body: circle\n", "", "a.txt: an incomplete replay; expected a line with 'body'"),
         ("body: circle", "bodi: circle", "a.txt:5:1: an unknown header; found 'bodi'; ~; did you mean 'body'?"),
@@ -172,7 +179,7 @@ def test_a_replay_is_told_by_its_first_words() -> None:
 
 def test_the_example_of_the_page_is_a_replay(root: Path) -> None:
     page = (root / "docs" / "replay-format.md").read_text(encoding="utf-8")
-    examples = re.findall(r"```text\n(ninja-game replay 2\n.*?)```", page, re.DOTALL)
+    examples = re.findall(r"```text\n(ninja-game replay 3\n.*?)```", page, re.DOTALL)
     assert examples
     for example in examples:
         replay = parse_replay(example)

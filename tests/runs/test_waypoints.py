@@ -54,7 +54,8 @@ def test_other_inputs_are_noticed_where_they_lead_elsewhere() -> None:
     ],
 )
 def test_a_broken_waypoint_is_named_with_its_line(line: str, message: str) -> None:
-    text = write_replay(replace(running(), waypoints=(), level=None)).rstrip() + f"\nwaypoints:\n  {line}\n"
+    text = write_replay(replace(running(), waypoints=(), level=None))
+    text = text.removesuffix("end\n") + f"waypoints:\n  {line}\nend\n"
     with pytest.raises(ReplayError, match=message) as caught:
         parse_replay(text)
     assert caught.value.line > 0

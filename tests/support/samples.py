@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ninja_game import Simulation
+from ninja_game.formats.ascii.reader import write_ascii_level
 from ninja_game.formats.n14.demo import write_demo
 from ninja_game.formats.n14.level_file import LevelRecord, write_level_file
 from ninja_game.formats.n14.level_string import parse_level_string
@@ -21,6 +22,13 @@ SPIKED = "0" * 713 + "|5^100,566!12^130,566!0^400,100"
 """The same run ends on a mine."""
 
 NO_NINJA = "0" * 713 + "|0^100,100"
+
+
+def loose_replay(level: str, *lines: str, headers: str = "") -> str:
+    """A replay text without claims: such inputs on a level given as an in-game string."""
+    picture = "".join(f"  {line}\n" for line in write_ascii_level(parse_level_string(level)).splitlines())
+    inputs = "".join(f"  {line}\n" for line in lines)
+    return f"ninja-game replay 3\n{headers}level-data:\n{picture}inputs:\n{inputs}"
 
 
 def running(ticks: int) -> str:

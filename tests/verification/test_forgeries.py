@@ -60,7 +60,7 @@ def without_level(text: str, path: str) -> str:
     """A replay's text whose level is to be read from a file."""
     head = text.partition("level-data:")[0]
     lines = [line for line in head.splitlines() if not line.startswith("level-digest")]
-    return "\n".join([lines[0], f"level: {path}", *lines[1:]]) + "\n"
+    return "\n".join([lines[0], f"level: {path}", *lines[1:], "end"]) + "\n"
 
 
 FORGERIES = {
@@ -152,8 +152,8 @@ FORGERIES = {
     "practice": (replay(practice=True), "practice"),
     "a practice mark that is none": (replay(practice=True).replace("practice: yes", "practice: maybe"), "practice"),
     "two ends": (replay().replace("outcome:", "outcome: exit\noutcome:", 1), "given twice"),
-    "a format of yesterday": (replay().replace("replay 2", "replay 1", 1), "older version"),
-    "a format of tomorrow": (replay().replace("replay 2", "replay 9", 1), "version"),
+    "a format of yesterday": (replay().replace("replay 3", "replay 1", 1), "older version"),
+    "a format of tomorrow": (replay().replace("replay 3", "replay 9", 1), "version"),
 }
 
 

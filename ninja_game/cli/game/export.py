@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from ninja_game.cli.game.play import pixels
-from ninja_game.cli.run_options import InputPath
+from ninja_game.cli.run_options import InputPath, level_given, level_option
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.links.fragment import is_link
 
@@ -24,7 +24,8 @@ from ninja_game.formats.links.fragment import is_link
     "--size", metavar="WIDTHxHEIGHT", default="528x400", show_default=True, help="Size of the pictures in px."
 )
 @click.option("--speed", type=click.FloatRange(0.05, 16), default=1.0, show_default=True, help="1 is the game's speed.")
-def command(replay: Path, out: Path | None, record: int, size: str, speed: float) -> None:
+@level_option
+def command(replay: Path, out: Path | None, record: int, size: str, speed: float, level_path: Path | None) -> None:
     """Write a film of a recording: a GIF, or a folder of pictures.
 
     REPLAY is a replay of ours, a level file with demos, or a link. A GIF of more than 600 ticks shows every second one.
@@ -37,7 +38,7 @@ def command(replay: Path, out: Path | None, record: int, size: str, speed: float
     """
     from ninja_game.formats.load import load_replays
 
-    recordings = load_replays(replay)
+    recordings = load_replays(replay, level=level_given(level_path))
     if record >= len(recordings):
         raise NinjaGameError(f"{replay}: there is no record {record}; the last one is {len(recordings) - 1}")
     path = out or Path("replay.gif" if is_link(replay) else f"{replay.name.partition('.')[0]}.gif")

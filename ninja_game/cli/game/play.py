@@ -9,7 +9,7 @@ from typing import Literal
 
 import click
 
-from ninja_game.cli.run_options import InputPath, LevelPath
+from ninja_game.cli.run_options import InputPath, LevelPath, level_option
 
 
 @click.command()
@@ -23,6 +23,7 @@ from ninja_game.cli.run_options import InputPath, LevelPath
 )  # fmt: skip
 @click.option("--practice", is_flag=True, help="No time limit, nothing counts.")
 @click.option("--replay", type=InputPath(dir_okay=False), help="Watch the recordings of this file or link.")
+@level_option
 @click.option("--size", metavar="WIDTHxHEIGHT", help="Size of the window in px, e.g. 1584x1200.")
 @click.option("--frames", type=click.IntRange(1, 10**9), help="End after so many pictures.")
 @click.option("--screenshot", type=click.Path(dir_okay=False), help="Write the last picture to this PNG file.")
@@ -34,6 +35,7 @@ def command(
     body: Literal["circle", "box"],
     practice: bool,
     replay: Path | None,
+    level_path: Path | None,
     size: str | None,
     frames: int | None,
     screenshot: str | None,
@@ -58,7 +60,9 @@ def command(
     """
     if level is not None and replay is not None:
         raise click.UsageError("LEVEL and --replay exclude each other")
-    path = str(level) if level is not None else None
+    if level_path is not None and replay is None:
+        raise click.UsageError("--level is the level of what --replay names")
+    path = next((str(each) for each in (level, level_path) if each is not None), None)
     window = pixels(size) if size else None
 
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")

@@ -15,10 +15,15 @@ from ninja_game.formats.links.fragment import is_link
 if TYPE_CHECKING:
     from ninja_game.formats.load import NamedLevel, Recording
 
-FORMS = ("ascii", "string", "file", "replay")
+RUN_FORMS = {"replay": ".replay.txt", "inputs": ".inputs.txt", "celeste": ".tas", "libtas": ".libtas.txt"}
+"""The forms of recordings of which a file holds one, and how it is called."""
+
+FORMS = ("ascii", "string", "file", *RUN_FORMS)
 STANDARD_STREAM = "-"
 
-FORM_OF_NAME = {".replay.txt": "replay", ".replay": "replay", ".demo": "file", ".nlevel": "string"}
+FORM_OF_NAME = {
+    **{suffix: form for form, suffix in RUN_FORMS.items()}, ".replay": "replay", ".demo": "file", ".nlevel": "string",
+}  # fmt: skip
 """What is written where OUT ends so."""
 
 
@@ -41,9 +46,11 @@ def command(
       string  levels as in-game strings of N, one a line
       file    a level file of N, $name#author#comment#level#, recordings with their demos behind the level
       replay  recordings as our replay texts, run once; several: one file each, in the folder OUT
+      inputs  the same, but not run and with all their inputs; celeste, libtas: in the notations of these tools
 
-    Without --to: replay where OUT ends in .replay.txt or .replay, file for .demo, string for .nlevel; else levels of N
-    become ascii and readable ones a level file. What the form cannot hold is told.
+    Without --to: replay where OUT ends in .replay.txt or .replay, inputs for .inputs.txt, celeste for .tas, file for
+    .demo, string for .nlevel; else levels of N become ascii and readable ones a level file. What the form cannot hold
+    is told.
 
     \b
     Examples:
@@ -56,20 +63,21 @@ def command(
       ninja-game convert first.nlevel -
     """
     from ninja_game.formats.load import load_levels, load_replays, texts_of
-    from ninja_game.runs.conversion import left_out, level_file_text, replay_texts
+    from ninja_game.runs.conversion import input_texts, left_out, level_file_text, replay_texts
 
     output = Output(target, sources, force=force)
     texts = [named for source in sources for named in texts_of(source)]
     level = level_given(level_path)
     form = form or next((form for suffix, form in FORM_OF_NAME.items() if target.lower().endswith(suffix)), "")
-    if level and form not in ("replay", "file", ""):
+    if level and form not in ("file", "", *RUN_FORMS):
         raise click.UsageError("--level is for recordings: add --to replay or --to file")
     found: Sequence[NamedLevel | Recording]
-    if form == "replay" or level:
+    if form in RUN_FORMS or level:
         found = recordings = [recording for source in sources for recording in load_replays(source, level=level)]
         form = form or "file"
-        if form == "replay":
-            output.write_each(list(replay_texts(recordings)), recordings, ".replay.txt")
+        if form in RUN_FORMS:
+            written = replay_texts(recordings) if form == "replay" else input_texts(recordings, form)
+            output.write_each(list(written), recordings, RUN_FORMS[form])
     else:
         found = levels = [named for source in sources for named in load_levels(source)]
         form = form or ("file" if all(named.ascii for named in levels) else "ascii")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from ninja_game.errors import NinjaGameError, ReplayError
@@ -11,15 +12,14 @@ from ninja_game.formats.replay.input_text import Include
 
 def included_beside(file: str) -> Include | None:
     """Reads files in the folder of ``file`` or below it, as inputs name them; None where there is no such folder."""
-    if not file:
+    if not file or not os.path.isfile(file):  # noqa: PTH113 - Path.is_file() fails on long names
         return None
 
     def include(name: str) -> tuple[str, str]:
         path = path_below(Path(file).parent, name)
         if path is None or not name:
-            raise ReplayError(
-                "a file outside", found=repr(name[:40]), expected="one in the replay's folder or below it"
-            )
+            expected = "a file in the replay's folder or below it"
+            raise ReplayError("a file elsewhere", found=repr(name[:40]), expected=expected)
         try:
             return str(path), read_text(path)
         except (OSError, NinjaGameError) as error:

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from ninja_game.errors import ReplayError
 from ninja_game.formats.lines import Line, numbered_lines
 from ninja_game.formats.replay.input_runs import KEY_NAMES, Marker
+from ninja_game.formats.tas_lines import in_our_notation, is_tas_text
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, MAX_TICKS, pressed
 
 MOST_INCLUDES = 100
@@ -132,7 +133,8 @@ class _Reader:
             raise
         if path in files:
             raise ReplayError("a file that takes in itself", *place, repr(name[:40]))
-        return self.block(numbered_lines(text), [*files, path])
+        lines = in_our_notation(text, path) if is_tas_text(text) else numbered_lines(text)
+        return self.block(lines, [*files, path])
 
 
 def _end_block(text: str, stack: list[_Block], place: tuple[str, int, int]) -> None:
@@ -151,7 +153,7 @@ def _end_block(text: str, stack: list[_Block], place: tuple[str, int, int]) -> N
 
 
 def _as_inputs(items: Iterable[Run | str]) -> Inputs:
-    """Runs as ticks: unmarked, the jump triggers where it is held and was not before. The first of equal names counts."""
+    """Runs as ticks: unmarked, the jump triggers where it is held and was not before. A name's first place counts."""
     keys = bytearray()
     markers: dict[str, Marker] = {}
     for item in items:

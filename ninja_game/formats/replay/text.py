@@ -169,6 +169,8 @@ def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
     for key, word, words in (("body", replay.body, BODIES), ("outcome", replay.outcome, OUTCOMES)):
         if word not in words and (key, word) != ("outcome", ""):
             return key, ReplayError(f"an unknown {key}", found=repr(word), expected=" or ".join(words))
+    if replay.loose and (replay.gold or replay.digest or replay.waypoints):
+        return "inputs", ReplayError("claims without an outcome", expected=" or ".join(OUTCOMES))
     if replay.ticks > MAX_TICKS:
         return "final-tick", ReplayError("the replay is too long", expected=f"at most {MAX_TICKS} ticks")
     if len(replay.inputs) > (replay.ticks if replay.demo_length is None else replay.final_tick):
@@ -200,9 +202,10 @@ def write_replay(replay: Replay) -> str:
         "level": _text(replay.level_path),
         "level-record": str(replay.level_record or ""),
         "level-digest": replay.level_digest,
+        "rules": "" if replay.loose else str(replay.rules),
         "body": replay.body,
-        "practice": "yes" * replay.practice,
         **_claims(replay),
+        "practice": "yes" * replay.practice,
     }
     lines = [f"{MAGIC} {VERSION}", *(f"{key}: {value}" for key, value in headers.items() if value)]
     lines += ["inputs:", *(f"  {line}" for line in write_inputs(replay.inputs, replay.markers))]
@@ -220,7 +223,7 @@ def _claims(replay: Replay) -> dict[str, str]:
     final_tick = {"final-tick": str(replay.final_tick)}
     if not replay.loose:
         told = {"outcome": replay.outcome, "gold": str(replay.gold), "digest": replay.digest}
-        return {"rules": str(replay.rules), **final_tick, **told}
+        return {**final_tick, **told}
     if replay.demo_length is not None:
         return {"demo-length": format_number(replay.demo_length)}
     return final_tick if replay.final_tick != max(0, len(replay.inputs) - 1) else {}

@@ -1,0 +1,47 @@
+"""`ninja-game record`: run inputs that a person wrote, and write what comes of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from ninja_game.cli.levels.convert import Output
+from ninja_game.cli.run_options import choose, level_given, level_option
+from ninja_game.cli.runs.solve import free_replay
+from ninja_game.sim.rules import TICKS_PER_SECOND
+
+
+@click.command()
+@click.argument("inputs", metavar="FILE", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.option(
+    "--output", "-o", type=click.Path(dir_okay=False, path_type=Path),
+    help="The replay. [default: FILE's name and .replay.txt, in the current folder]",
+)  # fmt: skip
+@click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
+@level_option
+@click.option("--force", is_flag=True, help="Replace a file that exists. FILE is never replaced.")
+def command(inputs: Path, output: Path | None, record: int | None, level_path: Path | None, force: bool) -> None:
+    """Run inputs that a person wrote, and write what comes of them.
+
+    FILE is a replay text with or without claims (docs/replay-format.md), or any other recording. Its inputs run until
+    the exit, death or their end; outcome, gold, digest and waypoints of that run are written with them. Comments,
+    blocks and files that are taken in become plain inputs; markers, names and authors stay.
+
+    \b
+    Examples:
+      ninja-game record idea.inputs.txt
+      ninja-game record idea.inputs.txt -o best.replay.txt --force
+      ninja-game record celeste.tas --level level.txt
+    """
+    from ninja_game.formats.load import load_replays
+    from ninja_game.formats.replay.text import parse_replay
+    from ninja_game.runs.conversion import replay_texts
+
+    recordings = load_replays(inputs, level=level_given(level_path))
+    (text,) = replay_texts([choose(recordings, "recordings", inputs, record)])
+    path = output or free_replay(Path(inputs.name.partition(".")[0]))
+    Output(str(path), [inputs], force=force).write(text)
+    new = parse_replay(text)
+    when = f"tick {new.final_tick} ({new.ticks / TICKS_PER_SECOND:.3f} s)"
+    click.echo(f"{path}: {new.outcome} in {when}, {new.gold} gold")
