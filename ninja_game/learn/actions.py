@@ -41,12 +41,16 @@ class Actions:
         self.kind = kind
         self.space: Space[Any] = Discrete(len(DISCRETE_KEYS)) if kind == "discrete" else MultiBinary(len(BUTTON_KEYS))
         self._choices = len(DISCRETE_KEYS) if kind == "discrete" else 2
+        self._kinds = "iu" if kind == "discrete" else "iub"
         self._shape: tuple[int, ...] = self.space.shape or ()
 
     def keys(self, actions: Any, count: int) -> Keys:
         """The keys down in each of ``count`` worlds, uint8 (count,). Raises InvalidAction for what is no action."""
-        given = np.asarray(actions)
-        if given.shape != (count, *self._shape) or given.dtype.kind not in "iub":
+        try:
+            given = np.asarray(actions)
+        except ValueError:
+            given = np.asarray(actions, object)
+        if given.shape != (count, *self._shape) or given.dtype.kind not in self._kinds:
             found = f"{given.dtype} of shape {given.shape}"
             raise InvalidAction(f"actions are {found}; expected whole numbers of shape {(count, *self._shape)}")
         if not 0 <= given.min() <= given.max() < self._choices:

@@ -29,6 +29,9 @@ from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.sim.states import OUTCOME_NAMES
 
+MOST_PX = 8192
+"""Longest side of a picture."""
+
 
 @dataclass(frozen=True, eq=False)
 class SavedEpisode:
@@ -68,8 +71,11 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
     ) -> None:
         if render_mode not in {None, *self.metadata["render_modes"]}:
             raise UnsupportedMode(f"render_mode is {render_mode!r}; expected one of {self.metadata['render_modes']}")
+        size = tuple(render_size) if isinstance(render_size, tuple | list) else ()
+        if len(size) != 2 or not all(isinstance(side, int) and 1 <= side <= MOST_PX for side in size):
+            raise ArgumentError(f"render_size is {render_size!r:.40}; expected width and height, 1 to {MOST_PX} px")
         self.render_mode = render_mode
-        self._size = render_size
+        self._size = size[0], size[1]
         self._settings = settings
         self._actions = Actions(actions)
         self.action_space = self._actions.space
@@ -118,7 +124,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
             over = "the episode is over" if self._started else "no episode has begun"
             raise ResetNeeded(f"{over}; call reset() before step()")
         worlds = self.worlds
-        keys = self._actions.keys(np.asarray(action)[np.newaxis], 1)
+        keys = self._actions.keys([action], 1)
         worlds.step(keys)
         down, held = int(keys[0]), self._inputs[-1] & JUMP_HELD if self._inputs else 0
         ticks = int(worlds.ticks[0]) - len(self._inputs)

@@ -69,24 +69,36 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
     def reset(
         self, *, seed: int | Sequence[int] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Observed, Infos]:
-        """Begin new episodes. Raises ArgumentError for seeds, a mask or levels that do not fit the worlds."""
+        """Begin new episodes. Raises ArgumentError for seeds, a mask, levels or other options that do not fit."""
         self._refuse_closed()
-        super().reset(seed=seed if isinstance(seed, int) else None)
+        if seed is None or isinstance(seed, int):
+            super().reset(seed=seed)
         options = options or {}
+        if options.keys() - {"level", "reset_mask"}:
+            raise ArgumentError(f"options are {sorted(options)}; expected 'level', 'reset_mask' or none")
         mask = options.get("reset_mask")
         chosen = np.arange(self.num_envs) if mask is None else np.flatnonzero(self._checked_mask(mask))
-        if seed is None and not self._reset_before:
-            seed = self.np_random.integers(2**63, size=self.num_envs).tolist()
-        if seed is not None:
-            seeds = [seed + index for index in range(self.num_envs)] if isinstance(seed, int) else list(seed)
-            if len(seeds) != self.num_envs:
-                raise ArgumentError(f"{len(seeds)} seeds; expected {self.num_envs}, one for each world")
-            seed = [seeds[index] for index in chosen.tolist()]
+        seeds = self._seeds(seed)
         self._reset_before = True
-        self.worlds.reset(chosen, seeds=seed, levels=options.get("level"))
+        self.worlds.reset(
+            chosen, seeds=seeds and [seeds[index] for index in chosen.tolist()], levels=options.get("level")
+        )
         reset = np.zeros(self.num_envs, np.bool_)
         reset[chosen] = True
         return self._shown(), self._infos(reset)
+
+    def _seeds(self, seed: int | Sequence[int] | None) -> list[int] | None:
+        """New seeds of all worlds; None: they keep theirs."""
+        if seed is None:
+            return None if self._reset_before else self.np_random.integers(2**63, size=self.num_envs).tolist()
+        if isinstance(seed, int | np.integer):
+            seeds = [int(seed) + index for index in range(self.num_envs)]
+        else:
+            seeds = list(seed) if isinstance(seed, Sequence | np.ndarray) else [seed]
+        if len(seeds) != self.num_envs or not all(isinstance(each, int | np.integer) and each >= 0 for each in seeds):
+            expected = f"{self.num_envs} whole numbers from 0 on, one for each world"
+            raise ArgumentError(f"seeds are {seed!r:.60}; expected {expected}")
+        return [int(each) for each in seeds]
 
     def _checked_mask(self, mask: Any) -> NDArray[np.bool_]:
         if not isinstance(mask, np.ndarray) or mask.shape != (self.num_envs,) or mask.dtype != np.bool_:

@@ -170,7 +170,7 @@ def test_both_memories_show_the_same() -> None:
 
 
 @pytest.mark.parametrize(
-    "wrong", [6, -1, 1.5, "right", None, [1], [[1]], np.array([1, 0, 1]), np.array(float("nan"))], ids=repr
+    "wrong", [6, -1, 1.5, True, "right", None, [1], [1, [1]], np.array([1, 0, 1]), np.array(float("nan"))], ids=repr
 )
 def test_what_is_no_action_is_refused_and_changes_nothing(env: NinjaEnv, wrong: Any) -> None:
     env.reset()
@@ -208,7 +208,8 @@ def test_wrong_settings_are_refused_in_words() -> None:
     with pytest.raises(UnsupportedMode, match="rgb_array"):
         NinjaEnv(render_mode="film")
     wrong: tuple[dict[str, Any], ...] = (
-        {"level": "nowhere"}, {"actions": "keys"}, {"observation": "smell"}, {"frame_skip": 0}, {"time_limit": 0},
+        {"level": "nowhere"}, {"level": 3}, {"render_size": (0, 0)}, {"render_size": 400}, {"reward": 3},
+        {"actions": "keys"}, {"observation": "smell"}, {"frame_skip": 0}, {"time_limit": 0},
         {"body": "ball"}, {"memory": "cloud"},
     )  # fmt: skip
     for settings in wrong:

@@ -111,7 +111,19 @@ def test_a_reused_memory_is_written_anew_and_a_copy_is_not() -> None:
 
 
 @pytest.mark.parametrize(
-    "actions", [[1, 1], [[1], [1], [1]], [1, 1, 6], [1, 1, -1], [1.0, 1.0, 1.0], ["a", "b", "c"], None, [1, 1, np.nan]]
+    "actions",
+    [
+        [1, 1],
+        [[1], [1], [1]],
+        [1, 1, 6],
+        [1, 1, -1],
+        [1.0, 1.0, 1.0],
+        ["a", "b", "c"],
+        None,
+        [True] * 3,
+        [1, [1], 1],
+        [1, 1, np.nan],
+    ],
 )
 def test_what_is_no_action_is_refused(actions: Any) -> None:
     envs = NinjaVectorEnv(3, level=LEVELS[0])
@@ -139,6 +151,11 @@ def test_calls_out_of_order_are_refused() -> None:
     "call",
     [
         {"seed": [1, 2]},
+        {"seed": [1, 2, None]},
+        {"seed": [1, 2, -3]},
+        {"seed": 1.5},
+        {"seed": "abc"},
+        {"options": {"levels": 0}},
         {"options": {"reset_mask": [True, True, True]}},
         {"options": {"reset_mask": np.array([1, 0, 1])}},
         {"options": {"reset_mask": np.array([True])}},

@@ -107,6 +107,8 @@ def level_source(origin: Origin) -> LevelSource:
         return _named([origin])
     if isinstance(origin, Path):
         return _named(load_levels(origin))
+    if not isinstance(origin, str | Sequence):
+        raise ArgumentError(f"level is {origin!r:.60}; expected a name, a path, a Level, or several of these")
     if not isinstance(origin, str):
         parts = [level_source(each) for each in origin]
         return LevelSource([n for p in parts for n in p.names], [level for p in parts for level in p.levels])
