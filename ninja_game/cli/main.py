@@ -25,6 +25,7 @@ GROUPS = {
         "play": "Play a level in a window.",
         "edit": "Make a level, or change one, in a window.",
         "lab": "Drag, paint and watch: ten figures about how the world works.",
+        "player": "Put all data of a player into one file, or take such a file in.",
         "export": "Write a film of a recording: a GIF, or a folder of pictures.",
         "link": "Make a link that carries a level, a pack or replays.",
     },

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sqlite3
 from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -15,6 +16,7 @@ from ninja_game.play.app import App
 from ninja_game.play.input.scancodes import scancode_named
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
+from ninja_game.player.backup import read_backup, write_backup
 from ninja_game.runs.recording_reader import Unreadable, recordings_in
 from ninja_game.runs.verify import judged, verify_recording
 
@@ -39,6 +41,20 @@ class PageServices:
     def notify(self, text: str) -> None:
         """Show a line below the stage."""
         self.app.notify(text)
+
+    def backup(self) -> bytes:
+        """All data of the player as a zip (``player.backup``). Raises FileError, OSError, sqlite3.Error."""
+        with TemporaryDirectory() as folder:
+            path = Path(folder) / "player.zip"
+            write_backup(self.app.player, path)
+            return path.read_bytes()
+
+    def take_in(self, data: bytes) -> str:
+        """Take such a zip in; what came of it, or why not. The page is to be loaded again then."""
+        try:
+            return "\n".join(read_backup(self.app.player, bytes(data)))
+        except (NinjaGameError, OSError, sqlite3.Error) as error:
+            raise NinjaGameError(str(error)) from None
 
     def verdicts(self, name: str, data: bytes) -> Iterator[str]:
         """A verdict on every recording in a file, one by one: JSON as of ``ninja-game verify --json``.

@@ -120,6 +120,11 @@ class Page {
     for (const name of this.folder.newExports()) this.folder.download(name);
   }
 
+  reload() {
+    this.stopped = true; // nothing is written any more
+    location.reload();
+  }
+
   stop(title, advice, error = "Nothing is lost.") {
     this.stopped = true;
     this.host?.pause(true);
