@@ -13,10 +13,11 @@ import numpy as np
 
 from ninja_game.batch.worlds import Numbers, Worlds, make_worlds
 from ninja_game.compile_cache import choose_memory
-from ninja_game.learn.observations.part import Ragged, Setting
+from ninja_game.learn.observations.part import Ragged, Setting, clamp
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.solver.distance_field import POINTS, point_at
 from ninja_game.solver.heuristics import Heuristics
 
@@ -100,6 +101,12 @@ class GoalDistance:
         return self._row_of[key]
 
 
+@fast
+def point_within(x: float, y: float) -> int:
+    """The field's point nearest to a place; places outside the world count as at its rim, NaN as 0."""
+    return point_at(clamp(x, 0.0, WORLD_WIDTH), clamp(y, 0.0, WORLD_HEIGHT))
+
+
 @entry_point
 def measure_distance(
     maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int,
@@ -119,4 +126,4 @@ def measure_distance(
             states[index] = state
             stale[index] = True
         else:
-            ticks[index] = fields[rows[index], point_at(w.ninja.x, w.ninja.y)]
+            ticks[index] = fields[rows[index], point_within(w.ninja.x, w.ninja.y)]

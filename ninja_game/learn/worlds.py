@@ -111,7 +111,7 @@ class EnvWorlds:
         self.threads = threads or cores()
         self._worlds = make_worlds(self.memory, self.levels, count, box=is_box(body))
         fresh = [load_plain(level, is_box(body)) for level in self.levels]
-        setting = Setting(fresh, count, time_limit, self.memory == "compiled", self._worlds.kernel)
+        setting = Setting(self._worlds.maps, fresh, count, time_limit, self.memory == "compiled", self._worlds.kernel)
         self.observation = Observation(observation, flat=flat)
         terms = reward_terms(reward)
         shaping = [term for term in terms if isinstance(term, DistanceShaping)]

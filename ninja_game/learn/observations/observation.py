@@ -15,10 +15,17 @@ from gymnasium.spaces import Box, Dict, Space
 from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
+from ninja_game.learn.observations.guide import Guide
+from ninja_game.learn.observations.local_tiles import LocalTiles
+from ninja_game.learn.observations.near_objects import NearObjects
 from ninja_game.learn.observations.part import Array, Part, Setting
+from ninja_game.learn.observations.rays import Rays
 from ninja_game.learn.observations.state_vector import StateVector
+from ninja_game.learn.observations.time_left import TimeLeft
 
-PARTS: dict[str, type[Part]] = {part.name: part for part in (StateVector,)}
+PARTS: dict[str, type[Part]] = {
+    part.name: part for part in (StateVector, LocalTiles, Rays, NearObjects, TimeLeft, Guide)
+}
 """The parts, by name."""
 
 PartLike: TypeAlias = Part | str
@@ -75,7 +82,7 @@ class Observation:
         for part in self.parts:
             array = memory[part.name] if isinstance(memory, dict) else memory
             writers.append(Writer(part, array.reshape(len(array), -1), offset if self.flat else 0, setting))
-            offset += part.size
+            offset += part.length
         return writers
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
@@ -21,11 +21,12 @@ Array = NDArray[Any]
 class Setting:
     """What a part may know of the worlds when it makes its tables.
 
-    ``fresh``: of each level its map and a new world, as plain objects. ``count``: worlds. ``time_limit``: ticks of an
-    episode. ``compiled``: whether kernels run compiled; ``kernel``: gives an entry point as these worlds run it.
-    ``goal``: their ``GoalDistance``, for parts that ask for one.
+    ``maps``: the levels as kernels take them; ``fresh``: of each its map and a new world, as plain objects. ``count``:
+    worlds. ``time_limit``: ticks of an episode. ``compiled``: whether kernels run compiled; ``kernel``: gives an entry
+    point as these worlds run it. ``goal``: their ``GoalDistance``, for parts that ask for one.
     """
 
+    maps: Any
     fresh: Sequence[tuple[TileMap, World]]
     count: int
     time_limit: int
@@ -66,7 +67,7 @@ class Part(ABC):
     needs_goal: ClassVar[bool] = False
     """Whether it reads ``Setting.goal``."""
 
-    normalised: bool = True
+    normalised: bool = field(default=True, kw_only=True)
 
     @property
     @abstractmethod
@@ -86,7 +87,7 @@ class Part(ABC):
         """The rest of the kernel's arguments: what never changes during an episode."""
 
     @property
-    def size(self) -> int:
+    def length(self) -> int:
         """How many values it has."""
         return int(np.prod(self.box.shape))
 
