@@ -26,7 +26,7 @@ class Drawing:
         self.objects = False
         self.tile = 1
         self.record: ObjectSpec = SORTS[2].record
-        self.snap = "half"
+        self.snap = "cell"
         self.symmetry = "off"
         self.pointer = (396.0, 300.0)
         self._pressed_at = self.pointer

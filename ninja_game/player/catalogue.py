@@ -186,8 +186,8 @@ class Catalogue:
         return self._packs[path][1]
 
     def singles(self) -> list[Entry]:
-        """Every level as a single one: the game's, those of other packs, then the player's."""
-        return [entry for pack in self.packs() for entry in pack.levels] + self.own()
+        """Every level as a single one: the player's, the game's, then those of other packs."""
+        return self.own() + [entry for pack in self.packs() for entry in pack.levels]
 
     def own(self) -> list[Entry]:
         """The levels in the player's folder as it is now; what cannot be read becomes ``problems``.

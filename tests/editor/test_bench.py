@@ -17,7 +17,9 @@ from ninja_game.sim.level import Level, ObjectSpec
 
 @pytest.fixture(name="bench")
 def empty_bench() -> Bench:
-    return Bench(Draft(Level()))
+    made = Bench(Draft(Level()))
+    made.snap = "half"
+    return made
 
 
 def sort(name: str) -> ObjectSpec:

@@ -166,6 +166,7 @@ def _levels(driver: MenuDriver) -> Iterator[str]:
     rich = driver.player.catalogue.episodes[0].levels[0]
     driver.player.marks.passed(rich.digest, 900, rich.all_gold)
     driver.open("Levels")
+    driver.press("down")
     driver.frames(20)
     yield "levels"
     driver.press("return", "space")
@@ -176,7 +177,7 @@ def _levels(driver: MenuDriver) -> Iterator[str]:
     level.play.shown_lifetime = 150.0
     yield "playing-in-danger"
     driver.press("p", "q")
-    driver.press("up")
+    driver.press("up", "up")
     driver.type("target")
     driver.frames(4)
     yield "levels-found"
@@ -194,7 +195,7 @@ def _levels(driver: MenuDriver) -> Iterator[str]:
     driver.press("escape")
     home(driver)
     driver.open("Levels")
-    driver.press("right", "right", "return", "space")
+    driver.press("down", "right", "right", "return", "space")
     driver.frames(20)
     driver.press("f5")
     yield "practice"

@@ -123,7 +123,8 @@ class EditorSession:
         except OSError as error:
             self.app.notify(f"Not saved: {error.strerror or error}")
             return
-        self.app.notify(f"Saved: {path}")
+        mine = path.is_relative_to(self.app.player.folder / "levels")
+        self.app.notify(f"Saved{', and in the menu Levels' * mine}: {path}")
 
     def export_picture(self) -> None:
         """A picture of the level among the player's exports."""

@@ -70,12 +70,12 @@ def _hint(play: LevelPlay, key: KeyName) -> str:
 
 def _ready_hint(key: KeyName, *, practice_mode: bool, show_tutorial: bool) -> str:
     begin = f"{key('confirm')} or any move to begin"
+    if show_tutorial:
+        return f"{key('left')} and {key('right')}: run    {key('jump')}: jump, hold it to jump higher    {begin}"
     if practice_mode:
         tools = ("quick_save", "save"), ("quick_load", "load"), ("rewind", "rewind"), ("slow", "slow"), ("step", "step")
         named = [f"{key(action)}: {name}" for action, name in tools]
         return "    ".join([begin, *named, f"{key('overlay_hitboxes')} to {key('overlay_cells')}: look inside"])
-    if show_tutorial:
-        return f"{key('left')} and {key('right')}: run    {key('jump')}: jump, hold it to jump higher    {begin}"
     return begin
 
 

@@ -37,7 +37,7 @@ ROW = 54
 PICTURE = 60
 SIDE, SIDE_WIDTH = 436, 320
 SORTS: list[tuple[str, object]] = [
-    ("Original order", "listed"), ("Name", "name"), ("Author", "author"), ("Best", "best"), ("Difficulty", "hard"),
+    ("My levels first", "listed"), ("Name", "name"), ("Author", "author"), ("Best", "best"), ("Difficulty", "hard"),
 ]  # fmt: skip
 
 

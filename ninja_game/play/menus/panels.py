@@ -55,6 +55,8 @@ class Panel(MenuScreen):
         theme.window(surface, x, y, w, h)
         size = 17 if theme.width(self.title, 17, bold=True) < w - 24 else 12
         theme.text(surface, self.title, x + w / 2, y + 17, size=size, align="centre", bold=True, width=w - 24)
+        hint = self.focus.hint if self.focus is not None else ""
+        theme.text(surface, hint, x + w / 2, y + h - 17, size=9.5, colour=palette.faint, align="centre", width=w - 16)
         self.draw_widgets(surface)
         return None
 

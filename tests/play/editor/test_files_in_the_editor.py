@@ -35,11 +35,12 @@ def test_saved_levels_are_in_the_browser_at_once(room: Maker, tmp_path: Path) ->
 
 def test_a_level_of_the_browser_is_edited_and_played_as_it_is_then(room: Maker) -> None:
     room.chord("s", pygame.KMOD_LCTRL)
+    assert room.app.notice.startswith("Saved, and in the menu Levels: ")
     room.press("escape")
     room.choose("Leave the editor")
     browser = room.open("Levels")
     assert isinstance(browser, Browser)
-    room.press("end")
+    assert [entry.source for entry in browser.shown[:2]] == ["yours", "game"]
     change = next(widget for widget in browser.widgets if getattr(widget, "text", "") == "Edit")
     room.mouse(*change.centre)
     assert room.draft == ROOM
@@ -48,7 +49,7 @@ def test_a_level_of_the_browser_is_edited_and_played_as_it_is_then(room: Maker) 
     room.press("escape")
     room.choose("Leave the editor")
     assert room.top() is browser
-    assert browser.entries[-1].named.level.tile(12, 12) == 1
+    assert browser.entries[0].named.level.tile(12, 12) == 1
 
 
 def test_a_name_is_asked_for_where_there_is_none(maker: Maker, tmp_path: Path) -> None:
@@ -130,7 +131,7 @@ def test_levels_of_the_game_open_as_new_ones_and_own_ones_in_their_files(room: M
     room.chord("s", pygame.KMOD_LCTRL)
     assert own.read_text("utf-8").startswith("; a comment\n")
     room.chord("o", pygame.KMOD_LCTRL)
-    room.top()._play(0)  # type: ignore[attr-defined]
+    room.top()._play(1)  # type: ignore[attr-defined]
     assert room.editor.session.source.path is None
 
 
