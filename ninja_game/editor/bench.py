@@ -40,6 +40,11 @@ class Bench(Choosing):
         self._doing = ""
         self._chosen_before = Selection()
 
+    @property
+    def dragging(self) -> bool:
+        """Whether what is chosen follows the pointer."""
+        return self._doing == "drag"
+
     def load(self, draft: Draft) -> None:
         """Work on another level, with the same tool in hand."""
         self.finish()

@@ -100,13 +100,12 @@ def points(record: ObjectSpec) -> dict[int, Point]:
     if not makes_object(record) or len(record.values) < 2:
         return {}
     x, y = record.values[:2]
-    found = {BODY: (x, y)}
-    if well_formed(record) and record.kind == EXIT:
-        found[SWITCH] = record.values[2], record.values[3]
-    if well_formed(record) and record.kind == DOOR:
-        if has_switch(record):
-            found[SWITCH] = x, y
-        found[BODY] = _door_point(record.values)
+    if record.kind not in (EXIT, DOOR) or not well_formed(record):
+        return {BODY: (x, y)} if isfinite(x) and isfinite(y) else {}
+    if record.kind == EXIT:
+        found = {BODY: (x, y), SWITCH: (record.values[2], record.values[3])}
+    else:
+        found = {BODY: _door_point(record.values)} | ({SWITCH: (x, y)} if has_switch(record) else {})
     return {part: point for part, point in found.items() if all(map(isfinite, point))}
 
 

@@ -141,8 +141,10 @@ def removed(draft: Draft, selection: Selection) -> Draft:
 def moved(draft: Draft, selection: Selection, motion: Motion) -> tuple[Draft, Selection]:
     """The draft with what is chosen moved or turned, and the selection there. Tiles cover what they come to lie on."""
     objects = list(draft.objects)
-    for number in selection.records:
-        parts = {part for chosen, part in selection.parts if chosen == number}
+    chosen: dict[int, set[int]] = {}
+    for number, part in selection.parts:
+        chosen.setdefault(number, set()).add(part)
+    for number, parts in chosen.items():
         objects[number] = carried(objects[number], motion, parts)
     area = None
     tiles: Tiles = {}

@@ -90,8 +90,10 @@ class Desk:
         whole = whole or self._whole
         self._whole = False
         bench = self.session.bench
-        dirty = self.sheet.show(bench.draft) if bench.draft is not self.sheet.draft else []
-        dirty += self._follow_marks()
+        if bench.draft is not self.sheet.draft:
+            self.sheet.show(bench.draft)
+        self._follow_marks()
+        dirty = self.sheet.paint()
         changed = []
         if whole:
             surface.fill(self.app.theme.palette.tile)
@@ -110,8 +112,8 @@ class Desk:
         self.stale = self.moved = False
         return None if whole else changed
 
-    def _follow_marks(self) -> list[pygame.Rect]:
-        """The marks over the level as they should be now; the px of the sheet that changed."""
+    def _follow_marks(self) -> None:
+        """The marks over the level as they should be now."""
         session, palette = self.session, self.app.theme.palette
         certifier = session.certifier
         stale = certifier.is_stale(session.draft.level)
@@ -120,7 +122,7 @@ class Desk:
             session.findings, session.bench.symmetry,
         )  # fmt: skip
         if len(wanted) == len(self._marked) and all(a is b for a, b in zip(wanted, self._marked, strict=True)):
-            return []
+            return
         self._marked = wanted
         routes: list[tuple[Route, Colour]] = [(session.last_try, palette.ghost)]
         routes.append((certifier.route, palette.faint if stale else palette.good))
@@ -128,7 +130,7 @@ class Desk:
             self.sheet.canvas, palette, session.draft, self.sheet.marks, lines=self.lines, signs=self._signs(),
             routes=routes if self.paths else (), axes=_axes(session.bench.symmetry),
         )  # fmt: skip
-        return self.sheet.show_marks(marks)
+        self.sheet.show_marks(marks)
 
     def _signs(self) -> list[Point]:
         """Where the findings are, in the level that was examined."""

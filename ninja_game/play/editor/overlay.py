@@ -9,14 +9,23 @@ from ninja_game.editor.brush import placed
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.records import carried, points
 from ninja_game.editor.stamp import Area, area_between, nearest
-from ninja_game.play.editor.sheet import LevelSheet
+from ninja_game.play.editor.sheet import LevelSheet, joined
 from ninja_game.play.ui.canvas import Canvas, Colour
+from ninja_game.play.ui.palette import Palette
 from ninja_game.play.view.sprites.draw_target import DrawTarget, is_near
+from ninja_game.play.view.sprites.drawing import drawing
+from ninja_game.play.view.sprites.sketch import Sketch
 from ninja_game.play.view.sprites.tile_shapes import tile_picture
 from ninja_game.sim.kinds import EXIT, NINJA
 
 GHOST = 5
 """Eighths as solid as what is there is what would be drawn."""
+
+
+@drawing(13)
+def _ring(s: Sketch, p: Palette, colour: str) -> None:
+    """Round what is selected, or would be. ``colour``: its name in the palette."""
+    s.ring(getattr(p, colour), 0, 0, 11, 1.6)
 
 
 class Overlay:
@@ -37,7 +46,7 @@ class Overlay:
     def restore(self, surface: pygame.Surface, rects: list[pygame.Rect]) -> list[pygame.Rect]:
         """Show the sheet where these px of it have changed, and where the overlay was; the px of the window."""
         origin = self.canvas.origin
-        changed = [rect.move(origin) for rect in rects] + self.target.covered
+        changed = joined([rect.move(origin) for rect in rects] + self.target.covered)
         for rect in changed:
             shown = rect.clip(self.area)
             surface.blit(self.sheet.surface, shown, shown.move(-origin[0], -origin[1]))
@@ -53,7 +62,7 @@ class Overlay:
             record = bench.draft.objects[number] if number < len(bench.draft.objects) else None
             place = points(record).get(part) if record else None
             if place and is_near(*place):
-                self._ring(place[0], place[1], self.sheet.palette.accent)
+                self.target.sprite(_ring("accent"), *place)
         if bench.marquee:
             self._frame(area_between(*bench.marquee), self.sheet.palette.good)
         if hovering:
@@ -67,18 +76,8 @@ class Overlay:
     def _frame(self, area: Area, colour: Colour) -> None:
         column, row, columns, rows = area
         rect = self.canvas.rect(24 * column, 24 * row, 24 * columns, 24 * rows)
-        width = self.canvas.px(1.6)
-        pygame.draw.rect(self.target.surface, colour, rect, width)
-        for strip in (
-            pygame.Rect(rect.left, rect.top, rect.width, width),
-            pygame.Rect(rect.left, rect.bottom - width, rect.width, width),
-            pygame.Rect(rect.left, rect.top, width, rect.height),
-            pygame.Rect(rect.right - width, rect.top, width, rect.height),
-        ):
-            self._note(strip)
-
-    def _ring(self, x: float, y: float, colour: Colour) -> None:
-        self._note(self.canvas.circle(self.target.surface, colour, (x, y), 11, 1.6))
+        pygame.draw.rect(self.target.surface, colour, rect, self.canvas.px(1.6))
+        self._note(rect)
 
     def _hover(self, bench: Bench) -> None:
         """What a press would do here, and in the images of the symmetry."""
@@ -89,7 +88,7 @@ class Overlay:
         if not drawing:
             found = nearest(bench.draft, *bench.pointer, DRAGGED)
             if found:
-                self._ring(*points(bench.draft.objects[found[0]])[found[1]], self.sheet.palette.faint)
+                self.target.sprite(_ring("faint"), *points(bench.draft.objects[found[0]])[found[1]])
                 return
         if not bench.objects or not drawing:
             for motion in motions:
@@ -100,9 +99,8 @@ class Overlay:
             return
         record = placed(bench.record, *bench.pointer, bench.snap)
         images = [record] if record.kind in (NINJA, EXIT) else [carried(record, motion) for motion in motions]
-        self.sheet.pictures.learn(images)
-        for image in images:
-            self.sheet.pictures.draw(self.target, image, alpha=GHOST)
+        for look in self.sheet.pictures.looks(images).values():
+            look.draw(self.target, alpha=GHOST)
         x, y = points(record).get(0, bench.pointer)
         for a, b in (((x - 4, y), (x + 4, y)), ((x, y - 4), (x, y + 4))):
             self.target.line(self.sheet.palette.accent, *a, *b)

@@ -133,7 +133,5 @@ def object_icon(record: ObjectSpec, size: tuple[int, int], scale: float, palette
     target = DrawTarget(canvas, palette, SpriteBook(canvas.scale, palette))
     icon = pygame.Surface(size, pygame.SRCALPHA)
     target.begin(icon)
-    pictures = ObjectPictures(target)
-    pictures.learn([far])
-    pictures.draw(target, far)
+    ObjectPictures(target).looks([far])[far].draw(target)
     return icon

@@ -53,6 +53,7 @@ class EditorScreen(MenuScreen):
         )  # fmt: skip
         self._subject: tuple[object, ...] = ()
         self._held = False
+        self._dragged_to: pygame.Event | None = None
         self._entered = False
 
     def build(self) -> Sequence[Widget]:
@@ -102,7 +103,11 @@ class EditorScreen(MenuScreen):
         self.desk.stale, self.redraw = self.desk.stale or self.redraw, before
 
     def handle(self, event: InputEvent) -> None:
-        """Mouse, keys, pads."""
+        """Mouse, keys, pads. A mouse tells of many places in a picture: what is dragged goes to the last one."""
+        if event.raw.type == pygame.MOUSEMOTION and self.session.bench.dragging:
+            self._dragged_to = event.raw
+            return
+        self._drag_on()
         if event.raw.type in _MOUSE:
             self._handle_mouse(event.raw)
         elif command := command_of(event):
@@ -119,6 +124,11 @@ class EditorScreen(MenuScreen):
             super().handle(event)
         if event.raw.type != pygame.MOUSEMOTION:
             self._follow()
+
+    def _drag_on(self) -> None:
+        event, self._dragged_to = self._dragged_to, None
+        if event is not None:
+            self._handle_mouse(event)
 
     def _follow(self) -> None:
         """What is shown follows what was done."""
@@ -233,6 +243,7 @@ class EditorScreen(MenuScreen):
     def update(self, real_ms: int) -> None:
         """What works beside the window tells its news."""
         super().update(real_ms)
+        self._drag_on()
         self.session.update()
         if self.session.certifier.text != self.desk.shown_certificate:
             self.desk.shown_certificate = self.session.certifier.text

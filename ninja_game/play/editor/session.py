@@ -94,7 +94,8 @@ class EditorSession:
         if self.autosave.problem:
             self.app.notify(self.autosave.problem)
             self.autosave.problem = ""
-        if self.draft.level is not self._asked and monotonic() - self._asked_at >= CHECK_SPACING:
+        due = self.draft.level is not self._asked and monotonic() - self._asked_at >= CHECK_SPACING
+        if due and not self.bench.dragging:
             self._asked, self._asked_at = self.draft.level, monotonic()
             self._checks.ask(self.draft.level)
 

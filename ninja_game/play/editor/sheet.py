@@ -7,9 +7,8 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.editor.draft import Draft, cell_of
-from ninja_game.editor.records import points
-from ninja_game.play.editor.object_pictures import ObjectPictures
+from ninja_game.editor.draft import Draft
+from ninja_game.play.editor.object_pictures import Look, ObjectPictures
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.palette import Palette
 from ninja_game.play.view.sprites.draw_target import DrawTarget
@@ -24,6 +23,9 @@ from ninja_game.sim.rules import STRIDE
 _FRONT = {kinds.GOLD: 1, kinds.MINE: 1, kinds.NINJA: 3} | {kind.number: 2 for kind in kinds.KINDS if kind.moves}
 """What is drawn later lies in front."""
 
+_MANY = 60
+"""More rectangles than this are drawn again as one."""
+
 _COVERED = 4
 """Eighths as solid: an object that a tile hides is seen through it."""
 
@@ -36,7 +38,10 @@ class Mark(NamedTuple):
 
 
 class LevelSheet:
-    """``surface``: the picture, without what follows the mouse. ``canvas``: from px of the level to px of the sheet."""
+    """``surface``: the picture, without what follows the mouse. ``canvas``: from px of the level to px of the sheet.
+
+    What is shown is drawn by the next ``paint``.
+    """
 
     def __init__(self, size: tuple[int, int], palette: Palette) -> None:
         self.canvas = Canvas(size)
@@ -47,54 +52,51 @@ class LevelSheet:
         self.pictures = ObjectPictures(self.target)
         self.draft: Draft | None = None
         self._tiles = TileSheet(self.canvas, palette)
-        self._order: list[ObjectSpec] = []
+        self._looks: dict[ObjectSpec, Look] = {}
+        self._order: list[Look] = []
         self._rects: list[pygame.Rect] = []
         self.marks: dict[Hashable, Mark] = {}
         self._grid: pygame.Surface | None = None
+        self._dirty: list[pygame.Rect] = []
 
-    def show(self, draft: Draft) -> list[pygame.Rect]:
-        """Show a draft; the px that changed."""
+    def show(self, draft: Draft) -> None:
+        """Show a draft."""
         before, self.draft = self.draft, draft
         if before is None:
             static = TileMap()
             static.tiles = grid_tiles(draft.level)
             self._tiles.show(static)
-            dirty = [self.surface.get_rect()]
+            self._dirty.append(self.surface.get_rect())
         else:
-            dirty = self._change_tiles(before, draft)
+            self._change_tiles(before, draft)
         if before is None or before.objects != draft.objects:
-            dirty += self._change_objects(set(before.objects) if before else set(), draft)
-        self._repaint(dirty)
-        return dirty
+            self._change_objects(draft)
 
-    def _change_tiles(self, before: Draft, draft: Draft) -> list[pygame.Rect]:
+    def _change_tiles(self, before: Draft, draft: Draft) -> None:
         old, new = before.level.tiles, draft.level.tiles
         if old == new:
-            return []
+            return
         grid = grid_tiles(draft.level)
-        dirty = []
         for index in range(COLUMNS * ROWS):
             if old[index] != new[index]:
                 column, row = index // ROWS + 1, index % ROWS + 1
                 self._tiles.draw(column, row, grid[(row + 1) * STRIDE + column + 1])
-                dirty.append(self._tiles.cell(column, row))
-        return dirty
+                self._dirty.append(self._tiles.cell(column, row))
 
-    def _change_objects(self, before: set[ObjectSpec], draft: Draft) -> list[pygame.Rect]:
-        now = set(draft.objects)
-        self.pictures.learn(draft.objects)
-        self._order = sorted(draft.objects, key=lambda record: _FRONT.get(record.kind, 0))
-        self._rects = [self.pictures.rect(record) for record in self._order]
-        return [rect for rect in map(self.pictures.rect, before ^ now) if rect.width]
+    def _change_objects(self, draft: Draft) -> None:
+        before = self._looks
+        found = before | self.pictures.looks(record for record in draft.objects if record not in before)
+        self._looks = {record: found[record] for record in draft.objects}
+        self._order = [found[record] for record in sorted(self._looks, key=lambda each: _FRONT.get(each.kind, 0))]
+        self._rects = [look.rect for look in self._order]
+        self._dirty += [found[record].rect for record in before.keys() ^ self._looks.keys()]
 
-    def show_marks(self, marks: dict[Hashable, Mark]) -> list[pygame.Rect]:
-        """Show these marks; the px that changed. A mark with the key of an earlier one is the same."""
+    def show_marks(self, marks: dict[Hashable, Mark]) -> None:
+        """Show these marks. A mark with the key of an earlier one is the same."""
         changed = [self.marks[key] for key in self.marks.keys() - marks.keys()]
         changed += [marks[key] for key in marks.keys() - self.marks.keys()]
         self.marks = marks
-        dirty = [rect for mark in changed for rect in mark.rects]
-        self._repaint(dirty)
-        return dirty
+        self._dirty += [rect for mark in changed for rect in mark.rects]
 
     def show_grid(self, lines: Iterable[tuple[bool, float, bool]]) -> None:
         """Show grid lines: whether upright, where (px of the level), whether one of the middle lines."""
@@ -105,11 +107,14 @@ class LevelSheet:
             colour = (*self.palette.accent[:3], 150) if middle else (*self.palette.text[:3], 60)
             ends = ((at, 24.0), (at, 576.0)) if upright else ((24.0, at), (768.0, at))
             pygame.draw.line(self._grid, colour, self.canvas.point(*ends[0]), self.canvas.point(*ends[1]))
-        self._repaint([self.surface.get_rect()])
+        self._dirty.append(self.surface.get_rect())
 
-    def _repaint(self, dirty: list[pygame.Rect]) -> None:
-        for area in _joined(dirty):
+    def paint(self) -> list[pygame.Rect]:
+        """Draw what is shown now and was not before; the px that changed."""
+        dirty, self._dirty = joined(self._dirty), []
+        for area in dirty:
             self._repaint_area(area.clip(self.surface.get_rect()))
+        return dirty
 
     def _repaint_area(self, area: pygame.Rect) -> None:
         surface, target = self.surface, self.target
@@ -120,13 +125,12 @@ class LevelSheet:
         target.begin(surface)
         near = area.collidelistall(self._rects)
         for number in near:
-            self.pictures.draw(target, self._order[number])
+            self._order[number].draw(target)
         if self._tiles.has_tile(area):
             surface.blit(self._tiles.surface, area, area, pygame.BLEND_PREMULTIPLIED)
             for number in near:
-                record = self._order[number]
-                if any(self.draft.tile(cell_of(*point)) == 1 for point in points(record).values()):
-                    self.pictures.draw(target, record, alpha=_COVERED)
+                if any(self.draft.tile(cell) == 1 for cell in self._order[number].cells):
+                    self._order[number].draw(target, alpha=_COVERED)
         if self._grid is not None:
             surface.blit(self._grid, area, area)
         for mark in self.marks.values():
@@ -135,9 +139,11 @@ class LevelSheet:
         surface.set_clip(None)
 
 
-def _joined(rects: list[pygame.Rect]) -> list[pygame.Rect]:
-    """Few rectangles that cover the same px: those that touch become one."""
+def joined(rects: Iterable[pygame.Rect]) -> list[pygame.Rect]:
+    """Few rectangles that cover the same px: those that touch become one, and so do very many."""
     waiting = [rect.copy() for rect in rects if rect.width]
+    if len(waiting) > _MANY:
+        return [waiting[0].unionall(waiting[1:])]
     joined: list[pygame.Rect] = []
     while waiting:
         rect = waiting.pop()

@@ -12,7 +12,7 @@ from ninja_game.play.view.sprites.sketch import Sketch, Sprite
 THIGH, SHIN = 5.0, 5.2
 UPPER_ARM, FOREARM = 4.0, 4.2
 HEAD = 2.5
-_REACH = 17.0
+REACH = 17.0
 
 
 def bend(a: Point, b: Point, first: float, second: float, side: float) -> Point:
@@ -88,12 +88,19 @@ def ninja_sprite(
     colour: pygame.Color, offset: Point = (0.0, 0.0), alpha: float = 1.0, banded: bool = True,
 ) -> Sprite:  # fmt: skip
     """The figure in a pose about its centre. ``offset``: fraction of a px by which it lies beside its point."""
-    s = Sketch(scale, (-_REACH, -_REACH, _REACH, _REACH), fine=3)
+    s = Sketch(scale, (-REACH, -REACH, REACH, REACH), fine=3)
     shown = pose.moved(offset[0] / scale, offset[1] / scale)
+    paint_figure(s, palette, shown, facing, velocity, colour=colour, banded=banded)
+    return s.finish(alpha)
+
+
+def paint_figure(
+    s: Sketch, palette: Palette, shown: Pose, facing: int, velocity: Point, *, colour: pygame.Color, banded: bool = True
+) -> None:
+    """Draw the figure into a sketch, ``REACH`` px to all sides."""
     far = mixed(colour, palette.background, 0.22)
     if banded:
         paint_tails(s, palette.band, shown, facing, velocity)
     paint_limbs(s, colour, far, shown, facing)
     if banded:
         s.stroke(palette.band, *band_ends(shown.head, shown.shoulder), 1.1)
-    return s.finish(alpha)
