@@ -15,11 +15,24 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from ninja_game.levels.warnings import level_findings
+from ninja_game.sim.level import Level
+
 
 def summary(times: list[float]) -> str:
     """Median, 95th percentile and maximum of some times in ms."""
     times = sorted(times)
     return f"median {times[len(times) // 2]:6.2f}   95 % {times[len(times) * 95 // 100]:6.2f}   max {times[-1]:6.2f} ms"
+
+
+def check_times(level: Level) -> list[float]:
+    """How long the check for problems takes, ms, often enough for a summary."""
+    times = []
+    for _ in range(20):
+        began = time.perf_counter()
+        level_findings(level)
+        times.append(1000 * (time.perf_counter() - began))
+    return times
 
 
 def main() -> int:
@@ -38,7 +51,6 @@ def main() -> int:
     from ninja_game.editor.files import Source
     from ninja_game.editor.records import BODY, points
     from ninja_game.editor.stamp import WHOLE, Selection, Stamp, put
-    from ninja_game.levels.warnings import level_findings
     from tests.support.level_maker import ROOM, Maker
 
     width, height = map(int, options.size.split("x"))
@@ -83,12 +95,7 @@ def main() -> int:
             place = points(bench.draft.objects[100])[BODY]
             slow |= run(name, lambda k: pygame.MOUSEMOTION if k else pygame.MOUSEBUTTONDOWN, *place, most=16.0)
             maker.chord("z", pygame.KMOD_LCTRL)
-        times = []
-        for _ in range(20):
-            began = time.perf_counter()
-            level_findings(maker.draft.level)
-            times.append(1000 * (time.perf_counter() - began))
-        print(f"{'check for problems':24} {summary(times)}   (beside the loop)")
+        print(f"{'check for problems':24} {summary(check_times(maker.draft.level))}   (beside the loop)")
         maker.editor.session.close()
         maker.close()
     return int(slow)
