@@ -42,9 +42,7 @@ def main() -> int:
     parser.add_argument("--objects", type=int, default=500)
     parser.add_argument("--pictures", type=int, default=200)
     options = parser.parse_args()
-    os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
-    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
-    os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
+    os.environ |= {"PYGAME_HIDE_SUPPORT_PROMPT": "1", "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
     import pygame
 
     from ninja_game.editor.brush import SORTS, placed
