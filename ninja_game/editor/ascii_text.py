@@ -6,8 +6,10 @@ import re
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from difflib import SequenceMatcher
+from itertools import takewhile
+from operator import eq
 
-from ninja_game.editor.draft import Draft, difference
+from ninja_game.editor.draft import Draft
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.legend import visible_parts
 from ninja_game.formats.ascii.object_lines import Listed, OddTile, read_object_line
@@ -164,12 +166,14 @@ class _Lines:
         """How many of the first objects the picture alone makes: as many as before, where that is possible."""
         objects = self.draft.objects
         most = drawn_only(self.draft.level, [visible_parts(record) for record in objects])
-        before = len(self.opened.objects) - listed
-        edit = difference(self.opened, self.draft)
-        if edit is None or not listed:
+        old = self.opened.objects
+        before = len(old) - listed
+        if not listed or old == objects:
             return most
-        if edit.at >= before:
+        at = sum(1 for _ in takewhile(bool, map(eq, old, objects)))
+        end = sum(1 for _ in takewhile(bool, map(eq, reversed(old[at:]), reversed(objects[at:]))))
+        if at >= before:
             return min(most, before)
-        if edit.at + len(edit.removed) <= before:
-            return min(most, before - len(edit.removed) + len(edit.added))
-        return min(most, edit.at)
+        if len(old) - end <= before:
+            return min(most, len(objects) - listed)
+        return min(most, at)

@@ -6,9 +6,9 @@ from math import floor
 from typing import NamedTuple
 
 from ninja_game.editor.draft import Cell, cell_of
-from ninja_game.editor.motion import Motion
+from ninja_game.editor.motion import TILE_IDS, Motion
 from ninja_game.editor.records import SWITCH, carried, has_switch, points, settled, sort_name, with_word, word
-from ninja_game.formats.ascii.legend import TILE_CHARS, TILE_FAMILIES
+from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.ascii.object_forms import natural_offset
 from ninja_game.formats.ascii.object_lines import Listed, read_object_line
 from ninja_game.sim import kinds
@@ -25,45 +25,28 @@ class Family(NamedTuple):
     """Four tiles of one shape. ``key``: its digit, as in Ned (game.md §6); ``tiles``: by quarter."""
 
     key: str
-    name: str
     tiles: tuple[int, ...]
 
 
-def _family(key: str, name: str, chars: str) -> Family:
-    return Family(key, name, tuple(map(TILE_CHARS.index, chars)))
-
-
-_SHAPES = dict(TILE_FAMILIES)
-FAMILIES = (
-    *(
-        _family(key, name, _SHAPES[name])
-        for key, name in (
-            ("1", "45° slope"),
-            ("2", "67° slope, thin end"),
-            ("3", "22° slope, thin end"),
-            ("4", "concave curve (hollow)"),
-        )
-    ),
-    _family("5", "half tile", '["_]'),
-    *(
-        _family(key, name, _SHAPES[name])
-        for key, name in (
-            ("6", "67° slope, thick end"),
-            ("7", "22° slope, thick end"),
-            ("8", "convex curve (round)"),
-        )
-    ),
+FAMILIES = tuple(
+    Family(str(number), tuple(map(TILE_CHARS.index, chars)))
+    for number, chars in enumerate(("qwas", "tygh", "erdf", "uijk", '["_]', "TYGH", "ERDF", "UIJK"), 1)
 )
 """The families of tiles. Halves by quarter: left, upper, lower, right."""
 
 EMPTY, FULL = 0, 1
 
+_SHAPES = ("45° slope", "hollow curve", "round curve", "22° thin", "22° thick", "67° thin", "67° thick")
+_CORNERS = ("lower left", "lower right", "upper right", "upper left")
+_TILE_NAMES = (
+    "empty", "full tile", *(f"{shape} {corner}" for shape in _SHAPES for corner in _CORNERS),
+    "lower half", "right half", "upper half", "left half",
+)  # fmt: skip
+
 
 def tile_name(tile: int) -> str:
     """What a tile is called."""
-    if tile in (EMPTY, FULL):
-        return ("empty", "full tile")[tile]
-    return next((family.name for family in FAMILIES if tile in family.tiles), f"odd tile {tile}")
+    return _TILE_NAMES[tile] if tile in TILE_IDS else f"odd tile {tile}"
 
 
 def tile_key(tile: int) -> str:

@@ -1,9 +1,8 @@
-"""A level at one moment of its editing, and the difference between two such moments."""
+"""A level at one moment of its editing."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec
 
@@ -44,7 +43,7 @@ class Draft:
         for (column, row), tile in tiles.items():
             if is_inside((column, row)):
                 ids[(column - 1) * ROWS + row - 1] = tile
-        return replace(self, level=Level(tuple(ids), self.objects))
+        return replace(self, level=Level(tuple(ids), self.objects)) if tiles else self
 
     def with_objects(self, objects: tuple[ObjectSpec, ...]) -> Draft:
         """Other records."""
@@ -63,47 +62,3 @@ def cell_of(x: float, y: float) -> Cell:
     (1, 1)
     """
     return int(x // 24), int(y // 24)
-
-
-class Edit(NamedTuple):
-    """What turns one draft into another, and back.
-
-    ``tiles``: index, id before, id after. ``at``: where in the records ``removed`` gave way to ``added``. ``before``,
-    ``after``: what the file says about the level.
-    """
-
-    tiles: tuple[tuple[int, int, int], ...]
-    at: int
-    removed: tuple[ObjectSpec, ...]
-    added: tuple[ObjectSpec, ...]
-    before: tuple[str, str, str, str]
-    after: tuple[str, str, str, str]
-
-    def inverse(self) -> Edit:
-        """What takes this back, to the last bit."""
-        tiles = tuple((index, after, before) for index, before, after in self.tiles)
-        return Edit(tiles, self.at, self.added, self.removed, self.after, self.before)
-
-    def applied(self, draft: Draft) -> Draft:
-        """The draft after this edit; ``draft`` must be the one from before it."""
-        ids = list(draft.level.tiles)
-        for index, _, after in self.tiles:
-            ids[index] = after
-        rest = draft.objects[self.at + len(self.removed) :]
-        return Draft(Level(tuple(ids), draft.objects[: self.at] + self.added + rest), *self.after)
-
-
-def difference(before: Draft, after: Draft) -> Edit | None:
-    """The edit from one draft to another; None if they are equal."""
-    if before == after:
-        return None
-    pairs = enumerate(zip(before.level.tiles, after.level.tiles, strict=True))
-    tiles = tuple((index, old, new) for index, (old, new) in pairs if old != new)
-    old, new = before.objects, after.objects
-    at, least = 0, min(len(old), len(new))
-    while at < least and old[at] == new[at]:
-        at += 1
-    end = 0
-    while end < least - at and old[-1 - end] == new[-1 - end]:
-        end += 1
-    return Edit(tiles, at, old[at : len(old) - end], new[at : len(new) - end], before.about, after.about)

@@ -1,17 +1,20 @@
-"""The draft that is being edited, with every edit that led to it: undo and redo without limit."""
+"""The draft that is being edited, with every one that led to it: undo and redo without limit."""
 
 from __future__ import annotations
 
-from ninja_game.editor.draft import Draft, Edit, difference
+from ninja_game.editor.draft import Draft
 
 
 class History:
-    """``draft``: the present one. A *stroke* is several changes that are undone as one, such as a line of tiles."""
+    """``draft``: the present one. A *stroke* is several changes that are undone as one, such as a line of tiles.
+
+    Drafts share what they have in common: one takes a few kB.
+    """
 
     def __init__(self, draft: Draft) -> None:
         self.draft = draft
-        self._done: list[Edit] = []
-        self._undone: list[Edit] = []
+        self._done: list[Draft] = []
+        self._undone: list[Draft] = []
         self._began: Draft | None = None
 
     @property
@@ -34,45 +37,39 @@ class History:
         self.end()
         self._began = self.draft
 
-    def change(self, draft: Draft) -> bool:
-        """Another draft, as a part of the stroke or as an edit of its own; whether it differs."""
+    def change(self, draft: Draft) -> None:
+        """Another draft, as a part of the stroke or as an edit of its own."""
         if draft == self.draft:
-            return False
-        if self._began is None:
-            self.begin()
-            self.draft = draft
+            return
+        alone = self._began is None
+        self._began = self.began
+        self.draft = draft
+        if alone:
             self.end()
-        else:
-            self.draft = draft
-        return True
 
     def end(self) -> None:
         """The stroke ends."""
         began, self._began = self._began, None
-        edit = difference(began, self.draft) if began is not None else None
-        if edit:
-            self._done.append(edit)
+        if began not in (None, self.draft):
+            self._done.append(began)
             self._undone.clear()
 
     def abandon(self) -> None:
         """The stroke ends and leaves nothing."""
-        if self._began is not None:
-            self.draft, self._began = self._began, None
+        self.draft, self._began = self.began, None
 
     def undo(self) -> bool:
         """Take the last edit back; whether there was one."""
-        self.end()
         return self._step(self._done, self._undone)
 
     def redo(self) -> bool:
         """Do again what was taken back last; whether there was anything."""
-        self.end()
         return self._step(self._undone, self._done)
 
-    def _step(self, source: list[Edit], target: list[Edit]) -> bool:
+    def _step(self, source: list[Draft], target: list[Draft]) -> bool:
+        self.end()
         if not source:
             return False
-        edit = source.pop().inverse()
-        self.draft = edit.applied(self.draft)
-        target.append(edit)
+        target.append(self.draft)
+        self.draft = source.pop()
         return True

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ninja_game.editor.draft import Draft, Tiles, difference
+from ninja_game.editor.draft import Draft, Tiles
 from ninja_game.editor.history import History
 from ninja_game.editor.motion import CLOCKWISE, COUNTER_CLOCKWISE, FLIP, HALF_TURN, MIRROR, SYMMETRIES, Motion
 from ninja_game.editor.records import PROPERTIES, carried, points, properties, settled, sort_name, with_word, word
@@ -131,12 +131,15 @@ def test_a_stroke_is_undone_as_one_and_an_abandoned_one_leaves_nothing() -> None
     assert not history.can_redo
 
 
-def test_an_edit_holds_only_what_changed() -> None:
+def test_drafts_share_what_an_edit_leaves_alone() -> None:
     before = Draft(Level(objects=tuple(RECORDS)))
-    edit = difference(before, removed(before, Selection(parts=frozenset({(3, 0)}))))
-    assert edit is not None
-    assert (edit.tiles, edit.at, edit.removed, edit.added) == ((), 3, (RECORDS[3],), ())
-    assert difference(before, before) is None
+    without = removed(before, Selection(parts=frozenset({(3, 0)})))
+    assert without.objects == (*RECORDS[:3], *RECORDS[4:])
+    assert without.level.tiles is before.level.tiles
+    assert before.with_tiles({(3, 3): 1}).objects is before.objects
+    history = History(before)
+    history.change(Draft(Level(objects=tuple(RECORDS))))
+    assert not history.can_undo, "nothing has changed"
 
 
 # --- motions ---

@@ -69,9 +69,9 @@ _BY_PAD = {command.pad: command.name for command in COMMANDS if command.pad}
 DIRECTION_KEYS = {"w": "up", "a": "left", "s": "down", "d": "right"}
 """Directions of objects, as in Ned."""
 
-ARROWS = {"left": (-1, 0), "right": (1, 0), "up": (0, -1), "down": (0, 1)}
+SORT_OF_KEY = {sort.key: sort for sort in SORTS}
+"""Objects by their keys."""
 
-_SORT_OF_KEY = {sort.key: sort.name for sort in SORTS}
 _FAMILY_OF_KEY = {family.key: family for family in FAMILIES}
 
 
@@ -116,8 +116,3 @@ def tile_of_key(name: str, present: int) -> int | None:
     if name in _FAMILY_OF_KEY:
         return _FAMILY_OF_KEY[name].tiles[place]
     return family.tiles[QUARTERS.index(name)] if name in QUARTERS else None
-
-
-def sort_of_key(name: str) -> str:
-    """The sort of object that a key chooses in object mode; '' for none."""
-    return _SORT_OF_KEY.get(name, "")

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import pygame
 
-from ninja_game.editor.motion import SYMMETRIES
 from ninja_game.play.editor.marks import GRIDS, MIDDLE, Grid, finding_points, level_marks
 from ninja_game.play.editor.overlay import Overlay
 from ninja_game.play.editor.session import EditorSession
@@ -128,7 +127,7 @@ class Desk:
         routes.append((certifier.route, palette.faint if stale else palette.good))
         marks = level_marks(
             self.sheet.canvas, palette, session.draft, self.sheet.marks, lines=self.lines, signs=self._signs(),
-            routes=routes if self.paths else (), axes=_axes(session.bench.symmetry),
+            routes=routes if self.paths else (), axes=_AXES.get(session.bench.symmetry, ()),
         )  # fmt: skip
         self.sheet.show_marks(marks)
 
@@ -201,10 +200,10 @@ _TOOL_HINTS = {
 }
 
 
-def _axes(symmetry: str) -> list[tuple[Point, Point]]:
-    """Lines that show a symmetry."""
-    x, y = MIDDLE
-    upright, level = ((x, 24.0), (x, 576.0)), ((24.0, y), (768.0, y))
-    assert symmetry in SYMMETRIES  # noqa: S101 - its names are those of the table
-    return {"left-right": [upright], "up-down": [level], "both": [upright, level],
-            "point": [((x - 12, y), (x + 12, y)), ((x, y - 12), (x, y + 12))]}.get(symmetry, [])  # fmt: skip
+_X, _Y = MIDDLE
+_UPRIGHT, _LEVEL = ((_X, 24.0), (_X, 576.0)), ((24.0, _Y), (768.0, _Y))
+_AXES: dict[str, Sequence[tuple[Point, Point]]] = {
+    "left-right": [_UPRIGHT], "up-down": [_LEVEL], "both": [_UPRIGHT, _LEVEL],
+    "point": [((_X - 12, _Y), (_X + 12, _Y)), ((_X, _Y - 12), (_X, _Y + 12))],
+}  # fmt: skip
+"""Lines that show a symmetry."""

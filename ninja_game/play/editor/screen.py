@@ -8,25 +8,18 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.editor.brush import SNAPS, SORTS, snapped
+from ninja_game.editor.brush import SNAPS, snapped
 from ninja_game.editor.files import Source
 from ninja_game.editor.records import PROPERTIES, properties, with_word, word
 from ninja_game.play.editor.commands import EditorCommands
-from ninja_game.play.editor.controls import (
-    ARROWS,
-    DIRECTION_KEYS,
-    chord,
-    command_of,
-    sort_of_key,
-    tile_of_key,
-)
+from ninja_game.play.editor.controls import DIRECTION_KEYS, SORT_OF_KEY, chord, command_of, tile_of_key
 from ninja_game.play.editor.desk import DESK, Desk
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.properties import property_widgets, subject
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.toolbar import toolbar
 from ninja_game.play.input.events import InputEvent
-from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.ui.theme import Area, Theme
@@ -48,7 +41,7 @@ class EditorScreen(MenuScreen):
         self.desk = Desk(app, self.session)
         self.commands = EditorCommands(app, self.session, self.desk)
         self.findings = ListView(
-            DESK.findings, 19, self._draw_finding, self._go_to, empty="No problems found",
+            DESK.findings, 19, self._draw_finding, self.commands.go_to_finding, empty="No problems found",
             hint="A click goes there and selects it",
         )  # fmt: skip
         self._subject: tuple[object, ...] = ()
@@ -139,9 +132,9 @@ class EditorScreen(MenuScreen):
 
     def act(self, action: str, *, held: bool = False) -> None:
         """Arrows move the pointer by the snap."""
-        if action not in ARROWS:
+        if action not in DIRECTIONS:
             return
-        bench, (dx, dy) = self.session.bench, ARROWS[action]
+        bench, (dx, dy) = self.session.bench, DIRECTIONS[action]
         snap = bench.snap if bench.objects or bench.tool == "select" else "cell"
         x, y = bench.pointer
         step = SNAPS[snap]
@@ -152,17 +145,17 @@ class EditorScreen(MenuScreen):
     def _choose_by_key(self, key: str) -> bool:
         """Keys that choose a tile, an object, a direction; Shift and arrows move what is selected."""
         bench = self.session.bench
-        if key.startswith("shift+") and key[6:] in ARROWS:
-            bench.nudge(*ARROWS[key[6:]])
+        if key.startswith("shift+") and key[6:] in DIRECTIONS:
+            bench.nudge(*DIRECTIONS[key[6:]])
             return True
         if not bench.objects and not bench.selection:
             tile = tile_of_key(key, bench.tile)
             if tile is not None:
                 bench.take(tile)
             return tile is not None
-        sort = sort_of_key(key)
+        sort = SORT_OF_KEY.get(key)
         if sort and not bench.selection:
-            bench.take(next(each for each in SORTS if each.name == sort).record)
+            bench.take(sort.record)
         elif key in DIRECTION_KEYS:
             self._direct(DIRECTION_KEYS[key])
         elif key in ("q", "e"):
@@ -170,7 +163,7 @@ class EditorScreen(MenuScreen):
         elif key == "n":
             self._next_word("seeker", 1)
         else:
-            return bool(sort)
+            return sort is not None
         return True
 
     def _direct(self, direction: str) -> None:
@@ -223,14 +216,9 @@ class EditorScreen(MenuScreen):
     def _hover(self, x: float, y: float) -> None:
         """Say what the thing under the mouse is."""
         widget = self._at(x, y)
-        hint = self.palette_view.hover(x, y) if widget is self.palette_view else widget.hint if widget else ""
-        if hint != self.desk.hint:
-            self.desk.hint = hint
+        self.desk.hint = self.palette_view.hover(x, y) if widget is self.palette_view else widget.hint if widget else ""
 
     # --- findings ---
-
-    def _go_to(self, index: int) -> None:
-        self.commands.go_to_finding(index)
 
     def _draw_finding(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
         finding = self.desk.shown_findings[index]

@@ -6,7 +6,7 @@ import tomllib
 from collections.abc import Callable, Sequence
 from functools import cache
 from math import cos, pi, sin
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from ninja_game.files.resources import data_folder
 from ninja_game.play.lab.sheet import CORNER, FIGURE, Sheet, View
@@ -20,11 +20,31 @@ from ninja_game.sim.memory.schema import TileMap, World
 Control = Callable[[Area], Widget]
 """Makes a widget in an area."""
 
+Value = TypeVar("Value")
+
 
 @cache
 def figure_texts() -> dict[str, dict[str, Any]]:
     """What the bundled file says of each figure, by name."""
     return tomllib.loads((data_folder("assets") / "lab" / "figures.toml").read_text("utf-8"))
+
+
+class Setting(Generic[Value]):
+    """A value of a figure that a control changes. ``then``: the method that follows a change, by name."""
+
+    def __init__(self, value: Value, then: str = "reset") -> None:
+        self.value, self.then = value, then
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self.name = f"_{name}"
+
+    def __get__(self, figure: object, owner: type | None = None) -> Value:
+        return getattr(figure, self.name, self.value)
+
+    def __set__(self, figure: object, value: Value) -> None:
+        # A slider gives a float for a whole number too.
+        setattr(figure, self.name, type(self.value)(value))  # type: ignore[call-arg]
+        getattr(figure, self.then)()
 
 
 class Figure:

@@ -11,7 +11,7 @@ from ninja_game.play.lab.figure import Figure
 from ninja_game.play.lab.figures.catalogue import FIGURES
 from ninja_game.play.lab.sheet import FIGURE, Sheet
 from ninja_game.play.level.run_clock import RunClock
-from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_layout import wrapped
 from ninja_game.play.ui.theme import Area, Theme
@@ -161,14 +161,13 @@ class FigureArea(Widget):
 
     def nudge(self, action: str) -> bool:
         """An arrow key moves the handle."""
-        steps = {"left": (-1, 0), "right": (1, 0), "up": (0, -1), "down": (0, 1)}
         if action == "page_down":
             self.screen.go_on()
             return True
-        if action not in steps:
+        if action not in DIRECTIONS:
             return False
         self.screen.handle_press()
-        self.screen.figure.nudge(*steps[action])
+        self.screen.figure.nudge(*DIRECTIONS[action])
         return True
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:

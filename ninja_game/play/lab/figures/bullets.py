@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ninja_game.play.lab.figure import Control, Figure, choice, slider
+from ninja_game.play.lab.figure import Control, Figure, Setting, choice, slider
 from ninja_game.play.lab.figures.crowd import Crowd
 from ninja_game.play.lab.sheet import FIELD, Sheet
 from ninja_game.sim.grid import cell_at, grid_move
@@ -15,28 +15,15 @@ class Bullets(Figure):
 
     name = "bullets"
     view = FIELD
+    count = Setting(1000)
     filed = False
-
-    def __init__(self) -> None:
-        self._count = 1000
-        super().__init__()
 
     def reset(self) -> None:
         """Targets and bullets where they began."""
         super().reset()
         self.targets = Crowd(60, 10, speed=0.5)
-        self.bullets = Crowd(self._count, 1, speed=4, seed=2)
+        self.bullets = Crowd(self.count, 1, speed=4, seed=2)
         self.hits = self.list_changes = self.tests = 0
-
-    @property
-    def count(self) -> float:
-        """How many bullets."""
-        return self._count
-
-    @count.setter
-    def count(self, number: float) -> None:
-        self._count = int(number)
-        self.reset()
 
     def controls(self) -> Sequence[Control]:
         """How many, filed or not."""
@@ -70,7 +57,7 @@ class Bullets(Figure):
     def numbers(self) -> list[tuple[str, str]]:
         """What a tick costs."""
         return [
-            ("bullets, targets", f"{self._count}, {len(self.targets.objects)}"),
+            ("bullets, targets", f"{self.count}, {len(self.targets.objects)}"),
             ("hits in this tick", str(self.hits)),
             ("list changes", str(self.list_changes)),
             ("objects looked at", str(self.tests)),

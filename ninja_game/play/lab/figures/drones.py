@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ninja_game.play.lab.figure import ELSEWHERE, Control, Figure, choice
+from ninja_game.formats.ascii.legend import DIRECTION_WORDS
+from ninja_game.formats.ascii.object_forms import MOVEMENTS
+from ninja_game.play.lab.figure import ELSEWHERE, Control, Figure, Setting, choice
 from ninja_game.play.lab.figures.edges import STATES
 from ninja_game.play.lab.sheet import Sheet
 from ninja_game.play.lab.stage import Stage
@@ -15,11 +17,7 @@ from ninja_game.sim.objects.door import write_edges
 from ninja_game.sim.objects.drone import ROTATIONS
 from ninja_game.sim.rules import DRONE_RADIUS
 
-DIRECTIONS = ("right", "down", "left", "up")
-MOVEMENTS: Sequence[tuple[str, object]] = tuple(
-    (text, text.replace(" ", "-"))
-    for text in ("surface cw", "surface ccw", "wander cw", "wander ccw", "alternating", "random")
-)
+DIRECTIONS = tuple(DIRECTION_WORDS)
 
 
 class WalkingEnemies(Figure):
@@ -27,31 +25,18 @@ class WalkingEnemies(Figure):
 
     name = "drones"
     start = (180.0, 90.0)
-
-    def __init__(self) -> None:
-        self._movement = "surface-cw"
-        super().__init__()
+    movement = Setting("surface-cw")
 
     def reset(self) -> None:
         """The drones where they began, the doors closed."""
         super().reset()
-        drones = [f"zap drone {place} {self._movement} right" for place in ("3,2", "5,4", "13,7")]
+        drones = [f"zap drone {place} {self.movement} right" for place in ("3,2", "5,4", "13,7")]
         self.stage = Stage(self.room, [*self.objects, *drones, ELSEWHERE])
         self.decided: dict[int, tuple[int, int, int]] = {}
 
-    @property
-    def movement(self) -> str:
-        """How the drones move."""
-        return self._movement
-
-    @movement.setter
-    def movement(self, name: str) -> None:
-        self._movement = name
-        self.reset()
-
     def controls(self) -> Sequence[Control]:
         """How they move."""
-        return [choice("Movement", MOVEMENTS, self, "movement")]
+        return [choice("Movement", [(name.replace("-", " "), name) for name in MOVEMENTS], self, "movement")]
 
     def _of_kind(self, kind: int) -> list[Object]:
         world = self.stage.world
@@ -75,7 +60,7 @@ class WalkingEnemies(Figure):
     def demonstrate(self, tick: int) -> None:
         """A door every two seconds, another movement every eight."""
         if tick % 320 == 0:
-            self.movement = str(MOVEMENTS[tick // 320 % len(MOVEMENTS)][1])
+            self.movement = list(MOVEMENTS)[tick // 320 % len(MOVEMENTS)]
         elif tick % 80 == 0:
             self.toggle(self._of_kind(DOOR)[tick // 80 % 2])
 

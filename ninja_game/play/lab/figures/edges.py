@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
-from ninja_game.play.lab.figure import Control, Figure, choice, room_world, slider
+from ninja_game.play.lab.figure import Control, Figure, Setting, choice, room_world, slider
 from ninja_game.play.lab.sheet import Sheet
 from ninja_game.sim.collision.tiles import (
     CENTRE_X,
@@ -26,15 +27,6 @@ STATES = ("off", "interesting", "solid")
 SIDES: Sequence[tuple[str, object]] = (("right", 0), ("down", 1), ("left", 2), ("up", 3))
 
 
-_FAMILIES = ("45°", "hollow", "round", "22° thin", "22° thick", "67° thin", "67° thick")
-_CORNERS = ("lower left", "lower right", "upper right", "upper left")
-TILE_NAMES = (
-    "empty", "full", *(f"{family} {corner}" for family in _FAMILIES for corner in _CORNERS),
-    "lower half", "right half", "upper half", "left half",
-)  # fmt: skip
-"""What tiles are called, by id."""
-
-
 class EdgeStates(Figure):
     """Paint tiles; every edge shows its state, and the chosen one says why."""
 
@@ -42,7 +34,7 @@ class EdgeStates(Figure):
     start = (180.0, 156.0)
     tile: float = 1
     side = 1
-    _is_open = False
+    is_open = Setting(False, "move_door")
 
     def reset(self) -> None:
         """The first tiles again."""
@@ -52,17 +44,11 @@ class EdgeStates(Figure):
 
     def _rebuild(self) -> None:
         self.tiles, self.world = room_world(["".join(row) for row in self.rows], self.objects)
-        self.is_open = self._is_open
+        self.move_door()
 
-    @property
-    def is_open(self) -> bool:
-        """Whether the door is open."""
-        return self._is_open
-
-    @is_open.setter
-    def is_open(self, wanted: bool) -> None:
-        self._is_open = wanted
-        write_edges(self.world, self.world.objects[self._door], not wanted)
+    def move_door(self) -> None:
+        """Open or close it as is wanted."""
+        write_edges(self.world, self.world.objects[self._door], not self.is_open)
 
     @property
     def _door(self) -> int:
@@ -72,7 +58,7 @@ class EdgeStates(Figure):
     def controls(self) -> Sequence[Control]:
         """The tile to paint, the side to explain, the door."""
         return [
-            slider("Tile to paint", (0, 33, 1), self, "tile", lambda number: TILE_NAMES[int(number)]),
+            slider("Tile to paint", (0, 33, 1), self, "tile", lambda number: tile_name(int(number))),
             choice("Side", SIDES, self, "side"),
             choice("Door", (("closed", False), ("open", True)), self, "is_open"),
         ]
@@ -107,7 +93,7 @@ class EdgeStates(Figure):
         other = FACE[4 * self.tiles.tiles[neighbour] + (self.side ^ 2)]
         states = [self.world.edges[4 * cell + side] for cell in range(len(EXISTS)) if EXISTS[cell] for side in range(4)]
         return [
-            ("cell", f"column {COLUMN[self.cell]}, row {ROW[self.cell]}: {TILE_NAMES[self.tiles.tiles[self.cell]]}"),
+            ("cell", f"column {COLUMN[self.cell]}, row {ROW[self.cell]}: {tile_name(self.tiles.tiles[self.cell])}"),
             ("1. its own face there", FACES[own]),
             ("2. the neighbour's face", FACES[other] if EXISTS[neighbour] else "there is no neighbour"),
             ("3. the state", STATES[self.world.edges[4 * self.cell + self.side]]),

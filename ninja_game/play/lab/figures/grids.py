@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import cache
 
-from ninja_game.play.lab.figure import Control, Figure, choice, slider
+from ninja_game.play.lab.figure import Control, Figure, Setting, choice, slider
 from ninja_game.play.lab.figures.crowd import LEFT, TOP, Crowd, Work
 from ninja_game.play.lab.sheet import FIELD, Sheet
 from ninja_game.sim.grid import cell_at
@@ -34,37 +34,22 @@ class LooseGrid(Figure):
     name = "grids"
     view = FIELD
     start = (LEFT + 300, TOP + 180)
+    count, radius = Setting(60, "fill"), Setting(8, "resize")
     plot = 0
-
-    def __init__(self) -> None:
-        self._count, self._radius = 60, 8
-        super().__init__()
 
     def reset(self) -> None:
         """The objects where they began."""
         super().reset()
-        self.crowd = Crowd(self._count, self._radius)
+        self.fill()
         self.works = Work(0, 0), Work(0, 0)
 
-    @property
-    def count(self) -> float:
-        """How many objects."""
-        return self._count
+    def fill(self) -> None:
+        """As many other objects."""
+        self.crowd = Crowd(self.count, self.radius)
 
-    @count.setter
-    def count(self, number: float) -> None:
-        self._count = int(number)
-        self.crowd = Crowd(self._count, self._radius)
-
-    @property
-    def radius(self) -> float:
-        """Radius of each, px."""
-        return self._radius
-
-    @radius.setter
-    def radius(self, number: float) -> None:
-        self._radius = int(number)
-        self.crowd.radius = number
+    def resize(self) -> None:
+        """The same objects, as large as is wanted."""
+        self.crowd.radius = self.radius
 
     def controls(self) -> Sequence[Control]:
         """How many, how large, what is plotted."""
@@ -124,7 +109,7 @@ class LooseGrid(Figure):
     def _draw_plot(self, sheet: Sheet) -> None:
         p, (x, y, w, h) = sheet.palette, CHART
         sheet.canvas.fill_rect(sheet.surface, p.panel, x - 6, y - 22, w + 16, h + 44, 4)
-        rows = [measured(count, self._radius) for count in MEASURED]
+        rows = [measured(count, self.radius) for count in MEASURED]
         most = max(1, *(work[self.plot] for row in rows for work in row))
         for grid, colour in ((0, p.switch), (1, p.accent)):
             points = [

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from ninja_game.play.lab.figure import Control, Figure, slider
+from ninja_game.play.lab.figure import Control, Figure, Setting, slider
 from ninja_game.play.lab.figures.crowd import FIVE_CELLS, Crowd
 from ninja_game.play.lab.sheet import FIELD, Sheet
 from ninja_game.sim.memory.object_fields import Object
@@ -16,32 +16,19 @@ class FiveCells(Figure):
 
     name = "pairs"
     view = FIELD
+    count = Setting(60)
     speed: float = 4
-
-    def __init__(self) -> None:
-        self._count = 60
-        super().__init__()
 
     def reset(self) -> None:
         """Another scan of the same objects."""
         super().reset()
-        self.crowd = Crowd(self._count, 11)
+        self.crowd = Crowd(self.count, 11)
         self.pairs: Iterator[tuple[Object, Object]] = self.crowd.five_cell_pairs()
         self.tested: list[tuple[Object, Object]] = []
         self.found: list[tuple[int, int]] = []
         self.done = False
         objects = self.crowd.objects
         self.truth = {(a.slot, b.slot) for a, b in combinations(objects, 2) if self.crowd.meet(a, b)}
-
-    @property
-    def count(self) -> float:
-        """How many objects."""
-        return self._count
-
-    @count.setter
-    def count(self, number: float) -> None:
-        self._count = int(number)
-        self.reset()
 
     def controls(self) -> Sequence[Control]:
         """How many, how fast."""
@@ -53,7 +40,7 @@ class FiveCells(Figure):
     def demonstrate(self, tick: int) -> None:
         """Scan; then begin again with more."""
         if self.done and tick % 80 == 0:
-            self.count = self._count % 120 + 30
+            self.count = self.count % 120 + 30
 
     def tick(self) -> None:
         """Some more tests."""
@@ -69,7 +56,7 @@ class FiveCells(Figure):
 
     def numbers(self) -> list[tuple[str, str]]:
         """What is found, against all pairs."""
-        found, count = set(self.found), self._count
+        found, count = set(self.found), self.count
         return [
             ("objects", str(count)),
             ("tests so far", f"{len(self.tested)}{', done' if self.done else ''}"),

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
+from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
-from ninja_game.play.lab.figure import Control, Figure, choice, room_world, slider
+from ninja_game.play.lab.figure import Control, Figure, Setting, choice, room_world, slider
 from ninja_game.play.lab.figures.cells import BODIES
-from ninja_game.play.lab.figures.edges import TILE_NAMES
 from ninja_game.play.lab.sheet import Sheet, View
 from ninja_game.play.lab.watching import Call, watch
 from ninja_game.play.ui.canvas import Point
@@ -58,37 +58,25 @@ class Projection(Figure):
     name = "projection"
     view = View(24 * (COLUMN - 2), 24 * (ROW - 1), 4.5)
     start = (24 * COLUMN + 6.0, 24 * ROW - 2.0)
+    tile = Setting(2, "rebuild")
     box = False
-
-    def __init__(self) -> None:
-        self._tile = 2
-        super().__init__()
 
     def reset(self) -> None:
         """The body back, the counts at 0."""
         super().reset()
         self.by_edge = self.shape_tests = 0
-        self._rebuild()
+        self.rebuild()
 
-    def _rebuild(self) -> None:
+    def rebuild(self) -> None:
+        """A world with nothing but the tile."""
         rows = [["."] * 14 for _ in range(9)]
-        rows[ROW - 1][COLUMN - 1] = TILE_CHARS[self._tile]
+        rows[ROW - 1][COLUMN - 1] = TILE_CHARS[self.tile]
         self.tiles, self.world = room_world(["".join(row) for row in rows])
-
-    @property
-    def tile(self) -> float:
-        """The tile's id."""
-        return self._tile
-
-    @tile.setter
-    def tile(self, number: float) -> None:
-        self._tile = int(number)
-        self._rebuild()
 
     def controls(self) -> Sequence[Control]:
         """The tile and the body."""
         return [
-            slider("Tile", (1, 33, 1), self, "tile", lambda number: TILE_NAMES[int(number)]),
+            slider("Tile", (1, 33, 1), self, "tile", lambda number: tile_name(int(number))),
             choice("Body", BODIES, self, "box"),
         ]
 
@@ -127,7 +115,7 @@ class Projection(Figure):
         pushes = [call.arguments for call in push.calls if call.name == PUSH]
         normals = ", ".join(f"({each['mx']:.2f}, {each['my']:.2f})" for each in pushes)
         return [
-            ("pair", f"{TILE_NAMES[self._tile]} with {'box' if self.box else 'circle'}"),
+            ("pair", f"{tile_name(self.tile)} with {'box' if self.box else 'circle'}"),
             ("rules that ran", " > ".join(push.ran) or "none: every edge is off"),
             ("pushes", f"{len(pushes)}, in all ({to_x - x:+.2f}, {to_y - y:+.2f}) px"),
             ("normals", normals or "none"),
