@@ -12,6 +12,7 @@ from click.testing import CliRunner
 from ninja_game.cli.main import cli
 from ninja_game.environments import ENVIRONMENTS
 from ninja_game.files.resources import data_folder
+from ninja_game.learn.rewards import REWARD_TERMS
 
 DOC = (Path(__file__).resolve().parents[2] / "docs" / "learning.md").read_text("utf-8")
 COMMANDS = [
@@ -33,6 +34,11 @@ def test_a_command_of_the_page_does_what_it_says(line: str, tmp_path: Path, monk
     result = CliRunner().invoke(cli, words)
     assert result.exit_code == 0, result.output
     assert result.stdout
+
+
+def test_the_page_tells_every_reward() -> None:
+    section = DOC.partition("## Rewards")[2].partition("\n## ")[0]
+    assert set(re.findall(r"^\| `(\w+)\(", section, re.MULTILINE)) == {term.__name__ for term in REWARD_TERMS}
 
 
 def test_the_page_tells_every_id() -> None:

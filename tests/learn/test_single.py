@@ -17,6 +17,7 @@ from ninja_game.environments import ENVIRONMENTS
 from ninja_game.errors import ArgumentError
 from ninja_game.files.resources import bundled_levels
 from ninja_game.learn.observations.observation import PARTS
+from ninja_game.learn.rewards import REWARD_TERMS
 from ninja_game.learn.single import NinjaEnv
 from ninja_game.sim.events import EVENT_NAMES
 
@@ -59,6 +60,10 @@ def test_gymnasium_finds_nothing_wrong_with_all_parts_together(normalised: bool)
     parts = [part(normalised=normalised) for part in PARTS.values()]
     checked(made("Ninja-v0", observation=parts))
     checked(made("Ninja-v0", observation=parts, flat=True))
+
+
+def test_gymnasium_finds_nothing_wrong_with_all_rewards_together() -> None:
+    checked(made("Ninja-v0", reward=[term() for term in REWARD_TERMS]))
 
 
 def test_an_episode_ends_at_the_exit_and_pays_for_it(env: NinjaEnv) -> None:
@@ -250,3 +255,21 @@ def test_rendering_without_a_mode_warns(env: NinjaEnv) -> None:
     env.reset()
     with pytest.warns(UserWarning, match="render mode"):
         assert env.render() is None
+
+
+def test_a_window_follows_its_size_and_stays_away_once_it_is_closed() -> None:
+    import pygame
+
+    env = NinjaEnv(EXIT_NEAR, memory="plain", render_mode="human", render_size=(132, 100))
+    env.reset()
+    assert pygame.display.get_window_size() == (132, 100)
+    pygame.event.post(pygame.event.Event(pygame.VIDEORESIZE, size=(264, 200)))
+    env.step(RIGHT)
+    assert env.render() is None
+    assert env._picture is not None
+    assert env._picture._context.canvas.window == (264, 200)
+    pygame.event.post(pygame.event.Event(pygame.QUIT))
+    env.step(RIGHT)
+    assert not pygame.display.get_init()
+    assert env.step(RIGHT)[4]["ticks"] == 12
+    env.close()
