@@ -69,7 +69,10 @@ def test_a_part_stays_in_its_space_and_is_the_same_flat(part: Part) -> None:
         assert isinstance(parts, dict)
         for index in range(3):
             assert {name: array[index] for name, array in parts.items()} in worlds[0].observation.space
-        joined = np.hstack([array.reshape(3, -1) for array in parts.values()], dtype=np.float32)
+        joined = np.hstack(
+            [array.reshape(3, -1) for array in (parts[each.name] for each in worlds[0].observation.parts)],
+            dtype=np.float32,
+        )
         assert same(joined, flat)
 
 

@@ -68,7 +68,7 @@ class NearObjects(Part):
         """How many; factors and limits; each level's objects, their columns; room for the nearest of each world."""
         low, high, divisors = self._range()
         columns = {kind.number: place for place, kind in enumerate(OBSERVED) if kind.name in self.kinds}
-        objects = [[(o.slot, columns[o.kind]) for o in w.objects[1:] if o.kind in columns] for _, w in setting.fresh]
+        objects = [[(o.slot, columns[o.kind]) for _, o in found] for found in setting.objects(*columns)]
         room = [[0] * (setting.count * self.count)] * 2
         return (
             self.count,

@@ -56,7 +56,7 @@ class Observation:
     """What is observed of a world.
 
     One part alone gives its own Box, several give a Dict of theirs; with ``flat`` all of them give one float32 Box of
-    one dimension, part after part. Raises ArgumentError as ``parts_of`` does.
+    one dimension, part after part in the order given. Raises ArgumentError as ``parts_of`` does.
     """
 
     def __init__(self, observation: PartLike | Sequence[PartLike], *, flat: bool = False) -> None:

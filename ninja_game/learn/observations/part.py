@@ -12,6 +12,7 @@ from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
 from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import TileMap, World
 
 Array = NDArray[Any]
@@ -33,6 +34,10 @@ class Setting:
     compiled: bool
     kernel: Callable[[Callable[..., Any]], Callable[..., Any]]
     goal: Any = None
+
+    def objects(self, *kinds: int) -> list[list[tuple[World, Object]]]:
+        """Of each level its new world with each of the objects of these kinds, in the order of their slots."""
+        return [[(w, o) for o in w.objects[1:] if o.kind in kinds] for _, w in self.fresh]
 
     def table(self, values: Any, dtype: Any) -> Any:
         """A table for kernels: an array, or for the plain memory, which reads those slowly, a list."""

@@ -87,8 +87,8 @@ class StateVector(Part):
         """Factors and limits of the values; slots and places of exits and gold; each world's last nearest gold."""
         box = self.box
         factors = [1.0 / scale if self.normalised else 1.0 for _, _, scale in FIELDS.values()]
-        exits = Ragged([[exit_row(w, o.slot) for o in w.objects if o.kind == EXIT] for _, w in setting.fresh])
-        gold = Ragged([[(o.slot, o.x, o.y) for o in w.objects if o.kind == GOLD] for _, w in setting.fresh])
+        exits = Ragged([[exit_row(w, o.slot) for w, o in found] for found in setting.objects(EXIT)])
+        gold = Ragged([[(o.slot, o.x, o.y) for _, o in found] for found in setting.objects(GOLD)])
         return (
             *(setting.table(values, np.float64) for values in (factors, box.low, box.high)),
             *exits.columns(setting, 5),
