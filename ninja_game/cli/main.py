@@ -49,7 +49,7 @@ GROUPS = {
     "web": {
         "site": "Build the game as a page in a browser: a folder for any static host.",
     },
-    "learn": {"learn": "Make demonstrations for learning agents, and measure agents."},
+    "learn": {"learn": "Make demonstrations for learning agents, train agents, and measure them."},
     "": {"completion": "Set up completion of commands and options in your shell."},
 }
 """Commands with their first lines of help, by folder; ``ninja_game.cli.FOLDER.NAME`` holds one as ``command``."""

@@ -30,6 +30,7 @@ COMMANDS = {
     "bench": "bench walk.replay.txt",
     "play": "play --replay archive.txt --size 132x100",
     "export": "export archive.txt -o out/film.gif",
+    "learn train": "learn train --levels far.txt --seconds 100 -o out/agent.npz",
     "convert": "convert archive.txt out/replays --to replay",
 }
 

@@ -1,19 +1,20 @@
-"""`ninja-game learn`: demonstrations for learning agents, and how good agents are."""
+"""`ninja-game learn`: demonstrations for learning agents, their training, and how good they are."""
 
 from __future__ import annotations
 
 import click
 
-from ninja_game.cli.learn import demos
+from ninja_game.cli.learn import demos, train
 
 
-@click.group(commands={"demos": demos.command})
+@click.group(commands={"demos": demos.command, "train": train.command})
 def command() -> None:
-    """Make demonstrations for learning agents, and measure agents.
+    """Make demonstrations for learning agents, train agents, and measure them.
 
     It needs Gymnasium, the extra 'learn'. docs/learning.md tells how to learn with it.
 
     \b
     Examples:
       ninja-game learn demos levels/certificates -o demos.npz
+      ninja-game learn train --seconds 300
     """

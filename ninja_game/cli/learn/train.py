@@ -1,0 +1,78 @@
+"""`ninja-game learn train`: teach an agent some levels."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from ninja_game.cli import solver_options as options
+
+if TYPE_CHECKING:
+    from ninja_game.learn.agents.training import Progress
+
+LEVELS = ("00-0-first-steps", "00-1-mind-the-gap", "00-2-rolling-hills")
+
+
+@click.command(name="train")
+@click.option(
+    "--levels", metavar="LEVELS", multiple=True, default=LEVELS, show_default=True,
+    help="A level of the game, a file or folder, or train: those that are for training. May be given several times.",
+)  # fmt: skip
+@options.seconds_option(600.0)
+@click.option(
+    "--steps", type=click.IntRange(0, 10**12), default=0, metavar="N",
+    help="Stop after N steps of all worlds together instead: with the same seed always the same agent.",
+)  # fmt: skip
+@click.option("--seed", type=click.IntRange(0, 999_999), default=0, show_default=True)
+@click.option("--worlds", type=click.IntRange(1, 10**5), default=1024, show_default=True, help="Worlds at a time.")
+@click.option(
+    "--out", "-o", "output", metavar="FILE", type=click.Path(dir_okay=False, path_type=Path),
+    help="Where the best agent so far is kept. [default: agent.npz, or agent-1.npz ..., in the current folder]",
+)  # fmt: skip
+def command(levels: Sequence[str], seconds: float, steps: int, seed: int, worlds: int, output: Path | None) -> None:
+    """Teach an agent some levels, by proximal policy optimisation on many worlds at a time.
+
+    The best agent so far is always in FILE, so that training may be stopped at any time (Ctrl-C). It needs the extra
+    'train'. docs/learning.md says how the agent that comes with the game was trained.
+
+    \b
+    Examples:
+      ninja-game learn train --seconds 300
+      ninja-game learn train --levels train --seconds 1800 -o everything.npz
+    """
+    from ninja_game.files.writing import check_output
+    from ninja_game.learn.agents.training import Task, train
+    from ninja_game.learn.levels import level_source
+
+    output = output or free_agent()
+    check_output(output)
+    source = level_source(list(levels))
+    task = Task(source, seconds=seconds, steps=steps, seed=seed, worlds=worlds)
+    last: list[Progress] = []
+    with options.progress_line() as shown:
+
+        def report(progress: Progress) -> None:
+            last[:] = [progress]
+            shown.say(progress_text(progress))
+
+        train(task, report=report, on_better=lambda agent: agent.save(output))
+    click.echo(f"{output}: {progress_text(last[0])}")
+    for name, rate in zip(source.names, last[0].rates, strict=True):
+        click.echo(f"  {rate:4.0%}  {name}")
+
+
+def free_agent() -> Path:
+    """A path in the current folder that nothing has yet."""
+    names = (f"agent{number}.npz" for number in ("", *(f"-{count}" for count in range(1, 10_000))))
+    return next(path for path in map(Path, names) if not path.exists())
+
+
+def progress_text(progress: Progress) -> str:
+    """Steps, speed, and how often the levels are passed in a line."""
+    speed = progress.steps / max(progress.seconds, 1e-9)
+    often = f"{progress.passed} of {len(progress.rates)} levels nine times in ten"
+    passed = f"{progress.rates.mean():.0%} of episodes passed, {often}"
+    return f"{progress.steps / 1e6:.1f}M steps, {speed / 1e3:.0f}k/s: {passed}"

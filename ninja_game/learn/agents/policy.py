@@ -1,0 +1,125 @@
+"""A learned agent: a small network from observations to the chances of the six actions, played by NumPy alone.
+
+Its file is a NumPy archive (.npz) of the network's arrays and one text, JSON, that says what environment it was made
+for and how it was trained.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+from zipfile import BadZipFile
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.errors import FileError
+from ninja_game.files.reading import read_bytes
+from ninja_game.files.writing import write_atomically
+from ninja_game.learn.actions import ACTION_NAMES
+from ninja_game.learn.observations.observation import PARTS, Observation
+
+Floats = NDArray[np.float32]
+
+FORMAT = 1
+"""Of the file; a later one may differ."""
+
+
+@dataclass(eq=False)
+class PolicyAgent:
+    """Plays the likeliest action.
+
+    ``layers``: weights (inputs x outputs) and biases, with tanh between them, on observations less ``mean`` times
+    ``scale``. ``settings``: the keywords of the environment it was made for. ``training``: how it was made, by name.
+    """
+
+    layers: list[tuple[Floats, Floats]]
+    mean: Floats
+    scale: Floats
+    settings: dict[str, Any]
+    training: dict[str, Any] = field(default_factory=dict)
+
+    def reset(self, count: int, seed: int) -> None:
+        """Nothing is remembered from step to step."""
+
+    def act(self, observations: Floats) -> NDArray[np.int64]:
+        """The likeliest action of each world, (n,)."""
+        return np.asarray(self.scores(observations).argmax(axis=1), np.int64)
+
+    def scores(self, observations: Floats) -> Floats:
+        """A number for each action, (n, 6): the logarithm of its chance, up to a constant of the row."""
+        return forward(self.layers, normalised(observations, self.mean, self.scale))
+
+    def save(self, path: Path) -> None:
+        """Write the file. Raises FileError or OSError where it cannot be written."""
+        about = {"format": FORMAT, "settings": _written(self.settings), "training": self.training}
+        arrays: dict[str, Any] = {"about": np.array(json.dumps(about)), "mean": self.mean, "scale": self.scale}
+        for number, (weights, biases) in enumerate(self.layers):
+            arrays |= {f"weights_{number}": weights, f"biases_{number}": biases}
+        content = io.BytesIO()
+        np.savez(content, **arrays)
+        write_atomically(path, content.getvalue())
+
+
+def load_policy(path: Path) -> PolicyAgent:
+    """The agent in a file. Raises FileError for a file that holds none, OSError as it comes."""
+    try:
+        with np.load(io.BytesIO(read_bytes(path)), allow_pickle=False) as stored:
+            arrays = dict(stored)
+        about = json.loads(str(arrays["about"]))
+        if about["format"] != FORMAT:
+            raise FileError("an agent of another format", file=str(path), found=str(about["format"]), expected="1")
+        numbers = range(sum(name.startswith("weights_") for name in arrays))
+        layers = [(arrays[f"weights_{number}"], arrays[f"biases_{number}"]) for number in numbers]
+        agent = PolicyAgent(layers, arrays["mean"], arrays["scale"], _read(about["settings"]), about["training"])
+        _check(agent)
+    except (BadZipFile, KeyError, TypeError, ValueError, EOFError, AttributeError) as error:
+        raise FileError(
+            "no agent that `ninja-game learn train` made", file=str(path), found=str(error)[:100]
+        ) from error
+    return agent
+
+
+def forward(layers: list[tuple[Floats, Floats]], values: Floats) -> Floats:
+    """What a network says: tanh after all layers but the last."""
+    for weights, biases in layers[:-1]:
+        values = np.tanh(values @ weights + biases)
+    weights, biases = layers[-1]
+    return values @ weights + biases
+
+
+LARGEST = 5.0
+"""Observations beyond five standard deviations count as five."""
+
+
+def normalised(observations: Floats, mean: Floats, scale: Floats) -> Floats:
+    """Observations as networks take them."""
+    return np.asarray(np.clip((observations - mean) * scale, -LARGEST, LARGEST), np.float32)
+
+
+def _check(agent: PolicyAgent) -> None:
+    """Raise ValueError for arrays that do not fit the observation, one another, or the actions."""
+    size = Observation(agent.settings["observation"], flat=True).space.shape
+    if size != agent.mean.shape or size != agent.scale.shape:
+        raise ValueError(f"it takes {agent.mean.shape} numbers; its observation has {size}")
+    for weights, biases in agent.layers:
+        if weights.shape != (*size, *biases.shape) or biases.ndim != 1:
+            raise ValueError(f"a layer of shape {weights.shape} follows {size} numbers")
+        size = biases.shape
+    if size != (len(ACTION_NAMES),):
+        raise ValueError(f"it ends in {size} numbers; there are {len(ACTION_NAMES)} actions")
+
+
+def _written(settings: dict[str, Any]) -> dict[str, Any]:
+    """Settings as JSON has them: a part is its name with its parameters."""
+    parts = [{"part": part.name, **asdict(part)} for part in settings["observation"]]
+    return {**settings, "observation": parts}
+
+
+def _read(settings: dict[str, Any]) -> dict[str, Any]:
+    """The reverse."""
+    parts = [PARTS[part.pop("part")](**part) for part in map(dict, settings["observation"])]
+    return {**settings, "observation": parts}

@@ -1,0 +1,191 @@
+"""Training an agent: a thousand worlds play, the networks learn from what came of it, over and over."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.learn.actions import DISCRETE_KEYS
+from ninja_game.learn.agents.policy import PolicyAgent, normalised
+from ninja_game.learn.agents.ppo import Floats, Learner, Method, Samples, advantages
+from ninja_game.learn.agents.starts import Starts
+from ninja_game.learn.levels import LevelSource
+from ninja_game.learn.observations.observation import Observation
+from ninja_game.learn.rewards import DistanceShaping, ExitReward
+from ninja_game.learn.sticky import StickyActions
+from ninja_game.learn.worlds import EnvWorlds
+from ninja_game.sim.states import OUTCOME_EXIT
+
+ROUND = 32
+"""Steps of each world between two improvements."""
+STEPS_PER_SECOND = 25_000
+"""Steps of all worlds together that are planned for a second, never measured: plans do not depend on the clock."""
+SMALLEST_DEVIATION = 0.05
+"""Of an observation; what hardly ever changes would be blown up otherwise."""
+REPORT_EVERY = 16
+"""Rounds between two reports."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """What to learn: the levels of ``source``, for ``seconds``, or for so many ``steps`` of all worlds together.
+
+    With ``steps`` the same seed makes the same agent. ``observation``: parts, by name or as they are.
+    """
+
+    source: LevelSource
+    seconds: float = 600.0
+    steps: int = 0
+    seed: int = 0
+    worlds: int = 1024
+    observation: tuple[Any, ...] = ("state",)
+    method: Method = field(default_factory=Method)
+
+    @property
+    def steps_planned(self) -> float:
+        """Steps with which the training plans."""
+        return self.steps or self.seconds * STEPS_PER_SECOND
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far the training is. ``rates``: the share of the last episodes from the start of each level that passed."""
+
+    steps: int
+    seconds: float
+    rates: NDArray[np.float64]
+
+    @property
+    def passed(self) -> int:
+        """Levels that at least nine episodes in ten pass."""
+        return int((self.rates >= 0.9).sum())
+
+
+def train(
+    task: Task,
+    *,
+    report: Callable[[Progress], None] | None = None,
+    on_better: Callable[[PolicyAgent], None] | None = None,
+) -> PolicyAgent:
+    """Train an agent; the best one by the mean rate. ``on_better`` is given each that is better than those before.
+
+    Raises MissingExtraError without JAX and Optax (the extra `train`), MemoryUnavailableError without Numba.
+    """
+    trainer = Trainer(task)
+    began, used = time.monotonic(), time.process_time()
+    curve: list[list[float]] = []
+    best, best_rate = trainer.agent({}), -1.0
+    for number in range(1, 10**9):
+        trainer.improve()
+        over = trainer.steps >= task.steps if task.steps else time.monotonic() - began >= task.seconds
+        if not over and number % REPORT_EVERY:
+            continue
+        rates = trainer.starts.rates[: len(task.source.names)]
+        progress = Progress(trainer.steps, time.monotonic() - began, rates.copy())
+        if report:
+            report(progress)
+        curve.append([trainer.steps, round(time.process_time() - used, 1), *np.round(rates, 2).tolist()])
+        if rates.mean() > best_rate:
+            best_rate = float(rates.mean())
+            best = trainer.agent({"levels": task.source.names, "seed": task.seed, "curve": list(curve)})
+            if on_better:
+                on_better(best)
+        if over:
+            break
+    return best
+
+
+class Trainer:
+    """The worlds that play, and the networks that learn."""
+
+    def __init__(self, task: Task) -> None:
+        self.task = task
+        self.steps = 0
+        parts = Observation(task.observation, flat=True).parts
+        method = task.method
+        self.settings: dict[str, Any] = {"observation": parts, "flat": True, "frame_skip": 4, "time_limit": 1600}
+        shaping = DistanceShaping(5.0, method.discount)
+        settings = {**self.settings, "reward": [ExitReward(10.0), shaping]}
+        self.worlds = EnvWorlds(task.source, task.worlds, **settings)
+        self._observed = np.asarray(self.worlds.observations)
+        self.starts = Starts(task.source, settings, task.seed)
+        self._chance = np.random.default_rng([task.seed, 2])
+        self._sticky = StickyActions(task.worlds, [task.seed, 3])
+        self._begun, self._limits = np.zeros((2, task.worlds), np.intp)
+        self._begin(np.arange(task.worlds))
+        inputs = self._observed.shape[1]
+        self.learner = Learner(inputs, method, task.seed)
+        self._mean, self._scale = np.zeros(inputs, np.float32), np.ones(inputs, np.float32)
+        self._mean, self._scale = self._measure()
+
+    def agent(self, training: dict[str, Any]) -> PolicyAgent:
+        """The present policy."""
+        policy = self.learner.networks["policy"]
+        return PolicyAgent(policy, self._mean, self._scale, self.settings, training)
+
+    def improve(self) -> None:
+        """Play a round and learn from it."""
+        method = self.task.method
+        shape = ROUND, self.task.worlds
+        seen = np.zeros((*shape, len(self._mean)), np.float32)
+        actions = np.zeros(shape, np.int32)
+        chances, rewards = np.zeros((2, *shape), np.float32)
+        values = np.zeros((ROUND + 1, self.task.worlds), np.float32)
+        ended = np.zeros(shape, np.bool_)
+        for step in range(ROUND):
+            seen[step] = self._seen()
+            scores, values[step] = self.learner.play(seen[step])
+            actions[step] = (scores + self._chance.gumbel(size=scores.shape)).argmax(axis=1)
+            chances[step] = np.take_along_axis(scores, actions[step][:, np.newaxis], axis=1)[:, 0]
+            rewards[step], ended[step] = self._step(actions[step])
+        _, values[ROUND] = self.learner.play(self._seen())
+        gains = advantages(rewards, values, ended, method)
+        returns = gains + values[:-1]
+        gains = (gains - gains.mean()) / (gains.std() + 1e-8)
+        self.steps += actions.size
+        samples = Samples(
+            seen.reshape(actions.size, -1), actions.ravel(), chances.ravel(), gains.ravel(), returns.ravel()
+        )
+        self.learner.learn(samples, self.steps / self.task.steps_planned)
+
+    def _seen(self) -> Floats:
+        return normalised(self._observed, self._mean, self._scale)
+
+    def _step(self, actions: NDArray[Any]) -> tuple[Floats, NDArray[np.bool_]]:
+        """Play one step; the rewards, and which episodes have ended: new ones have begun in their worlds."""
+        worlds = self.worlds
+        worlds.step(DISCRETE_KEYS[self._sticky.played(actions)])
+        rewards = worlds.rewards.astype(np.float32)
+        late = (worlds.truncated | (worlds.ticks >= self._limits)) & ~worlds.terminated
+        if late.any():
+            # The time limit is no end of the task: what would have come is expected to come.
+            _, values = self.learner.play(self._seen())
+            rewards[late] += self.task.method.discount * values[late]
+        ended = worlds.terminated | late
+        which = np.flatnonzero(ended)
+        self.starts.note(self._begun[which], worlds.outcomes[which] == OUTCOME_EXIT)
+        self._begin(which)
+        return rewards, ended
+
+    def _begin(self, which: NDArray[np.intp]) -> None:
+        """New episodes; those that begin in the middle of a run do not wait."""
+        self._begun[which] = starts = self.starts.choose(len(which), self._chance)
+        self.starts.put(self.worlds, which, starts)
+        self._limits[which] = self.worlds.ticks[which] + self.starts.limits[starts]
+        own = starts < self.starts.levels
+        self._sticky.begin(which[own])
+        self._sticky.begin(which[~own], wait=False)
+
+    def _measure(self) -> tuple[Floats, Floats]:
+        """Means of the observations, and what makes their deviations 1: from a round of random play."""
+        rows = []
+        for _ in range(ROUND):
+            self._step(self._chance.integers(len(DISCRETE_KEYS), size=self.task.worlds))
+            rows.append(self._observed.copy())
+        every = np.concatenate(rows)
+        return every.mean(axis=0), 1.0 / np.maximum(every.std(axis=0), np.float32(SMALLEST_DEVIATION))
