@@ -26,7 +26,7 @@ GROUPS = {
         "edit": "Make a level, or change one, in a window.",
         "lab": "Drag, paint and watch: ten figures about how the world works.",
         "player": "Put all data of a player into one file, or take such a file in.",
-        "export": "Write a film of a recording: a GIF, or a folder of pictures.",
+        "film": "Write a film of a recording: a GIF, a WebM, or a folder of pictures.",
         "link": "Make a link that carries a level, a pack or replays.",
     },
     "levels": {

@@ -10,7 +10,7 @@ import pytest
 
 from ninja_game.formats.load import load_replays
 from ninja_game.play.replay import playback
-from ninja_game.play.replay.export import export_film, film_length
+from ninja_game.play.replay.film import Film, write_film
 from ninja_game.play.replay.playback import RecordedRun, recorded_run
 from ninja_game.play.replay.screen import AFTERMATH, SPEEDS, ReplayScreen
 from ninja_game.play.ui.theme import Theme
@@ -104,23 +104,23 @@ def test_the_mouse_drags_the_bar() -> None:
 
 def test_a_folder_of_pictures_has_one_a_tick(tmp_path: Path) -> None:
     short = RecordedRun("short", TAKE.level, TAKE.inputs[:5])
-    export_film(short, tmp_path / "film")
+    write_film(Film(short), tmp_path / "film")
     names = sorted(path.name for path in (tmp_path / "film").iterdir())
-    assert len(names) == film_length(short)
+    assert len(names) == len(Film(short).moments)
     assert names[0] == "00000.png"
 
 
 def test_a_gif_has_as_many_pictures(tmp_path: Path) -> None:
     image = pytest.importorskip("PIL.Image")
     short = RecordedRun("short", TAKE.level, TAKE.inputs[:5])
-    export_film(short, tmp_path / "film.gif")
+    write_film(Film(short), tmp_path / "film.gif")
     with image.open(tmp_path / "film.gif") as film:
         ms = 0
         for frame in range(film.n_frames):
             film.seek(frame)
             ms += film.info["duration"]
         # Pillow joins equal pictures: the time is what counts.
-        assert abs(ms - 25 * film_length(short)) <= 30
+        assert abs(ms - 25 * len(Film(short).moments)) <= 30
 
 
 def test_home_and_end_lead_to_the_start_and_the_outcome() -> None:

@@ -105,7 +105,7 @@ def test_pip_installs_the_locked_versions_where_uv_cannot_be_had(
     monkeypatch.setattr(dev, "uv_sync", lambda _names: False)
     monkeypatch.setattr(dev, "run", run)
     dev.install(dev.DEVELOPMENT)
-    assert asked[0] == f"{dev.ROOT}[cluster,fast,learn,plots]"
+    assert asked[0] == f"{dev.ROOT}[cluster,fast,film,learn,minari,plots,train]"
     lock = (ROOT / "uv.lock").read_text("utf-8")
     for name in ("ruff", "pillow", "pygame-ce"):
         version = lock.partition(f'name = "{name}"\nversion = "')[2].partition('"')[0]

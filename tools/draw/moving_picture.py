@@ -10,7 +10,7 @@ import os
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 
 from ninja_game.formats.load import load_replays
-from ninja_game.play.replay.export import export_film
+from ninja_game.play.replay.film import Film, write_film
 from ninja_game.play.replay.playback import recorded_run
 from tools import ROOT
 
@@ -18,5 +18,5 @@ REPLAY = ROOT / "levels" / "certificates" / "11-4-night-shift.exit.replay.txt"
 PICTURE = ROOT / "docs" / "pictures" / "ninja-game.gif"
 
 if __name__ == "__main__":
-    export_film(recorded_run(load_replays(REPLAY)[0]), PICTURE)
+    write_film(Film(recorded_run(load_replays(REPLAY)[0])), PICTURE)
     print(f"{PICTURE.relative_to(ROOT)}: {PICTURE.stat().st_size / 1000:.0f} kB")

@@ -14,7 +14,7 @@ from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.level.run_clock import RunClock
-from ninja_game.play.replay.export import ExportJob
+from ninja_game.play.replay.film_job import FilmJob
 from ninja_game.play.replay.playback import Playback, RecordedRun, recorded_run, replay_of
 from ninja_game.play.replay.seek_bar import ReplayBar
 from ninja_game.play.screen import Screen
@@ -70,7 +70,7 @@ class ReplayScreen(Screen):
         ]  # fmt: skip
         self.paused = False
         self.still_ms = _STILL_MS
-        self.export: ExportJob | None = None
+        self.export: FilmJob | None = None
         self.redraw = True
 
     def enter(self) -> None:
@@ -190,7 +190,7 @@ class ReplayScreen(Screen):
     def start_export(self) -> None:
         """Make a film of this take beside the player's replays."""
         if self.export is None:
-            self.export = ExportJob(self.run, self.app.settings, self.app.player.folder)
+            self.export = FilmJob(self.run, self.app.settings, self.app.player.folder)
             self.export.start()
 
     def copy_link(self) -> None:

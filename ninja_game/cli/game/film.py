@@ -1,0 +1,86 @@
+"""`ninja-game film`: a film of a recording."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+
+from ninja_game.cli.game.play import pixels
+from ninja_game.cli.run_options import InputPath, ProgressLog, level_given, level_option
+from ninja_game.errors import NinjaGameError
+from ninja_game.formats.links.fragment import is_link
+
+
+@click.command()
+@click.argument("replay", type=InputPath(dir_okay=False))
+@click.option(
+    "-o", "--out", type=click.Path(path_type=Path),
+    help="The film: NAME.gif, NAME.webm, or a folder for one PNG picture a tick. [default: the replay's name and .gif]",
+)  # fmt: skip
+@click.option("--record", type=click.IntRange(min=0), default=0, help="Which recording of the file, counted from 0.")
+@click.option(
+    "--size", metavar="WIDTHxHEIGHT", default="528x400", show_default=True, help="Size of the pictures in px."
+)
+@click.option("--speed", type=click.FloatRange(0.05, 16), default=1.0, show_default=True, help="1 is the game's speed.")
+@click.option("--from", "first", type=click.IntRange(min=0), default=0, help="The moment after so many ticks is first.")
+@click.option("--to", "last", type=click.IntRange(min=0), help="The last one. [default: a second after the end]")
+@click.option(
+    "--ghost", "ghosts", multiple=True, metavar="FILE", type=InputPath(dir_okay=False),
+    help="The runs of this file on the same level go along; may be given again.",
+)  # fmt: skip
+@click.option("--keys", is_flag=True, help="Show the keys that are down.")
+@level_option
+def command(
+    replay: Path, out: Path | None, record: int, size: str, speed: float, first: int, last: int | None,
+    ghosts: Sequence[Path], keys: bool, level_path: Path | None,
+) -> None:  # fmt: skip
+    """Write a film of a recording: a GIF, a WebM, or a folder of pictures.
+
+    REPLAY is a replay of ours, a level file with demos, or a link. A GIF of more than 600 ticks shows every second one;
+    a WebM, which needs the extra `film`, shows 60 pictures a second at most.
+
+    \b
+    Examples:
+      ninja-game film run.replay.txt
+      ninja-game film run.replay.txt -o slow.webm --speed 0.5 --size 792x600 --keys
+      ninja-game film run.replay.txt --from 120 --to 200 --ghost best.replay.txt
+      ninja-game film userlevels.txt --record 17 -o pictures
+    """
+    from ninja_game.formats.load import load_replays
+
+    level = level_given(level_path)
+    recordings = load_replays(replay, level=level)
+    if record >= len(recordings):
+        raise NinjaGameError(f"{replay}: there is no record {record}; the last one is {len(recordings) - 1}")
+    path = out or Path("replay.gif" if is_link(replay) else f"{replay.name.partition('.')[0]}.gif")
+    if path.exists() and any(not is_link(each) and path.samefile(each) for each in (replay, *ghosts)):
+        raise click.UsageError("the film would replace the replay")
+    others = [run for file in ghosts for run in load_replays(file, level=level)]
+    if any(run.level != recordings[record].level for run in others):
+        raise click.UsageError("--ghost: a run of another level")
+    width_and_height = pixels(size)
+
+    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    from ninja_game.play.replay.film import Film, write_film
+    from ninja_game.play.replay.playback import recorded_run
+
+    runs = tuple(map(recorded_run, others))
+    film = Film(
+        recorded_run(recordings[record]), width_and_height, speed, ghosts=runs, keys=keys, first=first, last=last
+    )
+    count = len(film.moments)
+    log = ProgressLog()
+
+    def report(made: int) -> bool:
+        log.say(f"{made:,} of {count:,} pictures")
+        return True
+
+    try:
+        write_film(film, path, report)
+    except OSError as error:
+        raise NinjaGameError(f"{path}: the film cannot be written: {error.strerror}") from None
+    click.echo(f"{path}: {count} ticks")

@@ -1,0 +1,103 @@
+"""`ninja-game film`: films of recordings, at the size and speed that were asked for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+from PIL import Image, ImageSequence
+
+from ninja_game.cli.game.film import command
+from ninja_game.formats.n14.demo import write_demo
+from ninja_game.sim.inputs import Demo
+from tests.support.samples import SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
+
+
+def film_of(*words: object) -> Result:
+    return CliRunner().invoke(command, [str(word) for word in words])
+
+
+def shown_ms(film: Path) -> int:
+    """How long a film of 264 x 200 px lasts."""
+    with Image.open(film) as image:
+        assert image.size == (264, 200)
+        return sum(frame.info["duration"] for frame in ImageSequence.Iterator(image))
+
+
+@pytest.fixture
+def replay(tmp_path: Path) -> Path:
+    path = tmp_path / "walk.replay.txt"
+    path.write_text(replay_of_walk())
+    return path
+
+
+def test_film_has_the_size_and_the_speed_that_were_asked_for(replay: Path, tmp_path: Path) -> None:
+    ms = {}
+    for speed in (0.5, 1, 4):
+        film = tmp_path / f"{speed}.gif"
+        assert film_of(replay, "-o", film, "--size", "264x200", "--speed", speed).exit_code == 0
+        ms[speed] = shown_ms(film)
+    ticks = WALK_END + 1 + 40
+    assert ms[1] == pytest.approx(25 * ticks, abs=30)
+    assert ms[0.5] == pytest.approx(50 * ticks, abs=60)
+    assert ms[4] == pytest.approx(25 / 4 * ticks, abs=60)
+
+
+def test_record_of_a_file_becomes_a_folder_of_pictures(tmp_path: Path) -> None:
+    file = write_records(tmp_path / "two.txt", ("one", WALK, running(3)), ("two", WALK, running(5)))
+    assert film_of(file, "--record", 1, "-o", tmp_path / "film", "--size", "132x100").exit_code == 0
+    assert len(list((tmp_path / "film").glob("*.png"))) == 5 + 1 + 1 + 40
+    found = film_of(file, "--record", 2)
+    assert "no record 2" in str(found.exception)
+
+
+def test_film_never_replaces_its_replay_and_needs_a_known_form(replay: Path, tmp_path: Path) -> None:
+    text = replay.read_text()
+    assert film_of(replay, "-o", replay).exit_code == 2
+    assert replay.read_text() == text
+    assert ".gif" in str(film_of(replay, "-o", tmp_path / "film.mp4").exception)
+    assert not (tmp_path / "film.mp4").exists()
+
+
+def test_section_ghosts_and_keys(replay: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "plain"
+    assert film_of(replay, "-o", folder, "--from", 5, "--to", 9, "--size", "264x200").exit_code == 0
+    plain = [(folder / f"{number:05d}.png").read_bytes() for number in range(5)]
+    assert len(list(folder.iterdir())) == 5
+    late = write_records(tmp_path / "late.txt", ("Late", WALK, write_demo(Demo(bytes(4) + bytes([2] * 9), 13.0))))
+    words: tuple[object, ...]
+    for name, words in {"keys": ("--keys",), "ghost": ("--ghost", late)}.items():
+        other = tmp_path / name
+        assert film_of(replay, "-o", other, "--from", 5, "--to", 9, "--size", "264x200", *words).exit_code == 0
+        assert all((other / f"{number:05d}.png").read_bytes() != plain[number] for number in range(5)), name
+    assert "no pictures" in str(film_of(replay, "-o", tmp_path / "none", "--from", 9000).exception)
+    spiked = write_records(tmp_path / "other.txt", ("Mine", SPIKED, running(9)))
+    assert "another level" in film_of(replay, "-o", tmp_path / "none", "--ghost", spiked).stderr
+
+
+def test_webm_has_the_size_and_the_speed_that_were_asked_for(replay: Path, tmp_path: Path) -> None:
+    av = pytest.importorskip("av")
+    film = tmp_path / "fast.webm"
+    assert film_of(replay, "-o", film, "--size", "264x200", "--speed", 2).exit_code == 0
+    with av.open(str(film)) as container:
+        pictures = list(container.decode(video=0))
+    assert (pictures[0].width, pictures[0].height) == (264, 200)
+    # 80 ticks a second are more than are shown: every second one is.
+    assert len(pictures) == (WALK_END + 1 + 40) // 2
+    assert "even px" in str(film_of(replay, "-o", film, "--size", "265x200").exception)
+
+
+def test_film_that_cannot_be_written_names_its_place(replay: Path, tmp_path: Path) -> None:
+    found = film_of(replay, "-o", tmp_path / "nowhere" / "film.gif", "--size", "132x100")
+    assert "film.gif: the film cannot be written" in str(found.exception)
+
+
+def test_failed_film_leaves_nothing(replay: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from ninja_game.formats.load import load_replays
+    from ninja_game.play.replay.film import Film, write_film
+    from ninja_game.play.replay.playback import recorded_run
+
+    run = recorded_run(load_replays(replay)[0])
+    assert not write_film(Film(run), tmp_path / "film.gif", lambda done: done < 20)
+    assert not (tmp_path / "film.gif").exists()
