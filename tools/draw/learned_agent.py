@@ -21,7 +21,8 @@ from ninja_game.learn.evaluation import EVALUATION_SEED
 from ninja_game.learn.levels import level_source
 from ninja_game.learn.sticky import StickyActions
 from ninja_game.learn.worlds import EnvWorlds
-from ninja_game.play.replay.export import film_length, film_pictures, write_gif
+from ninja_game.play.replay.film import Film, film_pictures
+from ninja_game.play.replay.film_files import write_gif
 from ninja_game.play.replay.playback import RecordedRun
 from ninja_game.play.ui.palette import palette_named
 from ninja_game.player.settings import Settings
@@ -70,9 +71,9 @@ def played(agent: PolicyAgent, name: str, seed: int) -> RecordedRun:
 
 def draw_film(agent: PolicyAgent, names: Sequence[str], path: Path) -> None:
     """Episodes of several levels, one after the other."""
-    runs = [played(agent, name, EVALUATION_SEED) for name in names]
-    pictures: Iterator[pygame.Surface] = chain.from_iterable(film_pictures(run, SIZE) for run in runs)
-    write_gif(pictures, sum(map(film_length, runs)), path, SIZE, 1.0, palette_named(Settings().palette))
+    films = [Film(played(agent, name, EVALUATION_SEED), SIZE) for name in names]
+    pictures: Iterator[pygame.Surface] = chain.from_iterable(map(film_pictures, films))
+    write_gif(pictures, sum(len(film.moments) for film in films), path, SIZE, 1.0, palette_named(Settings().palette))
 
 
 if __name__ == "__main__":
