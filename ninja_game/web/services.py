@@ -4,28 +4,34 @@ from __future__ import annotations
 
 import json
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.resources import bundled_levels
+from ninja_game.formats.links.fragment import is_link, watched
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.play.app import App
 from ninja_game.play.input.scancodes import scancode_named
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.main import first_screen, watch_screen
+from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.player.backup import read_backup, write_backup
+from ninja_game.player.settings import RULES
 from ninja_game.runs.recording_reader import Unreadable, recordings_in
 from ninja_game.runs.verify import judged, verify_recording
 
 
 class PageServices:
-    """The page's door to a running game."""
+    """The page's door to a running game. ``address``: the page's own, for links."""
 
-    def __init__(self, app: App) -> None:
+    def __init__(self, app: App, address: str) -> None:
         self.app = app
+        if app.settings.site != address and RULES["site"].fits(address):
+            app.change_settings(site=address)
 
     def state(self) -> str:
         """What is on the screen: "play" while a level runs, "level" before and after that, else "menu"."""
@@ -41,6 +47,30 @@ class PageServices:
     def notify(self, text: str) -> None:
         """Show a line below the stage."""
         self.app.notify(text)
+
+    def watched(self, fragment: str) -> list[str]:
+        """The files of this site that a link names, relative to the page. Raises LinkError."""
+        return watched(fragment)
+
+    def open_link(self, fragment: str, texts: Iterable[str]) -> str:
+        """Show what the address leads to after its #, over the main menu; "" or why not.
+
+        ``texts``: those of the files that ``watched`` gave.
+        """
+        recordings = list(texts)
+        try:
+            if not (recordings or is_link(fragment)):
+                return ""
+            first = (
+                watch_screen(recordings) if recordings else first_screen(fragment, None, body="circle", practice=False)
+            )
+            self.app.stack.clear()
+            self.app.push(first(self.app))
+        except NinjaGameError as error:
+            if not self.app.stack:
+                self.app.push(MainMenu(self.app))
+            return str(error)
+        return ""
 
     def backup(self) -> bytes:
         """All data of the player as a zip (``player.backup``). Raises FileError, OSError, sqlite3.Error."""

@@ -1,7 +1,7 @@
 // The page's own menu: full screen, the player's data as a file, verdicts on recordings.
 import { build } from "./loading.js";
 import { download } from "./storage.js";
-import { button, element } from "./trouble.js";
+import { button, element, lastLine } from "./trouble.js";
 
 const dialog = document.getElementById("panel");
 const opener = document.getElementById("panel-open");
@@ -84,8 +84,7 @@ export class Panel {
     try {
       await action();
     } catch (error) {
-      const lines = String(error.message ?? error).trim().split("\n");
-      this.tell("That did not work", lines[lines.length - 1].replace(/^[\w.]*Error: /, ""));
+      this.tell("That did not work", lastLine(error));
     }
   }
 

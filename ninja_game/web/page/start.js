@@ -5,7 +5,7 @@ import { codeOf } from "./input.js";
 import { Panel } from "./panel.js";
 import { PlayerFolder, takeTurn } from "./storage.js";
 import { Touch } from "./touch.js";
-import { button, showTrouble } from "./trouble.js";
+import { button, lastLine, showTrouble } from "./trouble.js";
 
 const PAGE_STATE_MS = 100; // how often the page looks at what the game shows
 const KEEP_AFTER_MS = 3000; // when the game runs, what the next visit needs is put aside
@@ -41,7 +41,7 @@ class Page {
     this.host = createHost(canvas);
     this.host.attach(python);
     boot.start(this.host);
-    this.services = services.PageServices(boot.app());
+    this.services = services.PageServices(boot.app(), location.href.split("#")[0]);
     this.touch = new Touch((action, down) => this.press(action, down));
     this.panel = new Panel(this);
     this.listen();
@@ -57,9 +57,14 @@ class Page {
 
   // A level or a replay in the address: opened at once. A text of a stranger: nothing but Python's own reader sees it.
   async openLink() {
-    if (location.hash.length < 2) return;
-    const message = this.services.open_link(location.href);
-    if (message) this.panel.tell("This link cannot be opened", message);
+    try {
+      const names = this.services.watched(location.hash);
+      const texts = await Promise.all([...names].map(textOf));
+      const message = this.services.open_link(location.hash, texts);
+      if (message) throw new Error(message);
+    } catch (error) {
+      this.panel.tell("This link cannot be opened", lastLine(error));
+    }
   }
 
   listen() {
@@ -130,6 +135,17 @@ class Page {
     this.host?.pause(true);
     showTrouble(error, title, advice);
   }
+}
+
+const LONGEST_TEXT = 4_000_000;
+
+// A replay that lies beside the page.
+async function textOf(name) {
+  const response = await fetch(name);
+  if (!response.ok) throw new Error(`${name}: the host answers ${response.status}`);
+  const bytes = await response.arrayBuffer();
+  if (bytes.byteLength > LONGEST_TEXT) throw new Error(`${name}: too large for a replay`);
+  return new TextDecoder().decode(bytes);
 }
 
 const page = new Page();

@@ -15,6 +15,12 @@ export function button(label, action) {
 
 export { element };
 
+// What a Python error says, without where it came from.
+export function lastLine(error) {
+  const lines = String(error.message ?? error).trim().split("\n");
+  return lines[lines.length - 1].replace(/^[\w.]*Error: /, "");
+}
+
 // `error`: anything thrown; `title` and `advice`: what to say above it.
 export function showTrouble(error, title, advice, ...more) {
   const words = `${error?.message ?? error}\n\n${error?.name === "PythonError" ? "" : (error?.stack ?? "")}`.trim();
