@@ -19,6 +19,7 @@ from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main import first_screen, watch_screen
 from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.player.backup import read_backup, write_backup
 from ninja_game.player.settings import RULES
 from ninja_game.runs.recording_reader import Unreadable, recordings_in
@@ -34,11 +35,11 @@ class PageServices:
             app.change_settings(site=address)
 
     def state(self) -> str:
-        """What is on the screen: "play" while a level runs, "level" before and after that, else "menu"."""
+        """What is on the screen: the phase of a level ("ready", "play", "dead", "passed"), "replay", else "menu"."""
         top = self.app.top if self.app.stack else None
-        if not isinstance(top, LevelScreen):
-            return "menu"
-        return "play" if top.phase is Phase.PLAY else "level"
+        if isinstance(top, LevelScreen) and top.phase is not Phase.PAUSED:
+            return str(top.phase.value)
+        return "replay" if isinstance(top, ReplayScreen) else "menu"
 
     def scancodes(self, action: str) -> list[int]:
         """The keys that mean an action, as the player has bound them."""

@@ -107,7 +107,7 @@ class Page {
 
   // A touch button is the player's first key of its action; in menus there is one key for going back.
   press(action, down) {
-    if (action === "jump" && this.state === "level") action = "confirm";
+    if (action === "jump" && this.state !== "play") action = "confirm";
     const code = action === "back" ? ESCAPE : this.services.scancodes(action)[0];
     if (code) this.host.key(codeOf(code), down);
   }
@@ -117,7 +117,7 @@ class Page {
     this.looked = now;
     const state = this.services.state();
     if (state !== this.state) {
-      this.state = state;
+      this.state = document.body.dataset.state = state;
       this.touch.release();
       this.touch.show(state);
       if (state !== "play") document.body.classList.remove("still");
@@ -149,6 +149,7 @@ async function textOf(name) {
 }
 
 const page = new Page();
+globalThis.ninjaGame = page; // for those who look into a running game
 
 function failed(error) {
   console.error(error);

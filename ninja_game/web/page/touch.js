@@ -22,7 +22,7 @@ export class Touch {
     this.show(this.shows);
   }
 
-  // What is on the screen: "play" has all zones, "end" and "menu" only buttons.
+  // What is on the screen, as of PageServices.state: each button says where it is of use.
   show(what) {
     this.shows = what;
     layer.hidden = !document.body.classList.contains("touch");
