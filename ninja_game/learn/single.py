@@ -142,11 +142,12 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
 
     def _info(self) -> dict[str, Any]:
         worlds = self.worlds
+        bits = int(worlds.events[0])
         return {
             "outcome": OUTCOME_NAMES[worlds.outcomes[0]],
             "ticks": int(worlds.ticks[0]),
             "gold": int(worlds.gold[0]),
-            "events": [name for bit, name in enumerate(EVENT_NAMES) if int(worlds.events[0]) >> bit & 1],
+            "events": [name for bit, name in enumerate(EVENT_NAMES) if bits >> bit & 1] if bits else [],
             "level": worlds.source.names[worlds.levels_now[0]],
         }
 
