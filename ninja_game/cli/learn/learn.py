@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import click
 
-from ninja_game.cli.learn import demos, train
+from ninja_game.cli.learn import demos, eval, train  # noqa: A004 - the command's name
 
 
-@click.group(commands={"demos": demos.command, "train": train.command})
+@click.group(commands={"demos": demos.command, "train": train.command, "eval": eval.command})
 def command() -> None:
     """Make demonstrations for learning agents, train agents, and measure them.
 
@@ -17,4 +17,5 @@ def command() -> None:
     Examples:
       ninja-game learn demos levels/certificates -o demos.npz
       ninja-game learn train --seconds 300
+      ninja-game learn eval random --levels 00-0-first-steps
     """
