@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from click.testing import CliRunner
 from ninja_game.cli.main import cli
 from ninja_game.environments import ENVIRONMENTS
 from ninja_game.files.resources import data_folder
+from ninja_game.learn.observations.observation import PARTS
 from ninja_game.learn.rewards import REWARD_TERMS
 
 DOC = (Path(__file__).resolve().parents[2] / "docs" / "learning.md").read_text("utf-8")
@@ -38,6 +40,18 @@ def test_a_command_of_the_page_does_what_it_says(line: str, tmp_path: Path, monk
     result = CliRunner().invoke(cli, words)
     assert result.exit_code == 0, result.output
     assert result.stdout
+
+
+def test_the_page_tells_every_part_of_an_observation_with_its_arguments_and_shape() -> None:
+    section = DOC.partition("## Observations")[2].partition("\n## ")[0]
+    rows = re.findall(r"^\| `\"(\w+)\"` \| `(\w+)\((.*?)\)` \| \((.*?)\) (\w+) \|", section, re.MULTILINE)
+    assert {row[0] for row in rows} == set(PARTS)
+    for name, kind, arguments, shape, dtype in rows:
+        part = PARTS[name]()
+        own = {field.name: field.default for field in fields(part) if field.name != "normalised"}
+        told = [f"{key}={'…' if isinstance(value, tuple) else repr(value)}" for key, value in own.items()]
+        assert (kind, arguments) == (type(part).__name__, ", ".join(told))
+        assert (shape.strip(","), dtype) == (", ".join(map(str, part.box.shape)), str(part.box.dtype))
 
 
 def test_the_page_tells_every_reward() -> None:
