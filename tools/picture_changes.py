@@ -97,8 +97,8 @@ CHANGES = (
     Change("boss-figures", "menus/boss.py", "str(sum(figures))", '""'),
     Change("panel-veil", "menus/panels.py", "veil.a = 130", "veil.a = 0"),
     # Letters, colours.
-    Change("letter-spacing", "ui/stroke_font.py", "_SPACING = 1.18", "_SPACING = 0.6"),
-    Change("bold", "ui/stroke_font.py", "_WEIGHTS = (0.95, 1.42)", "_WEIGHTS = (0.95, 0.95)"),
+    Change("letter-spacing", "ui/stroke_font.py", "SPACING = 1.18", "SPACING = 0.6"),
+    Change("bold", "ui/stroke_font.py", "WEIGHTS = (0.95, 1.42)", "WEIGHTS = (0.95, 0.95)"),
     Change("accents", "ui/stroke_font.py", "    for mark in marks:", "    for mark in ():"),
     Change("faint-unreadable", "ui/palette.py", 'text="#17171c", faint="#62626f"', 'text="#17171c", faint="#a2a2af"'),
 )  # fmt: skip

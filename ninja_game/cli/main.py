@@ -39,6 +39,7 @@ GROUPS = {
     "runs": {
         "record": "Run inputs that a person wrote, and write what comes of them.",
         "verify": "Run recordings again and judge them.",
+        "board": "Rank the runs of a folder, all simulated again: tables, pages, checks.",
         "trace": "Show every tick of recordings: position, velocity, state, events.",
         "splits": "Show when runs take gold, open doors and the exit, and end.",
         "compare": "Compare two runs of a level: where they part, and how far one is ahead.",
@@ -60,7 +61,8 @@ MODULES = {
 }
 
 COMPILING = (
-    "verify", "trace", "splits", "compare", "bench", "solve", "improve", "check", "levels", "generate", "learn",
+    "verify", "board", "trace", "splits", "compare", "bench", "solve", "improve", "check", "levels", "generate",
+    "learn",
 )  # fmt: skip
 """Those that may have to compile the rules first."""
 

@@ -19,6 +19,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field, replace
 from functools import partial
 from hashlib import sha256
+from itertools import chain
 from pathlib import Path
 from typing import IO, Any, TypeAlias
 
@@ -61,8 +62,11 @@ def verify_all(
     resume: Path | None = None,
     levels: Sequence[NamedLevel] = (),
     strict: bool = False,
+    chunks: Iterable[Chunk] = (),
 ) -> Iterator[Result]:
-    """A verdict on every recording in files and folders, in order; what cannot be read is said and stops nothing.
+    """A verdict on every recording in files and folders, then in ``chunks``, in order.
+
+    What cannot be read is said and stops nothing.
 
     ``jobs``: how many run at a time, by default as many as there are cores. ``processes``: on processes instead of
     threads; by default where the interpreter's lock would be in the way, on the plain memory. ``cluster``: address of a
@@ -76,7 +80,7 @@ def verify_all(
     counting = levels or [level for path in bundled_levels() for level in load_levels(path)]
     names = {level_digest(each.level): each.name or f"{each.file}:{each.record}" for each in counting}
     level = levels[0].level if len(levels) == 1 else None
-    for result in _verify_all(paths, memory, level, jobs, processes, cluster, resume):
+    for result in _verify_all(chain(chunks_in(paths), chunks), memory, level, jobs, processes, cluster, resume):
         if isinstance(result, Unreadable):
             yield result
         else:
@@ -84,7 +88,7 @@ def verify_all(
 
 
 def _verify_all(
-    paths: Iterable[Path],
+    chunks: Iterable[Chunk],
     memory: str,
     level: Level | None,
     jobs: int | None,
@@ -97,7 +101,6 @@ def _verify_all(
         processes = memory == "both" or choose_memory(memory) == "plain"
     with ExitStack() as stack:
         log = stack.enter_context(CheckpointLog(resume)) if resume else None
-        chunks = chunks_in(paths)
         if cluster or log:
             chunks = map(self_contained, chunks)
         context = f"{memory == 'both'} {level_digest(level) if level else ''} "
@@ -109,7 +112,7 @@ def _verify_all(
             yield from _record_results(zip([first], [_verify(memory, level, first)], strict=True), log)
             return
         pool: Workers = stack.enter_context(workers(jobs or cores(), processes=processes, cluster=cluster))
-        all_jobs = _chain(first, second, batches)
+        all_jobs = chain(filter(None, (first, second)), batches)
         try:
             if cluster:
                 text = write_level_string(level, exact=True) if level else ""
@@ -123,12 +126,6 @@ def _verify_all(
                 raise
             hint = f"; --resume {resume} goes on where this stopped" if resume else ""
             raise ClusterError(f"the scheduler at {cluster} is gone ({type(error).__name__}){hint}") from None
-
-
-def _chain(first: Job, second: Job, rest: Iterator[Job]) -> Iterator[Job]:
-    """All jobs that have chunks."""
-    yield from filter(None, (first, second))
-    yield from rest
 
 
 def batched(chunks: Iterable[Chunk], log: CheckpointLog | None, context: str = "") -> Iterator[Job]:

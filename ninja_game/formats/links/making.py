@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
-from ninja_game.errors import LinkError
+from ninja_game.errors import FormatError, LinkError
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.links.fragment import PLACE, Kind, Link, read_link, write_link
 from ninja_game.formats.n14.level_file import write_level_file
@@ -87,21 +87,29 @@ def linked_texts(link: str | Path, *kinds: Kind) -> tuple[str, ...]:
     found: Link = read_link(link)
     if found.kind not in kinds:
         raise LinkError(f"a link of a {found.kind}", PLACE, expected=f"one of a {' or '.join(kinds)}")
-    for text in found.texts:
-        _check_whole(text)
-    return found.texts
+    return tuple(map(_whole, found.texts))
 
 
 def recordings_of(texts: Iterable[str]) -> list[Recording]:
     """The recordings in texts from elsewhere, which hold their levels. Raises LinkError, ReplayError, LevelError."""
     found = []
     for text in texts:
-        _check_whole(text)
-        found += parse_replays(text, file=PLACE)
+        found += parse_replays(_whole(text), file=PLACE)
     return found
 
 
-def _check_whole(text: str) -> None:
-    """Raise LinkError for a replay without its level: a path in a text from elsewhere must not be tried."""
-    if is_replay(text) and parse_replay(text, file=PLACE).level is None:
+def _whole(text: str) -> str:
+    """A text from elsewhere; a replay as it is written when nothing in it leads to a file. Raises LinkError, ReplayError.
+
+    Without the name of a file its inputs take in no other files, and with its level inside no path is tried.
+    """
+    if not is_replay(text):
+        return text
+    try:
+        replay = parse_replay(text)
+    except FormatError as error:
+        error.file = PLACE
+        raise
+    if replay.level is None:
         raise LinkError("a replay without its level", PLACE, hint="record it with its level inside")
+    return write_replay(replace(replay, level_path="", level_record=0))

@@ -21,9 +21,9 @@ HEIGHT = 1.08
 """Height of a line of text for letters of size 1; capitals are 0.675 of the size."""
 _CAP_SHARE = 0.675
 _TOP = 0.1
-_WEIGHTS = (0.95, 1.42)
+WEIGHTS = (0.95, 1.42)
 """Width of the strokes of plain and bold letters, on the glyphs' grid."""
-_SPACING = 1.18
+SPACING = 1.18
 """Free space between two letters, on the grid, stroke ends not counted."""
 _FINE = 4
 _LOWERED = 0.8
@@ -110,7 +110,7 @@ class StrokeFont:
 
     def __init__(self, size: float, *, bold: bool) -> None:
         self._unit = size * _CAP_SHARE / CAP
-        self._weight = _WEIGHTS[bold]
+        self._weight = WEIGHTS[bold]
         self.height = max(1, ceil(size * HEIGHT))
         self._baseline_top = _TOP * size
         self._pad = self._weight / 2 * self._unit + 1
@@ -119,7 +119,7 @@ class StrokeFont:
 
     def _advance(self, letter: Glyph) -> float:
         """From one letter to the next, px."""
-        return (letter.width + _SPACING + self._weight) * self._unit
+        return (letter.width + SPACING + self._weight) * self._unit
 
     def width(self, text: str) -> int:
         """Width of a text, px."""
@@ -128,7 +128,7 @@ class StrokeFont:
         letters = [glyph(character) for character in text]
         if None in letters:
             return self._fallback.size(text)[0] + 2
-        return ceil(sum(self._advance(letter) for letter in letters if letter) - _SPACING * self._unit + 2)
+        return ceil(sum(self._advance(letter) for letter in letters if letter) - SPACING * self._unit + 2)
 
     def _picture(self, character: str, letter: Glyph, colour: pygame.Color, phase: int) -> pygame.Surface:
         """A letter on a sheet of its own, its origin ``phase`` quarters of a px beside ``_pad`` px from the left."""

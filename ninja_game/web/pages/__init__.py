@@ -1,0 +1,1 @@
+"""Static pages: markup that escapes, the frame of every page, the gallery of levels."""

@@ -1,0 +1,110 @@
+"""The levels that pages show: those of a pack with episodes, par times and certificates, or of any file or folder."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from hashlib import sha256
+from io import BytesIO
+from pathlib import Path
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.formats.links.fragment import write_watch
+from ninja_game.formats.load import load_levels
+from ninja_game.formats.pack.files import is_pack
+from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.recording import Recording, parse_replays
+from ninja_game.formats.replay.text import Replay, write_replay
+from ninja_game.play.ui.palette import CLASSIC
+from ninja_game.player.catalogue import Entry, EpisodeSet, episode_set
+from ninja_game.sim.level import Level
+
+PICTURE_WIDTH = 792
+CERTIFICATES = ("exit", "gold")
+
+
+@dataclass(frozen=True)
+class Exhibition:
+    """Levels with what is known of them. ``runs``: by level digest the certificates there are, "exit" or "gold"."""
+
+    name: str
+    author: str
+    comment: str
+    levels: EpisodeSet
+    runs: Mapping[str, Mapping[str, Recording]] = field(default_factory=dict)
+
+    @cached_property
+    def entries(self) -> dict[str, Entry]:
+        """The levels by digest, in playing order; of equal ones the first."""
+        found: dict[str, Entry] = {}
+        for entry in self.levels.levels:
+            found.setdefault(entry.digest, entry)
+        return found
+
+
+def exhibition(path: Path) -> Exhibition:
+    """The levels of a pack, or of any file or folder. Raises NinjaGameError, OSError."""
+    if not is_pack(path):
+        entries = tuple(Entry(level, "yours") for level in load_levels(path))
+        return Exhibition(path.stem, "", "", EpisodeSet("", path.stem, (), {}, entries))
+    pack = Pack(path)
+    levels = episode_set(pack, "")
+    runs = {entry.digest: _certificates(pack, entry) for entry in levels.levels}
+    return Exhibition(pack.name, pack.index.author, pack.index.comment, levels, runs)
+
+
+def _certificates(pack: Pack, entry: Entry) -> dict[str, Recording]:
+    found = {}
+    for kind in CERTIFICATES:
+        name = pack.certificate(Path(entry.named.file).name, kind)
+        if name is not None:
+            try:
+                (found[kind],) = parse_replays(pack.files.text(name), level=entry.named.level)
+            except NinjaGameError:
+                # `levels lint` tells what is wrong with it; the page does without.
+                continue
+    return found
+
+
+def page_name(digest: str) -> str:
+    """The file of a level's page."""
+    return f"levels/{digest[:16]}.html"
+
+
+def picture_name(digest: str) -> str:
+    """The file of a level's picture."""
+    return f"pictures/{digest[:16]}.png"
+
+
+def picture(level: Level, width: int = PICTURE_WIDTH) -> bytes:
+    """The level as a PNG, as the game draws it; colours are reduced, so that it is small."""
+    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+    import pygame
+    from PIL import Image
+
+    from ninja_game.play.view.sprites.thumbnail import thumbnail
+
+    surface = thumbnail(level, CLASSIC, width)
+    image = Image.frombytes("RGB", surface.get_size(), pygame.image.tobytes(surface, "RGB"))
+    out = BytesIO()
+    image.quantize(128, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE).save(out, "png")
+    return out.getvalue()
+
+
+def shared_text(replay: Replay, level: Level) -> str:
+    """A replay as the page fetches it: its level inside, no path, no waypoints, nothing that is only claimed."""
+    return write_replay(
+        replace(replay, level=level, level_path="", level_record=0, level_digest="", digest="", waypoints=())
+    )
+
+
+def shared_name(text: str) -> str:
+    """The stem of the file in ``replays`` that holds a text."""
+    return sha256(text.encode()).hexdigest()[:16]
+
+
+def watch_address(game: str, *stems: str) -> str:
+    """Where runs are watched: ``game`` is the address of the page with the game."""
+    return game + write_watch(stems)

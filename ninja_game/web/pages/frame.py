@@ -1,0 +1,167 @@
+"""What all pages share: the frame, the style, headings in the game's own letters, the folder they are written to."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import pygame
+
+from ninja_game.errors import FileError
+from ninja_game.files.shown_text import shown_text
+from ninja_game.play.ui.glyphs import CAP
+from ninja_game.play.ui.palette import PALETTES, Palette, mixed
+from ninja_game.play.ui.stroke_font import SPACING, WEIGHTS, glyph
+from ninja_game.web.pages.html import Content, Markup, joined, tag
+
+POLICY = "default-src 'none'; img-src 'self'; style-src 'self'; script-src 'self'; base-uri 'none'; form-action 'none'"
+"""The content security policy of every page: nothing from elsewhere, no script or style within the page."""
+
+STYLE, SCRIPT = "style.css", "search.js"
+MARK = ".ninja-game-pages"
+"""A file in a folder of pages, which says that they may be replaced."""
+
+_INK_ROLES = (
+    "background",
+    "tile",
+    "text",
+    "on_tile",
+    "panel",
+    "panel_edge",
+    "accent",
+    "good",
+    "bad",
+    "gold",
+    "gold_light",
+)
+_FAINT = 0.35
+"""How far small text goes from the palette's ink to its faint one: enough contrast for small letters."""
+_FRAME = 0.4
+"""How much darker than a tile the frame round a page is: letters stand on it."""
+_LONGEST_HEADING = 30
+_LONGEST_LINE = 24
+"""Characters of a cell that stay in one line."""
+
+
+class Pages:
+    """A folder of pages. Raises FileError where it holds something that was not made here."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        if folder.exists() and (not folder.is_dir() or (any(folder.iterdir()) and not (folder / MARK).is_file())):
+            raise FileError("not a folder of pages made here", str(folder), hint="empty it, or choose another one")
+        here = Path(__file__).parent
+        self.write(MARK, "made by ninja-game\n")
+        self.write(STYLE, "\n".join((_colours(), (here / STYLE).read_text("utf-8"))))
+        self.write(SCRIPT, (here / SCRIPT).read_text("utf-8"))
+
+    def write(self, name: str, content: str | bytes) -> None:
+        """A file of the folder, below it or beside it; what was there is replaced: pages can always be made anew."""
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content if isinstance(content, bytes) else content.encode("utf-8", "replace"))
+
+    def clear(self, below: str) -> None:
+        """Remove the pages of an earlier time from a folder of it."""
+        for path in sorted((self.folder / below).glob("*")):
+            if path.is_file() and not path.is_symlink():
+                path.unlink()
+
+
+def page(title: str, *contents: Content, up: str = "", links: Iterable[tuple[str, str]] = ()) -> str:
+    """A whole page. ``up``: the way to the folder of the pages; ``links``: addresses and names that stand above."""
+    head = tag(
+        "head",
+        tag("meta", charset="utf-8"),
+        tag("meta", http_equiv="Content-Security-Policy", content=POLICY),
+        tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
+        tag("meta", name="referrer", content="no-referrer"),
+        tag("title", f"{title} - ninja-game"),
+        tag("link", rel="stylesheet", href=f"{up}{STYLE}"),
+        tag("script", src=f"{up}{SCRIPT}", defer=True),
+    )
+    entries = [tag("li", tag("a", name, href=address)) for address, name in links]
+    body = tag(
+        "body",
+        tag("a", "To the content", href="#content", class_="skip"),
+        tag("header", tag("nav", tag("ul", *entries), aria_label="Pages"), heading(title)),
+        tag("main", *contents, id="content", tabindex="-1"),
+    )
+    return f"<!doctype html>\n{tag('html', head, body, lang='en')}\n"
+
+
+def heading(text: str) -> Markup:
+    """The heading of a page in the game's own letters; plain where they are not enough."""
+    shown = shown_text(text)
+    glyphs = [glyph(character) for character in shown]
+    if not 0 < len(shown) <= _LONGEST_HEADING or None in glyphs:
+        return tag("h1", text)
+    x, moves = 1.0, []
+    for letter in glyphs:
+        for line in letter.lines if letter else ():
+            points = [f"{x + left:.2f} {top + 3:.2f}" for left, top in line]
+            moves.append("M" + "L".join(points if len(points) > 1 else points * 2))
+        x += (letter.width if letter else 0.0) + SPACING + WEIGHTS[1]
+    strokes = tag("path", d="".join(moves), fill="none", stroke="currentColor", stroke_width=str(WEIGHTS[1]),
+                  stroke_linecap="round", stroke_linejoin="round")  # fmt: skip
+    box = f"0 0 {x:.1f} {CAP + 7:.1f}"
+    picture = tag("svg", strokes, viewbox=box, aria_hidden="true", height=str(round(30 * (CAP + 7) / CAP)))
+    return tag("h1", Markup(picture.replace("viewbox", "viewBox")), tag("span", shown, class_="hidden"))
+
+
+def _colours() -> str:
+    """The palettes as custom properties: the classic one, and the dark one for who prefers it."""
+    dark = f"@media (prefers-color-scheme: dark) {{ {_root(PALETTES['dark'])} }}"
+    return f"{_root(PALETTES['classic'])}\n{dark}"
+
+
+def _root(palette: Palette) -> str:
+    inks = {role.replace("_", "-"): getattr(palette, role) for role in _INK_ROLES}
+    inks["faint"] = mixed(palette.text, palette.faint, _FAINT)
+    inks["link"] = mixed(palette.accent, palette.text, 0.25)
+    inks["frame"] = mixed(palette.tile, palette.outline, _FRAME)
+    inks["on-accent"] = max(
+        (palette.background, palette.text, palette.on_tile), key=lambda ink: contrast(ink, palette.accent)
+    )
+    return f":root {{ {' '.join(f'--{role}: #{ink.r:02x}{ink.g:02x}{ink.b:02x};' for role, ink in inks.items())} }}"
+
+
+def contrast(ink: pygame.Color, ground: pygame.Color) -> float:
+    """The contrast of two colours, 1 to 21 (WCAG 2.2, contrast ratio).
+
+    >>> round(contrast(pygame.Color("white"), pygame.Color("black")))
+    21
+    """
+    high, low = sorted((_luminance(ink), _luminance(ground)), reverse=True)
+    return (high + 0.05) / (low + 0.05)
+
+
+def _luminance(colour: pygame.Color) -> float:
+    """Relative luminance, 0 to 1 (WCAG 2.2)."""
+    parts = [part / 255 for part in (colour.r, colour.g, colour.b)]
+    red, green, blue = (part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4 for part in parts)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+
+def definitions(pairs: Iterable[tuple[str, Content]]) -> Markup:
+    """A list of names and values."""
+    return tag("dl", *(tag("div", tag("dt", name), tag("dd", value)) for name, value in pairs))
+
+
+def table(caption: str, heads: Iterable[str], rows: Iterable[Iterable[Content]]) -> Markup:
+    """A table with its caption; it scrolls by itself where it is too wide."""
+    head = tag("tr", *(tag("th", each, scope="col") for each in heads))
+    lines = [tag("tr", *(tag("td", _wrapping(cell)) for cell in row)) for row in rows]
+    whole = tag("table", tag("caption", caption), tag("thead", head), tag("tbody", *lines))
+    return tag("div", whole, class_="wide", tabindex="0", role="region", aria_label=caption)
+
+
+def _wrapping(cell: Content) -> Content:
+    """A cell that breaks its lines if it is long."""
+    long = isinstance(cell, str) and not isinstance(cell, Markup) and len(cell) > _LONGEST_LINE
+    return tag("span", cell, class_="text") if long else cell
+
+
+def section(title: str, *contents: Content) -> Markup:
+    """A part of a page with its heading."""
+    return tag("section", tag("h2", title), joined(*contents))

@@ -1,0 +1,98 @@
+"""The gallery: all levels with their pictures, to be searched, and a page for each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+from ninja_game.player.catalogue import Entry
+from ninja_game.player.scoring import seconds_text
+from ninja_game.web.pages.exhibition import Exhibition, page_name, picture, picture_name
+from ninja_game.web.pages.frame import Pages, page
+from ninja_game.web.pages.html import Content, Markup, joined, tag
+from ninja_game.web.pages.level_page import level_image, level_page
+
+FOLDER, REPLAYS = "gallery", "replays"
+"""Folders of a site: the gallery's pages, and the replays that pages lead to."""
+
+SORTS = (("", "in playing order"), ("name", "by name"), ("difficulty", "by difficulty"), ("par", "by par time"))
+
+Links = Sequence[tuple[str, str]]
+
+
+def write_gallery(out: Path, shown: Exhibition, *, game: str = "index.html") -> Path:
+    """Write ``out/gallery/`` and the certificates into ``out/replays/``; the gallery's first page.
+
+    ``game``: name of the page with the game in ``out``. Raises FileError where ``out/gallery`` holds something else.
+    """
+    pages = Pages(out / FOLDER)
+    write_levels(pages, shown, f"../{game}", "index.html", [(f"../{game}", "Play")])
+    return pages.folder / "index.html"
+
+
+def write_levels(
+    pages: Pages, shown: Exhibition, game: str, name: str, links: Links, more: Callable[[Entry], Content] | None = None
+) -> None:
+    """Write pictures, level pages and their list into a folder of pages.
+
+    ``game``: address of the page with the game, as seen from the list; ``name``: file of the list; ``links``: what
+    stands above every page, addresses as seen from the list; ``more``: what a level's page has besides.
+    """
+    pages.clear("levels")
+    pages.clear("pictures")
+    deeper = [(f"../{address}", title) for address, title in (*links, (name, "Levels"))]
+    for digest, entry in shown.entries.items():
+        pages.write(picture_name(digest), picture(entry.named.level))
+        text, replays = level_page(
+            entry, shown.runs.get(digest, {}), f"../{game}", deeper, more(entry) if more else None
+        )
+        pages.write(page_name(digest), text)
+        for stem, replay in replays.items():
+            pages.write(f"../{REPLAYS}/{stem}.txt", replay)
+    pages.write(name, page("Levels", *_list(shown), links=links))
+
+
+def _list(shown: Exhibition) -> list[Content]:
+    """The list of levels with its search, which only a script makes visible."""
+    count = len(shown.entries)
+    lead = f"{shown.name}{f' by {shown.author}' if shown.author else ''}: {count} level{'s' * (count != 1)}."
+    cards = tag("ul", *(_card(entry, place) for place, entry in enumerate(shown.entries.values())), class_="cards")
+    comment = tag("p", shown.comment) if shown.comment else None
+    return [tag("p", lead, class_="lead"), comment, search(_episodes(shown)), cards]
+
+
+def _episodes(shown: Exhibition) -> Mapping[str, str]:
+    """Numbers and names of the episodes."""
+    return {f"{number:02d}": f"{number}: {each.name}" for number, each in sorted(shown.levels.episodes.items())}
+
+
+def search(episodes: Mapping[str, str], *, sorts: Sequence[tuple[str, str]] = SORTS) -> Markup:
+    """The search above a list; without a script it does not show."""
+    options = [tag("option", name, value=value) for value, name in sorts]
+    chosen = [tag("option", name, value=value) for value, name in episodes.items()]
+    select = tag("label", "Episode ", tag("select", tag("option", "all", value=""), *chosen, name="episode"))
+    sort = tag("label", "Sort ", tag("select", *options, name="sort"))
+    field = tag("label", "Search ", tag("input", type="search", name="words", autocomplete="off"))
+    found = tag("p", role="status", class_="found")
+    fields = (field, select if episodes else None, sort if sorts else None, found)
+    return tag("form", *fields, class_="search", role="search", hidden=True)
+
+
+def _card(entry: Entry, place: int) -> Markup:
+    """A level in the list."""
+    pars = entry.pars
+    facts: list[Content] = [tag("span", f"by {entry.named.author}" if entry.named.author else "author unknown")]
+    if pars:
+        facts.append(tag("span", f"gold medal {seconds_text(pars.par('gold'))} s"))
+    hard = f"{pars.difficulty:.1f}" if pars and pars.difficulty is not None else ""
+    if hard:
+        facts.append(tag("span", f"difficulty {hard}"))
+    name = tag("a", entry.title, href=page_name(entry.digest))
+    number = tag("span", entry.episode, class_="number") if entry.episode else None
+    words = f"{entry.title} {entry.named.author} {entry.named.comment} {entry.episode}".casefold()
+    return tag(
+        "li", level_image(entry, lazy=True), tag("h2", number, joined(" ") if number else None, name),
+        tag("p", *facts, class_="facts"), class_="card",
+        data_words=words, data_episode=entry.episode[:2], data_place=place, data_name=entry.title.casefold(),
+        data_difficulty=hard or None, data_par=pars.exit if pars else None,
+    )  # fmt: skip
