@@ -39,7 +39,6 @@ GROUPS = {
     "runs": {
         "record": "Run inputs that a person wrote, and write what comes of them.",
         "verify": "Run recordings again and judge them.",
-        "board": "Rank the runs of a folder, all simulated again: tables, pages, checks.",
         "trace": "Show every tick of recordings: position, velocity, state, events.",
         "splits": "Show when runs take gold, open doors and the exit, and end.",
         "compare": "Compare two runs of a level: where they part, and how far one is ahead.",
@@ -49,6 +48,7 @@ GROUPS = {
     },
     "web": {
         "site": "Build the game as a page in a browser: a folder for any static host.",
+        "board": "Rank the runs of a folder, all simulated again: tables, pages, checks.",
     },
     "learn": {"learn": "Make demonstrations for learning agents, train agents, and measure them."},
     "": {"completion": "Set up completion of commands and options in your shell."},

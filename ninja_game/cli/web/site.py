@@ -22,8 +22,8 @@ def command(out: Path | None, pyodide: Path | None, serve: bool, port: int) -> N
     """Build the game as a page in a browser: a folder for any static host.
 
     OUT is a new folder, or one that this command has made, which it brings up to date; with --serve it may be left
-    out. Nothing in the folder needs a program on the host, and the page loads nothing from elsewhere. docs/browser.md
-    says how to put it online.
+    out. Nothing in the folder needs a program on the host, and the page loads nothing from elsewhere. Beside the page
+    lies a gallery of the levels. docs/browser.md says how to put it online.
 
     \b
     Examples:
@@ -36,6 +36,9 @@ def command(out: Path | None, pyodide: Path | None, serve: bool, port: int) -> N
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from platformdirs import user_cache_path
 
+    from ninja_game.files.resources import data_folder
+    from ninja_game.web.pages.exhibition import exhibition
+    from ninja_game.web.pages.gallery import write_gallery
     from ninja_game.web.site.build import build_site
 
     cache = user_cache_path("ninja-game", appauthor=False)
@@ -46,6 +49,8 @@ def command(out: Path | None, pyodide: Path | None, serve: bool, port: int) -> N
             click.echo(f"{file.name:<28} {file.size:>11,} bytes, {file.compressed:>10,} compressed by gzip")
     size, compressed = sum(file.size for file in files), sum(file.compressed for file in files)
     click.echo(f"{f'{folder}: {len(files)} files':<28} {size:>11,} bytes, {compressed:>10,} compressed by gzip")
+    gallery = write_gallery(folder, exhibition(data_folder("levels")))
+    click.echo(f"{gallery}: pictures and pages of the game's levels")
     if serve:
         _serve(folder, port)
 

@@ -99,7 +99,7 @@ def recordings_of(texts: Iterable[str]) -> list[Recording]:
 
 
 def _whole(text: str) -> str:
-    """A text from elsewhere; a replay as it is written when nothing in it leads to a file. Raises LinkError, ReplayError.
+    """A text from elsewhere; a replay in a form in which nothing leads to a file. Raises LinkError, ReplayError.
 
     Without the name of a file its inputs take in no other files, and with its level inside no path is tried.
     """

@@ -34,7 +34,7 @@ def command(
     ctx: click.Context, folder: Path, levels: Path | None, site: Path | None, data: Path | None, check: Path | None,
     jobs: int | None,
 ) -> None:  # fmt: skip
-    """Rank the runs of a folder, all simulated again.
+    """Rank the runs of a folder, all simulated again: tables, pages, checks.
 
     FOLDER holds replays, as people send them to a repository; nothing in them is believed but the inputs. Runs on
     other levels, with another body, under other rules, practice runs, copies and whatever says something that is not

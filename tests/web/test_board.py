@@ -1,0 +1,393 @@
+"""The board: only inputs are believed, all else is refused or shown as what it is, and no text becomes markup."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from ninja_game.cli.main import cli
+from ninja_game.errors import FileError
+from ninja_game.files.resources import bundled_replays, data_folder
+from ninja_game.formats.ascii.writer import write_ascii_level
+from ninja_game.formats.n14.level_string import level_digest, parse_level_string
+from ninja_game.formats.replay.text import parse_replay, write_replay
+from ninja_game.web.board.collect import MOST_RECORDS
+from ninja_game.web.board.pages import BoardPages
+from ninja_game.web.board.ranking import FASTEST, HIGHEST, Ranking
+from ninja_game.web.board.runs import Judged, judge
+from ninja_game.web.pages.exhibition import exhibition
+from ninja_game.web.pages.frame import POLICY
+from tests.support.forgeries import FORGERIES, GOLD_LATER, WALKING, record, replay
+from tests.support.samples import SPIKED, WALK, WALK_END
+
+DIGEST = level_digest(parse_level_string(WALK))
+HOSTILE = "<script>document.title='owned'</script><img src=x onerror=\"document.title='owned'\">\"'`&amp;\u202e"
+
+
+@pytest.fixture
+def levels(tmp_path: Path) -> Path:
+    """Three levels that count, as a pack with an episode, one of them with a hostile name."""
+    folder = tmp_path / "levels"
+    folder.mkdir()
+    for number, (string, name) in enumerate(((WALK, "Walk"), (SPIKED, "Spiked"), (GOLD_LATER, HOSTILE))):
+        text = write_ascii_level(parse_level_string(string), name=name, author=HOSTILE, comment=HOSTILE)
+        (folder / f"00-{number}-level.txt").write_text(text, "utf-8")
+    (folder / "pack.toml").write_text(
+        f'name = {json.dumps(HOSTILE)}\n[[episode]]\nnumber = 0\nname = {json.dumps(HOSTILE)}\n'
+        'levels = ["00-0-level.txt"]\n', "utf-8",
+    )  # fmt: skip
+    return folder
+
+
+@pytest.fixture
+def runs(tmp_path: Path) -> Path:
+    folder = tmp_path / "runs"
+    folder.mkdir()
+    return folder
+
+
+def put(folder: Path, name: str, text: str, *, day: int = 1) -> Path:
+    path = folder / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, "utf-8")
+    os.utime(path, (86_400 * day, 86_400 * day))
+    return path
+
+
+def judged(folder: Path, levels: Path) -> Judged:
+    return judge(folder, exhibition(levels), jobs=1)
+
+
+def slow_walk(wait: int = 5, *, author: str) -> str:
+    """The walk, begun some ticks later."""
+    return replay(bytes(wait) + WALKING + b"\2", author=author)
+
+
+def why(folder: Path, levels: Path) -> str:
+    found = judged(folder, levels)
+    assert found.runs == ()
+    return " ".join(f"{each.kind} {each.why}" for each in found.apart)
+
+
+# --- what counts ---
+
+
+def test_runs_are_ranked_by_what_the_simulation_says(runs: Path, levels: Path) -> None:
+    put(runs, "b/slow.txt", slow_walk(author="Bea"), day=1)
+    put(runs, "a/fast.txt", replay(author="Ann"), day=2)
+    put(runs, "c/record.txt", record(bytes(2) + WALKING), day=3)
+    ranking = Ranking(judged(runs, levels), exhibition(levels))
+    table = ranking.tables[DIGEST][FASTEST]
+    assert [(each.place, each.run.player, each.run.tick) for each in table] == [
+        (1, "Ann", WALK_END), (2, "me", WALK_END + 2), (3, "Bea", WALK_END + 5),
+    ]  # fmt: skip
+    assert [each.run.score for each in ranking.tables[DIGEST][HIGHEST]] == [
+        3600 + 80 - WALK_END - late for late in (0, 2, 5)
+    ]
+    assert [(each.kind, each.run.player) for each in ranking.records] == [
+        (HIGHEST, "Ann"), (FASTEST, "Ann"), (HIGHEST, "Bea"), (FASTEST, "Bea"),
+    ]  # fmt: skip
+    assert [(each.player, each.levels) for each in ranking.standings] == [("Ann", 1), ("Bea", 1), ("me", 1)]
+    (episode,) = ranking.shown.levels.episodes.values()
+    assert ranking.episode(episode)[0][:2] == ("Ann", WALK_END)
+
+
+def test_medals_follow_from_the_par_times(runs: Path) -> None:
+    certificates = [path for path in bundled_replays() if ".exit." in path.name][:3]
+    for path in certificates:
+        put(runs, path.name, path.read_text("utf-8"))
+    pack = exhibition(data_folder("levels")) if data_folder("levels").is_dir() else pytest.skip("no levels")
+    ranking = Ranking(judge(runs, pack, jobs=1), pack)
+    assert ranking.standings[0].medals["author"] == len(certificates)
+
+
+def test_a_player_has_one_row_a_table_the_best_one(runs: Path, levels: Path) -> None:
+    for wait in (7, 3, 5):
+        put(runs, f"{wait}.txt", slow_walk(wait, author=" Ann  "))
+    ranking = Ranking(judged(runs, levels), exhibition(levels))
+    assert [(each.run.player, each.run.tick) for each in ranking.tables[DIGEST][FASTEST]] == [("Ann", WALK_END + 3)]
+
+
+def test_a_replay_may_leave_out_a_level_that_counts(runs: Path, levels: Path) -> None:
+    parsed = parse_replay(replay(author="Ann"))
+    put(runs, "a.txt", write_replay(replace(parsed, level=None, level_digest=DIGEST)))
+    assert len(judged(runs, levels).runs) == 1
+    put(runs, "a.txt", write_replay(replace(parsed, level=None, level_digest="0" * 64)))
+    assert "holds no level" in why(runs, levels)
+
+
+def test_dates_are_those_of_the_repository(runs: Path, levels: Path) -> None:
+    def git(*words: str, date: str = "") -> None:
+        env = os.environ | {"GIT_COMMITTER_DATE": date, "GIT_AUTHOR_DATE": date, "GIT_CONFIG_GLOBAL": os.devnull}
+        person = ("-c", "user.name=me", "-c", "user.email=me@example.org")
+        subprocess.run(["git", *person, "-C", str(runs), *words], check=True, capture_output=True, env=env)
+
+    git("init", "-q")
+    put(runs, "second.txt", replay(author="Ann"), day=1)
+    git("add", ".")
+    git("commit", "-qm", "one", date="2026-02-03T04:05:06Z")
+    put(runs, "x/first.txt", slow_walk(author="Bea"), day=1)
+    put(runs, "second.txt", replay(author="Ann") + "\n", day=9)
+    git("add", ".")
+    git("commit", "-qm", "two", date="2026-01-01T00:00:00Z")
+    put(runs, "new.txt", slow_walk(9, author="Cid"), day=3)
+    found = {run.player: run.added for run in judged(runs, levels).runs}
+    assert found == {"Ann": 1770091506, "Bea": 1767225600, "Cid": 3 * 86_400}
+
+
+# --- what does not ---
+
+
+@pytest.mark.parametrize("name", FORGERIES)
+def test_a_forgery_is_refused_with_its_reason(name: str, runs: Path, levels: Path) -> None:
+    text, field = FORGERIES[name]
+    put(runs, "forged.txt", text)
+    # A path in a replay is not followed at all.
+    expected = "holds no level" if "\nlevel: " in text else field
+    assert expected in why(runs, levels)
+
+
+def big(folder: Path) -> None:
+    with (folder / "big.replay.txt").open("wb") as file:
+        file.truncate(100 * 2**20)
+
+
+def link_out(folder: Path) -> None:
+    secret = folder.parent / "secret.txt"
+    secret.write_text(replay(author="secret"), "utf-8")
+    (folder / "run.txt").symlink_to(secret)
+
+
+def folder_link_out(folder: Path) -> None:
+    outside = folder.parent / "outside"
+    put(outside, "run.txt", replay(author="secret"))
+    (folder / "inside").symlink_to(outside)
+
+
+def takes_in(folder: Path) -> None:
+    put(folder, "part.inputs", "R*30")
+    put(folder, "run.txt", re.sub(r"inputs:\n", "inputs:\n  include part.inputs\n", replay()))
+
+
+def pipe(folder: Path) -> None:
+    os.mkfifo(folder / "run.txt")
+
+
+def records(folder: Path) -> None:
+    put(folder, "many.txt", record() * (MOST_RECORDS + 1))
+
+
+TRICKS: dict[str, tuple[Callable[[Path], object] | str, str]] = {
+    "a file of 100 MB": (big, "too large"),
+    "a thousand million ticks": (replay().replace("inputs:\n", "inputs:\n  R*999999999\n"), "not an input run"),
+    "a million million ticks in a demo": (record(demo="1000000000000:0"), "exit"),
+    "a final tick of ten to the ninth": (re.sub(r"final-tick: \d+", "final-tick: 999999999", replay()), "too long"),
+    "too many records": (records, "recordings in one file"),
+    "a link to a file elsewhere": (link_out, "a link"),
+    "a link to a folder elsewhere": (folder_link_out, "a link"),
+    "a file that takes in another one": (takes_in, ""),
+    "a pipe": (pipe, "a pipe"),
+    "nothing": ("", "no recording"),
+    "zero bytes": ("ninja-game replay 3\0", "zero byte"),
+    "a level": (write_ascii_level(parse_level_string(WALK)), "no recording"),
+    "inputs that are cut": (re.sub(r"(inputs:\n  )\S+", r"\1R*5", replay()), "the replay says"),
+}
+
+
+@pytest.mark.parametrize("trick", TRICKS)
+def test_a_trick_is_refused_with_its_reason(trick: str, runs: Path, levels: Path) -> None:
+    make, words = TRICKS[trick]
+    start = time.process_time()
+    if callable(make):
+        make(runs)
+    else:
+        put(runs, "run.txt", make)
+    assert words in why(runs, levels)
+    assert time.process_time() - start < 10
+
+
+def test_copies_are_named_and_the_first_one_counts(runs: Path, levels: Path) -> None:
+    put(runs, "ann.txt", replay(author="Ann"), day=1)
+    put(runs, "again.txt", replay(author="Ann").replace("name: walk", "name: other"), day=2)
+    put(runs, "bob.txt", replay(author="Bob"), day=3)
+    put(runs, "cid.txt", replay(WALKING + b"\6", author="Cid"), day=4)
+    found = judged(runs, levels)
+    assert [run.player for run in found.runs] == ["Ann"]
+    assert [(each.file, each.kind, each.why) for each in found.apart] == [
+        ("again.txt", "copy", "the same run as ann.txt"),
+        ("bob.txt", "copy", "a copy of the run by Ann in ann.txt"),
+        ("cid.txt", "copy", "a copy of the run by Ann in ann.txt"),
+    ]
+
+
+def test_a_run_that_goes_most_of_somebody_elses_way_says_so(runs: Path, levels: Path) -> None:
+    put(runs, "ann.txt", slow_walk(40, author="Ann"), day=1)
+    put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"), day=2)
+    remarks = [run.remark for run in judged(runs, levels).runs]
+    assert remarks == ["", "its first 55 of 65 ticks have the inputs of the run by Ann"]
+
+
+def test_practice_runs_are_kept_apart(runs: Path, levels: Path) -> None:
+    put(runs, "run.txt", replay(practice=True))
+    assert [each.kind for each in judged(runs, levels).apart] == ["practice"]
+
+
+# --- pages ---
+
+
+class Tags(HTMLParser):
+    """The elements and attributes of a page, and whatever is wrong about its nesting."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.found: list[tuple[str, dict[str, str | None]]] = []
+        self.open: list[str] = []
+        self.feed(text)
+        assert self.open == []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.found.append((tag, dict(attrs)))
+        if tag not in {"meta", "link", "img", "input", "path"}:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+
+def board_of(runs: Path, levels: Path, out: Path) -> Path:
+    shown = exhibition(levels)
+    BoardPages(out, Ranking(judge(runs, shown, jobs=1), shown)).write()
+    return out / "board"
+
+
+@pytest.fixture
+def hostile(runs: Path, levels: Path, tmp_path: Path) -> Path:
+    """A board of hostile names: of files, players, runs, levels."""
+    put(runs, "ann.txt", replay(author=HOSTILE, name=HOSTILE))
+    put(runs, "later.txt", replay(bytes(3) + WALKING + b"\2", author="javascript:alert(1)"))
+    put(runs, "<img src=x onerror=alert(1)>.txt", replay(author=HOSTILE, practice=True))
+    put(runs, "bad.txt", replay(author=HOSTILE, gold=77))
+    put(runs, "worse.txt", "<script>alert(1)</script>")
+    return board_of(runs, levels, tmp_path / "site")
+
+
+def test_no_text_becomes_markup(hostile: Path) -> None:
+    pages = sorted(hostile.rglob("*.html"))
+    assert len(pages) == 5 + 3 + 2
+    for path in pages:
+        tags = Tags(path.read_text("utf-8")).found
+        assert [each for each in tags if each[0] == "script"] == [
+            ("script", {"src": os.path.relpath(hostile / "search.js", path.parent), "defer": None})
+        ]
+        assert ("meta", {"http-equiv": "Content-Security-Policy", "content": POLICY}) in tags
+        for _, attributes in tags:
+            assert not any(name.startswith("on") or name == "style" for name in attributes)
+            for name in ("href", "src"):
+                assert re.fullmatch(r"[\w./#=&,-]*", attributes.get(name) or "")
+
+
+def test_every_link_of_the_board_leads_to_a_file(hostile: Path) -> None:
+    (hostile.parent / "index.html").write_text("the page with the game")
+    watched = set()
+    for path in hostile.rglob("*.html"):
+        for _, attributes in Tags(path.read_text("utf-8")).found:
+            address, _, fragment = (attributes.get("href") or attributes.get("src") or "").partition("#")
+            assert (path.parent / address).resolve().exists(), (path, attributes)
+            if fragment.startswith("watch="):
+                watched |= set(fragment.removeprefix("watch=").split(","))
+    replays = {path.stem: path for path in (hostile.parent / "replays").iterdir()}
+    assert watched == set(replays)
+    for path in replays.values():
+        parsed = parse_replay(path.read_text("utf-8"))
+        assert parsed.level is not None
+        assert parsed.outcome == "exit"
+
+
+def test_pages_are_written_anew_but_never_over_something_else(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "run.txt", replay(author="Ann"))
+    board = board_of(runs, levels, tmp_path / "site")
+    first = {path.relative_to(board): path.read_bytes() for path in board.rglob("*.*")}
+    (board / "players" / "0000000000000000.html").write_text("a player who has gone")
+    board_of(runs, levels, tmp_path / "site")
+    assert {path.relative_to(board): path.read_bytes() for path in board.rglob("*.*")} == first
+    (tmp_path / "other" / "board").mkdir(parents=True)
+    (tmp_path / "other" / "board" / "mine.txt").write_text("mine")
+    with pytest.raises(FileError, match="not a folder of pages"):
+        board_of(runs, levels, tmp_path / "other")
+
+
+# --- the check of a change ---
+
+
+def check(runs: Path, levels: Path, *more: str) -> tuple[int, str]:
+    result = CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels), "--jobs", "1", *more])
+    return result.exit_code, result.stdout
+
+
+def test_check_tells_what_a_change_does(runs: Path, levels: Path, tmp_path: Path) -> None:
+    data = tmp_path / "board.json"
+    put(runs, "bea.txt", slow_walk(author="Bea"))
+    put(runs, "bad.txt", replay(gold=77))
+    assert check(runs, levels, "--json", str(data))[0] == 0
+    code, text = check(runs, levels, "--check", str(data))
+    assert (code, text.splitlines()[0]) == (
+        0,
+        "nothing has changed: 1 runs by 1 players on 1 levels count; apart: 1 refused",
+    )
+    put(runs, "ann.txt", replay(author="A`nn"), day=2)
+    code, text = check(runs, levels, "--check", str(data))
+    assert code == 0
+    assert "new: ann.txt: A'nn passes Walk in 0.575 s with 1 gold; the fastest; the highest score" in text
+    put(runs, "cid.txt", replay(WALKING[:-3], author="Cid"))
+    (runs / "bea.txt").unlink()
+    code, text = check(runs, levels, "--check", str(data))
+    assert code == 1
+    assert "refused: cid.txt: outcome is running" in text
+    assert "gone: bea.txt: Bea on Walk" in text
+
+
+def test_check_refuses_a_changed_run(runs: Path, levels: Path, tmp_path: Path) -> None:
+    data = tmp_path / "board.json"
+    put(runs, "bea.txt", replay(author="Bea"))
+    check(runs, levels, "--json", str(data))
+    put(runs, "bea.txt", replay(author="Mallory"))
+    code, text = check(runs, levels, "--check", str(data))
+    assert (code, text.splitlines()[0].partition(" passes")[0]) == (1, "changed: bea.txt: Mallory")
+
+
+@pytest.mark.parametrize(
+    "text", ["", "{}", "[]", '{"version": 2}', '{"version": 1, "runs": [1], "apart": []}', "[" * 99_999]
+)
+def test_check_against_something_else_is_an_error(text: str, runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "bea.txt", replay())
+    path = put(tmp_path, "other.json", text)
+    assert check(runs, levels, "--check", str(path))[0] == 2
+
+
+def test_the_template_of_a_repository_works(tmp_path: Path) -> None:
+    template = Path("docs/board-template")
+    workflow = (template / ".github" / "workflows" / "board.yml").read_text("utf-8")
+    for line in re.findall(r"ninja-game (board .*?)(?: >|$)", workflow, re.MULTILINE):
+        (tmp_path / "replays" / "ann").mkdir(parents=True, exist_ok=True)
+        put(tmp_path, "replays/ann/run.txt", bundled_replays()[0].read_text("utf-8"))
+        words = [
+            {"replays": str(tmp_path / "replays"), "public": str(tmp_path / "public")}.get(
+                word,
+                str(template / "board.json") if "TEMP" in word else word.replace("board.json", str(tmp_path / "b")),
+            )
+            for word in line.split()
+        ]
+        result = CliRunner().invoke(cli, [*words, "--jobs", "1"])
+        assert result.exit_code == 0, result.output
+    assert (tmp_path / "public" / "board" / "index.html").is_file()
+    assert json.loads((tmp_path / "b").read_text())["runs"][0]["file"] == "ann/run.txt"
