@@ -30,7 +30,7 @@ COMMANDS = (
     Command("save_as", "Save under another name", ("ctrl+shift+s",)),
     Command("open", "Open a level", ("ctrl+o",)),
     Command("new", "New level", ("ctrl+n",)),
-    Command("about", "Name, author, comment, what it teaches", ("f2",)),
+    Command("about", "Name, author, comment, teaches", ("f2",)),
     Command("undo", "Undo", ("ctrl+z",), "lefttrigger+"),
     Command("redo", "Redo", ("ctrl+y", "ctrl+shift+z"), "righttrigger+"),
     Command("copy", "Copy", ("ctrl+c",)),

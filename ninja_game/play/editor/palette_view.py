@@ -101,6 +101,7 @@ class PaletteView(Widget):
             surface.blit(self._icon(theme, what, area), canvas.point(area[0], area[1]))
             if isinstance(what, Sort):
                 at = area[0] + 1.5, area[1] + 1
+                canvas.fill_rect(surface, palette.panel, area[0] + 0.5, area[1] + 0.5, 7, 9, 2)
                 theme.text(surface, key_label_of(what.key), *at, size=7, colour=palette.faint)
             if what in (EMPTY, FULL):
                 canvas.frame_rect(surface, palette.panel_edge, *area)

@@ -102,14 +102,13 @@ class LevelChoice(Browser):
             self._choose(self.shown[index])
 
 
-HELP = (
-    "Take a tile or an object from the palette and draw with the left mouse button; the right one erases, the middle "
-    "one picks. Doors go to the nearest side of a cell; then click where the switch is. Exits too. Drag a frame with "
-    "Select to move or copy what is in it. "
-    "Tiles: 1 to 8 choose a shape, Q W A S its solid corner, E is full, D empty. Objects: the keys that the palette "
-    "shows; W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move what is "
-    "selected. A gamepad does the same."
-)
+HELP = """\
+A first level: draw a floor with the left mouse button. Take the ninja from the objects at the right and click where \
+it begins; take the exit, click where it is, then where its switch is. Test plays the level, Certify lets the solver \
+look for a run, Save (in File) puts it into the menu Levels.
+The right button erases, the middle one picks. Doors go to the nearest side of a cell; then click where the switch is. \
+Tiles: 1 to 8 choose a shape, Q W A S its solid corner, E is full, D empty. Objects: the keys that the palette shows; \
+W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move what is selected."""
 """What one has to know to begin."""
 
 
@@ -127,15 +126,16 @@ class HelpPage(MenuScreen):
         """The words, then the table of commands in three columns."""
         super().draw_frame(surface)
         theme = self.app.theme
-        for number, line in enumerate(wrapped(theme, HELP, WIDTH - 80, 10)):
+        lines = [line for text in HELP.split("\n") for line in wrapped(theme, text, WIDTH - 80, 10)]
+        for number, line in enumerate(lines):
             theme.text(surface, line, 40, 60 + 15 * number, size=10)
         shown = [command for command in COMMANDS if command.keys or command.pad]
         rows = -(-len(shown) // 2)
         for number, command in enumerate(shown):
             column, row = divmod(number, rows)
-            x, y = 40 + 362 * column, 142 + 20 * row
+            x, y = 40 + 362 * column, 70 + 15 * len(lines) + 19 * row
             keys = "+".join(map(key_label_of, command.keys[0].split("+"))) if command.keys else ""
-            theme.text(surface, keys, x, y, size=10, bold=True, width=92)
-            theme.text(surface, pad_label(command.pad) if command.pad else "", x + 94, y, size=9, width=60,
+            theme.text(surface, keys, x, y, size=10, bold=True, width=84)
+            theme.text(surface, pad_label(command.pad) if command.pad else "", x + 86, y, size=9, width=86,
                        colour=theme.palette.faint)  # fmt: skip
-            theme.text(surface, command.label, x + 156, y, size=10, width=204)
+            theme.text(surface, command.label, x + 174, y, size=10, width=186)

@@ -29,7 +29,7 @@ class Bullets(Figure):
         """How many, filed or not."""
         return [
             slider("Bullets", (100, 3000, 100), self, "count"),
-            choice("Bullets are", (("only reading", False), ("filed too", True)), self, "filed"),
+            choice("Filed too", (("no", False), ("yes", True)), self, "filed"),
         ]
 
     def demonstrate(self, tick: int) -> None:

@@ -56,7 +56,7 @@ class LooseGrid(Figure):
         return [
             slider("Objects", (10, 400, 10), self, "count"),
             slider("Radius, px", (2, 11, 1), self, "radius"),
-            choice("Plot", (("list changes", 0), ("tests", 1)), self, "plot"),
+            choice("Plot", (("changes", 0), ("tests", 1)), self, "plot"),
         ]
 
     def demonstrate(self, tick: int) -> None:

@@ -31,8 +31,8 @@ PHASES = {
 
 SHOWN = 7
 KEYS: Sequence[tuple[str, object]] = (
-    ("played for you", -1), ("none", 0), ("left", KEY_LEFT), ("right", KEY_RIGHT), ("jump", JUMP_HELD),
-    ("right and jump", KEY_RIGHT + JUMP_HELD), ("left and jump", KEY_LEFT + JUMP_HELD),
+    ("by itself", -1), ("none", 0), ("left", KEY_LEFT), ("right", KEY_RIGHT), ("jump", JUMP_HELD),
+    ("jump right", KEY_RIGHT + JUMP_HELD), ("jump left", KEY_LEFT + JUMP_HELD),
 )  # fmt: skip
 PLAYED = strokes("10 r30 rj20 r30 l40 lj25 l30 10")
 

@@ -38,8 +38,9 @@ class Push(NamedTuple):
 
     @property
     def ran(self) -> list[str]:
-        """The rules that ran for a shape, outermost first."""
-        return [call.name for call in self.calls if call.depth and call.name not in (PUSH, "note_normal", "cell_at")]
+        """The rules that ran for a shape, outermost first; of a death no more than that it came."""
+        calls = (call for call in self.calls if call.depth and call.caller not in ("kill", "emit_death", "emit"))
+        return [call.name for call in calls if call.name not in (PUSH, "note_normal", "cell_at")]
 
     @property
     def by_edge(self) -> int:
@@ -116,7 +117,8 @@ class Projection(Figure):
         normals = ", ".join(f"({each['mx']:.2f}, {each['my']:.2f})" for each in pushes)
         return [
             ("pair", f"{tile_name(self.tile)} with {'box' if self.box else 'circle'}"),
-            ("rules that ran", " > ".join(push.ran) or "none: every edge is off"),
+            ("rules that ran", " > ".join(push.ran[:2]) or "none: every edge is off"),
+            ("", " > ".join(push.ran[2:])),
             ("pushes", f"{len(pushes)}, in all ({to_x - x:+.2f}, {to_y - y:+.2f}) px"),
             ("normals", normals or "none"),
             ("here", f"by edge alone {push.by_edge}, shape tests {push.shape_tests}"),
