@@ -114,6 +114,22 @@ def test_minari_reads_what_was_written(tmp_path: Path, monkeypatch: pytest.Monke
             write_minari(name, episodes)
 
 
+def test_several_parts_are_written_under_their_names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MINARI_DATASETS_PATH", str(tmp_path))
+    episodes = [
+        demonstration(recorded([2] * length), memory="plain", observation=["state", "rays"]) for length in (3, 2)
+    ]
+    found = arrays(episodes)
+    assert found["observations/state"].shape == (7, 30)
+    assert found["next_observations/rays"].shape == (7, 16)
+    minari = pytest.importorskip("minari")
+    write_minari("ninja/parts-v0", episodes, observation=["state", "rays"])
+    read = minari.load_dataset("ninja/parts-v0")[1].observations
+    assert isinstance(episodes[1].observations, dict)
+    for name, array in episodes[1].observations.items():
+        assert np.array_equal(read[name], array)
+
+
 def test_the_command_writes_demonstrations_and_names_what_it_leaves_out(tmp_path: Path) -> None:
     out = tmp_path / "demos.npz"
     words = ["learn", "demos", str(bundled_replays()[0]), "-o", str(out), "--memory", "plain", "--actions", "buttons"]

@@ -16,6 +16,7 @@ from ninja_game import load_level, record_replay
 from ninja_game.environments import ENVIRONMENTS
 from ninja_game.errors import ArgumentError
 from ninja_game.files.resources import bundled_levels
+from ninja_game.learn.observations.local_tiles import LocalTiles
 from ninja_game.learn.observations.observation import PARTS
 from ninja_game.learn.rewards import REWARD_TERMS
 from ninja_game.learn.single import NinjaEnv
@@ -53,6 +54,10 @@ def test_gymnasium_finds_nothing_wrong_with_any_id(name: str) -> None:
 @pytest.mark.parametrize("part", PARTS)
 def test_gymnasium_finds_nothing_wrong_with_any_space(part: str, actions: str) -> None:
     checked(made("Ninja-v0", observation=part, actions=actions))
+
+
+def test_gymnasium_finds_nothing_wrong_with_tiles_as_flags() -> None:
+    checked(made("Ninja-v0", observation=LocalTiles(size=3, form="one-hot")))
 
 
 @pytest.mark.parametrize("normalised", [False, True])
