@@ -13,13 +13,18 @@ from ninja_game.cli import solver_options as options
 if TYPE_CHECKING:
     from ninja_game.learn.agents.training import Progress
 
-LEVELS = ("00-0-first-steps", "00-1-mind-the-gap", "00-2-rolling-hills")
+LEVELS = (
+    "00-0-first-steps", "00-1-mind-the-gap", "00-2-rolling-hills", "00-4-seven-league-boots", "01-1-the-chimney",
+    "10-2-fountain", "10-4-the-juggler", "11-2-kennel", "12-1-four-winds", "20-1-kite", "20-3-phases-of-the-moon",
+    "31-0-downhill",
+)  # fmt: skip
+"""Those of the agent that comes with the game: easy ones of several columns."""
 
 
 @click.command(name="train")
 @click.option(
-    "--levels", metavar="LEVELS", multiple=True, default=LEVELS, show_default=True,
-    help="A level of the game, a file or folder, or train: those that are for training. May be given several times.",
+    "--levels", metavar="LEVELS", multiple=True, default=LEVELS, show_default="twelve easy ones",
+    help="train, set, a level of the game, a file or folder, generated:3:1-8. May be given several times.",
 )  # fmt: skip
 @options.seconds_option(600.0)
 @click.option(

@@ -21,6 +21,7 @@ from ninja_game.files.reading import read_bytes
 from ninja_game.files.writing import write_atomically
 from ninja_game.learn.actions import ACTION_NAMES
 from ninja_game.learn.observations.observation import PARTS, Observation
+from ninja_game.learn.observations.part import Part
 
 Floats = NDArray[np.float32]
 
@@ -121,5 +122,10 @@ def _written(settings: dict[str, Any]) -> dict[str, Any]:
 
 def _read(settings: dict[str, Any]) -> dict[str, Any]:
     """The reverse."""
-    parts = [PARTS[part.pop("part")](**part) for part in map(dict, settings["observation"])]
+    parts: list[Part] = []
+    for written in settings["observation"]:
+        fields: dict[str, Any] = {}
+        for name, value in written.items():
+            fields[name] = tuple(value) if isinstance(value, list) else value
+        parts.append(PARTS[fields.pop("part")](**fields))
     return {**settings, "observation": parts}

@@ -1,4 +1,4 @@
-"""Where training episodes begin: at the start of a level, or at a moment of a run that passes it.
+"""Where training episodes begin: at the start of a level, or at a moment of one of the runs that pass it.
 
 A level is learnt from its end: from a moment shortly before the exit chance finds it, and what was learnt there serves
 the moments before (Salimans and Chen, "Learning Montezuma's Revenge from a single demonstration", 2018). Moments from
@@ -7,6 +7,7 @@ which about half of the episodes pass teach most, and are chosen most.
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -24,7 +25,7 @@ from ninja_game.sim.level import Level
 
 Numbers = NDArray[np.intp]
 
-SPACING = 8
+SPACING = 12
 """Ticks between two moments of a run."""
 FLOOR = 0.003
 """Weight of what is always or never passed; what is passed every other time has 0.25."""
@@ -33,9 +34,11 @@ AHEAD = 0.15
 START_SHARE = 0.25
 """Share of episodes that begin at the start of the level at least."""
 LEARNT, LEARNT_WEIGHT = 0.97, 0.3
-"""A level that is passed so often from its start has this weight; all others have 1."""
-MEMORY = 0.95
-"""What an episode leaves of the rate before it."""
+"""A level that is passed so often from its start has this weight."""
+LEAST_WEIGHT = 0.1
+"""Of another level; to which comes the share of all its episodes that are passed."""
+MEMORY, START_MEMORY = 0.9, 0.98
+"""What an episode leaves of the rate before it; of the rate of a level's own start."""
 LONGEST = 800
 """Ticks that a run is thought to take where none is known."""
 PATIENCE, LEAST_TICKS = 2.0, 300
@@ -43,35 +46,45 @@ PATIENCE, LEAST_TICKS = 2.0, 300
 
 
 class Starts:
-    """The start of each level (number k for level k) and moments of a run through it, if there is one.
+    """The start of each level (number k for level k) and moments of some runs through it, if there are any.
 
-    The run is the certificate of a level of the game; of another level, one that a search finds. ``rates``: which share
-    of the episodes from each start was passed, an average over the last ones. ``level_of``: the level of each;
+    The runs are the certificate of a level of the game and those that ``searches`` searches find. ``rates``: which
+    share of the episodes from each start was passed, an average over the last ones. ``level_of``: the level of each;
     ``limits``: the ticks that an episode from there may take in training.
     """
 
-    def __init__(self, source: LevelSource, settings: dict[str, Any], seed: int) -> None:
-        runs = [run_through(name, level, seed) for name, level in zip(source.names, source.levels, strict=True)]
-        self.levels = len(runs)
-        moments = [(level, k * SPACING) for level, run in enumerate(runs) for k in range(1, len(run) // SPACING)]
-        self.level_of: Numbers = np.array([*range(self.levels), *(level for level, _ in moments)], np.intp)
-        follow = np.append(np.arange(1, len(self.level_of)), 0)
-        self._next = np.where(self.level_of[follow] == self.level_of, follow, np.arange(len(self.level_of)))
-        for level in range(self.levels):
-            own = np.flatnonzero(self.level_of == level)
-            self._next[level] = own[min(1, len(own) - 1)]
-        left = [len(run) or LONGEST for run in runs] + [len(runs[level]) - tick for level, tick in moments]
+    def __init__(self, source: LevelSource, settings: dict[str, Any], seed: int, searches: int = 2) -> None:
+        runs = [
+            (level, run)
+            for level, name in enumerate(source.names)
+            for run in runs_through(name, source.levels[level], seed, searches)
+        ]
+        self.levels = len(source.names)
+        level_of, left = list(range(self.levels)), [LONGEST] * self.levels
+        following = list(range(self.levels))
+        for level, run in runs:
+            first = len(level_of)
+            count = max(len(run) - 1, 0) // SPACING
+            level_of += [level] * count
+            left += [len(run) - (k + 1) * SPACING for k in range(count)]
+            following += [min(first + k + 1, first + count - 1) for k in range(count)]
+            following[level] = first if count else level
+            left[level] = len(run)
+        self.level_of: Numbers = np.array(level_of, np.intp)
         self.limits = (PATIENCE * np.array(left)).astype(np.int64) + LEAST_TICKS
-        self.rates = np.full(len(self.level_of), 0.5)
-        self._saved = EnvWorlds(source, len(self.level_of), **settings)
+        self._next = np.array(following, np.intp)
+        self.rates = np.full(len(level_of), 0.5)
+        self._saved = EnvWorlds(source, len(level_of), **settings)
         self._saved.reset(levels=self.level_of)
         player = EnvWorlds(source, 1, **{**settings, "frame_skip": 1})
-        for start, (level, tick) in enumerate(moments, self.levels):
-            if tick == SPACING:
-                player.reset(0, levels=level)
-            for keys in runs[level][tick - SPACING : tick]:
-                player.step(np.array([keys]))
-            self._saved.restore(player.save(), start)
+        start = self.levels
+        for level, run in runs:
+            player.reset(0, levels=level)
+            for tick in range(max(len(run) - 1, 0) // SPACING * SPACING):
+                player.step(run[tick : tick + 1])
+                if (tick + 1) % SPACING == 0:
+                    self._saved.restore(player.save(), start)
+                    start += 1
 
     def choose(self, count: int, chance: np.random.Generator) -> Numbers:
         """Where ``count`` episodes begin."""
@@ -80,7 +93,9 @@ class Starts:
         weights /= np.bincount(self.level_of, weights)[self.level_of]
         weights *= 1.0 - START_SHARE
         weights[: self.levels] += START_SHARE
-        weights *= np.where(self.rates[: self.levels] >= LEARNT, LEARNT_WEIGHT, 1.0)[self.level_of]
+        # Levels of which most is learnt come first.
+        mean = np.bincount(self.level_of, self.rates) / np.bincount(self.level_of)
+        weights *= np.where(self.rates[: self.levels] >= LEARNT, LEARNT_WEIGHT, LEAST_WEIGHT + mean)[self.level_of]
         return chance.choice(len(weights), count, p=weights / weights.sum())
 
     def put(self, worlds: EnvWorlds, which: Numbers, starts: Numbers) -> None:
@@ -91,18 +106,21 @@ class Starts:
         """Take note of episodes that have ended: where they began, whether they were passed."""
         episodes = np.bincount(starts, minlength=len(self.rates))
         passes = np.bincount(starts[passed], minlength=len(self.rates))
-        kept = MEMORY**episodes
+        kept = np.where(np.arange(len(episodes)) < self.levels, START_MEMORY, MEMORY) ** episodes
         self.rates = self.rates * kept + passes / np.maximum(episodes, 1) * (1.0 - kept)
 
 
-def run_through(name: str, level: Level, seed: int) -> NDArray[np.uint8]:
-    """The keys of each tick of a run through a level; none if there is no certificate and a search finds none."""
+def runs_through(name: str, level: Level, seed: int, searches: int) -> list[NDArray[np.uint8]]:
+    """The keys of each tick of some runs through a level.
+
+    A certificate is a speedrun: what it does in time for a trap leaves no room for a late key. A search's run does.
+    """
+    runs = []
     for path in bundled_replays():
         if path.name == f"{name}.exit.replay.txt":
-            try:
+            with suppress(NinjaGameError):
                 inputs = load_replays(path, level=level)[0].demo.inputs
-            except NinjaGameError:
-                break
-            return np.frombuffer(inputs, np.uint8) & np.uint8(KEYS_DOWN)
+                runs.append(np.frombuffer(inputs, np.uint8) & np.uint8(KEYS_DOWN))
     agent = SearchAgent()
-    return np.repeat(DISCRETE_KEYS[agent.plan(level, seed)], agent.settings["frame_skip"])
+    plans = (agent.plan(level, seed + k) for k in range(searches))
+    return runs + [np.repeat(DISCRETE_KEYS[plan], agent.settings["frame_skip"]) for plan in plans if plan.size]

@@ -15,7 +15,13 @@ from ninja_game.learn.agents.policy import PolicyAgent, normalised
 from ninja_game.learn.agents.ppo import Floats, Learner, Method, Samples, advantages
 from ninja_game.learn.agents.starts import Starts
 from ninja_game.learn.levels import LevelSource
+from ninja_game.learn.observations.guide import Guide
+from ninja_game.learn.observations.local_tiles import LocalTiles
+from ninja_game.learn.observations.near_objects import KIND_NAMES, NearObjects
 from ninja_game.learn.observations.observation import Observation
+from ninja_game.learn.observations.part import Part
+from ninja_game.learn.observations.rays import Rays
+from ninja_game.learn.observations.state_vector import StateVector
 from ninja_game.learn.rewards import DistanceShaping, ExitReward
 from ninja_game.learn.sticky import StickyActions
 from ninja_game.learn.worlds import EnvWorlds
@@ -25,17 +31,27 @@ ROUND = 32
 """Steps of each world between two improvements."""
 STEPS_PER_SECOND = 25_000
 """Steps of all worlds together that are planned for a second, never measured: plans do not depend on the clock."""
-SMALLEST_DEVIATION = 0.05
+SMALLEST_DEVIATION = 0.02
 """Of an observation; what hardly ever changes would be blown up otherwise."""
 REPORT_EVERY = 16
 """Rounds between two reports."""
+
+OBSERVATION = (
+    StateVector(),
+    LocalTiles(9),
+    Rays(16),
+    NearObjects(6, kinds=tuple(kind for kind in KIND_NAMES if kind not in {"gold", "exit", "switch"})),
+    Guide(),
+)
+"""What an agent sees if nothing else is said. Exit and switch are in the state vector; gold is nothing to it."""
 
 
 @dataclass(frozen=True)
 class Task:
     """What to learn: the levels of ``source``, for ``seconds``, or for so many ``steps`` of all worlds together.
 
-    With ``steps`` the same seed makes the same agent. ``observation``: parts, by name or as they are.
+    With ``steps`` the same seed makes the same agent. ``searches``: runs through each level that are searched, for
+    episodes to begin in their midst. ``observation``: what the agent sees.
     """
 
     source: LevelSource
@@ -43,7 +59,8 @@ class Task:
     steps: int = 0
     seed: int = 0
     worlds: int = 1024
-    observation: tuple[Any, ...] = ("state",)
+    searches: int = 2
+    observation: tuple[Part, ...] = OBSERVATION
     method: Method = field(default_factory=Method)
 
     @property
@@ -113,7 +130,7 @@ class Trainer:
         settings = {**self.settings, "reward": [ExitReward(10.0), shaping]}
         self.worlds = EnvWorlds(task.source, task.worlds, **settings)
         self._observed = np.asarray(self.worlds.observations)
-        self.starts = Starts(task.source, settings, task.seed)
+        self.starts = Starts(task.source, settings, task.seed, task.searches)
         self._chance = np.random.default_rng([task.seed, 2])
         self._sticky = StickyActions(task.worlds, [task.seed, 3])
         self._begun, self._limits = np.zeros((2, task.worlds), np.intp)

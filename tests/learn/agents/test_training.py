@@ -14,7 +14,7 @@ import pytest
 from ninja_game.compile_cache import compiled_available
 from ninja_game.learn.agents.policy import PolicyAgent, load_policy
 from ninja_game.learn.agents.ppo import Method
-from ninja_game.learn.agents.starts import SPACING, Starts, run_through
+from ninja_game.learn.agents.starts import SPACING, Starts, runs_through
 from ninja_game.learn.agents.training import ROUND, Progress, Task, train
 from ninja_game.learn.levels import level_source
 from ninja_game.learn.worlds import EnvWorlds
@@ -27,7 +27,9 @@ LEVELS = ["00-0-first-steps", "00-1-mind-the-gap"]
 
 def short(seed: int) -> Task:
     """A task of two rounds."""
-    return Task(level_source(LEVELS), steps=2 * ROUND * 16, seed=seed, worlds=16, method=Method(hidden=8, batch=64))
+    return Task(
+        level_source(LEVELS), steps=2 * ROUND * 16, seed=seed, worlds=16, searches=0, method=Method(hidden=8, batch=64)
+    )
 
 
 def arrays(agent: PolicyAgent) -> bytes:
@@ -49,8 +51,8 @@ def test_the_same_seed_makes_the_same_agent() -> None:
 
 def test_starts_are_moments_of_the_certificates() -> None:
     source = level_source(LEVELS)
-    starts = Starts(source, {}, 0)
-    run = run_through(source.names[1], source.levels[1], 0)
+    starts = Starts(source, {}, 0, searches=0)
+    (run,) = runs_through(source.names[1], source.levels[1], 0, 0)
     worlds = EnvWorlds(source, 3)
     number = int(np.flatnonzero(starts.level_of == 1)[5])
     starts.put(worlds, np.array([2]), np.array([number]))
@@ -63,7 +65,7 @@ def test_starts_are_moments_of_the_certificates() -> None:
 
 
 def test_episodes_begin_where_they_fail_next_and_at_the_start_of_the_level() -> None:
-    starts = Starts(level_source(LEVELS[:1]), {}, 0)
+    starts = Starts(level_source(LEVELS[:1]), {}, 0, searches=0)
     starts.rates[:] = 0.0
     starts.rates[10:] = 1.0
     chosen = starts.choose(4000, np.random.default_rng(0))
@@ -79,11 +81,13 @@ def test_episodes_begin_where_they_fail_next_and_at_the_start_of_the_level() -> 
 
 def test_a_level_without_a_certificate_is_searched() -> None:
     level = level_source(LEVELS[0]).levels[0]
-    run = run_through("a level of mine", level, 1)
-    worlds = EnvWorlds(level, 1, frame_skip=1)
-    for keys in run:
-        worlds.step(np.array([keys]))
-    assert worlds.outcomes[0] == 1
+    first, second = runs_through("a level of mine", level, 1, 2)
+    assert first.tobytes() != second.tobytes()
+    for run in (first, second):
+        worlds = EnvWorlds(level, 1, frame_skip=1)
+        for keys in run:
+            worlds.step(np.array([keys]))
+        assert worlds.outcomes[0] == 1
 
 
 def test_the_command_keeps_the_agent_and_says_how_good_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
