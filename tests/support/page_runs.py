@@ -7,14 +7,14 @@ import subprocess
 from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 from ninja_game.files.resources import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import write_level_string
 from tests.support.golden_runs import AFTERMATH, GoldenRun, crowded_runs, replay_runs, scene_runs
+from tests.support.web_page import DIGESTS, ROOT, run_in
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-PROGRAM = Path(__file__).with_name("page_digests.py")
 CROWDED = 200
 
 Run = tuple[str, str, str, str]
@@ -51,7 +51,14 @@ def digests_in_node(pyodide: Path, runs: list[Run], folder: Path) -> dict[str, s
     """What Node says of them. ``pyodide``: the folder with it; ``folder``: for files. Raises CalledProcessError."""
     (folder / "digests.mjs").write_text(NODE, "utf-8")
     (folder / "runs.json").write_text(json.dumps(runs), "utf-8")
-    command = ["node", "digests.mjs", str(pyodide), str(ROOT), str(PROGRAM), "runs.json"]
+    command = ["node", "digests.mjs", str(pyodide), str(ROOT), str(DIGESTS), "runs.json"]
     done = subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True)
     answer: dict[str, str] = json.loads(done.stdout.splitlines()[-1])
+    return answer
+
+
+def digests_in_page(page: Any, runs: list[Run]) -> dict[str, str]:
+    """What an empty page with Python says of them."""
+    run_in(page, DIGESTS)
+    answer: dict[str, str] = json.loads(page.evaluate("text => python.globals.get('answer')(text)", json.dumps(runs)))
     return answer

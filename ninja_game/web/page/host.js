@@ -84,8 +84,11 @@ class Host {
     this.input.typing = wanted;
   }
 
+  // Whether there is a clipboard.
   copy(text) {
+    if (!navigator.clipboard) return false;
     navigator.clipboard.writeText(text).catch(() => {});
+    return true;
   }
 
   pasted() {

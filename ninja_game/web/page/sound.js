@@ -11,17 +11,17 @@ export function decoded(bytes) {
 
 export class Sounds {
   constructor() {
-    this.decoded = [null]; // by number
+    this.decoded = []; // by number
     this.buffers = [];
     this.channels = [];
     this.audio = null;
     this.muted = false;
   }
 
-  // The number of a sound; 0 for bytes that are none.
+  // The number of a sound; -1 for bytes that are none.
   add(bytes) {
     const sound = decoded(bytes);
-    return sound ? this.decoded.push(sound) - 1 : 0;
+    return sound ? this.decoded.push(sound) - 1 : -1;
   }
 
   // Browsers allow sound only after the player pressed something.

@@ -6,8 +6,6 @@ from functools import lru_cache
 from operator import itemgetter
 from typing import Any
 
-NAMED = {"black": (0, 0, 0, 255), "white": (255, 255, 255, 255), "red": (255, 0, 0, 255)}
-
 
 class Color(tuple[int, int, int, int]):
     """``Color("#rrggbb")``, ``Color("#rrggbbaa")``, ``Color(r, g, b, a=255)``, ``Color((r, g, b))``."""
@@ -16,17 +14,12 @@ class Color(tuple[int, int, int, int]):
     r, g, b, a = (property(itemgetter(k)) for k in range(4))
 
     def __new__(cls, first: Any, *rest: int) -> Color:
-        """Raises ValueError for what is no colour."""
         if first.__class__ is cls:
             return first
         return _color(first, *rest) if isinstance(first, str) or rest else _color(*first)
 
     def lerp(self, other: Color, share: float) -> Color:
-        """The colour ``share`` (0…1) of the way to another."""
-        return _of([round(one + (two - one) * share) for one, two in zip(self, Color(other), strict=True)])
-
-    def __repr__(self) -> str:
-        return f"Color{tuple(self)}"
+        return _of([int(one * (1 - share) + two * share + 0.5) for one, two in zip(self, Color(other), strict=True)])
 
 
 def _of(channels: Any) -> Color:
@@ -37,8 +30,6 @@ def _of(channels: Any) -> Color:
 def _color(first: str | int, *rest: int) -> Color:
     if isinstance(first, int):
         channels = (first, *rest, 255)[:4] if len(rest) == 2 else (first, *rest)
-    elif first in NAMED:
-        channels = NAMED[first]
     else:
         try:
             channels = tuple(bytes.fromhex(first.removeprefix("#")))

@@ -40,28 +40,5 @@ SCANCODES = {name: first + k for first, names in _FROM.items() for k, name in en
 SCANCODES |= {name: SCANCODES[other] for name, other in _OTHER_NAMES.items()} | {"UNKNOWN": 0}
 """Scancode (place on the keyboard) by name."""
 
-PRINTED = {
-    "RETURN": 13, "ESCAPE": 27, "BACKSPACE": 8, "TAB": 9, "SPACE": 32, "DELETE": 127, "UNKNOWN": 0,
-    "MINUS": 45, "EQUALS": 61, "LEFTBRACKET": 91, "RIGHTBRACKET": 93, "BACKSLASH": 92, "SEMICOLON": 59,
-    "COMMA": 44, "PERIOD": 46, "SLASH": 47,
-}  # fmt: skip
-"""Keycode (what a key means) of the keys that stand for a character; other keys have their scancode plus 2**30."""
-
-_PLACES_ONLY = {"NONUSHASH", "NONUSBACKSLASH", "APOSTROPHE", "GRAVE"}
-
-
-def _keycode(name: str, scancode: int) -> int:
-    return ord(name.lower()) if len(name) == 1 else PRINTED.get(name, scancode | 1 << 30)
-
-
-KEYCODES = {
-    name: _keycode(name, code)
-    for name, code in SCANCODES.items()
-    if name not in _PLACES_ONLY and not name.startswith(("INTERNATIONAL", "LANG"))
-}
-"""Keycode by name."""
-
-KEY_CONSTANTS = {f"KSCAN_{name}": code for name, code in SCANCODES.items()} | {
-    f"K_{name.lower() if name.isalpha() and len(name) == 1 else name}": code for name, code in KEYCODES.items()
-}
-"""The constants of these names."""
+KEY_CONSTANTS = {f"KSCAN_{name}": code for name, code in SCANCODES.items()}
+"""The constants of these names. What keys mean differs between keyboards: the game asks for their places."""

@@ -8,9 +8,8 @@ from math import ceil, floor
 from typing import Any
 
 from .color import packed
-from .display_list import DISC, FILL, FRAME, LINE, POLYGON, RING
 from .rect import Rect, make
-from .surface import Surface
+from .surface import DISC, FILL, FRAME, LINE, POLYGON, RING, Surface
 
 
 def _clipped(surface: Surface, x: int, y: int, right: int, bottom: int) -> Rect:
@@ -23,10 +22,7 @@ def _clipped(surface: Surface, x: int, y: int, right: int, bottom: int) -> Rect:
     return make(x1, y1, x2 - x1, y2 - y1) if x1 < x2 and y1 < y2 else make(x, y, 0, 0)
 
 
-def polygon(surface: Surface, color: Any, points: Sequence[Any], width: int = 0) -> Rect:
-    """A filled polygon, or its outline."""
-    if width:
-        return lines(surface, color, True, points, width)
+def polygon(surface: Surface, color: Any, points: Sequence[Any]) -> Rect:
     flat = [*map(int, chain.from_iterable(points))]
     xs, ys = flat[::2], flat[1::2]
     entries = surface.entries()
@@ -36,7 +32,6 @@ def polygon(surface: Surface, color: Any, points: Sequence[Any], width: int = 0)
 
 
 def circle(surface: Surface, color: Any, center: Any, radius: float, width: int = 0) -> Rect:
-    """A disc, or a ring of some ``width`` inwards, about the corner between four px."""
     x, y, r = int(center[0]), int(center[1]), int(radius)
     if r < 1:
         return make(x, y, 0, 0)
@@ -48,7 +43,6 @@ def circle(surface: Surface, color: Any, center: Any, radius: float, width: int 
 
 
 def aacircle(surface: Surface, color: Any, center: Any, radius: float, width: int = 0) -> Rect:
-    """A disc, or a ring of some ``width`` inwards, about the middle of a px."""
     x, y, r = int(center[0]), int(center[1]), int(radius)
     if r < 1:
         return make(x, y, 0, 0)
@@ -60,10 +54,9 @@ def aacircle(surface: Surface, color: Any, center: Any, radius: float, width: in
 
 
 def rect(surface: Surface, color: Any, rect: Any, width: int = 0, border_radius: int = 0) -> Rect:
-    """A filled rectangle, or its outline of some ``width`` inwards; corners may be round."""
     x, y, w, h = Rect(rect) if rect.__class__ is not Rect else rect
     area = _clipped(surface, x, y, x + w, y + h)
-    if not area.w:
+    if not area:
         return make(x, y, 0, 0)
     if border_radius > 0 and min(w, h) >= 2:
         thick = max(w // 2, h // 2) if width > min(w, h) // 2 else width
@@ -76,7 +69,6 @@ def rect(surface: Surface, color: Any, rect: Any, width: int = 0, border_radius:
 
 
 def line(surface: Surface, color: Any, start: Any, end: Any, width: int = 1) -> Rect:
-    """A line of whole px, ``width`` px across or down."""
     ax, ay, bx, by = int(start[0]), int(start[1]), int(end[0]), int(end[1])
     if width < 1:
         return make(ax, ay, 0, 0)
@@ -96,7 +88,6 @@ def line(surface: Surface, color: Any, start: Any, end: Any, width: int = 1) -> 
 
 
 def lines(surface: Surface, color: Any, closed: bool, points: Sequence[Any], width: int = 1) -> Rect:
-    """Lines from point to point."""
     ends = [*points[1:], points[0]] if closed else points[1:]
     area: Rect | None = None
     for start, end in zip(points, ends, strict=False):
@@ -106,7 +97,6 @@ def lines(surface: Surface, color: Any, closed: bool, points: Sequence[Any], wid
 
 
 def aaline(surface: Surface, color: Any, start: Any, end: Any, width: int = 1) -> Rect:
-    """A smooth line, ``width`` px across or down."""
     (ax, ay), (bx, by) = start, end
     width = max(1, width)
     steep = abs(ax - bx) < abs(ay - by)
@@ -114,13 +104,23 @@ def aaline(surface: Surface, color: Any, start: Any, end: Any, width: int = 1) -
     shift = 0.5 + (1 - width % 2) / 2
     x, y = (shift, 0.5) if steep else (0.5, shift)
     surface.entries().extend((LINE, packed(color), ax + x, ay + y, bx + x, by + y, width))
-    half = width / 2
-    dx, dy = (half, 0) if steep else (0, half)
-    area = _clipped(
-        surface,
-        floor(min(ax, bx) - dx),
-        floor(min(ay, by) - dy),
-        ceil(max(ax, bx) + dx) + 1,
-        ceil(max(ay, by) + dy) + 1,
-    )
+    if abs(ax - bx) < 1e-4 and abs(ay - by) < 1e-4:
+        ax, ay = floor(ax + 0.5), floor(ay + 0.5)
+        return _clipped(surface, ax, ay, ax + 1, ay + 1)
+    if steep:
+        top, bottom, left, right = _along(ay, ax, by, bx, width)
+    else:
+        left, right, top, bottom = _along(ax, ay, bx, by, width)
+    area = _clipped(surface, left, top, right + 1, bottom + 1)
     return area if area.w else make(int(ax), int(ay), 0, 0)
+
+
+def _along(ax: float, ay: float, bx: float, by: float, width: int) -> tuple[int, int, int, int]:
+    """First and last px of a smooth line that is longer in x than in y: in x, then in y."""
+    if ax > bx:
+        ax, ay, bx, by = bx, by, ax, ay
+    slope = (by - ay) / (bx - ax)
+    first, last = int(ax), ceil(bx)
+    one, two = ay + slope * (first - ax), by + slope * (last - bx)
+    half = width // 2
+    return first, last, floor(min(one, two)) - half + 1 - width % 2, ceil(max(one, two)) + half

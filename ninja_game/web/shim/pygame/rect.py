@@ -22,9 +22,6 @@ class Rect:
     def __iter__(self) -> Iterator[int]:
         return iter((self.x, self.y, self.w, self.h))
 
-    def __len__(self) -> int:
-        return 4
-
     def __getitem__(self, index: Any) -> Any:
         return (self.x, self.y, self.w, self.h)[index]
 
@@ -48,14 +45,10 @@ class Rect:
     height = property(lambda self: self.h, lambda self, value: setattr(self, "h", int(value)))
     right = property(lambda self: self.x + self.w, lambda self, value: setattr(self, "x", int(value) - self.w))
     bottom = property(lambda self: self.y + self.h, lambda self, value: setattr(self, "y", int(value) - self.h))
-    centerx = property(lambda self: self.x + self.w // 2)
-    centery = property(lambda self: self.y + self.h // 2)
-    center = property(lambda self: (self.x + self.w // 2, self.y + self.h // 2))
     size = property(lambda self: (self.w, self.h))
 
     @property
     def topleft(self) -> tuple[int, int]:
-        """The upper left corner."""
         return self.x, self.y
 
     @topleft.setter
@@ -63,34 +56,26 @@ class Rect:
         self.x, self.y = int(corner[0]), int(corner[1])
 
     def copy(self) -> Rect:
-        """Another one of the same size in the same place."""
         return make(self.x, self.y, self.w, self.h)
 
     def move(self, x: Any, y: float = 0) -> Rect:
-        """Shifted by (x, y)."""
         if x.__class__ is tuple:
             x, y = x
-        rect = _new(Rect)
-        rect.x, rect.y, rect.w, rect.h = self.x + int(x), self.y + int(y), self.w, self.h
-        return rect
+        return make(self.x + int(x), self.y + int(y), self.w, self.h)
 
     def inflate(self, x: float, y: float) -> Rect:
-        """Larger by x and y, about the same centre."""
         x, y = int(x), int(y)
         return make(self.x - int(x / 2), self.y - int(y / 2), self.w + x, self.h + y)
 
     def union(self, other: Any) -> Rect:
-        """The smallest rectangle around both."""
         left, top, w, h = other
         x, y = min(self.x, left), min(self.y, top)
         return make(x, y, max(self.x + self.w, left + w) - x, max(self.y + self.h, top + h) - y)
 
     def union_ip(self, other: Any) -> None:
-        """Grow so as to hold another one too."""
         self.x, self.y, self.w, self.h = self.union(other)
 
     def clip(self, other: Any) -> Rect:
-        """What both have in common; of no size where that is nothing."""
         left, top, w, h = other
         x, y = max(self.x, left), max(self.y, top)
         right, bottom = min(self.x + self.w, left + w), min(self.y + self.h, top + h)
@@ -99,20 +84,23 @@ class Rect:
         return make(x, y, right - x, bottom - y)
 
     def colliderect(self, other: Any) -> bool:
-        """Whether they have px in common."""
         left, top, w, h = other
         if not (w and h and self.w and self.h):
             return False
         return bool(self.x < left + w and left < self.x + self.w and self.y < top + h and top < self.y + self.h)
 
+    def collidelistall(self, others: Any) -> list[int]:
+        return [k for k, other in enumerate(others) if self.colliderect(other)]
+
+    def collidelist(self, others: Any) -> int:
+        return next(iter(self.collidelistall(others)), -1)
+
     def collidepoint(self, x: Any, y: float = 0) -> bool:
-        """Whether a point lies in it."""
         if x.__class__ is tuple:
             x, y = x
         return bool(self.x <= x < self.x + self.w and self.y <= y < self.y + self.h)
 
     def contains(self, other: Any) -> bool:
-        """Whether another one lies in it as a whole."""
         left, top, w, h = other
         return bool(
             self.x <= left and self.y <= top and self.x + self.w >= left + w and self.y + self.h >= top + h
@@ -126,8 +114,5 @@ _new = Rect.__new__
 def make(x: int, y: int, w: int, h: int) -> Rect:
     """A rectangle of four whole numbers, the fast way."""
     rect = _new(Rect)
-    rect.x = x
-    rect.y = y
-    rect.w = w
-    rect.h = h
+    rect.x, rect.y, rect.w, rect.h = x, y, w, h
     return rect

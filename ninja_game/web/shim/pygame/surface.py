@@ -7,10 +7,10 @@ where it is blitted; the second time it becomes a canvas of the page: from then 
 from __future__ import annotations
 
 from array import array
+from operator import attrgetter
 from typing import Any
 
 from .color import packed
-from .display_list import CANVAS, CLIP, FILL, IMAGE, LIST, SCREEN, SHIFT, STRETCH, TARGET, UNSHIFT
 from .rect import Rect, _new, make
 
 SRCALPHA = 0x10000
@@ -18,6 +18,44 @@ BLEND_RGBA_MULT, BLEND_PREMULTIPLIED = 8, 17
 
 LONGEST_COPY, LARGEST_COPY, ONE_SHAPE = 3000, 65536, 8
 """Fresh surfaces of at most so many numbers and px, or of one simple shape, are copied to where they are blitted."""
+
+(
+    TARGET, CANVAS, FREE, CLIP, IMAGE, STRETCH, FILL, SHIFT, UNSHIFT, POLYGON, DISC, RING, LINE, FRAME, TEXT,
+) = range(1, 16)  # fmt: skip
+"""Kinds of entries, each followed by its numbers (painter.js says which)."""
+
+SCREEN = 1
+"""The number of the canvas that the player sees."""
+
+
+class DisplayList:
+    """``numbers``: what is to be painted next. ``target``: the number of the canvas on which the next entry paints."""
+
+    def __init__(self) -> None:
+        self.numbers = array("d")
+        self.target = 0
+        self.freed: list[int] = []
+        self.count = SCREEN
+
+    def canvas(self, width: int, height: int, *, opaque: bool) -> int:
+        """The number of a new canvas."""
+        number = self.freed.pop() if self.freed else self.count + 1
+        self.count = max(self.count, number)
+        self.numbers.extend((CANVAS, number, width, height, opaque))
+        self.target = number
+        return number
+
+    def free(self, number: int) -> None:
+        self.numbers.extend((FREE, number))
+        self.freed.append(number)
+        if self.target == number:
+            self.target = 0
+
+    def clear(self) -> None:
+        del self.numbers[:]
+
+
+LIST = DisplayList()
 
 
 class Surface:
@@ -28,8 +66,6 @@ class Surface:
 
     def __init__(self, size: Any, flags: int = 0, depth: int = 0) -> None:
         self.w, self.h = int(size[0]), int(size[1])
-        if self.w < 0 or self.h < 0:
-            raise ValueError("Invalid resolution for Surface")
         self.alpha = bool(flags & SRCALPHA)
         self._bounds = self._painted = (0, 0, self.w, self.h)
         self._number = 0
@@ -84,30 +120,19 @@ class Surface:
     # --- what it is ---
 
     def get_size(self) -> tuple[int, int]:
-        """Width and height, px."""
         return self.w, self.h
 
-    def get_width(self) -> int:
-        """Width, px."""
-        return self.w
-
-    def get_height(self) -> int:
-        """Height, px."""
-        return self.h
-
     size = property(get_size)
-    width = property(get_width)
-    height = property(get_height)
+    width = property(attrgetter("w"))
+    height = property(attrgetter("h"))
 
     def get_rect(self, **place: Any) -> Rect:
-        """Its rectangle, at (0, 0) or where the keywords put it."""
         rect = make(0, 0, self.w, self.h)
         for name, value in place.items():
             setattr(rect, name, value)
         return rect
 
     def set_clip(self, rect: Any) -> None:
-        """Draw only within a rectangle from now on; None: everywhere."""
         whole = make(0, 0, self.w, self.h)
         clip = whole if rect is None else Rect(rect).clip(whole)
         self._bounds = (clip.x, clip.y, clip.x + clip.w, clip.y + clip.h)
@@ -115,12 +140,10 @@ class Surface:
             self.settle()
 
     def get_clip(self) -> Rect:
-        """Where is drawn."""
         x1, y1, x2, y2 = self._bounds
         return make(x1, y1, x2 - x1, y2 - y1)
 
     def copy(self) -> Surface:
-        """Another surface with the same picture."""
         twin = Surface((self.w, self.h), SRCALPHA * self.alpha)
         if self._own is not None and twin._own is not None:
             twin._own.extend(self._own)
@@ -137,7 +160,8 @@ class Surface:
         if special_flags == BLEND_RGBA_MULT:
             self.opacity *= colour[3] / 255
             return self.get_rect()
-        area = self.get_clip() if rect is None else Rect(rect).clip(self.get_clip())
+        shown = self.get_rect() if rect is None else Rect(rect).clip(self.get_rect())
+        area = shown.clip(self.get_clip())
         if area.w:
             if self._own is not None and rect is None:
                 del self._own[:]
@@ -146,7 +170,7 @@ class Surface:
                 # What takes something away cannot be copied on top of something else.
                 self.overdrawn = self.overdrawn or number & 255 < 255
                 self.entries().extend((FILL, number, area.x, area.y, area.w, area.h))
-        return area
+        return shown if shown.w else make(0, 0, 0, 0)
 
     def blit(self, source: Surface, dest: Any, area: Any = None, special_flags: int = 0) -> Rect:
         """Draw a picture, or an ``area`` of it, with its upper left corner at ``dest``; what was covered."""
@@ -159,8 +183,9 @@ class Surface:
         w, h = source.w, source.h
         if area is not None:
             x, y, w, h = (area.x, area.y, area.w, area.h) if area.__class__ is Rect else Rect(area)
-            left, top = left + max(0, -x), top + max(0, -y)
-            x, y, w, h = max(0, x), max(0, y), min(w, w + x, source.w - x), min(h, h + y, source.h - y)
+            left, top, w, h = left + max(0, -x), top + max(0, -y), w + min(0, x), h + min(0, y)
+            x, y = max(0, x), max(0, y)
+            w, h = min(w, source.w - x), min(h, source.h - y)
         x1, y1, x2, y2 = self._bounds
         cut = left < x1 or top < y1 or left + w > x2 or top + h > y2
         if cut:
@@ -207,16 +232,3 @@ class Surface:
             small.settle()
             small.entries().extend((STRETCH, number, self.w, self.h, small.w, small.h, self.opacity))
         return small
-
-    def subsurface(self, rect: Any) -> Surface:
-        """A copy of a part."""
-        area = Rect(rect)
-        part = Surface(area.size, SRCALPHA * self.alpha)
-        part.blit(self, (0, 0), area)
-        return part
-
-    def convert(self) -> Surface:
-        """Itself: all surfaces have the format of the page."""
-        return self
-
-    convert_alpha = convert

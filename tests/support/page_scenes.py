@@ -1,0 +1,127 @@
+"""Twenty scenes of the game, drawn here and in a page alike: Pyodide reads this file too, after busy.py."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable
+from dataclasses import replace
+from random import Random
+from typing import Any
+
+from ninja_game.editor.files import draft_of, new_source
+from ninja_game.files.resources import bundled_levels, bundled_replays
+from ninja_game.formats.load import load_levels, load_replays
+from ninja_game.formats.named_level import NamedLevel
+from ninja_game.play.app import App
+from ninja_game.play.editor.screen import EditorScreen
+from ninja_game.play.lab.screen import LabScreen
+from ninja_game.play.level import play
+from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menus.boss import BossScreen
+from ninja_game.play.menus.browser import Browser
+from ninja_game.play.menus.episodes.grid import EpisodeGrid
+from ninja_game.play.menus.help.screen import HelpScreen
+from ninja_game.play.menus.pause import PausePanel
+from ninja_game.play.menus.records import RecordsScreen
+from ninja_game.play.menus.settings.screen import SettingsScreen
+from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.play.screen import Screen
+from ninja_game.play.view.overlays import OVERLAY_ACTIONS
+from ninja_game.player.catalogue import Entry
+
+Scene = tuple[str, str, Callable[[App], object]]
+"""Name, palette, what is shown."""
+
+
+def frames(app: App, count: int, ms: int = 25) -> None:
+    """Let pictures pass."""
+    for _ in range(count):
+        app.frame(ms)
+
+
+def busy(ticks: int, make: Any) -> Callable[[App], object]:
+    """The busy level after some ticks, its ghost beside it. ``make``: the level, the run, the keys of busy.py."""
+    busy_level, busy_run, restless = make
+
+    def show(app: App) -> None:
+        app.controls.held = restless().held  # type: ignore[method-assign]
+        screen = LevelScreen(app, busy_run(app.player, Entry(NamedLevel("busy", "", "", busy_level(), ""), "yours")))
+        app.push(screen)
+        frames(app, 1)
+        screen.begin()
+        frames(app, ticks)
+
+    return show
+
+
+def replay(number: int, tick: int, *overlays: str) -> Callable[[App], object]:
+    """A moment of a certificate."""
+
+    def show(app: App) -> None:
+        screen = ReplayScreen(app, load_replays(bundled_replays()[number]))
+        app.push(screen)
+        for overlay in overlays:
+            screen.overlays.toggle(overlay)
+        screen.seek(tick)
+        screen.toggle_pause()
+        frames(app, 2)
+
+    return show
+
+
+def paused(ticks: int, make: Any) -> Callable[[App], object]:
+    """The busy level under a panel."""
+
+    def show(app: App) -> None:
+        busy(ticks, make)(app)
+        assert isinstance(app.top, LevelScreen)
+        app.push(PausePanel(app, app.top))
+        frames(app, 2)
+
+    return show
+
+
+def screen(make: Callable[[App], Screen]) -> Callable[[App], object]:
+    """A screen by itself."""
+
+    def show(app: App) -> None:
+        app.push(make(app))
+        frames(app, 12)
+
+    return show
+
+
+def edited(app: App) -> EditorScreen:
+    """The editor with a level of ours."""
+    return EditorScreen(app, replace(new_source(), draft=draft_of(load_levels(bundled_levels()[40])[0])))
+
+
+def scenes(*make: Any) -> list[Scene]:
+    """All of them. ``make``: of busy.py."""
+    return [
+        ("busy 40", "classic", busy(40, make)), ("replay", "classic", replay(0, 90)),
+        ("settings", "classic", screen(SettingsScreen)), ("editor", "classic", screen(edited)),
+        ("busy 60", "dark", busy(60, make)), ("replay dark", "dark", replay(77, 150, *OVERLAY_ACTIONS[::3])),
+        ("help", "dark", screen(HelpScreen)), ("lab", "dark", screen(LabScreen)),
+        ("busy 90", "contrast", busy(90, make)), ("replay end", "contrast", replay(120, 60, *OVERLAY_ACTIONS)),
+        ("episodes", "contrast", screen(EpisodeGrid)), ("paused", "contrast", paused(30, make)),
+        ("busy 120", "safe", busy(120, make)), ("replay safe", "safe", replay(150, 200)),
+        ("records", "safe", screen(RecordsScreen)), ("boss", "safe", screen(BossScreen)),
+        ("busy 150", "safe-dark", busy(150, make)), ("replay late", "safe-dark", replay(190, 250)),
+        ("levels", "safe-dark", screen(Browser)), ("editor late", "safe-dark", screen(edited)),
+    ]  # fmt: skip
+
+
+def show_scene(app: App, scene: Scene) -> None:
+    """Show one, by itself, without chance."""
+    _, palette, show = scene
+    random.seed(1)
+    kept, play.Random = play.Random, lambda seed=None: Random(seed or 1)  # type: ignore[assignment,attr-defined]
+    held = app.controls.held
+    try:
+        app.stack.clear()
+        app.notice = ""
+        app.change_settings(palette=palette)
+        show(app)
+    finally:
+        play.Random, app.controls.held = kept, held  # type: ignore[attr-defined,method-assign]

@@ -1,0 +1,78 @@
+"""What a page paints looks as what pygame-ce paints: twenty scenes over all palettes."""
+
+from __future__ import annotations
+
+import base64
+from typing import Any
+
+import numpy as np
+import pygame
+import pytest
+from numpy.typing import NDArray
+
+from ninja_game.play.app import App, build_app
+from ninja_game.play.ui.palette import PALETTES
+from tests.support.page_scenes import Scene, scenes, show_scene
+from tests.support.web_page import BUSY, SCENES, SIZE, run_in
+from tools.measure.busy import BusyRun, Restless, busy_level
+
+MOST = 0.5
+"""Mean difference of a channel, of 255."""
+
+ALL = scenes(busy_level, BusyRun, Restless)
+
+START = """
+import os
+os.environ["NINJA_GAME_HOME"] = "/player"
+import boot
+import js
+boot.start(js.host)
+NAMED = {scene[0]: scene for scene in scenes(busy_level, BusyRun, Restless)}
+def show(name):
+    show_scene(boot.app(), NAMED[name])
+"""
+
+PIXELS = """
+(name) => {
+  python.globals.get("show")(name);
+  const data = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data;
+  let text = "";
+  for (let k = 0; k < data.length; k += 32768) text += String.fromCharCode.apply(null, data.subarray(k, k + 32768));
+  return btoa(text);
+}
+"""
+
+
+@pytest.fixture(scope="module")
+def app(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """The game here, without a display."""
+    app = build_app(tmp_path_factory.mktemp("player"), size=SIZE)
+    yield app
+    app.player.close()
+
+
+@pytest.fixture(scope="module")
+def page(python: Any) -> Any:
+    """The game in the page."""
+    run_in(python, BUSY, SCENES)
+    python.evaluate("text => { python.runPython(text); }", START)
+    return python
+
+
+def pixels(data: bytes) -> NDArray[np.int16]:
+    """A picture's channels, without alpha."""
+    return np.frombuffer(data, np.uint8).reshape(SIZE[1], SIZE[0], 4)[..., :3].astype(np.int16)
+
+
+def test_scenes_are_twenty_over_all_palettes() -> None:
+    assert len({name for name, *_ in ALL}) == 20
+    assert {palette for _, palette, _ in ALL} == set(PALETTES)
+
+
+@pytest.mark.parametrize("scene", ALL, ids=lambda scene: scene[0])
+def test_a_scene_looks_as_it_does_here(scene: Scene, app: App, page: Any) -> None:
+    show_scene(app, scene)
+    here = pixels(pygame.image.tobytes(app.surface, "RGBA"))
+    there = pixels(base64.b64decode(page.evaluate(PIXELS, scene[0])))
+    assert here.std() > 1, "nothing is shown"
+    assert np.abs(here - there).mean() <= MOST
