@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from typing import Any
 
 import pytest
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.locking import locked
+from ninja_game.web.site.build import MARK
 from tests.support.web_page import browser, built_site, missing, python_page, served
 
 
 @pytest.fixture(scope="session")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Any:
-    """The folder of the site."""
+    """The folder of the site. Workers of one session share it; the second one finds its files as they should be."""
+    base = tmp_path_factory.getbasetemp()
+    folder = (base if "PYTEST_XDIST_WORKER" not in os.environ else base.parent) / "site"
     try:
-        return built_site(tmp_path_factory.mktemp("site"))
+        with locked(folder, 300):
+            return folder if (folder / MARK).exists() else built_site(folder)
     except NinjaGameError as error:
         pytest.skip(f"no site can be built here: {error}")
 
