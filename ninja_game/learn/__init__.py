@@ -1,11 +1,100 @@
-"""The worlds as Gymnasium environments, single and vector, with what learning needs around them (docs/learning.md)."""
+"""The worlds as Gymnasium environments, single and vector, with what learning needs around them (docs/learning.md).
+
+Each name is imported when it is first used.
+"""
 
 from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from ninja_game.errors import MissingExtraError
 from ninja_game.files.resources import how_to_install
 
 try:
     import gymnasium  # noqa: F401 - its import registers the ids of the environments
-except ModuleNotFoundError as error:
-    raise MissingExtraError(f"ninja_game.learn needs Gymnasium; {how_to_install('learn')}") from error
+except ModuleNotFoundError:
+    raise MissingExtraError(f"ninja_game.learn needs Gymnasium; {how_to_install('learn')}") from None
+
+if TYPE_CHECKING:
+    from ninja_game.learn.agents.load import load_agent
+    from ninja_game.learn.demonstrations import (
+        Demonstration,
+        UnplayableRecordingError,
+        demonstration,
+        write_minari,
+        write_npz,
+    )
+    from ninja_game.learn.evaluation import Evaluation, LevelResult, evaluate
+    from ninja_game.learn.levels.curriculum import Curriculum
+    from ninja_game.learn.levels.source import LevelSource, generated_levels, level_source
+    from ninja_game.learn.observations.guide import Guide
+    from ninja_game.learn.observations.local_tiles import LocalTiles
+    from ninja_game.learn.observations.near_objects import NearObjects
+    from ninja_game.learn.observations.rays import Rays
+    from ninja_game.learn.observations.state_vector import StateVector
+    from ninja_game.learn.observations.time_left import TimeLeft
+    from ninja_game.learn.rewards import DeathPenalty, DistanceShaping, ExitReward, GoldReward, TimePenalty
+    from ninja_game.learn.single import NinjaEnv
+    from ninja_game.learn.sticky import StickyActions
+    from ninja_game.learn.vector import NinjaVectorEnv
+    from ninja_game.learn.worlds import EnvWorlds
+
+_NAMES = {
+    "agents.load": ("load_agent",),
+    "demonstrations": ("Demonstration", "UnplayableRecordingError", "demonstration", "write_minari", "write_npz"),
+    "evaluation": ("Evaluation", "LevelResult", "evaluate"),
+    "levels.curriculum": ("Curriculum",),
+    "levels.source": ("LevelSource", "generated_levels", "level_source"),
+    "observations.guide": ("Guide",),
+    "observations.local_tiles": ("LocalTiles",),
+    "observations.near_objects": ("NearObjects",),
+    "observations.rays": ("Rays",),
+    "observations.state_vector": ("StateVector",),
+    "observations.time_left": ("TimeLeft",),
+    "rewards": ("DeathPenalty", "DistanceShaping", "ExitReward", "GoldReward", "TimePenalty"),
+    "single": ("NinjaEnv",),
+    "sticky": ("StickyActions",),
+    "vector": ("NinjaVectorEnv",),
+    "worlds": ("EnvWorlds",),
+}
+_HOMES = {name: f"ninja_game.learn.{module}" for module, names in _NAMES.items() for name in names}
+
+__all__ = [
+    "Curriculum",
+    "DeathPenalty",
+    "Demonstration",
+    "DistanceShaping",
+    "EnvWorlds",
+    "Evaluation",
+    "ExitReward",
+    "GoldReward",
+    "Guide",
+    "LevelResult",
+    "LevelSource",
+    "LocalTiles",
+    "NearObjects",
+    "NinjaEnv",
+    "NinjaVectorEnv",
+    "Rays",
+    "StateVector",
+    "StickyActions",
+    "TimeLeft",
+    "TimePenalty",
+    "UnplayableRecordingError",
+    "demonstration",
+    "evaluate",
+    "generated_levels",
+    "level_source",
+    "load_agent",
+    "write_minari",
+    "write_npz",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first asked for."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'ninja_game.learn' has no attribute {name!r}")
+    value = globals()[name] = getattr(import_module(_HOMES[name]), name)
+    return value

@@ -11,6 +11,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -132,6 +133,12 @@ def write_npz(path: Path, episodes: Sequence[Demonstration]) -> None:
     write_atomically(path, lambda file: np.savez_compressed(file, **named))
 
 
+def require_minari() -> None:
+    """Raise MissingExtraError without Minari."""
+    if find_spec("minari") is None or find_spec("h5py") is None:
+        raise MissingExtraError(f"data sets of Minari need it; {how_to_install('minari')}")
+
+
 def write_minari(dataset: str, episodes: Sequence[Demonstration], **settings: Any) -> Any:
     """Write episodes as the data set ``dataset`` of Minari ("name-v0"), where Minari keeps its sets; the set.
 
@@ -139,11 +146,10 @@ def write_minari(dataset: str, episodes: Sequence[Demonstration], **settings: An
 
     Raises MissingExtraError without Minari, ArgumentError without episodes or for a name that Minari does not take.
     """
-    try:
-        import minari
-        from minari.data_collector import EpisodeBuffer
-    except ModuleNotFoundError as error:
-        raise MissingExtraError(f"data sets of Minari need it; {how_to_install('minari')}") from error
+    require_minari()
+    import minari
+    from minari.data_collector import EpisodeBuffer
+
     if not episodes:
         raise ArgumentError("there are no demonstrations to write")
     buffers = [

@@ -159,3 +159,10 @@ def test_reference_recordings_are_demonstrations_unless_they_press_jump_anew() -
             assert (made.outcome, made.gold, len(made.rewards)) == (row.outcome, row.gold, row.ticks)
     # Of all 1,108 recordings 10 are.
     assert unplayable == [760, 1000]
+
+
+def test_without_minari_it_is_said_how_to_install_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ninja_game.learn.demonstrations.find_spec", lambda _: None)
+    result = CliRunner().invoke(cli, ["learn", "demos", str(bundled_replays()[0]), "--minari", "ninja/one-v0"])
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert "data sets of Minari need it" in result.stderr

@@ -1,26 +1,30 @@
-"""The reference of the public API, made from signatures and docstrings: the end of docs/python-api.md."""
+"""The reference of the public API, made from signatures and docstrings: the ends of the pages ``PAGES``."""
 
 from __future__ import annotations
 
 import inspect
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import ninja_game
+import ninja_game.learn
 from ninja_game.errors import NinjaGameError
+from ninja_game.learn.observations.part import Part
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "python-api.md"
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+PAGES = {DOCS / "python-api.md": ninja_game, DOCS / "learning.md": ninja_game.learn}
 HEADING = "## Reference\n"
 
 
-def reference() -> str:
-    """Every public name with its signature and the first line of its docstring; of classes the members too."""
+def reference(module: ModuleType) -> str:
+    """Every public name of a module with its signature and its docstring's first line; of classes the members too."""
     lines = [HEADING]
-    for name in sorted(set(ninja_game.__all__) - {"__version__"}, key=str.lower):
-        value = getattr(ninja_game, name)
+    for name in sorted(set(module.__all__) - {"__version__"}, key=str.lower):
+        value = getattr(module, name)
         plain = inspect.isclass(value) and issubclass(value, (NinjaGameError, int))
         lines.append(f"`{name}{'' if plain else _signature(value)}`: {_first_line(value)}")
-        lines += _members(value) if inspect.isclass(value) and not plain else []
+        lines += _members(value) if inspect.isclass(value) and not plain and not issubclass(value, Part) else []
         lines.append("")
     return "\n".join(lines)
 
@@ -61,7 +65,8 @@ def _first_line(value: Any) -> str:
     return (inspect.getdoc(value) or "").partition("\n")[0].replace("``", "`")
 
 
-def write_api_page() -> None:
-    """Write the reference anew; what stands before it stays."""
-    text = PAGE.read_text("utf-8").partition(HEADING)[0]
-    PAGE.write_text(text + reference(), "utf-8")
+def write_api_pages() -> None:
+    """Write the references anew; what stands before them stays."""
+    for page, module in PAGES.items():
+        text = page.read_text("utf-8").partition(HEADING)[0]
+        page.write_text(text + reference(module), "utf-8")

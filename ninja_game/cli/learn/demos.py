@@ -51,10 +51,18 @@ def command(
     from ninja_game.errors import ArgumentError
     from ninja_game.files.writing import check_output
     from ninja_game.formats.load import load_replays
-    from ninja_game.learn.demonstrations import UnplayableRecordingError, demonstration, write_minari, write_npz
+    from ninja_game.learn.demonstrations import (
+        UnplayableRecordingError,
+        demonstration,
+        require_minari,
+        write_minari,
+        write_npz,
+    )
 
     if output is not None:
         check_output(output, keep=files)
+    else:
+        require_minari()
     level = level_given(level_path)
     recordings = [recording for file in files for recording in load_replays(file, level=level)]
     observation = parts[0] if len(parts) == 1 else list(parts)
