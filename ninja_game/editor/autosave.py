@@ -14,7 +14,7 @@ from pathlib import Path
 from ninja_game.editor.ascii_text import ascii_text
 from ninja_game.editor.background import NewestJob
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import Source, draft_of, open_source
+from ninja_game.editor.files import Source, draft_of, new_source, open_source
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.locking import hold
 from ninja_game.files.reading import read_utf8
@@ -63,7 +63,7 @@ class Autosave:
     def _work(self, job: tuple[Draft, Source] | None) -> None:
         try:
             if job is None:
-                self._remove()
+                _forget(self._file)
                 return
             if self._handle is None:
                 self._folder.mkdir(parents=True, exist_ok=True)
@@ -75,21 +75,20 @@ class Autosave:
         except (OSError, NinjaGameError) as error:
             self.problem = f"What you edit cannot be kept safe: {getattr(error, 'strerror', '') or error}"
 
-    def _remove(self) -> None:
-        with suppress(OSError):
-            self._file.unlink(missing_ok=True)
-
     def close(self, *, keep: bool = False) -> None:
         """End. ``keep``: what is kept stays, to be found by the next editor."""
         self._job.finish()
-        if not keep:
-            self._remove()
         if self._handle is not None:
             os.close(self._handle)
             self._handle = None
-            if not keep:
-                with suppress(OSError):
-                    self._file.with_suffix(_LOCK).unlink()
+        if not keep:
+            _forget(self._file, self._file.with_suffix(_LOCK))
+
+
+def _forget(*files: Path) -> None:
+    for file in files:
+        with suppress(OSError):
+            file.unlink(missing_ok=True)
 
 
 @dataclass(frozen=True)
@@ -102,9 +101,7 @@ class Recovered:
 
     def forget(self) -> None:
         """Remove what was kept."""
-        for path in (self.file, self.file.with_suffix(_LOCK)):
-            with suppress(OSError):
-                path.unlink(missing_ok=True)
+        _forget(self.file, self.file.with_suffix(_LOCK))
 
 
 def recovered(folder: Path) -> Iterator[Recovered]:
@@ -127,7 +124,7 @@ def _read(file: Path) -> Recovered:
     """What an autosave holds. Raises ValueError, KeyError, TypeError, NinjaGameError for one that is damaged."""
     kept = json.loads(read_utf8(file))
     draft = draft_of(parse_levels(kept["level"])[0])
-    source = Source(Draft(draft.level.__class__()))
+    source = new_source()
     if kept["path"]:
         with suppress(OSError, NinjaGameError):
             source = open_source(Path(kept["path"]))

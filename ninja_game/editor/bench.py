@@ -6,8 +6,8 @@ It knows no window: points are px of the level.
 from __future__ import annotations
 
 from ninja_game.editor.brush import SORT_NAMES, placed, snapped, sort_of
-from ninja_game.editor.choosing import Choosing
 from ninja_game.editor.draft import Cell, Draft, cell_of
+from ninja_game.editor.hand import Hand
 from ninja_game.editor.history import History
 from ninja_game.editor.motion import Motion
 from ninja_game.editor.records import has_switch
@@ -31,7 +31,7 @@ DRAGGED = 12.0
 """A press that moves farther than this is a drag; what is nearer is chosen."""
 
 
-class Bench(Choosing):
+class Bench(Hand):
     """``tool``: one of TOOLS; ``marquee``: the corners of the frame that is being drawn around what to choose."""
 
     def __init__(self, draft: Draft) -> None:
@@ -54,10 +54,10 @@ class Bench(Choosing):
         """The pointer is somewhere else; what is being dragged follows."""
         before = self.cell
         self.pointer = min(max(0.0, x), WORLD_WIDTH - 1e-6), min(max(0.0, y), WORLD_HEIGHT - 1e-6)
-        if self._switchless is not None:
-            self._put_switch()
-        elif self._doing in ("draw", "erase"):
+        if self._doing in ("draw", "erase"):
             self._draw_line(before, erasing=self._doing == "erase")
+        elif self._switchless is not None:
+            self._put_switch()
         elif self._doing == "drop":
             self._drop()
         elif self._doing == "rectangle":
@@ -87,20 +87,13 @@ class Bench(Choosing):
             self._begin_to_draw(erase=erase)
 
     def _begin_to_draw(self, *, erase: bool) -> None:
-        if erase:
-            self._doing = "erase"
-            self._draw_line(self.cell, erasing=True)
-        elif self.tool == "fill" and not self.objects:
+        if self.tool == "fill" and not self.objects and not erase:
             self._change(Stamp(dict.fromkeys(filled(self.draft, self.cell), self.tile)))
-        elif self.tool == "rectangle":
-            self._doing = "rectangle"
-            self._draw_rectangle()
-        elif not self.objects or self.record.kind in (GOLD, MINE):
-            self._doing = "draw"
-            self._draw_line(self.cell, erasing=False)
-        else:
-            self._doing = "drop"
-            self._drop()
+            return
+        many = not self.objects or self.record.kind in (GOLD, MINE)
+        drawn = "rectangle" if self.tool == "rectangle" else "draw" if many else "drop"
+        self._doing = "erase" if erase else drawn
+        self.move(*self.pointer)
 
     def release(self) -> None:
         """The button goes up."""

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from threading import Thread
 from typing import TYPE_CHECKING
 
 from ninja_game.compile_cache import compiled_available
+from ninja_game.editor.background import NewestJob
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.resources import how_to_install
-from ninja_game.runtime import beside
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Body, Simulation
@@ -59,13 +57,13 @@ class Certifier:
         self.route: Route = ()
         self.share = 0.0
         self.text = ""
-        self._thread: Thread | None = None
+        self._job: NewestJob[Level, None] = NewestJob(self._work)
         self._stop = False
 
     @property
     def busy(self) -> bool:
         """Whether the solver is at work."""
-        return self._thread is not None and self._thread.is_alive()
+        return not self._job.idle
 
     def is_stale(self, level: Level) -> bool:
         """Whether there is a result, but of another level than this one."""
@@ -80,18 +78,16 @@ class Certifier:
         self.level, self.run, self.route, self.share = level, None, (), 0.0
         self.text = "Getting ready (the first time this takes a minute or two)"
         self._stop = False
-        self._thread = beside(lambda: self._work(level, lambda: self._stop))
+        self._job.ask(level)
 
     def stop(self) -> None:
         """End the search; what was found stays."""
         self._stop = True
-        if self._thread is not None:
-            self._thread.join(5.0)
-            self._thread = None
+        self._job.finish(5.0)
 
-    def _work(self, level: Level, stopped: Callable[[], bool]) -> None:
+    def _work(self, level: Level) -> None:
         def report(progress: Progress) -> None:
-            if stopped():
+            if self._stop or level is not self.level:
                 raise _StoppedError
             self.share = min(1.0, progress.seconds / self.seconds)
             if self.run is None:

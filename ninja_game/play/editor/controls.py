@@ -78,7 +78,7 @@ _FAMILY_OF_KEY = {family.key: family for family in FAMILIES}
 def keys_of(name: str) -> str:
     """What to press for a command, for people."""
     keys = next(command.keys for command in COMMANDS if command.name == name)
-    return " or ".join("+".join(map(key_label_of, key.split("+"))) for key in keys[:1])
+    return "+".join(map(key_label_of, keys[0].split("+"))) if keys else ""
 
 
 def key_label_of(name: str) -> str:

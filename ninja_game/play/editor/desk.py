@@ -51,8 +51,6 @@ class Desk:
         self.properties: list[Widget] = []
         self.shown_findings: list[Finding] = []
         self.shown_certificate = ""
-        self._signs_of: list[Finding] = []
-        self._sign_points: list[Point] = []
         self._look: tuple[object, ...] = ()
         self._marked: tuple[object, ...] = ()
         self._lay_out()
@@ -133,12 +131,9 @@ class Desk:
 
     def _signs(self) -> list[Point]:
         """Where the findings are, in the level that was examined."""
-        examined, findings = self.session.examined, self.session.findings
-        if findings is not self._signs_of:
-            self._signs_of = findings
-            found = [point for each in findings for point in finding_points(examined, each)] if examined else []
-            self._sign_points = list(dict.fromkeys(found))
-        return self._sign_points
+        examined = self.session.examined
+        found = [p for each in self.session.findings for p in finding_points(examined, each)] if examined else []
+        return list(dict.fromkeys(found))
 
     def _draw_panels(
         self, surface: pygame.Surface, widgets: Sequence[Widget], focus: Widget | None

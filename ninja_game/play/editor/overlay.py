@@ -9,13 +9,13 @@ from ninja_game.editor.brush import placed
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.records import carried, points
 from ninja_game.editor.stamp import Area, area_between, nearest
+from ninja_game.play.editor.palette_view import tile_icon
 from ninja_game.play.editor.sheet import LevelSheet, joined
 from ninja_game.play.ui.canvas import Canvas, Colour
 from ninja_game.play.ui.palette import Palette
 from ninja_game.play.view.sprites.draw_target import DrawTarget, is_near
 from ninja_game.play.view.sprites.drawing import drawing
 from ninja_game.play.view.sprites.sketch import Sketch
-from ninja_game.play.view.sprites.tile_shapes import tile_picture
 from ninja_game.sim.kinds import EXIT, NINJA
 
 GHOST = 5
@@ -36,7 +36,6 @@ class Overlay:
         self.canvas = Canvas(sheet.canvas.size)
         self.canvas.origin = origin
         self.target = DrawTarget(self.canvas, sheet.palette, sheet.book)
-        self._tiles: dict[tuple[int, tuple[int, int]], pygame.Surface] = {}
 
     @property
     def area(self) -> pygame.Rect:
@@ -107,11 +106,6 @@ class Overlay:
 
     def _ghost_tile(self, cell: tuple[int, int], tile: int) -> None:
         rect = self.canvas.rect(24 * cell[0], 24 * cell[1], 24, 24)
-        key = tile, rect.size
-        if key not in self._tiles:
-            picture = tile_picture(tile, rect.size, self.sheet.palette.tile) if 0 <= tile <= 33 else None
-            picture = picture or pygame.Surface(rect.size, pygame.SRCALPHA)
-            picture.fill((150, 150, 150, 150), special_flags=pygame.BLEND_RGBA_MULT)
-            self._tiles[key] = picture
-        self.target.surface.blit(self._tiles[key], rect, special_flags=pygame.BLEND_PREMULTIPLIED)
+        picture = tile_icon(tile, rect.size, self.sheet.palette.name, alpha=150)
+        self.target.surface.blit(picture, rect, special_flags=pygame.BLEND_PREMULTIPLIED)
         self._note(rect)

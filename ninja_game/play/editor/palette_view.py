@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import pygame
 
 from ninja_game.editor.bench import Bench
 from ninja_game.editor.brush import EMPTY, FAMILIES, FULL, SORTS, Sort, sort_of, tile_key, tile_name, with_switch
+from ninja_game.editor.motion import TILE_IDS
 from ninja_game.editor.records import BODY, points
 from ninja_game.play.editor.controls import key_label_of
 from ninja_game.play.editor.object_pictures import ObjectPictures
 from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.palette import Palette
+from ninja_game.play.ui.palette import PALETTES
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Widget
 from ninja_game.play.view.sprites.draw_target import DrawTarget
@@ -32,7 +35,6 @@ class PaletteView(Widget):
         super().__init__(area)
         self.bench = bench
         self.hovered: int | Sort | None = None
-        self._icons: dict[tuple[object, ...], pygame.Surface] = {}
 
     def places(self) -> list[tuple[int | Sort, Area]]:
         """Every entry with its square; the four tiles of a family stand as their keys Q W A S do."""
@@ -109,29 +111,32 @@ class PaletteView(Widget):
                 canvas.frame_rect(surface, palette.accent, *area, 2)
 
     def _icon(self, theme: Theme, what: int | Sort, area: Area) -> pygame.Surface:
-        record = what.record if isinstance(what, Sort) else None
-        if isinstance(what, Sort) and self.bench.objects and sort_of(self.bench.record) == what.name:
-            # The one in hand as it is drawn now.
-            record = self.bench.record
         size = theme.canvas.rect(*area).size
-        key = (record if record is not None else what, size, theme.palette.name)
-        if key not in self._icons:
-            self._icons[key] = (
-                object_icon(record, size, theme.canvas.scale, theme.palette)
-                if record is not None
-                else tile_picture(int(what), size, theme.palette.tile)  # type: ignore[arg-type]
-            )
-        return self._icons[key]
+        if not isinstance(what, Sort):
+            return tile_icon(what, size, theme.palette.name)
+        # The one in hand as it is drawn now.
+        in_hand = self.bench.objects and sort_of(self.bench.record) == what.name
+        return object_icon(self.bench.record if in_hand else what.record, size, theme.canvas.scale, theme.palette.name)
 
 
-def object_icon(record: ObjectSpec, size: tuple[int, int], scale: float, palette: Palette) -> pygame.Surface:
+@lru_cache(maxsize=200)
+def tile_icon(tile: int, size: tuple[int, int], palette: str, alpha: int = 255) -> pygame.Surface:
+    """A tile as large as ``size``; nothing for what has no shape. ``palette``: its name."""
+    picture = tile_picture(tile, size, PALETTES[palette].tile) if tile in TILE_IDS else None
+    picture = picture or pygame.Surface(size, pygame.SRCALPHA)
+    picture.fill((alpha,) * 4, special_flags=pygame.BLEND_RGBA_MULT)
+    return picture
+
+
+@lru_cache(maxsize=200)
+def object_icon(record: ObjectSpec, size: tuple[int, int], scale: float, palette: str) -> pygame.Surface:
     """An object in the middle of a small picture; of a door or an exit without its switch."""
     canvas = Canvas((round(792 * scale), round(600 * scale)))
     far = with_switch(record, 700.0, 500.0, "half")
     x, y = points(far)[BODY]
     px, py = canvas.point(x, y)
     canvas.origin = size[0] // 2 - px, size[1] // 2 - py
-    target = DrawTarget(canvas, palette, SpriteBook(canvas.scale, palette))
+    target = DrawTarget(canvas, PALETTES[palette], SpriteBook(canvas.scale, PALETTES[palette]))
     icon = pygame.Surface(size, pygame.SRCALPHA)
     target.begin(icon)
     ObjectPictures(target).looks([far])[far].draw(target)

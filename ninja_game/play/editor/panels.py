@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.editor.controls import COMMANDS, key_label_of
+from ninja_game.play.editor.controls import COMMANDS, keys_of
 from ninja_game.play.input.gamepad import pad_label
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.menu_screen import MenuScreen
@@ -134,8 +134,7 @@ class HelpPage(MenuScreen):
         for number, command in enumerate(shown):
             column, row = divmod(number, rows)
             x, y = 40 + 362 * column, 70 + 15 * len(lines) + 19 * row
-            keys = "+".join(map(key_label_of, command.keys[0].split("+"))) if command.keys else ""
-            theme.text(surface, keys, x, y, size=10, bold=True, width=84)
+            theme.text(surface, keys_of(command.name), x, y, size=10, bold=True, width=84)
             theme.text(surface, pad_label(command.pad) if command.pad else "", x + 86, y, size=9, width=86,
                        colour=theme.palette.faint)  # fmt: skip
             theme.text(surface, command.label, x + 174, y, size=10, width=186)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import TYPE_CHECKING
 
 from ninja_game.editor.bench import Bench
@@ -38,12 +39,9 @@ def property_widgets(bench: Bench, area: Area) -> Sequence[Widget]:
         count = len(bench.selection.records)
         cells = bench.selection.area[2] * bench.selection.area[3] if bench.selection.area else 0
         title = f"Selected: {cells} cells, {count} objects" if cells else f"Selected: {count} objects"
-        rows += [
-            lambda a: Button(a, "Mirror (H)", lambda: bench.turn(MIRROR), size=9.5),
-            lambda a: Button(a, "Flip (J)", lambda: bench.turn(FLIP), size=9.5),
-            lambda a: Button(a, "Turn (U)", lambda: bench.turn(CLOCKWISE), size=9.5),
-            lambda a: Button(a, "Delete (Del)", bench.delete, size=9.5),
-        ]
+        turns = {"Mirror (H)": MIRROR, "Flip (J)": FLIP, "Turn (U)": CLOCKWISE}
+        rows += [partial(Button, text=text, action=partial(bench.turn, turn), size=9.5) for text, turn in turns.items()]
+        rows.append(partial(Button, text="Delete (Del)", action=bench.delete, size=9.5))
     elif bench.selection or bench.objects:
         record = bench.chosen or bench.record
         title = f"{'Selected' if bench.selection else 'Draw'}: {sort_name(record)}"
@@ -51,11 +49,11 @@ def property_widgets(bench: Bench, area: Area) -> Sequence[Widget]:
         if bench.selection:
             rows += [_place(bench, part) for part in points(record)]
         elif has_switch(record):
-            rows.append(lambda a: Label(a, "Then click where its switch is", size=9.5, faint=True))
+            rows.append(partial(Label, text="Then click where its switch is", size=9.5, faint=True))
     else:
         title = f"Draw: {tile_name(bench.tile)}"
         texts = ("1 to 8: shape", "Q W A S: its solid corner", "E: full    D: empty", "H, J, U: mirror, flip, turn")
-        rows += [lambda a, text=text: Label(a, text, size=9.5, faint=True) for text in texts]  # type: ignore[misc]
+        rows += [partial(Label, text=text, size=9.5, faint=True) for text in texts]
     head = Label((x, y, w, ROW), title, size=10)
     return [head, *(make((x, y + 17 + ROW * k, w, ROW - 3)) for k, make in enumerate(rows))]
 

@@ -54,7 +54,7 @@ class EditorScreen(MenuScreen):
         bench = self.session.bench
         self._subject = subject(bench)
         self.palette_view = PaletteView(DESK.palette, bench)
-        self.desk.toolbar = list(toolbar(self.session, self.commands.run, lambda: self.desk.grid.name))
+        self.desk.toolbar = list(toolbar(bench, self.commands.run, lambda: self.desk.grid.name))
         self.desk.properties = list(property_widgets(bench, DESK.properties))
         return [*self.desk.toolbar, self.palette_view, *self.desk.properties, self.findings]
 

@@ -15,7 +15,7 @@ from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_layout import wrapped
 from ninja_game.play.ui.theme import Area, Theme
-from ninja_game.play.ui.widgets import Button, Widget
+from ninja_game.play.ui.widgets import Button, Choice, Slider, Widget
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
@@ -83,11 +83,7 @@ class LabScreen(MenuScreen):
 
     def act(self, action: str, *, held: bool = False) -> None:
         """A control that is touched ends the demonstration."""
-        if (
-            action in ("left", "right", "confirm")
-            and self.focus not in (self.list, None)
-            and not isinstance(self.focus, Button)
-        ):
+        if action in ("left", "right", "confirm") and isinstance(self.focus, (FigureArea, Slider, Choice)):
             self.shows = False
         super().act(action, held=held)
 

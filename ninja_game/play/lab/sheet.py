@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from itertools import pairwise
+from collections.abc import Iterable
+from itertools import product
 from math import atan2, cos, sin
 from typing import NamedTuple
 
@@ -19,6 +19,9 @@ from ninja_game.sim.rules import CELL, HALF, INTERESTING, OFF
 
 FIGURE: Area = (212, 62, 540, 324)
 """Where a figure is seen, logical px."""
+
+
+ALL_CELLS = range(len(EXISTS))
 
 
 class View(NamedTuple):
@@ -98,10 +101,10 @@ class Sheet:
             if seen and EXISTS[cell] and (corners := [(x + dx, y + dy) for dx, dy in outline(tile)]):
                 self.canvas.polygon(self.surface, self.palette.tile, corners)
 
-    def edges(self, w: World) -> None:
+    def edges(self, w: World, cells: Iterable[int] = ALL_CELLS) -> None:
         """Each cell's own edge states, a little inside it: solid thick, interesting thin, off not at all."""
-        for index, state in enumerate(w.edges):
-            cell, side = divmod(index, 4)
+        for cell, side in product(cells, range(4)):
+            state = w.edges[4 * cell + side]
             if state != OFF and EXISTS[cell]:
                 x, y = CENTRE_X[cell] + 10.5 * UNIT_X[side], CENTRE_Y[cell] + 10.5 * UNIT_Y[side]
                 a, b = abs(UNIT_Y[side]) * 10, abs(UNIT_X[side]) * 10
@@ -124,11 +127,6 @@ class Sheet:
     def line(self, colour: Colour, a: Point, b: Point, width: float = 1) -> None:
         """A straight line; ``width``: logical px."""
         self.canvas.line(self.surface, colour, a, b, width / self.view.zoom)
-
-    def path(self, colour: Colour, points: Sequence[Point], width: float = 1) -> None:
-        """Lines from point to point."""
-        for a, b in pairwise(points):
-            self.line(colour, a, b, width)
 
     def arrow(self, colour: Colour, a: Point, b: Point, width: float = 2) -> None:
         """A line with a head; nothing for no length."""

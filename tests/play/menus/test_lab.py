@@ -16,14 +16,13 @@ from ninja_game.cli.game import lab as lab_command
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.lab.export import FILM_TICKS, export_figure, figure_pictures
 from ninja_game.play.lab.figure import Figure, room_world
-from ninja_game.play.lab.figures.bullets import Bullets
 from ninja_game.play.lab.figures.catalogue import FIGURES
 from ninja_game.play.lab.figures.cells import CellsTouched, NineCells
 from ninja_game.play.lab.figures.drones import WalkingEnemies
 from ninja_game.play.lab.figures.edges import STATES, EdgeStates
 from ninja_game.play.lab.figures.grids import LooseGrid
+from ninja_game.play.lab.figures.meetings import Bullets, FiveCells
 from ninja_game.play.lab.figures.one_tick import PHASES, PLAYED, OneTick
-from ninja_game.play.lab.figures.pairs import FiveCells
 from ninja_game.play.lab.figures.projection import PUSH, Projection
 from ninja_game.play.lab.figures.rays import Rays
 from ninja_game.play.lab.screen import FigureArea, LabScreen

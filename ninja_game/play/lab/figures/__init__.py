@@ -1,1 +1,1 @@
-"""The figures: one module each, but for those about cells."""
+"""The figures: a module for each, or for some that show the same."""

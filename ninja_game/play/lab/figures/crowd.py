@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from random import Random
 from typing import NamedTuple
@@ -70,21 +71,10 @@ class Crowd:
             # A removal and an insertion, if the cell is another one.
             loose += 2 * grid_move(self.world, o)
             normal += len(before ^ self.cells_of(o))
-        filed: dict[int, int] = {}
-        for o in self.objects:
-            for cell in self.cells_of(o):
-                filed[cell] = filed.get(cell, 0) + 1
+        filed = Counter(cell for o in self.objects for cell in self.cells_of(o))
         normal_tests = sum(filed[cell] - 1 for o in self.objects for cell in self.cells_of(o))
-        loose_tests = sum(self.length(cell + offset) for cell in self.occupied() for offset in NINE_CELLS)
+        loose_tests = sum(1 for o in self.objects for _ in self.neighbours(o.cell))
         return Work(loose, loose_tests - len(self.objects)), Work(normal, normal_tests)
-
-    def occupied(self) -> list[int]:
-        """The cell of each object."""
-        return [o.cell for o in self.objects]
-
-    def length(self, cell: int) -> int:
-        """How long a cell's list is."""
-        return sum(1 for _ in self.neighbours(cell, (0,)))
 
     def step(self, o: Object) -> None:
         """Fly on; at the walls turn back."""

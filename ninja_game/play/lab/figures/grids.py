@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cache
+from itertools import pairwise
 
 from ninja_game.play.lab.figure import Control, Figure, Setting, choice, slider
 from ninja_game.play.lab.figures.crowd import LEFT, TOP, Crowd, Work
@@ -116,7 +117,8 @@ class LooseGrid(Figure):
                 (x + w * count / MEASURED[-1], y + h - h * row[grid][self.plot] / most)
                 for count, row in zip(MEASURED, rows, strict=True)
             ]
-            sheet.path(colour, points, 2)
+            for start, end in pairwise(points):
+                sheet.line(colour, start, end, 2)
             sheet.text(("loose", "normal")[grid], x + 30 + 80 * grid, y - 12, size=9, colour=colour)
         sheet.line(p.faint, (x, y + h), (x + w, y + h))
         sheet.text(f"a tick: up to {most}", x + w - 55, y - 12, size=8)

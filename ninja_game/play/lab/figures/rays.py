@@ -10,9 +10,9 @@ from ninja_game.play.lab.sheet import Sheet
 from ninja_game.play.lab.watching import values_of, watch
 from ninja_game.play.ui.canvas import Point
 from ninja_game.sim.collision.rays import cast, ray_circle, ray_tiles, sees
-from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS, UNIT_X, UNIT_Y
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS
 from ninja_game.sim.grid import cell_at
-from ninja_game.sim.rules import GOLD_RADIUS, OFF, RADIUS
+from ninja_game.sim.rules import GOLD_RADIUS, RADIUS
 
 NINJA: Point = (292.0, 172.0)
 
@@ -59,15 +59,16 @@ class Rays(Figure):
         super().demonstrate(tick)
 
     @property
+    def direction(self) -> Point:
+        """Where the ray points: a vector of length 1."""
+        length = dist((self.from_x, self.from_y), (self.x, self.y)) or 1.0
+        return (self.x - self.from_x) / length, (self.y - self.from_y) / length
+
+    @property
     def visited(self) -> list[int]:
         """The cells of the ray, in the order in which the world's own function visits them."""
-        length = dist((self.from_x, self.from_y), (self.x, self.y)) or 1.0
-        dx, dy = (self.x - self.from_x) / length, (self.y - self.from_y) / length
-        return [
-            cell
-            for cell in values_of("cell", cast, self.tiles, self.world, self.from_x, self.from_y, dx, dy)
-            if EXISTS[cell]
-        ]
+        cells = values_of("cell", cast, self.tiles, self.world, self.from_x, self.from_y, *self.direction)
+        return [cell for cell in cells if EXISTS[cell]]
 
     def asked(self) -> tuple[list[int], bool, Point]:
         """The cells whose shapes were asked, whether something stopped the ray, and where, px."""
@@ -79,14 +80,12 @@ class Rays(Figure):
 
     def met(self) -> tuple[list[int], list[int]]:
         """The slots of the gold that the ray really meets before it stops: in cells that it visits, and in others."""
-        length = dist((self.from_x, self.from_y), (self.x, self.y)) or 1.0
-        dx, dy = (self.x - self.from_x) / length, (self.y - self.from_y) / length
         cells, (_, stopped, end) = set(self.visited), self.asked()
         reach = dist((self.from_x, self.from_y), end) if stopped else 1e9
         found: tuple[list[int], list[int]] = ([], [])
         for slot in range(1, self.world.id_count + 1):
             o = self.world.objects[slot]
-            hit, x, y = ray_circle(self.from_x, self.from_y, dx, dy, o.x, o.y, GOLD_RADIUS)
+            hit, x, y = ray_circle(self.from_x, self.from_y, *self.direction, o.x, o.y, GOLD_RADIUS)
             if hit and dist((self.from_x, self.from_y), (x, y)) <= reach:
                 found[o.cell not in cells].append(slot)
         return found
@@ -114,12 +113,7 @@ class Rays(Figure):
             sheet.text(str(number), CENTRE_X[cell] - 8, CENTRE_Y[cell] - 8, size=8, colour=p.faint)
         sheet.tiles(self.tiles)
         sheet.grid()
-        for cell in self.visited:
-            for side in range(4):
-                if self.world.edges[4 * cell + side] != OFF:
-                    x, y = CENTRE_X[cell] + 11 * UNIT_X[side], CENTRE_Y[cell] + 11 * UNIT_Y[side]
-                    a, b = 11 * abs(UNIT_Y[side]), 11 * abs(UNIT_X[side])
-                    sheet.line(p.bad, (x - a, y - b), (x + a, y + b), 1.5)
+        sheet.edges(self.world, self.visited)
         inside, missed = self.met()
         for slot in range(1, self.world.id_count + 1):
             o = self.world.objects[slot]
