@@ -1,8 +1,26 @@
 // Plays the sounds of shim/pygame/mixer.py with WebAudio.
 
-// Samples (-1 to 1) of a WAV file of 16 bits, mono; null for anything else.
+const STEPS = Array.from({ length: 89 }, (_, k) => Math.min(32767, Math.round(7 * 1.1 ** k)));
+const CHANGES = [-1, -1, -1, -1, 2, 4, 6, 8];
+
+// Samples (-1 to 1) of a sound that ninja_game/web/sounds.py has made smaller: the same there as `decoded`.
+function unpacked(bytes, view) {
+  const samples = new Float32Array(view.getUint32(8, true));
+  let [value, place] = [0, bytes[12]];
+  for (let k = 0; k < samples.length; k++) {
+    const nibble = (bytes[13 + (k >> 1)] >> (4 * (k & 1))) & 15;
+    const moved = (STEPS[place] * (2 * (nibble & 7) + 1)) >> 3;
+    value = Math.max(-32768, Math.min(32767, nibble & 8 ? value - moved : value + moved));
+    place = Math.max(0, Math.min(STEPS.length - 1, place + CHANGES[nibble & 7]));
+    samples[k] = value / 32768;
+  }
+  return { rate: view.getUint32(4, true), samples };
+}
+
+// Samples (-1 to 1) of such a sound, or of a WAV file of 16 bits, mono; null for anything else.
 export function decoded(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  if (bytes.length >= 13 && view.getUint32(0) === 0x4e475331) return unpacked(bytes, view);
   if (bytes.length < 44 || view.getUint32(0) !== 0x52494646) return null;
   const samples = new Float32Array((bytes.length - 44) >> 1);
   for (let k = 0; k < samples.length; k++) samples[k] = view.getInt16(44 + 2 * k, true) / 32768;

@@ -11,6 +11,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from ninja_game.files.resources import PACKAGE, data_folder
+from ninja_game.web.sounds import compressed
 
 LEFT_OUT = (
     "batch",
@@ -49,7 +50,9 @@ def game_files() -> Iterator[tuple[str, bytes]]:
         root = data_folder(folder)
         for path in root.rglob("*"):
             if path.is_file() and path.suffix != ".md":
-                yield f"ninja_game/data/{folder}/{path.relative_to(root).as_posix()}", path.read_bytes()
+                data = path.read_bytes()
+                name = f"ninja_game/data/{folder}/{path.relative_to(root).as_posix()}"
+                yield name, compressed(data, str(path)) if path.suffix == ".wav" else data
     for path in _package("tomlkit").rglob("*.py"):
         yield f"tomlkit/{path.relative_to(_package('tomlkit')).as_posix()}", path.read_bytes()
 
