@@ -45,6 +45,7 @@ GROUPS = {
         "bench": "Measure how fast the world is on this machine.",
         "solve": "Find a run to the exit, then shorten it.",
         "improve": "Shorten a run that exists.",
+        "search": "Find other keys for a span of a run.",
     },
     "web": {
         "site": "Build the game as a page in a browser: a folder for any static host.",
@@ -61,8 +62,8 @@ MODULES = {
 }
 
 COMPILING = (
-    "verify", "board", "trace", "splits", "compare", "bench", "solve", "improve", "check", "levels", "generate",
-    "learn",
+    "verify", "board", "trace", "splits", "compare", "bench", "solve", "improve", "search",
+    "check", "levels", "generate", "learn",
 )  # fmt: skip
 """Those that may have to compile the rules first."""
 

@@ -1,0 +1,128 @@
+"""`ninja-game search`: other keys for a span of a run, towards a goal that a person states."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from ninja_game.cli import solver_options as options
+from ninja_game.cli.run_options import InputPath, choose, level_given, level_option
+
+if TYPE_CHECKING:
+    from ninja_game.formats.recording import Recording
+    from ninja_game.solver.directed.span import Found, SpanTask
+
+
+@click.command()
+@click.argument("replay", metavar="RUN", type=InputPath(dir_okay=False))
+@click.option("--from", "first", required=True, type=click.IntRange(min=0), help="First tick whose keys may change.")
+@click.option("--to", "last", required=True, type=click.IntRange(min=1), help="First tick behind the span.")
+@click.option("--goal", default="", metavar="FORMULA", help="What must be true after a tick of the span.")
+@click.option("--maximise", default="", metavar="FORMULA", help="What is to be as great as possible at the goal.")
+@click.option("--minimise", default="", metavar="FORMULA", help="What is to be as small as possible at the goal.")
+@click.option("--rest", is_flag=True, help="Play on with what follows in RUN: it must still reach the exit, sooner.")
+@click.option(
+    "--method", type=click.Choice(["auto", "local", "beam", "exhaustive"]), default="auto", show_default=True,
+    help="Small changes, a beam of promising states, all keys there are; auto: the first two by turns.",
+)  # fmt: skip
+@click.option(
+    "--every", type=click.IntRange(min=1), default=1, show_default=True,
+    help="Of exhaustive: each choice of keys holds so many ticks.",
+)  # fmt: skip
+@options.seconds_option(60.0)
+@options.seed_option
+@options.search_jobs_option
+@click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
+@level_option
+@click.option(
+    "-o", "--output", metavar="REPLAY", type=click.Path(dir_okay=False, path_type=Path),
+    help="Where the best run so far is kept. [default: none is]",
+)  # fmt: skip
+@click.pass_context
+def command(
+    ctx: click.Context, replay: Path, first: int, last: int, goal: str, maximise: str, minimise: str, rest: bool,
+    method: str, every: int, seconds: float, seed: int, jobs: int | None, record: int | None, level_path: Path | None,
+    output: Path | None,
+) -> None:  # fmt: skip
+    """Find other keys for a span of a run.
+
+    Without --maximise, --minimise and --rest the goal is to be reached as early as possible; without a goal the span's
+    last tick counts. Formulas are made of numbers, + - * /, comparisons, and, or, not, and names such as x, y, vx,
+    vy, speed, tick, gold, dead, won, distance(x, y), taken(id), opened(id): docs/speedruns.md has all of them.
+    Ctrl-C ends the search; the best run so far is in the output file.
+
+    Exit code 0: the goal was reached; 1: it was not; 2: something cannot be read.
+
+    \b
+    Examples:
+      ninja-game search run.replay.txt --from 120 --to 180 --goal 'x > 400' --maximise vx -o faster.replay.txt
+      ninja-game search run.replay.txt --from 60 --to 100 --goal 'distance(300, 200) < 12' --rest
+      ninja-game search run.replay.txt --from 90 --to 102 --maximise speed --method exhaustive --every 2
+    """
+    from ninja_game.formats.load import load_replays
+    from ninja_game.solver.directed.methods import search_span
+    from ninja_game.solver.directed.span import SpanTask
+
+    if maximise and minimise:
+        raise click.UsageError("--maximise and --minimise exclude each other")
+    recording = choose(load_replays(replay, level=level_given(level_path)), "recordings", replay, record)
+    task = SpanTask(
+        recording.level, recording.playback(recording.ticks), first, last, goal=goal, measure=maximise or minimise,
+        least=bool(minimise), rest=rest, body=recording.body,
+    )  # fmt: skip
+    start = time.monotonic()
+    with options.progress_line() as shown:
+        best: list[Found] = []
+
+        def report(ticks: int, better: Found | None) -> bool:
+            if better:
+                best[:] = [better]
+                if output:
+                    _save(output, recording, task, better)
+            standing = _score(task, best[0]) if best else "nothing yet"
+            spent = time.monotonic() - start
+            shown.say(f"{spent:4.0f} s  best {standing}  {ticks / 1e6:.1f}M ticks")
+            return spent < seconds
+
+        found = search_span(task, report, method=method, every=every, seed=seed, threads=options.default_threads(jobs))
+    for each in found:
+        click.echo(f"{_score(task, each)}: {_keys(each)}")
+    if not found:
+        click.echo("the goal was not reached; more time, a longer span or another --method may reach it")
+    elif output:
+        click.echo(f"{output}: the first of them")
+    ctx.exit(0 if found else options.NOT_FOUND)
+
+
+def _score(task: SpanTask, found: Found) -> str:
+    """What keys bring, in words."""
+    if task.rest:
+        return f"exit in tick {found.score - 1:.0f}"
+    if task.measure:
+        return f"{task.measure} is {found.score if task.least else -found.score:.6g} after tick {_last(task, found)}"
+    return f"goal after tick {_last(task, found)}"
+
+
+def _last(task: SpanTask, found: Found) -> int:
+    return task.first + found.ticks - 1
+
+
+def _keys(found: Found) -> str:
+    """The keys in a line, as replays have them."""
+    from ninja_game.formats.replay.input_runs import write_inputs
+    from ninja_game.sim.inputs import press_jumps
+
+    return " ".join(write_inputs(press_jumps(found.keys[: found.ticks].tolist())))
+
+
+def _save(output: Path, recording: Recording, task: SpanTask, found: Found) -> None:
+    """Write the run with these keys; authors stay who they are."""
+    from ninja_game.files.writing import write_atomically
+    from ninja_game.formats.replay.text import write_replay
+    from ninja_game.runs.run import record_replay
+
+    new = record_replay(task.level, found.inputs, body=task.body, name=recording.name, author=recording.author)
+    write_atomically(output, write_replay(new), keep=[Path(recording.file)])

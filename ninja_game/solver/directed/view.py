@@ -1,0 +1,74 @@
+"""What the names in a formula mean: the ninja, the run and single objects, of all worlds of a batch."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.batch.batch import Batch
+from ninja_game.errors import ArgumentError
+from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, MINE
+from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
+
+NAMES = {
+    "x": 0, "y": 0, "vx": 0, "vy": 0, "speed": 0, "tick": 0, "gold": 0, "state": 0, "jump_timer": 0,
+    "dead": 0, "won": 0, "in_air": 0, "near_wall": 0,
+    "distance": 2, "object_x": 1, "object_y": 1, "taken": 1, "opened": 1,
+}  # fmt: skip
+"""The names, and how many numbers stand in brackets behind them; docs/speedruns.md explains them."""
+
+FACTS = ("dead", "won", "in_air", "near_wall", "taken", "opened")
+"""Those that are true or false."""
+
+
+def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
+    """Functions for all names, of the worlds as they are when they are called.
+
+    They raise ArgumentError for an object that there is not.
+    """
+    ninja = batch.records["ninja"]
+    place, before = batch.positions, batch.previous
+
+    def velocity(axis: int) -> Any:
+        return place[:, axis] - before[:, axis]
+
+    def flag(what: str) -> Callable[..., Any]:
+        return lambda number: (_flags(batch, number, what) != 0).astype(float)
+
+    return {
+        "x": lambda: place[:, 0], "y": lambda: place[:, 1], "vx": lambda: velocity(0), "vy": lambda: velocity(1),
+        "speed": lambda: np.hypot(velocity(0), velocity(1)),
+        "tick": lambda: batch.ticks.astype(float), "gold": lambda: batch.gold.astype(float),
+        "state": lambda: batch.states.astype(float), "jump_timer": lambda: ninja["jump_timer"].astype(float),
+        "dead": lambda: (batch.outcomes == OUTCOME_DEAD).astype(float),
+        "won": lambda: (batch.outcomes == OUTCOME_EXIT).astype(float),
+        "in_air": lambda: ninja["in_air"].astype(float), "near_wall": lambda: ninja["near_wall"].astype(float),
+        "distance": lambda x, y: np.hypot(place[:, 0] - x, place[:, 1] - y),
+        "object_x": lambda number: _object(batch, number)["x"], "object_y": lambda number: _object(batch, number)["y"],
+        "taken": flag("taken"), "opened": flag("opened"),
+    }  # fmt: skip
+
+
+def _object(batch: Batch, number: Any) -> Any:
+    """An object of all worlds, by its id."""
+    id_ = float(number)
+    if id_ != int(id_) or not 0 <= id_ < int(batch.records["id_count"][0]):
+        raise ArgumentError(f"there is no object {id_:g}; ids are those that `ninja-game splits` shows")
+    return batch.objects[:, int(id_) + 1]
+
+
+FLAGS = {"taken": {GOLD: "taken", MINE: "exploded"}, "opened": {EXIT: "is_open", DOOR: "switched"}}
+"""The field of a kind of objects that says so."""
+
+
+def _flags(batch: Batch, number: Any, what: str) -> Any:
+    """A field that is 0 or 1, of an object of all worlds."""
+    found = _object(batch, number)
+    kind = int(found["kind"][0])
+    if kind not in FLAGS[what]:
+        kinds = " and ".join(KIND_NAMES[each] for each in FLAGS[what])
+        raise ArgumentError(f"object {float(number):g} is of kind {KIND_NAMES[kind]}; '{what}' is for {kinds}")
+    return found[FLAGS[what][kind]]

@@ -1,0 +1,271 @@
+"""Search under direction: formulas, what their names mean, and keys for a span of a run."""
+
+from __future__ import annotations
+
+import json
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ninja_game import ArgumentError, Simulation, parse_level
+from ninja_game.batch.batch import Batch
+from ninja_game.cli.main import cli
+from ninja_game.formats.load import load_replays
+from ninja_game.sim.inputs import press_jumps
+from ninja_game.solver.directed.expressions import FormulaError, parse_number, parse_truth
+from ninja_game.solver.directed.methods import count_ways, search_span
+from ninja_game.solver.directed.span import Found, SpanTask
+from ninja_game.solver.directed.view import FACTS, NAMES, view_of
+from tests.support.samples import loose_replay
+
+TEXT = "0" * 713 + "|5^100,566!11^200,564,170,564!0^140,566!12^400,400"
+LEVEL = parse_level(TEXT)
+WAITING = bytes([0] * 6 + [2] * 60)
+"""Stands for six ticks, then runs over gold and switch into the exit."""
+
+
+def at_ten_ticks() -> Batch:
+    """Three worlds after ten ticks: standing, going left, going right."""
+    batch = Batch(LEVEL, 3, memory="plain")
+    batch.run([[0, 1, 2]] * 10)
+    return batch
+
+
+# --- Formulas ---
+
+numbers = st.floats(0, 100, allow_nan=False).map(lambda value: f"{value:.3f}")
+
+
+def formulas() -> st.SearchStrategy[str]:
+    """Truths and numbers that Python understands too."""
+    values = st.recursive(
+        numbers | st.sampled_from(["x", "y", "vx", "gold"]),
+        lambda part: st.builds("({} {} {})".format, part, st.sampled_from("+-*"), part)
+        | st.builds("-{}".format, part)
+        | st.builds("max({}, abs({}))".format, part, part),
+        max_leaves=6,
+    )  # fmt: skip
+    comparisons = st.builds("{} {} {}".format, values, st.sampled_from(["<", "<=", ">", ">=", "==", "!="]), values)
+    return st.recursive(
+        comparisons,
+        lambda part: st.builds("({} {} {})".format, part, st.sampled_from(["and", "or"]), part)
+        | st.builds("(not {})".format, part),
+        max_leaves=4,
+    )  # fmt: skip
+
+
+@given(formulas())
+def test_a_formula_means_what_it_means_in_python(text: str) -> None:
+    batch = at_ten_ticks()
+    found = parse_truth(text, NAMES, FACTS).value(view_of(batch))
+    for index, ((x, y), vx) in enumerate(zip(batch.positions.tolist(), batch.velocities()[:, 0].tolist(), strict=True)):
+        names = {"x": x, "y": y, "vx": vx, "gold": int(batch.gold[index]), "max": max, "abs": abs}
+        assert bool(np.broadcast_to(found, 3)[index]) == bool(eval(text, {"__builtins__": {}}, names)), index
+
+
+@given(formulas())
+def test_the_margin_is_positive_only_where_the_formula_is_true(text: str) -> None:
+    view, formula = view_of(at_ten_ticks()), parse_truth(text, NAMES, FACTS)
+    value, margin = np.broadcast_to(formula.value(view), 3), np.broadcast_to(formula.margin(view), 3)
+    assert not (margin[value == 0] > 0).any()
+    assert not (margin[value > 0] < 0).any()
+
+
+def test_names_mean_what_a_simulation_shows() -> None:
+    batch, run = at_ten_ticks(), Simulation(LEVEL)
+    for _ in range(10):
+        run.step_keys(2)
+    view = view_of(batch)
+    assert float(view["x"]()[2]) == run.ninja.x
+    assert float(view["vx"]()[2]) == run.ninja.vx
+    assert float(view["distance"](100.0, 566.0)[2]) == run.ninja.x - 100
+    assert view["tick"]().tolist() == [10, 10, 10]
+    batch.run([[0, 0, 2]] * 60, stop=True)
+    for text, expected in {"taken(2)": [0, 0, 1], "opened(1)": [0, 0, 1], "won": [0, 0, 1], "dead": [0, 0, 0]}.items():
+        assert parse_truth(text, NAMES, FACTS).value(view).tolist() == expected, text
+    assert view["object_x"](3.0).tolist() == [400] * 3
+
+
+@pytest.mark.parametrize(
+    "text, column, message",
+    [
+        ("x >", 4, "an unfinished formula; found the end"),
+        ("", 1, "an unfinished formula"),
+        ("x > 3 4", 7, "something after the end; found '4'"),
+        ("__import__('os')", 1, "an unknown name"),
+        ("import os", 1, "an unknown name; found 'import'"),
+        ("x > 1; y", 6, "a character that no formula has; found ';'"),
+        ("taken(2", 8, "an unfinished formula"),
+        ("taken", 6, "'taken' without its numbers"),
+        ("taken(1, 2)", 8, "an unfinished formula; found ','; expected ')'"),
+        ("1 < 2 < 3", 7, "two comparisons in a row"),
+        ("x and y > 1", 3, "a number beside"),
+        ("(x > 1) + 2", 9, "a truth where a number belongs"),
+        ("-" * 50 + "x > 1", 42, "too many brackets"),
+        ("(" * 50, 42, "too many brackets"),
+        ("x", 0, "not a formula of this sort"),
+        ("x" * 2000, 0, "a formula that is too long"),
+    ],
+)
+def test_what_is_no_formula_is_named_with_its_place(text: str, column: int, message: str) -> None:
+    with pytest.raises(FormulaError) as caught:
+        parse_truth(text, NAMES, FACTS)
+    assert message in str(caught.value)
+    assert caught.value.column == column
+
+
+@given(st.text("xyvtick<>=!()+-*/ 0123.andornot,_$", max_size=40))
+def test_any_text_is_a_formula_or_an_error_of_ours(text: str) -> None:
+    for parse in (parse_truth, parse_number):
+        try:
+            formula = parse(text, NAMES, FACTS)
+        except FormulaError:
+            continue
+        with np.errstate(all="ignore"):
+            formula.value(view_of(at_ten_ticks()))
+
+
+def test_an_object_that_there_is_not_is_named() -> None:
+    view = view_of(at_ten_ticks())
+    wrong = {"taken(9)": "no object 9", "taken(1)": "object 1 is of kind exit", "opened(0.5)": "no object 0.5"}
+    for text, message in wrong.items():
+        with pytest.raises(ArgumentError, match=message):
+            parse_truth(text, NAMES, FACTS).value(view)
+
+
+# --- Spans ---
+
+
+def searched(task: SpanTask, *, rounds: int = 30, **options: object) -> list[Found]:
+    """A search of so many reports, on the plain memory where none is asked for."""
+    reports: list[int] = []
+
+    def report(ticks: int, _: Found | None) -> bool:
+        reports.append(ticks)
+        return len(reports) < rounds
+
+    return search_span(task, report, **{"memory": "auto", **options})  # type: ignore[arg-type]
+
+
+def outcome_of(inputs: bytes) -> tuple[str, int]:
+    run = Simulation(LEVEL)
+    for keys in inputs:
+        run.step_keys(keys)
+        if run.outcome != "running":
+            break
+    return run.outcome, run.tick
+
+
+@pytest.mark.parametrize("method", ["local", "beam", "auto"])
+def test_the_goal_is_reached_earlier_than_in_the_run(method: str) -> None:
+    task = SpanTask(LEVEL, WAITING, 0, 40, goal="x > 130")
+    best = searched(task, method=method)[0]
+    run = Simulation(LEVEL)
+    for keys in best.inputs:
+        assert run.ninja.x <= 130
+        run.step_keys(keys)
+    assert run.ninja.x > 130
+    assert len(best.inputs) == best.ticks == best.score < 24
+
+
+def test_the_exhaustive_search_finds_the_best_there_is() -> None:
+    task = SpanTask(LEVEL, WAITING, 10, 22, measure="y", least=True)
+    best = searched(task, rounds=10**6, method="exhaustive", every=4)[0]
+    heights = []
+    for choice in product([0, 1, 2, 4, 5, 6], repeat=3):
+        run = Simulation(LEVEL)
+        for keys in press_jumps([*WAITING[:10], *(keys for keys in choice for _ in range(4))]):
+            run.step_keys(keys)
+        heights.append(run.ninja.y)
+    assert best.score == min(heights)
+
+
+def test_the_rest_of_the_run_follows_and_must_reach_the_exit() -> None:
+    before = outcome_of(WAITING)
+    best = searched(SpanTask(LEVEL, WAITING, 0, 30, goal="x > 120", rest=True))[0]
+    after = outcome_of(best.inputs)
+    assert after == ("exit", best.score)
+    assert after[1] < before[1]
+
+
+def test_the_same_seed_finds_the_same() -> None:
+    task = SpanTask(LEVEL, WAITING, 0, 30, measure="vx - y / 10")
+    first, second = (searched(task, rounds=12, seed=3) for _ in range(2))
+    assert [(each.score, each.keys.tolist()) for each in first] == [(each.score, each.keys.tolist()) for each in second]
+
+
+def test_results_are_different_and_sorted() -> None:
+    found = searched(SpanTask(LEVEL, WAITING, 0, 30, goal="x > 110"))
+    assert found == sorted(found)
+    assert len({each.keys[: each.ticks].tobytes() for each in found}) == len(found) > 1
+
+
+@pytest.mark.parametrize(
+    "changes, message",
+    [
+        ({"first": 5, "last": 5}, "expected a later tick"),
+        ({"last": 9000}, "at most 4000"),
+        ({"first": 900, "last": 950}, "the run ends in tick 65"),
+        ({"rest": True, "measure": "vx"}, "its length is the measure"),
+    ],
+)
+def test_a_span_that_is_none_is_refused(changes: dict[str, object], message: str) -> None:
+    with pytest.raises(ArgumentError, match=message):
+        SpanTask(**{"level": LEVEL, "inputs": WAITING, "first": 0, "last": 30, **changes})  # type: ignore[arg-type]
+
+
+def test_a_span_after_the_end_and_too_many_ways_are_refused() -> None:
+    with pytest.raises(ArgumentError, match="over before tick 60"):
+        searched(SpanTask(LEVEL, WAITING, 60, 66, goal="x > 1"))
+    with pytest.raises(ArgumentError, match="a choice every 5 ticks has few enough"):
+        count_ways(SpanTask(LEVEL, WAITING, 0, 40), 1)
+
+
+# --- The command ---
+
+
+def called(*words: str | Path | float) -> Result:
+    return CliRunner().invoke(cli, ["search", *map(str, words)])
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Path:
+    path = tmp_path / "run.inputs.txt"
+    path.write_text(loose_replay(TEXT, ".*6 R*60", headers="author: A. Player\n"))
+    return path
+
+
+def test_command_writes_the_best_run_and_keeps_its_author(run: Path, tmp_path: Path) -> None:
+    out = tmp_path / "best.replay.txt"
+    result = called(run, "--from", 0, "--to", 30, "--goal", "x > 120", "--rest", "--seconds", 1.5, "-o", out)
+    assert result.exit_code == 0, result.output
+    (recording,) = load_replays(out)
+    assert recording.author == "A. Player"
+    assert f"exit in tick {recording.ticks - 1}: " in result.stdout
+    assert recording.ticks < outcome_of(WAITING)[1]
+    before = run.read_text()
+    assert called(run, "--from", 0, "--to", 30, "--goal", "x > 120", "--seconds", 1, "-o", run).exit_code == 2
+    assert run.read_text() == before
+
+
+def test_command_says_what_is_wrong(run: Path) -> None:
+    assert (
+        "--maximise and --minimise" in called(run, "--from", 0, "--to", 9, "--maximise", "x", "--minimise", "y").stderr
+    )
+    wrong = called(run, "--from", 0, "--to", 9, "--goal", "x >")
+    assert wrong.exit_code == 2
+    assert "an unfinished formula" in wrong.stderr
+    none = called(run, "--from", 0, "--to", 9, "--goal", "x > 700", "--seconds", 0.3)
+    assert none.exit_code == 1
+    assert "not reached" in none.stdout
+
+
+def test_the_page_explains_every_name() -> None:
+    page = (Path(__file__).resolve().parents[2] / "docs" / "speedruns.md").read_text("utf-8")
+    missing = [name for name in NAMES if f"`{name}" not in page]
+    assert json.dumps(missing) == "[]"
