@@ -190,7 +190,7 @@ def test_the_rest_of_the_run_follows_and_must_reach_the_exit() -> None:
     before = outcome_of(WAITING)
     best = searched(SpanTask(LEVEL, WAITING, 0, 30, goal="x > 120", rest=True))[0]
     after = outcome_of(best.inputs)
-    assert after == ("exit", best.score)
+    assert after == ("exit", int(best.score))
     assert after[1] < before[1]
 
 
