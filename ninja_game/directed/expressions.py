@@ -7,9 +7,9 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from ninja_game.directed import formula
+from ninja_game.directed.formula import COMPARISONS, FUNCTIONS, Formula, Numbers, View
 from ninja_game.errors import FormatError
-from ninja_game.solver.directed import formula
-from ninja_game.solver.directed.formula import COMPARISONS, FUNCTIONS, Formula, Numbers, View
 
 LONGEST = 1000
 """Characters of a formula."""

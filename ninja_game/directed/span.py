@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.batch.batch import Batch
+from ninja_game.directed.expressions import parse_number, parse_truth
+from ninja_game.directed.formula import Formula, Numbers
+from ninja_game.directed.view import FACTS, NAMES, view_of
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.inputs import KEYS_DOWN, press_jumps
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Body
-from ninja_game.solver.directed.expressions import parse_number, parse_truth
-from ninja_game.solver.directed.formula import Formula, Numbers
-from ninja_game.solver.directed.view import FACTS, NAMES, view_of
 
 Keys = NDArray[np.uint8]
 """Keys that are down, a sum of left, right and jump."""

@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from ninja_game.batch.batch import Batch
 from ninja_game.compile_cache import compiled
+from ninja_game.directed.span import Found, Keys, Report, SpanTask, SpanWorlds, Trials
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.memory.declare import entry_point
-from ninja_game.solver.directed.span import Found, Keys, Report, SpanTask, SpanWorlds, Trials
 from ninja_game.solver.mutations import mutate
 from ninja_game.solver.search_memory import RandomState, random_below, zeroed
 

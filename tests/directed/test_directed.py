@@ -15,12 +15,12 @@ from hypothesis import strategies as st
 from ninja_game import ArgumentError, Simulation, parse_level
 from ninja_game.batch.batch import Batch
 from ninja_game.cli.main import cli
+from ninja_game.directed.expressions import FormulaError, parse_number, parse_truth
+from ninja_game.directed.methods import count_ways, search_span
+from ninja_game.directed.span import Found, SpanTask
+from ninja_game.directed.view import FACTS, NAMES, view_of
 from ninja_game.formats.load import load_replays
 from ninja_game.sim.inputs import press_jumps
-from ninja_game.solver.directed.expressions import FormulaError, parse_number, parse_truth
-from ninja_game.solver.directed.methods import count_ways, search_span
-from ninja_game.solver.directed.span import Found, SpanTask
-from ninja_game.solver.directed.view import FACTS, NAMES, view_of
 from tests.support.samples import loose_replay
 
 TEXT = "0" * 713 + "|5^100,566!11^200,564,170,564!0^140,566!12^400,400"
