@@ -7,22 +7,25 @@ from collections.abc import Sequence
 from hashlib import sha256
 from pathlib import Path
 
+from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.pack.pars import MARGINS
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.scoring import seconds_text
 from ninja_game.web.board.dates import day
 from ninja_game.web.board.ranking import FASTEST, HIGHEST, Ranked, Ranking
 from ninja_game.web.board.report import summary
-from ninja_game.web.board.runs import Run
+from ninja_game.web.board.runs import Apart, Run
 from ninja_game.web.pages.exhibition import page_name, shared_name, shared_text, watch_address
 from ninja_game.web.pages.frame import Pages, page, section, table
-from ninja_game.web.pages.gallery import REPLAYS, write_levels
+from ninja_game.web.pages.gallery import BOARD, REPLAYS, write_levels
 from ninja_game.web.pages.html import Content, Markup, joined, tag
 from ninja_game.web.pages.level_page import medal_mark
 
-FOLDER = "board"
 NEWEST, LEADING, TOGETHER = 40, 25, 4
 """Rows of the newest records and of the players on the first page; runs that are watched together."""
+
+LONGEST_NAME = 40
+"""Characters of a name in a table."""
 
 HEADS = {FASTEST: "Fastest", HIGHEST: "Highest score"}
 LINKS = [("index.html", "Board"), ("players.html", "Players"), ("episodes.html", "Episodes"), ("apart.html", "Apart")]
@@ -41,7 +44,7 @@ class BoardPages:
     """
 
     def __init__(self, out: Path, ranking: Ranking, game: str = "index.html") -> None:
-        self.pages = Pages(out / FOLDER)
+        self.pages = Pages(out / BOARD)
         self.ranking = ranking
         self.game = f"../{game}"
         self.links = [(self.game, "Play"), *LINKS, ("levels.html", "Levels")]
@@ -73,11 +76,11 @@ class BoardPages:
 
     @staticmethod
     def _name(player: str, up: str = "") -> Markup:
-        return tag("a", player, href=up + _player_page(player))
+        return tag("a", shown_text(player, LONGEST_NAME), href=up + _player_page(player))
 
     @staticmethod
     def _entry(entry: Entry, up: str = "") -> Markup:
-        return tag("a", entry.title, href=up + page_name(entry.digest))
+        return tag("a", shown_text(entry.title, LONGEST_NAME), href=up + page_name(entry.digest))
 
     # --- the pages ---
 
@@ -166,7 +169,7 @@ class BoardPages:
         found: list[Content] = []
         for kind, title in WHY_APART.items():
             rows = [
-                (each.file + (f", record {each.record}" if each.record else ""), each.player, each.level, each.why)
+                (_place(each), shown_text(each.player, LONGEST_NAME), shown_text(each.level, LONGEST_NAME), each.why)
                 for each in apart
                 if each.kind == kind
             ]
@@ -179,6 +182,10 @@ class BoardPages:
 def _player_page(player: str) -> str:
     """The file of a player's page: no name of a stranger becomes a path."""
     return f"players/{sha256(player.encode('utf-8', 'replace')).hexdigest()[:16]}.html"
+
+
+def _place(apart: Apart) -> str:
+    return apart.file + (f", record {apart.record}" if apart.record else "")
 
 
 def _time(run: Run) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from collections import defaultdict
 from collections.abc import Mapping
@@ -20,6 +21,7 @@ from ninja_game.web.board.dates import dates_of
 from ninja_game.web.pages.exhibition import Exhibition
 
 UNNAMED = "unnamed"
+_LINE = re.compile(r"^(?=[0-9])")
 ALIKE = 0.8
 """Share of a run's inputs that are, from the start, those of somebody else's: more is told."""
 
@@ -118,11 +120,22 @@ def _run(verdict: Verdict, recording: Recording, entries: Mapping[str, Entry], a
 def _apart(name: str, result: Result, entries: Mapping[str, Entry]) -> Apart:
     """What does not count, and why."""
     if isinstance(result, Unreadable):
-        return Apart(name, 0, "unreadable", result.message.removeprefix(f"{name}:").strip())
+        return Apart(name, 0, "unreadable", _without_name(result.message, name))
     entry = entries.get(result.level_digest)
     kind = "practice" if result.practice else "refused"
     why = "; ".join(result.problems)
     return Apart(name, result.record, kind, why, player_named(result.author), entry.title if entry else "")
+
+
+def _without_name(message: str, name: str) -> str:
+    """An error's message without the name of its file, which stands beside it.
+
+    >>> _without_name("a.txt:3:1: not a header", "a.txt")
+    'line 3:1: not a header'
+    """
+    for prefix in (f"{name}:", f"{name!a}:"):
+        message = message.removeprefix(prefix)
+    return _LINE.sub("line ", message.strip())
 
 
 def _without_copies(runs: list[Run]) -> tuple[list[Run], list[Apart]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
+from ninja_game.files.shown_text import shown_text
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.scoring import seconds_text
 from ninja_game.web.pages.exhibition import Exhibition, page_name, picture, picture_name
@@ -12,10 +13,13 @@ from ninja_game.web.pages.frame import Pages, page
 from ninja_game.web.pages.html import Content, Markup, joined, tag
 from ninja_game.web.pages.level_page import level_image, level_page
 
-FOLDER, REPLAYS = "gallery", "replays"
-"""Folders of a site: the gallery's pages, and the replays that pages lead to."""
+FOLDER, BOARD, REPLAYS = "gallery", "board", "replays"
+"""Folders of a site: the gallery's pages, those of a board, and the replays that pages lead to."""
 
 SORTS = (("", "in playing order"), ("name", "by name"), ("difficulty", "by difficulty"), ("par", "by par time"))
+
+LONGEST_NAME = 60
+"""Characters of a name in the list."""
 
 Links = Sequence[tuple[str, str]]
 
@@ -26,7 +30,10 @@ def write_gallery(out: Path, shown: Exhibition, *, game: str = "index.html") -> 
     ``game``: name of the page with the game in ``out``. Raises FileError where ``out/gallery`` holds something else.
     """
     pages = Pages(out / FOLDER)
-    write_levels(pages, shown, f"../{game}", "index.html", [(f"../{game}", "Play")])
+    links = [(f"../{game}", "Play")]
+    if (out / BOARD / "index.html").is_file():
+        links.append((f"../{BOARD}/index.html", "Board"))
+    write_levels(pages, shown, f"../{game}", "index.html", links)
     return pages.folder / "index.html"
 
 
@@ -87,7 +94,7 @@ def _card(entry: Entry, place: int) -> Markup:
     hard = f"{pars.difficulty:.1f}" if pars and pars.difficulty is not None else ""
     if hard:
         facts.append(tag("span", f"difficulty {hard}"))
-    name = tag("a", entry.title, href=page_name(entry.digest))
+    name = tag("a", shown_text(entry.title, LONGEST_NAME), href=page_name(entry.digest))
     number = tag("span", entry.episode, class_="number") if entry.episode else None
     words = f"{entry.title} {entry.named.author} {entry.named.comment} {entry.episode}".casefold()
     return tag(

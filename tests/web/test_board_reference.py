@@ -1,0 +1,60 @@
+"""The reference recordings as a board: all of them, each as it was, in a minute."""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from pathlib import Path
+
+from ninja_game.formats.ascii.writer import write_ascii_level
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.recording import parse_replays
+from ninja_game.runs.conversion import replay_texts
+from ninja_game.web.board.pages import BoardPages
+from ninja_game.web.board.ranking import Ranking
+from ninja_game.web.board.runs import judge
+from ninja_game.web.pages.exhibition import exhibition
+from tests.support.reference import levels, recordings, require_reference
+
+SECONDS = 60
+"""Of processor time on all cores: the machine of a test does other things too."""
+
+
+def write_pack(folder: Path) -> Path:
+    """The published levels as a pack with a hundred episodes."""
+    folder.mkdir()
+    episodes = range(len(levels()) // 5)
+    for number, row in enumerate(levels()):
+        text = write_ascii_level(parse_level_string(row.data), name=row.name, author=row.author)
+        (folder / f"{number // 5:02d}-{number % 5}.txt").write_text(text, "utf-8")
+    index = "\n".join(f'[[episode]]\nnumber = {number}\nname = "Episode {number}"' for number in episodes)
+    (folder / "pack.toml").write_text(f'name = "reference"\n{index}\n', "utf-8")
+    return folder
+
+
+def test_all_recordings_are_a_board_within_a_minute(tmp_path: Path) -> None:
+    require_reference()
+    (tmp_path / "runs").mkdir()
+    rows = {f"{row.row:04d}.txt": row for row in recordings()}
+    for name, row in rows.items():
+        (text,) = replay_texts(parse_replays(f"$run#{row.source}##{row.data}#{row.demo}#"))
+        (tmp_path / "runs" / name).write_text(text, "utf-8")
+    pack = write_pack(tmp_path / "levels")
+    start = time.process_time()
+    shown = exhibition(pack)
+    ranking = Ranking(judge(tmp_path / "runs", shown), shown)
+    BoardPages(tmp_path / "site", ranking).write()
+    used = time.process_time() - start
+    judged = ranking.judged
+    assert len(judged.runs) + len(judged.apart) == len(rows) == 1108
+    for run in judged.runs:
+        row = rows[run.file]
+        assert (run.tick, run.gold, run.score, run.player) == (row.end_tick, row.gold, row.score_ticks, row.source)
+    whys = Counter("copy" if each.kind == "copy" else each.why.split()[0] for each in judged.apart)
+    assert set(whys) == {"copy", "possible_by_keyboard", "level_digest"}
+    assert whys["possible_by_keyboard"] == 19
+    assert all(
+        rows[each.file].source != "rta" for each in judged.apart if each.kind == "refused" and "keyboard" in each.why
+    )
+    assert len(list((tmp_path / "site" / "board" / "levels").iterdir())) == len(shown.entries)
+    assert used <= SECONDS

@@ -1,0 +1,240 @@
+"""Gallery and board in Chromium: no text runs, everything can be read without scripts, by keyboard and on a phone."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ninja_game.files.resources import data_folder
+from ninja_game.formats.ascii.writer import write_ascii_level
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.web.board.pages import BoardPages
+from ninja_game.web.board.ranking import Ranking
+from ninja_game.web.board.runs import judge
+from ninja_game.web.pages.exhibition import exhibition
+from ninja_game.web.pages.gallery import write_gallery
+from tests.support.forgeries import WALKING, replay
+from tests.support.samples import WALK
+from tests.support.web_page import served
+
+HOSTILE = (
+    "<script>document.title='owned'</script>", "<img src=x onerror=\"document.title='owned'\">",
+    "\"><svg onload=document.title='owned'>", "javascript:document.title='owned'", "'-alert(1)-'", "{{7*7}}${7*7}",
+    "</title><script>document.title='owned'</script>", "\u202egnp.exe", "\x00\x1b[2J", "W" * 300, "&lt;b&gt;",
+)  # fmt: skip
+PHONE, NARROWEST = {"width": 390, "height": 844}, {"width": 320, "height": 640}
+
+
+def board_of_hostile_names(folder: Path) -> Path:
+    """A board on which every name of a level, player, run, file and episode is one of HOSTILE."""
+    levels, runs = folder / "levels", folder / "runs"
+    levels.mkdir()
+    runs.mkdir()
+    index = [f"name = {json.dumps(HOSTILE[0])}", f"comment = {json.dumps(HOSTILE[1])}"]
+    for number, name in enumerate(HOSTILE):
+        level = WALK.replace("0^115,566", f"0^{115 + number},566")
+        text = write_ascii_level(parse_level_string(level), name=name, author=name, comment=name)
+        (levels / f"{number:02d}-0-level.txt").write_text(text, "utf-8")
+        index.append(f"[[episode]]\nnumber = {number}\nname = {json.dumps(name)}")
+        (runs / f"{number}.txt").write_text(replay(WALKING + b"\2", level, author=name, name=name), "utf-8")
+        (runs / f"{number}-b.txt").write_text(replay(bytes(3) + WALKING + b"\2", level, author="Ann"), "utf-8")
+        bad = name.replace("/", "").replace("\0", "")[:60]
+        (runs / f"{bad}.txt").write_text(f"{name}\n{name}", "utf-8")
+    (levels / "pack.toml").write_text("\n".join(index), "utf-8")
+    shown = exhibition(levels)
+    ranking = Ranking(judge(runs, shown, jobs=1), shown)
+    assert len(ranking.judged.runs) == 2 * len(HOSTILE)
+    BoardPages(folder / "site", ranking).write()
+    return folder / "site"
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the hostile board and a gallery of a few levels of ours."""
+    folder = board_of_hostile_names(tmp_path_factory.mktemp("pages"))
+    write_gallery(folder, exhibition(data_folder("levels")))
+    (folder / "index.html").write_text("<!doctype html><title>the game</title>", "utf-8")
+    (folder / "favicon.ico").write_bytes(b"")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def address(site: Path) -> Iterator[str]:
+    with served(site) as where:
+        yield where
+
+
+@pytest.fixture
+def open_page(chromium: Any, address: str) -> Iterator[Callable[..., Any]]:
+    """Opens a page of the site in a fresh profile; what goes wrong in it fails the test."""
+    problems: list[str] = []
+
+    with ExitStack() as stack:
+
+        def open_page(name: str, **about: Any) -> Any:
+            context = chromium.new_context(**about)
+            stack.callback(context.close)
+            page = context.new_page()
+            page.on("console", lambda message: problems.append(message.text))
+            page.on("pageerror", lambda error: problems.append(str(error)))
+            page.on("dialog", lambda dialog: problems.append(dialog.message))
+            page.goto(address + name)
+            return page
+
+        yield open_page
+    assert problems == []
+
+
+def all_pages(site: Path) -> list[str]:
+    return [path.relative_to(site).as_posix() for path in sorted(site.glob("board/**/*.html"))]
+
+
+def test_no_script_of_a_name_runs(site: Path, open_page: Callable[..., Any]) -> None:
+    page = open_page("board/index.html")
+    names = all_pages(site)
+    assert len(names) == 5 + len(HOSTILE) + len(HOSTILE) + 1
+    for name in names:
+        page.goto(page.url.split("/board/")[0] + "/" + name)
+        assert "owned" not in page.title().replace("document.title='owned'", "")
+        assert page.evaluate("document.scripts.length") == 1
+        assert page.evaluate("document.querySelectorAll('main img:not([alt]), main svg, iframe, object').length") == 0
+        for link in page.evaluate("Array.from(document.links, (link) => link.protocol)"):
+            assert link == "http:"
+
+
+def test_the_policy_lets_nothing_else_run(open_page: Callable[..., Any], chromium: Any, address: str) -> None:
+    context = chromium.new_context()
+    page = context.new_page()
+    refused: list[str] = []
+    page.on("console", lambda message: refused.append(message.text))
+    page.goto(address + "board/index.html")
+    add = "(tag) => document.body.append(Object.assign(document.createElement(tag[0]), tag[1]))"
+    page.evaluate(add, ["script", {"textContent": "document.title = 'owned'"}])
+    page.evaluate(add, ["style", {"textContent": "main { display: none }"}])
+    page.evaluate(add, ["iframe", {"src": "/index.html"}])
+    page.evaluate("fetch('/index.html').catch(() => console.log('fetch was refused'))")
+    page.wait_for_timeout(300)
+    assert page.title() == "Board - ninja-game"
+    assert page.locator("main").is_visible()
+    assert sum("Content Security Policy" in text for text in refused) >= 4
+    assert "fetch was refused" in refused
+    context.close()
+
+
+@pytest.mark.parametrize("size", [PHONE, NARROWEST, {"width": 1280, "height": 900}], ids=["phone", "narrow", "desk"])
+def test_no_page_is_wider_than_the_window(site: Path, size: dict[str, int], open_page: Callable[..., Any]) -> None:
+    page = open_page("gallery/index.html", viewport=size)
+    level = next(site.glob("gallery/levels/*.html")).name
+    for name in ("gallery/index.html", f"gallery/levels/{level}", *all_pages(site)[:10]):
+        page.goto(page.url.split("/gallery/")[0].split("/board/")[0] + "/" + name)
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), name
+
+
+def test_gallery_is_searched_and_sorted_by_keyboard(open_page: Callable[..., Any]) -> None:
+    page = open_page("gallery/index.html", viewport=PHONE)
+    levels = page.locator(".card:visible")
+    count = levels.count()
+    assert count == len(exhibition(data_folder("levels")).entries)
+    page.keyboard.press("Tab")
+    assert page.locator(":focus").inner_text() == "To the content"
+    page.keyboard.press("Enter")
+    assert page.evaluate("document.activeElement.id") == "content"
+    page.keyboard.press("Tab")
+    page.keyboard.type("FIRST  steps")
+    assert levels.count() == 1
+    assert page.get_by_role("status").inner_text() == f"1 of {count} shown"
+    for _ in range(20):
+        page.keyboard.press("Backspace")
+    page.keyboard.press("Tab")
+    page.keyboard.press("Tab")
+    page.keyboard.type("by diff")
+    hard = page.evaluate(
+        "Array.from(document.querySelectorAll('.card'), (each) => Number(each.dataset.difficulty ?? 99))"
+    )
+    assert hard == sorted(hard)
+    page.keyboard.press("Tab")
+    page.keyboard.press("Enter")
+    page.wait_for_url("**/levels/*.html")
+    assert (
+        page.get_by_role("link", name="Play this level").get_attribute("href").startswith("../../index.html#level=1.")
+    )
+
+
+def test_everything_is_read_without_a_script(open_page: Callable[..., Any]) -> None:
+    page = open_page("gallery/index.html", java_script_enabled=False)
+    assert page.locator(".card:visible").count() == len(exhibition(data_folder("levels")).entries)
+    assert page.locator("form.search").is_hidden()
+    page.locator(".card a").first.click()
+    assert page.get_by_role("heading", name="Par times").is_visible()
+    board = open_page("board/index.html", java_script_enabled=False)
+    assert board.get_by_role("table").count() == 2
+
+
+@contextmanager
+def _named(what: str) -> Iterator[None]:
+    try:
+        yield
+    except AssertionError as error:
+        raise AssertionError(f"{what}: {error}") from None
+
+
+def test_everything_has_a_name_and_headings_go_down_by_one(site: Path, open_page: Callable[..., Any]) -> None:
+    page = open_page("gallery/index.html")
+    level = next(site.glob("gallery/levels/*.html")).name
+    for name in ("gallery/index.html", f"gallery/levels/{level}", "board/index.html", "board/episodes.html"):
+        page.goto(page.url.split("/gallery/")[0].split("/board/")[0] + "/" + name)
+        with _named(name):
+            assert page.evaluate("document.documentElement.lang") == "en"
+            sizes = page.evaluate("Array.from(document.querySelectorAll('h1, h2, h3'), (h) => Number(h.localName[1]))")
+            assert sizes.count(1) == 1
+            assert all(lower - upper <= 1 for upper, lower in pairwise(sizes))
+            assert page.evaluate(
+                "Array.from(document.images).every((image) => image.alt && image.naturalWidth || image.loading)"
+            )
+            fields = (
+                "Array.from(document.querySelectorAll('input, select')).every((field) => field.labels.length === 1)"
+            )
+            assert page.evaluate(fields)
+            assert page.evaluate("Array.from(document.links).every((link) => link.textContent.trim() !== '')")
+            assert page.evaluate(
+                "Array.from(document.querySelectorAll('table')).every((table) => table.caption !== null)"
+            )
+
+
+CONTRAST = """
+() => {
+  const numbers = (text) => text.match(/[\\d.]+/g).map(Number);
+  const part = (value) => (value / 255 <= 0.04045 ? value / 255 / 12.92 : ((value / 255 + 0.055) / 1.055) ** 2.4);
+  const luminance = ([r, g, b]) => 0.2126 * part(r) + 0.7152 * part(g) + 0.0722 * part(b);
+  const ground = (element) => {
+    for (let at = element; at; at = at.parentElement) {
+      const colour = numbers(getComputedStyle(at).backgroundColor);
+      if (colour.length < 4 || colour[3] > 0) return colour;
+    }
+  };
+  const found = [];
+  for (const element of document.querySelectorAll("body *")) {
+    const own = Array.from(element.childNodes).some((node) => node.nodeType === 3 && node.textContent.trim());
+    if (!own || element.closest(".hidden, .skip, svg, option") || !element.checkVisibility()) continue;
+    const both = [numbers(getComputedStyle(element).color), ground(element)].map(luminance).sort((a, b) => b - a);
+    found.push([(both[0] + 0.05) / (both[1] + 0.05), `${element.localName}.${element.className}`]);
+  }
+  return found.sort((a, b) => a[0] - b[0])[0];
+}
+"""
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_every_letter_stands_out(site: Path, scheme: str, open_page: Callable[..., Any]) -> None:
+    page = open_page("gallery/index.html", color_scheme=scheme)
+    level = next(site.glob("gallery/levels/*.html")).name
+    for name in ("gallery/index.html", f"gallery/levels/{level}", "board/index.html", "board/players.html"):
+        page.goto(page.url.split("/gallery/")[0].split("/board/")[0] + "/" + name)
+        ratio, where = page.evaluate(CONTRAST)
+        assert ratio >= 4.5, (name, where)
