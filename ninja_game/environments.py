@@ -12,6 +12,7 @@ from typing import Any
 
 ENVIRONMENTS: dict[str, dict[str, Any]] = {
     "Ninja-v0": {},
+    "NinjaPixels-v0": {"observation": "pixels"},
     "NinjaSet-v0": {"level": "set"},
     "NinjaTrain-v0": {"level": "train"},
     "NinjaTest-v0": {"level": "test"},

@@ -29,8 +29,10 @@ if TYPE_CHECKING:
     from ninja_game.learn.levels.curriculum import Curriculum
     from ninja_game.learn.levels.source import LevelSource, generated_levels, level_source
     from ninja_game.learn.observations.guide import Guide
+    from ninja_game.learn.observations.level_planes import LevelPlanes
     from ninja_game.learn.observations.local_tiles import LocalTiles
     from ninja_game.learn.observations.near_objects import NearObjects
+    from ninja_game.learn.observations.pixels import Pixels
     from ninja_game.learn.observations.rays import Rays
     from ninja_game.learn.observations.state_vector import StateVector
     from ninja_game.learn.observations.time_left import TimeLeft
@@ -47,8 +49,10 @@ _NAMES = {
     "levels.curriculum": ("Curriculum",),
     "levels.source": ("LevelSource", "generated_levels", "level_source"),
     "observations.guide": ("Guide",),
+    "observations.level_planes": ("LevelPlanes",),
     "observations.local_tiles": ("LocalTiles",),
     "observations.near_objects": ("NearObjects",),
+    "observations.pixels": ("Pixels",),
     "observations.rays": ("Rays",),
     "observations.state_vector": ("StateVector",),
     "observations.time_left": ("TimeLeft",),
@@ -70,12 +74,14 @@ __all__ = [
     "ExitReward",
     "GoldReward",
     "Guide",
+    "LevelPlanes",
     "LevelResult",
     "LevelSource",
     "LocalTiles",
     "NearObjects",
     "NinjaEnv",
     "NinjaVectorEnv",
+    "Pixels",
     "Rays",
     "StateVector",
     "StickyActions",

@@ -14,15 +14,17 @@ from ninja_game.compile_cache import compiled_available
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.observations.guide import DIRECTIONS, Guide
+from ninja_game.learn.observations.level_planes import PLANES, LevelPlanes
 from ninja_game.learn.observations.local_tiles import LocalTiles
 from ninja_game.learn.observations.near_objects import COLUMNS, NearObjects
 from ninja_game.learn.observations.observation import PARTS, Observation
 from ninja_game.learn.observations.part import Part
+from ninja_game.learn.observations.pixels import SHADES, SOLID_SHADE, Pixels
 from ninja_game.learn.observations.rays import Rays
 from ninja_game.learn.observations.state_vector import FIELDS, StateVector
 from ninja_game.learn.observations.time_left import TimeLeft
 from ninja_game.learn.worlds import EnvWorlds
-from ninja_game.sim.kinds import NINJA
+from ninja_game.sim.kinds import DOOR, GOLD, NINJA
 from ninja_game.sim.level import ObjectSpec
 from tests.support.learning import FLOOR, LEVELS, random_actions, same
 from tests.support.memories import BOTH
@@ -31,6 +33,7 @@ from tests.support.strategies import odd_levels
 EVERY = [
     *(part(normalised=normalised) for part in PARTS.values() for normalised in (True, False)),
     LocalTiles(size=5, form="one-hot"),
+    Pixels(width=60, height=40, view=240.0),
 ]
 needs_numba = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 
@@ -154,6 +157,36 @@ def test_near_objects_are_the_nearest_that_are_left_with_what_they_do() -> None:
     assert only[:, COLUMNS.index("thwump")].tolist() == [1.0, 0.0]
 
 
+def test_planes_show_what_is_there() -> None:
+    level = parse_level("0" * 22 + "1" + "0" * 690 + "|5^36,36!0^60,36!0^756,564!11^160,300,400,300!12^45,40")
+    planes = dict(zip(PLANES, seen(level, LevelPlanes(normalised=False)), strict=True))
+    shown = {
+        name: [(*map(int, at), int(plane[tuple(at)])) for at in np.argwhere(plane)] for name, plane in planes.items()
+    }
+    assert {name: found for name, found in shown.items() if found} == {
+        "solid": [(22, 0, 255)], "gold": [(0, 1, 255), (22, 30, 255)], "exit": [(11, 5, 128)],
+        "exit switch": [(11, 15, 255)], "mine": [(0, 0, 255)], "ninja": [(0, 0, 255)],
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("memory", BOTH)
+def test_pixels_show_the_ninja_the_walls_and_a_closed_door(memory: str) -> None:
+    level = parse_level(FLOOR + "|5^396,300!0^600,300!9^700,500,0,0,20,12,1,0,0")
+    whole = seen(level, Pixels(99, 75), memory=memory)
+    assert whole.dtype == np.uint8
+    assert np.argwhere(whole == 255).mean(0).round().tolist() == [37, 49]
+    assert (whole[:3] == SOLID_SHADE).all()
+    assert whole[37, 74:76].min() > SHADES[GOLD] // 2
+    assert whole[37, 62:64].max() >= SHADES[DOOR] // 2
+    assert not whole[10:30, 3:-3].any()
+    near = seen(level, Pixels(40, 20, view=240.0), memory=memory)
+    assert np.argwhere(near == 255).mean(0).tolist() == pytest.approx([9.5, 19.5], abs=1.0)
+    corner = seen(parse_level(FLOOR + "|5^36,36"), Pixels(40, 40, view=240.0), memory=memory)
+    assert (corner[:18] == SOLID_SHADE).all()
+    assert (corner[:, :18] == SOLID_SHADE).all()
+    assert not corner[22:, 22:].any()
+
+
 @pytest.mark.parametrize("memory", BOTH)
 def test_the_time_left_goes_down_to_nothing(memory: str) -> None:
     worlds = EnvWorlds(LEVELS[0], 1, observation=TimeLeft(), time_limit=8, memory=memory)
@@ -178,7 +211,9 @@ def test_the_guide_points_to_the_exit() -> None:
     [
         lambda: LocalTiles(size=4), lambda: LocalTiles(size=33), lambda: LocalTiles(form="picture"), lambda: Rays(0),
         lambda: Rays(4, reach=0.0), lambda: NearObjects(0), lambda: NearObjects(kinds=("monster",)),
-        lambda: NearObjects(kinds=()), lambda: Observation("sight"), lambda: Observation([]),
+        lambda: NearObjects(kinds=()),
+        lambda: Pixels(0), lambda: Pixels(84, 600), lambda: Pixels(view=20.0),
+        lambda: Observation("sight"), lambda: Observation([]),
         lambda: Observation([Rays(4), Rays(8)]),
     ],
 )  # fmt: skip

@@ -16,15 +16,17 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.observations.guide import Guide
+from ninja_game.learn.observations.level_planes import LevelPlanes
 from ninja_game.learn.observations.local_tiles import LocalTiles
 from ninja_game.learn.observations.near_objects import NearObjects
 from ninja_game.learn.observations.part import Array, Part, Setting
+from ninja_game.learn.observations.pixels import Pixels
 from ninja_game.learn.observations.rays import Rays
 from ninja_game.learn.observations.state_vector import StateVector
 from ninja_game.learn.observations.time_left import TimeLeft
 
 PARTS: dict[str, type[Part]] = {
-    part.name: part for part in (StateVector, LocalTiles, Rays, NearObjects, TimeLeft, Guide)
+    part.name: part for part in (StateVector, LocalTiles, Rays, NearObjects, LevelPlanes, Pixels, TimeLeft, Guide)
 }
 """The parts, by name."""
 

@@ -16,10 +16,13 @@ FINE = 8
 """Points across a cell by which distances are measured: their error is below 3 px, the points' distance."""
 
 
-def solidity(setting: Setting, number: int, across: int, down: int) -> NDArray[np.uint8]:
-    """A level in (down, across) points, each in the middle of its share of the world; 1: solid."""
+def solidity(
+    setting: Setting, number: int, across: int, down: int, spacing: tuple[float, float] | None = None
+) -> NDArray[np.uint8]:
+    """A level in (down, across) points, each in the middle of its share of the world, or so many px apart; 1: solid."""
     points = np.zeros((down, across), np.uint8)
-    setting.kernel(mark_solid)(setting.maps, number, WORLD_WIDTH / across, WORLD_HEIGHT / down, points)
+    wide, high = spacing or (WORLD_WIDTH / across, WORLD_HEIGHT / down)
+    setting.kernel(mark_solid)(setting.maps, number, wide, high, points)
     return points
 
 

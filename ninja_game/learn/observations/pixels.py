@@ -1,0 +1,143 @@
+"""A grey picture, drawn by a kernel: no window, no colours, nothing that is only for the eye."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from math import ceil
+from typing import Any, ClassVar
+
+import numpy as np
+from gymnasium.spaces import Box
+from numpy.typing import NDArray
+
+from ninja_game.errors import ArgumentError
+from ninja_game.learn.observations.near_objects import OBSERVED
+from ninja_game.learn.observations.object_facts import is_there
+from ninja_game.learn.observations.part import Part, Ragged, Setting, clamp
+from ninja_game.learn.observations.pixel_drawing import draw_object, paint
+from ninja_game.learn.observations.solidity import solidity
+from ninja_game.sim import kinds
+from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.rules import RADIUS, WORLD_HEIGHT, WORLD_WIDTH
+
+LARGEST = 512
+NEAREST_VIEW, WIDEST_VIEW = 48.0, WORLD_WIDTH
+SAMPLES = 4
+"""Points across a pixel by which tiles are drawn."""
+
+NINJA_SHADE, SOLID_SHADE = 255, 100
+SHADES = {
+    kinds.GOLD: 190, kinds.BOUNCE_BLOCK: 130, kinds.LAUNCH_PAD: 145, kinds.TURRET: 205, kinds.FLOOR_GUARD: 220,
+    kinds.DRONE: 225, kinds.ONE_WAY: 120, kinds.THWUMP: 215, kinds.DOOR: 160, kinds.LAUNCHER: 230, kinds.EXIT: 240,
+    kinds.MINE: 210, kinds.SWITCH: 175,
+}  # fmt: skip
+"""0 is empty, 255 the ninja; 205 to 230 kill. A closed exit has half its shade."""
+PLAIN_SIZE = 6.0
+"""Radius, px, at which what cannot be touched is drawn."""
+
+
+@dataclass(frozen=True)
+class Pixels(Part):
+    """A picture in shades of grey, uint8 (``height``, ``width``); ``normalised=True``: float32, 0 to 1.
+
+    ``view``: None: the whole level, squeezed to that size; else px of the level that the picture's width shows, with
+    the ninja in the middle, as high as its shape makes it; what is outside the level is solid. Drawn are tiles, closed
+    doors, objects that are there, as large as what one touches of them, laser beams, crosshairs and the ninja.
+    """
+
+    name: ClassVar[str] = "pixels"
+
+    width: int = 84
+    height: int = 84
+    view: float | None = None
+    normalised: bool = field(default=False, kw_only=True)
+
+    def __post_init__(self) -> None:
+        if not all(isinstance(side, int) and 1 <= side <= LARGEST for side in (self.width, self.height)):
+            raise ArgumentError(f"pixels are {self.width!r} x {self.height!r}; expected 1 to {LARGEST} each")
+        if self.view is not None and not NEAREST_VIEW <= self.view <= WIDEST_VIEW:
+            raise ArgumentError(f"the view is {self.view!r} px; expected {NEAREST_VIEW:g} to {WIDEST_VIEW:g}, or None")
+
+    @property
+    def box(self) -> Box:
+        """(height, width)."""
+        shape = (self.height, self.width)
+        return Box(0.0, 1.0, shape, np.float32) if self.normalised else Box(0, 255, shape, np.uint8)
+
+    @property
+    def kernel(self) -> Callable[..., None]:
+        """``observe_pixels``."""
+        return observe_pixels
+
+    def tables(self, setting: Setting) -> tuple[Any, ...]:
+        """Pictures of the tiles with a margin, and their size; the view; the objects, how large and how bright."""
+        pixel_x = (self.view or WORLD_WIDTH) / self.width
+        pixel_y = pixel_x if self.view else WORLD_HEIGHT / self.height
+        across, down = ceil(WORLD_WIDTH / pixel_x - 1e-9), ceil(WORLD_HEIGHT / pixel_y - 1e-9)
+        margins = [(side, side) if self.view else (0, 0) for side in (self.height, self.width)]
+        factor = 1.0 / 255.0 if self.normalised else 1.0
+        pictures = [
+            np.pad(tile_picture(setting, number, across, down, pixel_x, pixel_y), margins, constant_values=1.0)
+            for number in range(len(setting.fresh))
+        ]
+        sizes = {kind.number: (kind.disc or kind.box or PLAIN_SIZE, kind.box is not None) for kind in OBSERVED}
+        objects = [
+            [(o.slot, *sizes[o.kind], SHADES[o.kind] * factor) for _, o in found] for found in setting.objects(*SHADES)
+        ]
+        return (
+            setting.table(np.rint(np.array(pictures).ravel() * SOLID_SHADE) * factor, np.float32),
+            across + 2 * margins[1][0], down + 2 * margins[0][0], self.width, self.height, int(self.view is not None),
+            pixel_x, pixel_y, NINJA_SHADE * factor, int(not self.normalised),
+            *Ragged(objects).columns(setting, 4),
+        )  # fmt: skip
+
+
+def tile_picture(
+    setting: Setting, number: int, across: int, down: int, pixel_x: float, pixel_y: float
+) -> NDArray[np.float64]:
+    """How much of each pixel (down, across) is solid; what is outside the world is."""
+    wide, high = pixel_x / SAMPLES, pixel_y / SAMPLES
+    points = solidity(setting, number, across * SAMPLES, down * SAMPLES, (wide, high))
+    points[:, int(WORLD_WIDTH / wide) :] = 1
+    points[int(WORLD_HEIGHT / high) :] = 1
+    share: NDArray[np.float64] = points.reshape(down, SAMPLES, across, SAMPLES).mean((1, 3))
+    return share
+
+
+@entry_point
+def observe_pixels(
+    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    pictures: Any, across: int, down: int, width: int, height: int, follows: int,
+    pixel_x: float, pixel_y: float, ninja_shade: float, whole: int,
+    starts: Any, slots: Any, sizes: Any, boxes: Any, shades: Any,
+) -> None:  # fmt: skip
+    """Draw the pictures of some worlds: the tiles, copied; the objects; the ninja. With a view, whole pixels move."""
+    for k in range(first, last):
+        index = which[k]
+        level = level_of[index]
+        w = worlds[index]
+        column = 0
+        row = 0
+        left = 0.0
+        top = 0.0
+        if follows:
+            column = int(clamp(w.ninja.x / pixel_x, 0.0, across - 2.0 * width)) + width - width // 2
+            row = int(clamp(w.ninja.y / pixel_y, 0.0, down - 2.0 * height)) + height - height // 2
+            column = min(column, across - width)
+            row = min(row, down - height)
+            left = (column - width) * pixel_x
+            top = (row - height) * pixel_y
+        at = offset
+        for line in range(height):
+            start = (level * down + row + line) * across + column
+            for j in range(width):
+                out[index, at + j] = pictures[start + j]
+            at += width
+        frame = (width, height, left, top, pixel_x, pixel_y)
+        for number in range(starts[level], starts[level + 1]):
+            o = w.objects[int(slots[number])]
+            if is_there(w, o):
+                box = boxes[number] == 1.0
+                draw_object(o, out, index, offset, frame, sizes[number], box, shades[number], whole)
+        paint(out, index, offset, frame, w.ninja.x, w.ninja.y, RADIUS, RADIUS, True, ninja_shade, whole)
