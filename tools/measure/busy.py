@@ -5,7 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from random import Random
 
+from ninja_game.formats.named_level import NamedLevel
+from ninja_game.play.app import App
 from ninja_game.play.input.bindings import Bindings
+from ninja_game.play.level.play import Phase
+from ninja_game.play.level.screen import LevelScreen
+from ninja_game.player.catalogue import Entry
 from ninja_game.player.level_context import GhostRun
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.sim import kinds
@@ -66,3 +71,20 @@ class BusyRun(LevelRun):
     def ghosts(self) -> list[GhostRun]:
         """One that runs to and fro."""
         return [GhostRun("busy", bytes(2 if k % 90 < 60 else 1 for k in range(600)))]
+
+
+def busy_screen(app: App, level: Level | None = None) -> LevelScreen:
+    """Open the busy level, or another, as it is played."""
+    run = BusyRun(app.player, Entry(NamedLevel("busy", "", "", level or busy_level(), ""), "yours"))
+    screen = LevelScreen(app, run)
+    app.push(screen)
+    app.frame(0)
+    screen.begin()
+    return screen
+
+
+def go_on(screen: LevelScreen) -> None:
+    """Try again, a while after the end."""
+    if screen.phase is not Phase.PLAY and screen.play.after_end > 60:
+        screen.retry()
+        screen.begin()

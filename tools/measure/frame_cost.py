@@ -23,16 +23,13 @@ os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 import pygame
 
 from ninja_game.formats.load import load_levels
-from ninja_game.formats.named_level import NamedLevel
 from ninja_game.play.app import App, build_app
 from ninja_game.play.audio.output import AudioOutput
-from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.replay.playback import RecordedRun
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.player.catalogue import Entry
 from ninja_game.sim.level import Level
-from tools.measure.busy import BusyRun, Restless, busy_level
+from tools.measure.busy import Restless, busy_level, busy_screen, go_on
 
 SIZE = (1584, 1200)
 
@@ -47,9 +44,7 @@ def measure_drawing(app: App, screen: LevelScreen, pictures: int) -> dict[str, f
         for event in pygame.event.get():
             screen.handle(app.controls.decode(event))
         screen.update(16 + number % 3 // 2)
-        if screen.phase is not Phase.PLAY and screen.play.after_end > 60:
-            screen.retry()
-            screen.begin()
+        go_on(screen)
         start, used = time.perf_counter(), time.thread_time()
         app.draw()
         work.append(1000 * (time.thread_time() - used))
@@ -97,10 +92,8 @@ def measure_load(app: App, seconds: float) -> float:
         now = pygame.time.get_ticks()
         app.frame(now - last)
         last = now
-        screen = app.top
-        if isinstance(screen, LevelScreen) and screen.phase is not Phase.PLAY and screen.play.after_end > 60:
-            screen.retry()
-            screen.begin()
+        if isinstance(app.top, LevelScreen):
+            go_on(app.top)
         clock.tick(60)
     return 100 * (time.process_time() - used) / (time.perf_counter() - started)
 
@@ -118,13 +111,9 @@ def main() -> int:
     home = tempfile.TemporaryDirectory()
     app = build_app(Path(home.name), size=SIZE, controls=Restless(), audio_output=AudioOutput())
     app.change_settings(show_keys=True)
-    run = BusyRun(app.player, Entry(NamedLevel("busy", "", "", level, ""), "yours"))
     started = time.perf_counter()
-    screen = LevelScreen(app, run)
-    app.push(screen)
-    app.frame(0)
+    screen = busy_screen(app, level)
     result = {"things": float(len(level.objects)), "level_to_play_ms": round(1000 * (time.perf_counter() - started), 1)}
-    screen.begin()
     result |= measure_drawing(app, screen, arguments.pictures)
     started = time.perf_counter()
     screen.retry()
