@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from typing import Any
 
 import pytest
@@ -11,6 +12,7 @@ import pytest
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.locking import locked
 from ninja_game.web.site.build import MARK
+from tests.support.visitor import Visitor
 from tests.support.web_page import browser, built_site, missing, python_page, served
 
 
@@ -47,3 +49,10 @@ def python(chromium: Any, address: str) -> Iterator[Any]:
     """An empty page with the site's Python and a host."""
     with python_page(chromium, address) as page:
         yield page
+
+
+@pytest.fixture
+def new_visitor(address: str, chromium: Any) -> Iterator[Callable[..., Visitor]]:
+    """Makes visitors of the site; keyword arguments are those of a context of playwright."""
+    with ExitStack() as stack:
+        yield lambda **about: Visitor(chromium, address, stack, **about)

@@ -128,7 +128,7 @@ export async function startPython() {
   progress(95, "Opening the menu");
   sessionStorage.removeItem(TRYING);
   const taken = picture || !cache ? null : takeMemory(python);
-  return { python, boot, services, keep: () => taken && cache.put(address(MEMORY), new Response(taken)).catch(() => {}) };
+  return { python, boot, services, fromMemory: picture !== null, keep: () => taken && cache.put(address(MEMORY), new Response(taken)).catch(() => {}) };
 }
 
 function takeMemory(python) {
@@ -142,7 +142,7 @@ function takeMemory(python) {
 
 // For visits without a network.
 export function keepForLater() {
-  navigator.serviceWorker?.register("sw.js").catch(() => {}); // offline, or no secure page
+  return navigator.serviceWorker?.register("sw.js").catch(() => {}); // offline, or no secure page
 }
 
 // Whether an earlier visit has fetched a newer version, which takes over now; the page must then be loaded again.

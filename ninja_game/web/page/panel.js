@@ -55,7 +55,8 @@ export class Panel {
       element("h2", { textContent: "ninja-game" }),
       element("div", { className: "row" },
         document.fullscreenEnabled ? this.closing(document.fullscreenElement ? "Leave full screen" : "Full screen", fullScreen) : "",
-        button("Verify a recording", () => this.showVerify())),
+        button("Verify a recording", () => this.showVerify()),
+        button("All levels", () => (location.href = "gallery/index.html"))),
       element("h3", { textContent: "Your data" }),
       element("p", { textContent: this.page.folder.lasting
         ? "Settings, records, levels and replays are kept in this browser. It may drop them, so keep a file now and then; ninja-game elsewhere reads it too."

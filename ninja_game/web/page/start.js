@@ -32,8 +32,8 @@ class Page {
   }
 
   async load() {
-    const { python, boot, services, keep } = await startPython();
-    this.python = python;
+    const { python, boot, services, keep, fromMemory } = await startPython();
+    Object.assign(this, { python, fromMemory });
     this.boot = boot;
     this.folder = new PlayerFolder(python.FS);
     await this.folder.open();
@@ -46,13 +46,12 @@ class Page {
     this.panel = new Panel(this);
     this.listen();
     await this.openLink();
+    boot.turn(performance.now()); // a picture, even behind a message about the link
+    this.look(0);
     this.turn(performance.now());
     document.getElementById("start").remove();
     canvas.focus();
-    setTimeout(() => {
-      keep();
-      keepForLater();
-    }, KEEP_AFTER_MS);
+    this.kept = new Promise((done) => setTimeout(() => done(Promise.all([keep(), keepForLater()])), KEEP_AFTER_MS));
   }
 
   // A level or a replay in the address: opened at once. A text of a stranger: nothing but Python's own reader sees it.
@@ -99,7 +98,7 @@ class Page {
     try {
       if (!this.boot.turn(now)) return this.stop("The game has ended", "Close this tab, or begin anew.");
       this.folder.saveChanges((text) => this.services.notify(text));
-      if (now - (this.looked ?? -PAGE_STATE_MS) >= PAGE_STATE_MS) this.look(now);
+      if (now - this.looked >= PAGE_STATE_MS) this.look(now);
     } catch (error) {
       failed(error);
     }

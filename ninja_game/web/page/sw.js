@@ -35,10 +35,10 @@ self.addEventListener("fetch", (event) => {
     (async () => {
       const cache = await caches.open(PREFIX + build.id);
       const plain = url.href.split("#")[0];
-      return (await cache.match(plain)) ?? (event.request.mode === "navigate" && inFolder(url) ? await cache.match("./") : null) ?? fetch(event.request);
+      return (await cache.match(plain)) ?? (event.request.mode === "navigate" && isGame(url) ? await cache.match("./") : null) ?? fetch(event.request);
     })(),
   );
 });
 
-// The game's own page with a query; other pages beside it (a board, a gallery) are not ours.
-const inFolder = (url) => url.origin + url.pathname === new URL("./", location.href).href || url.pathname.endsWith("/index.html");
+// The game's own page, whatever its query; other pages beside it (a board, a gallery) come from the host.
+const isGame = (url) => ["./", "./index.html"].some((name) => url.origin + url.pathname === new URL(name, location.href).href);

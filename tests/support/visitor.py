@@ -1,0 +1,63 @@
+"""Someone with a browser of their own who visits the site."""
+
+from __future__ import annotations
+
+import time
+from contextlib import ExitStack
+from typing import Any
+
+LOADING = 60_000
+"""ms in which the game must run, on a busy machine."""
+
+
+class Visitor:
+    """Someone with a browser of their own. ``page``: the tab; ``problems``: what went wrong in it."""
+
+    def __init__(self, browser: Any, address: str, stack: ExitStack, **about: Any) -> None:
+        self.address = address
+        self.context = browser.new_context(**{"viewport": {"width": 1188, "height": 900}} | about)
+        stack.callback(self.context.close)
+        self.problems: list[str] = []
+        self.page = self.new_page()
+
+    def new_page(self) -> Any:
+        """Another tab."""
+        page = self.context.new_page()
+        page.on("console", self._note)
+        page.on("pageerror", lambda error: self.problems.append(str(error)))
+        return page
+
+    def _note(self, message: Any) -> None:
+        if message.type == "error":
+            self.problems.append(message.text)
+
+    def visit(self, fragment: str = "") -> None:
+        """Open the page, and wait until the game runs or a message says why it does not."""
+        self.page.goto(self.address + fragment)
+        self.page.locator("#trouble[open], body[data-state]").first.wait_for(state="attached", timeout=LOADING)
+
+    def until(self, state: str) -> None:
+        """Wait until the game shows that."""
+        self.page.locator(f"body[data-state={state}]").wait_for(state="attached", timeout=LOADING)
+
+    def press(self, *keys: str) -> None:
+        """Press keys, one after the other, as long as a finger does."""
+        for key in keys:
+            self.page.keyboard.press(key, delay=60)
+            self.page.wait_for_timeout(100)
+
+    def python(self, text: str) -> Any:
+        """The value of an expression in the page's Python, in which ``app`` is the game."""
+        return self.page.evaluate("text => ninjaGame.python.runPython('import boot; app = boot.app()\\n' + text)", text)
+
+    def eventually(self, text: str) -> None:
+        """Wait until an expression as of ``python`` is true."""
+        end = time.monotonic() + LOADING / 1000
+        while not self.python(text):
+            assert time.monotonic() < end, text
+            self.page.wait_for_timeout(50)
+
+    def menu(self, label: str) -> None:
+        """Open the page's own menu and press one of its buttons."""
+        self.page.click("#panel-open")
+        self.page.get_by_role("button", name=label).click()

@@ -1,0 +1,192 @@
+"""The page from start to record, as players meet it: Chromium, real keys and touches, a visit without network."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+import time
+from collections.abc import Callable
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+from zipfile import ZipFile
+
+from click.testing import CliRunner
+
+from ninja_game.cli.main import cli
+from ninja_game.formats.links.making import level_link, replay_link
+from ninja_game.formats.n14.level_string import level_digest, parse_level_string
+from ninja_game.runs.run import record_replay
+
+TEXT = "0" * 713 + "|5^100,566!11^160,564,130,564"
+LEVEL = parse_level_string(TEXT)
+"""Who runs right passes."""
+
+CERTIFICATE = Path(__file__).parents[2] / "levels" / "certificates" / "00-0-first-steps.exit.replay.txt"
+
+NewVisitor = Callable[..., Any]
+
+DROP = """
+text => {
+  const files = new DataTransfer();
+  files.items.add(new File([text], "short.txt"));
+  document.getElementById("stage").dispatchEvent(new DragEvent("drop", { dataTransfer: files, bubbles: true }));
+}
+"""
+
+
+def bests(player: Path) -> dict[str, int]:
+    """Level digests and last ticks of the bests in a zip of a player's data."""
+    with ZipFile(player) as files:
+        records = files.extract("records.sqlite", player.parent / "records")
+    with closing(sqlite3.connect(records)) as db:
+        return dict(db.execute("SELECT level, final_tick FROM replay WHERE id IN (SELECT replay FROM level_best)"))
+
+
+def pass_short_level(visitor: Any) -> None:
+    """Run right in the level that is shown."""
+    visitor.until("ready")
+    visitor.press("Space")
+    visitor.page.keyboard.down("ArrowRight")
+    visitor.until("passed")
+    visitor.page.keyboard.up("ArrowRight")
+
+
+def test_a_level_is_passed_with_keys_and_the_record_is_there_offline(new_visitor: NewVisitor, tmp_path: Path) -> None:
+    visitor = new_visitor()
+    visitor.page.goto(visitor.address, wait_until="commit")
+    visitor.page.locator("progress").wait_for()
+    assert visitor.page.locator("#start-text").inner_text().startswith("Loading")
+    visitor.until("menu")
+    visitor.press("ArrowDown", "ArrowDown", "Enter")
+    visitor.eventually("type(app.top).__name__ == 'Browser'")
+    visitor.page.evaluate(DROP, TEXT)
+    visitor.eventually("any(entry.source == 'yours' for entry in app.top.shown)")
+    own = visitor.python("[entry.source for entry in app.top.shown].index('yours')")
+    visitor.press("Home", *["ArrowDown"] * own, "Enter")
+    pass_short_level(visitor)
+    # The page keeps itself and its memory once the game runs.
+    visitor.page.evaluate("() => navigator.serviceWorker.ready.then(() => ninjaGame.kept)")
+    visitor.context.set_offline(True)
+    began = time.monotonic()
+    visitor.visit()
+    assert visitor.page.evaluate("ninjaGame.fromMemory")
+    assert time.monotonic() - began < 10, "the second visit is no faster than a first one"
+    with visitor.page.expect_download() as download:
+        visitor.menu("Save all to a file")
+    download.value.save_as(tmp_path / "player.zip")
+    assert list(bests(tmp_path / "player.zip")) == [level_digest(LEVEL)]
+    assert visitor.problems == []
+
+
+def test_a_link_of_a_level_is_played_at_once_and_the_data_move_to_another_browser(
+    new_visitor: NewVisitor, tmp_path: Path
+) -> None:
+    visitor = new_visitor()
+    visitor.visit(level_link(LEVEL, name="<b>Short</b>"))
+    pass_short_level(visitor)
+    with visitor.page.expect_download() as download:
+        visitor.menu("Save all to a file")
+    download.value.save_as(tmp_path / "player.zip")
+    other = new_visitor()
+    other.visit("#level=1.nonsense")
+    assert "This link cannot be opened" in other.page.locator("#panel").inner_text()
+    other.page.get_by_role("button", name="Back to the game").click()
+    other.page.click("#panel-open")
+    other.page.set_input_files("#panel input[accept='.zip']", CERTIFICATE)
+    assert "no backup of a player's data" in other.page.locator("#panel[open] p").first.inner_text()
+    other.page.get_by_role("button", name="Back to the game").click()
+    other.page.click("#panel-open")
+    other.page.set_input_files("#panel input[accept='.zip']", tmp_path / "player.zip")
+    assert "1 new replays in the records" in other.page.locator("#panel .lines").inner_text()
+    other.page.get_by_role("button", name="Back to the game").click()
+    other.page.locator("#start").wait_for(state="attached")
+    other.until("menu")
+    assert other.python("len(app.player.records.level_bests())") == 1
+    assert visitor.problems == other.problems == []
+
+
+def test_a_link_of_replays_is_watched_with_a_ghost(new_visitor: NewVisitor) -> None:
+    visitor = new_visitor()
+    fast, slow = (record_replay(LEVEL, bytes([0] * wait + [2] * 40)) for wait in (0, 9))
+    visitor.visit(replay_link([fast, slow]))
+    visitor.until("replay")
+    assert visitor.python("len(app.top.runs)") == 2
+    # Another link in the same tab.
+    visitor.page.evaluate("fragment => (location.hash = fragment)", level_link(LEVEL))
+    visitor.until("ready")
+    assert visitor.problems == []
+
+
+def test_a_level_is_passed_by_touch(new_visitor: NewVisitor) -> None:
+    visitor = new_visitor(viewport={"width": 844, "height": 390}, has_touch=True, is_mobile=True, device_scale_factor=2)
+    visitor.visit(level_link(LEVEL))
+    visitor.until("ready")
+    buttons = visitor.page.locator("#touch button:visible")
+    for k in range(buttons.count()):
+        box = buttons.nth(k).bounding_box()
+        assert min(box["width"], box["height"]) >= 44, buttons.nth(k).inner_text()
+    visitor.page.get_by_role("button", name="Jump").tap()
+    visitor.until("play")
+    session = visitor.context.new_cdp_session(visitor.page)
+    box = visitor.page.get_by_role("button", name="Run left").bounding_box()
+    place = {"x": box["x"] + 10, "y": box["y"] + 10}
+    session.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [place]})
+    visitor.page.wait_for_timeout(200)
+    # The finger slides into the other zone.
+    box = visitor.page.get_by_role("button", name="Run right").bounding_box()
+    session.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [place | {"x": box["x"] + 10}]})
+    visitor.until("passed")
+    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    assert visitor.problems == []
+
+
+def test_what_throws_in_a_turn_is_told_and_nothing_foreign_runs(new_visitor: NewVisitor) -> None:
+    visitor = new_visitor()
+    visitor.visit()
+    assert visitor.problems == []
+    assert visitor.page.evaluate(
+        "() => { const s = document.createElement('script'); s.textContent = 'window.ran = 1';"
+        " document.body.append(s); return typeof window.ran; }"
+    ) == "undefined"  # fmt: skip
+    assert visitor.page.evaluate("() => fetch('http://localhost:9/').then(() => 1, error => String(error))")
+    assert any("Content Security Policy" in problem for problem in visitor.problems)
+    visitor.python("setattr(app, 'frame', lambda ms: 1 // 0)")
+    trouble = visitor.page.locator("#trouble[open]")
+    trouble.wait_for()
+    assert "ZeroDivisionError" in trouble.inner_text()
+    visitor.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    trouble.get_by_role("button", name="Copy the text").click()
+    trouble.get_by_text("Copied").wait_for()
+    assert "ZeroDivisionError" in visitor.page.evaluate("navigator.clipboard.readText()")
+    trouble.get_by_role("button", name="Load the page again").click()
+    visitor.until("menu")
+
+
+def test_one_tab_at_a_time_writes_the_records(new_visitor: NewVisitor) -> None:
+    visitor = new_visitor()
+    visitor.visit()
+    second = visitor.new_page()
+    second.goto(visitor.address)
+    second.get_by_role("button", name="Play here instead").click(timeout=60_000)
+    second.locator("body[data-state=menu]").wait_for(state="attached", timeout=60_000)
+    assert "opened in another tab" in visitor.page.locator("#trouble[open]").inner_text()
+
+
+def test_verdicts_in_the_page_are_those_of_the_command(new_visitor: NewVisitor, tmp_path: Path) -> None:
+    wrong = tmp_path / "wrong.replay.txt"
+    wrong.write_text(CERTIFICATE.read_text("utf-8").replace("gold: 5", "gold: 6"), "utf-8")
+    visitor = new_visitor()
+    visitor.visit()
+    visitor.menu("Verify a recording")
+    for file in (CERTIFICATE, wrong):
+        visitor.page.set_input_files("#panel input[type=file]", file)
+        visitor.page.locator("#verdicts", has_text=file.name).locator("table").wait_for(timeout=60_000)
+        shown = json.loads(visitor.page.locator("#verdicts pre").text_content())
+        said = json.loads(CliRunner().invoke(cli, ["verify", "--json", str(file)]).stdout)
+        assert shown | {"file": str(file)} == said
+        assert all(problem in visitor.page.locator("#verdicts").inner_text() for problem in said.get("problems", ()))
+    assert "first difference" in visitor.page.locator("#verdicts").inner_text()
+    visitor.page.set_input_files("#panel input[type=file]", [{"name": "x", "mimeType": "", "buffer": b"\0\1"}])
+    visitor.page.get_by_text("not a text file").wait_for(timeout=60_000)
+    assert visitor.problems == []
