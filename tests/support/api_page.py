@@ -20,7 +20,7 @@ HEADING = "## Reference\n"
 def reference(module: ModuleType) -> str:
     """Every public name of a module with its signature and its docstring's first line; of classes the members too."""
     lines = [HEADING]
-    for name in sorted(set(module.__all__) - {"__version__"}, key=str.lower):
+    for name in sorted(set(module.__all__) - {"__version__"}, key=lambda name: (name.lower(), name)):
         value = getattr(module, name)
         plain = inspect.isclass(value) and issubclass(value, (NinjaGameError, int))
         lines.append(f"`{name}{'' if plain else _signature(value)}`: {_first_line(value)}")
