@@ -135,17 +135,13 @@ class _Lines:
             within = i1 > 0 and i1 < len(owners) and owners[i1 - 1][0] == owners[i1][0]
             if within and j2 > j1:
                 # New objects between two of one line: this and all behind it are written anew.
-                return self._write_anew(list(content), wanted)
+                self.replaced |= {number: [] for number in content}
+                self.replaced[owners[0][0]] = write_object_lines(wanted)
+                return
             if j2 > j1:
                 self.after[owners[i1 - 1][0] if i1 else end] += write_object_lines(wanted[j1:j2])
         for number in touched:
             self.replaced[number] = self._rewritten(number, content[number])
-        return None
-
-    def _write_anew(self, numbers: Sequence[int], wanted: Sequence[ObjectSpec]) -> None:
-        """All lines of the list anew, in the place of the first one."""
-        self.replaced |= {number: [] for number in numbers}
-        self.replaced[numbers[0]] = write_object_lines(wanted)
 
     def _rewritten(self, number: int, records: Sequence[ObjectSpec]) -> list[str]:
         """A line for those of its objects that are left, with the comment that it ended in."""

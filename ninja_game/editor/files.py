@@ -14,7 +14,6 @@ from ninja_game.files.shown_text import file_stem
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.load import texts_of
-from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.sim.level import Level
 
@@ -102,11 +101,6 @@ def free_path(folder: Path, name: str) -> Path:
         number += 1
         path = folder / f"{stem}-{number}{SUFFIX}"
     return path
-
-
-def level_string(draft: Draft) -> str:
-    """The draft's in-game string, exact. Raises LevelError for a level that none can say."""
-    return write_level_string(draft.level, exact=True)
 
 
 def draft_of_text(text: str, about: Draft) -> Draft:

@@ -46,8 +46,8 @@ PROPERTIES: dict[int, dict[str, Property]] = {
 }
 """The properties of each kind that has any."""
 
-_NUMBER_OF_SIDE = {"right": 0.0, "bottom": 1.0, "left": 2.0, "top": 3.0}
-_SIDE_OF_NUMBER = {number: side for side, number in _NUMBER_OF_SIDE.items()}
+_SIDES = ("right", "bottom", "left", "top")
+"""By the numbers of their directions."""
 
 
 def properties(record: ObjectSpec) -> dict[str, Property]:
@@ -160,7 +160,7 @@ def _carried_in_parts(record: ObjectSpec, motion: Motion, parts: Collection[int]
         values[4:6] = (x - 12.0) / 24.0, (y - 12.0) / 24.0
         side = word(record, "side")
         if motion.turns and side:
-            turned = _SIDE_OF_NUMBER[motion.direction(_NUMBER_OF_SIDE[side])]
+            turned = _SIDES[int(motion.direction(_SIDES.index(side)))]
             values[2], values[7], values[8] = SIDES[turned]
     return settled(record._replace(values=tuple(values)))
 

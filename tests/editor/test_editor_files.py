@@ -20,7 +20,6 @@ from ninja_game.editor.files import (
     draft_of,
     draft_of_text,
     free_path,
-    level_string,
     new_source,
     open_source,
     save,
@@ -200,7 +199,7 @@ def test_a_level_of_n_is_saved_as_a_file_of_ours(tmp_path: Path) -> None:
 
 def test_strings_of_n_go_out_and_in(tmp_path: Path) -> None:
     draft = open_source(hand_written(tmp_path)).draft
-    text = level_string(draft)
+    text = write_level_string(draft.level, exact=True)
     back = draft_of_text(f"  {text}\r\n\0", new_source("me").draft)
     assert same(back.level, draft.level)
     assert back.author == "me"

@@ -20,7 +20,7 @@ from ninja_game.files.shown_text import file_stem
 from ninja_game.formats.ascii.writer import HEADER_KEYS
 from ninja_game.play.editor.desk import Desk
 from ninja_game.play.editor.marks import finding_points
-from ninja_game.play.editor.panels import Form, HelpPage, LevelChoice, Menu
+from ninja_game.play.editor.panels import Form, HelpPage, LevelChoice, Menu, Row
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.trying import TryScreen
 from ninja_game.player.catalogue import Entry
@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from ninja_game.play.app import App
 
 Action = Callable[[], object]
+
+STAY: Row = ("Stay", lambda: None, "")
 
 NAMELESS = "My level"
 """What a level is called if its maker gives it no name."""
@@ -165,9 +167,9 @@ class EditorCommands:
             text = str(error)
             rows = [
                 ("Save under another name", self.save_as, ""),
-                ("Replace it", lambda: self.session.save(path, replacing=True), "What it holds now is lost"),
-            ]
-            self.app.push(Menu(self.app, text[0].upper() + text[1:], [*rows, ("Stay", lambda: None, "")]))
+                ("Replace it", lambda: self.session.save(path, replacing=True), "What it holds now is lost"), STAY,
+            ]  # fmt: skip
+            self.app.push(Menu(self.app, text[0].upper() + text[1:], rows))
         except NinjaGameError as error:
             self.app.notify(f"Not saved: {error}")
 
@@ -246,5 +248,5 @@ class EditorCommands:
         if self.session.is_saved:
             action()
             return
-        rows = [("Stay", lambda: None, ""), ("Save first", self.save, ""), ("Leave it unsaved", action, "It is lost")]
+        rows = [STAY, ("Save first", self.save, ""), ("Leave it unsaved", action, "It is lost")]
         self.app.push(Menu(self.app, f"{self.session.name} is not saved", rows))

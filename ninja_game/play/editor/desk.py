@@ -71,10 +71,7 @@ class Desk:
     def next_grid(self) -> None:
         """Another grid."""
         self.grid = GRIDS[(GRIDS.index(self.grid) + 1) % len(GRIDS)]
-        self.sheet.show_grid(self.grid.lines())
-        self._whole = True
-
-    _whole = False
+        self._look = ()
 
     # --- drawing ---
 
@@ -84,8 +81,7 @@ class Desk:
         """Draw what has changed; the px that did, None for all."""
         if self._look != self._wanted_look():
             self._lay_out()
-        whole = whole or self._whole
-        self._whole = False
+            whole = True
         bench = self.session.bench
         if bench.draft is not self.sheet.draft:
             self.sheet.show(bench.draft)

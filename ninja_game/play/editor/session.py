@@ -14,9 +14,10 @@ from ninja_game.editor.bench import Bench
 from ninja_game.editor.brush import SORTS, placed
 from ninja_game.editor.certify import Certifier, Route, route_of
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import Source, draft_of_text, free_path, level_string, new_source, save
+from ninja_game.editor.files import Source, draft_of_text, free_path, new_source, save
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.errors import NinjaGameError
+from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
 from ninja_game.play.clipboard import copy_level_link, copy_text, write_export
@@ -135,7 +136,7 @@ class EditorSession:
     def copy_string(self) -> None:
         """The level as an in-game string of N, in the clipboard; in a file where there is none."""
         try:
-            text = level_string(self.draft)
+            text = write_level_string(self.draft.level, exact=True)
         except NinjaGameError as error:
             self.app.notify(f"No string of N can say this level: {error}")
             return
@@ -148,14 +149,10 @@ class EditorSession:
     def paste_string(self) -> None:
         """The level of a text in the clipboard, in any format, in the place of this one; it can be undone."""
         try:
-            text = pygame.scrap.get_text()
-        except pygame.error:
-            text = ""
-        try:
             self.bench.finish()
-            self.bench.history.change(draft_of_text(text, self.draft))
+            self.bench.history.change(draft_of_text(pygame.scrap.get_text(), self.draft))
             self.app.notify("The level of the clipboard; undo brings yours back")
-        except NinjaGameError:
+        except (pygame.error, NinjaGameError):
             self.app.notify("There is no level in the clipboard: copy its text first")
 
     # --- tests and certificates ---

@@ -42,8 +42,8 @@ def export_figure(name: str, path: Path, *, scale: float = 1.0) -> None:
         save_picture(last, path)
     elif path.suffix == ".gif":
         pictures = figure_pictures(name, scale=scale)
-        palette = OffscreenContext((1, 1)).theme.palette
-        size = OffscreenContext((round(WIDTH * scale), round(HEIGHT * scale))).canvas.rect(*FIGURE).size
+        context = OffscreenContext((round(WIDTH * scale), round(HEIGHT * scale)))
+        palette, size = context.theme.palette, context.canvas.rect(*FIGURE).size
         write_gif(pictures, FILM_TICKS, path, size, 1.0, palette)
     else:
         raise NinjaGameError(f"{path}: a figure is written as .png or .gif")

@@ -65,7 +65,6 @@ class Figure:
         self.links: list[str] = table["links"]
         self.room: list[str] = table.get("room", "").split()
         self.objects: list[str] = table.get("objects", [])
-        self.x, self.y = self.start
         self.reset()
 
     def reset(self) -> None:
@@ -93,9 +92,8 @@ class Figure:
     def demonstrate(self, tick: int) -> None:
         """Put the figure where its demonstration is after so many ticks; by default the handle goes round."""
         angle = 2 * pi * tick / 240
-        self.drag(
-            self.start[0] + 60 * cos(angle) / self.view.zoom, self.start[1] + 40 * sin(2 * angle) / self.view.zoom
-        )
+        (x, y), zoom = self.start, self.view.zoom
+        self.drag(x + 60 * cos(angle) / zoom, y + 40 * sin(2 * angle) / zoom)
 
     def tick(self) -> None:
         """Let 25 ms pass."""

@@ -71,15 +71,13 @@ class LabScreen(MenuScreen):
 
     def demonstrate(self) -> None:
         """Begin the demonstration."""
-        self.figure.reset()
+        self.reset()
         self.shows, self.ticks = True, 0
-        self.redraw = True
 
     def reset(self) -> None:
         """The figure as it was at first."""
         self.figure.reset()
-        self.shows = False
-        self.redraw = True
+        self.handle_press()
 
     def act(self, action: str, *, held: bool = False) -> None:
         """A control that is touched ends the demonstration."""

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import pygame
 
-from ninja_game.play.ui.canvas import Canvas, Colour, Point
+from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas, Colour, Point
 from ninja_game.play.ui.palette import Palette
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.view.sprites.tile_shapes import outline
@@ -77,13 +77,10 @@ class Sheet:
 
     def grid(self) -> None:
         """The lines between cells."""
-        colour = self.palette.panel_edge
-        for column in range(34):
-            pygame.draw.line(
-                self.surface, colour, self.canvas.point(CELL * column, 0), self.canvas.point(CELL * column, 600)
-            )
-        for row in range(26):
-            pygame.draw.line(self.surface, colour, self.canvas.point(0, CELL * row), self.canvas.point(792, CELL * row))
+        upright: list[tuple[Point, Point]] = [((CELL * k, 0), (CELL * k, HEIGHT)) for k in range(34)]
+        level: list[tuple[Point, Point]] = [((0, CELL * k), (WIDTH, CELL * k)) for k in range(26)]
+        for a, b in upright + level:
+            pygame.draw.line(self.surface, self.palette.panel_edge, self.canvas.point(*a), self.canvas.point(*b))
 
     def shade(self, cell: int, colour: Colour, alpha: int = 70) -> None:
         """Mark a cell."""

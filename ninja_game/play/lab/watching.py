@@ -51,12 +51,8 @@ def watch(function: Callable[..., Any], *args: Any) -> tuple[Any, list[Call]]:
 
 
 def _numbers(values: dict[str, Any]) -> dict[str, float]:
-    found = {}
-    for name, value in values.items():
-        number = getattr(value, "slot", value)
-        if isinstance(number, (int, float)):
-            found[name] = number
-    return found
+    numbers = {name: getattr(value, "slot", value) for name, value in values.items()}
+    return {name: number for name, number in numbers.items() if isinstance(number, (int, float))}
 
 
 def values_of(local: str, function: Callable[..., Any], *args: Any) -> list[Any]:

@@ -11,6 +11,7 @@ from ninja_game.play.lab.figures.edges import STATES
 from ninja_game.play.lab.sheet import Sheet
 from ninja_game.play.lab.stage import Stage
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, NEIGHBOUR_OFFSET, UNIT_X, UNIT_Y
+from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import DOOR, DRONE
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.objects.door import write_edges
@@ -82,17 +83,9 @@ class WalkingEnemies(Figure):
         for rotation in ROTATIONS[4 * movement : 4 * movement + 4]:
             candidate = (max(direction, 0) + rotation) % 4
             found.append((candidate, self.stage.world.edges[4 * cell + candidate]))
-            if NEIGHBOUR_OFFSET[candidate] + cell == self._goal(o):
+            if NEIGHBOUR_OFFSET[candidate] + cell == cell_at(o.goal_x, o.goal_y):
                 break
         return found
-
-    def _goal(self, o: Object) -> int:
-        cell = self.decided[o.slot][0]
-        dx, dy = (
-            (o.goal_x > CENTRE_X[cell]) - (o.goal_x < CENTRE_X[cell]),
-            (o.goal_y > CENTRE_Y[cell]) - (o.goal_y < CENTRE_Y[cell]),
-        )
-        return cell + dx * NEIGHBOUR_OFFSET[0] + dy * NEIGHBOUR_OFFSET[1]
 
     def numbers(self) -> list[tuple[str, str]]:
         """Each drone's last decision."""

@@ -54,11 +54,8 @@ class OneTick(Figure):
     def _next(self) -> None:
         """Run a tick of the world and show its first call."""
         tick = self.stage.simulation.tick
-        if self.keys < 0:
-            held = PLAYED[tick % len(PLAYED)]
-        else:
-            held = pressed(self.keys, self.stage.world.ninja.jump_held)
-        self.stage.step(held)
+        jump_held = self.stage.world.ninja.jump_held
+        self.stage.step(PLAYED[tick % len(PLAYED)] if self.keys < 0 else pressed(self.keys, jump_held))
         self.at = 0.0
 
     def controls(self) -> Sequence[Control]:
