@@ -77,8 +77,6 @@ class EditorCommands:
             "next_entry": lambda: self.step_palette(1), "previous_entry": lambda: self.step_palette(-1),
         }  # fmt: skip
 
-    # --- looking ---
-
     def next_symmetry(self) -> None:
         """Another symmetry."""
         names = list(SYMMETRIES)
