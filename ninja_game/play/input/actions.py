@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from ninja_game.runtime import IN_PAGE
+
 
 class Action(NamedTuple):
     """``label``: for the settings screen; ``keys`` and ``pad``: names of the default inputs."""
@@ -46,6 +48,12 @@ ACTIONS: dict[str, Action] = {
     "screenshot": Action("Save a picture", ("f12",)),
     "fullscreen": Action("Full screen", ("f11",)),
 }
+
+PAGE_KEYS = {"slow": ("x",), "screenshot": ("f2",)}
+"""Keys in a page instead of those that the browser has its own use for: Ctrl with W, a jump, closes the tab."""
+
+if IN_PAGE:
+    ACTIONS |= {action: ACTIONS[action]._replace(keys=keys) for action, keys in PAGE_KEYS.items()}
 
 MENU_KEYS: dict[str, str] = {
     "left": "left", "right": "right", "up": "up", "down": "down", "return": "confirm", "kp_enter": "confirm",
