@@ -13,6 +13,7 @@ from click.testing import CliRunner
 from ninja_game.cli.main import cli
 from ninja_game.environments import ENVIRONMENTS
 from ninja_game.files.resources import data_folder
+from ninja_game.learn.agents.load import learned_file
 from ninja_game.learn.observations.observation import PARTS
 from ninja_game.learn.rewards import REWARD_TERMS
 
@@ -27,6 +28,9 @@ SHORTER = {
     "levels/certificates": "levels/certificates/00-0-first-steps.exit.replay.txt",
     "test": "00-2-rolling-hills",
     "50": "3",
+    "100": "3",
+    "240": "1",
+    "agent.npz": str(learned_file()),
 }
 """What a command of the page is run with instead, so that a test takes seconds."""
 
