@@ -13,7 +13,7 @@ from ninja_game.files.reading import read_bytes
 from ninja_game.files.shown_text import file_stem
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.links.fragment import is_link
-from ninja_game.formats.load import texts_of
+from ninja_game.formats.load import load_levels, texts_of
 from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.sim.level import Level
 
@@ -104,10 +104,11 @@ def free_path(folder: Path, name: str) -> Path:
 
 
 def draft_of_text(text: str, about: Draft) -> Draft:
-    """The first level of a text of any format; name and author are those of ``about`` where the text has none.
+    """The first level of a text of any format, or of a link; name and author of ``about`` where the text has none.
 
     Raises NinjaGameError for a text without a level.
     """
-    named = parse_levels(text.strip("\0 \r\n\t"))[0]
+    text = text.strip("\0 \r\n\t")
+    named = (load_levels(text) if is_link(text) else parse_levels(text))[0]
     read = draft_of(named)
     return replace(read, name=read.name or about.name, author=read.author or about.author)

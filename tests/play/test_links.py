@@ -8,6 +8,7 @@ from pathlib import Path
 import pygame
 import pytest
 
+from ninja_game.editor.files import new_source, open_source
 from ninja_game.errors import ReplayError
 from ninja_game.files.resources import bundled_levels, bundled_replays
 from ninja_game.formats.links.making import level_link, recording_link
@@ -21,6 +22,7 @@ from ninja_game.play.main import first_screen, watch_screen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes.grid import EpisodeGrid
 from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from tests.support.menu_driver import MenuDriver
@@ -121,16 +123,32 @@ def test_texts_of_the_board_are_watched_over_the_menu(driver: MenuDriver) -> Non
         watch_screen([text.replace("inputs:", "in puts:")])
 
 
-def test_link_from_the_editor_opens_in_it(driver: MenuDriver, clipboard: list[str]) -> None:
-    from ninja_game.editor.files import open_source
-
+def test_link_from_the_editor_opens_in_it(
+    driver: MenuDriver, clipboard: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
     link = level_link(load_levels(bundled_levels()[0])[0].level, name="mine")
     source = open_source(Path(link))
     assert source.path is None
     screen = EditorScreen(driver.app, source)
     screen.session.copy_link()
     assert load_levels(clipboard[0])[0].name == "mine"
+    screen.session.begin(new_source())
+    monkeypatch.setattr(pygame.scrap, "get_text", lambda: f" {clipboard[0]}\n")
+    screen.session.paste_string()
+    assert screen.session.draft.name == "mine"
     screen.session.close()
+
+
+def test_link_of_a_level_is_copied_in_the_pause(driver: MenuDriver, clipboard: list[str]) -> None:
+    named = load_levels(bundled_levels()[0])[0]
+    opened(driver, level_link(named.level, name=named.name, author=named.author))
+    driver.press("space")
+    driver.press("p")
+    panel = driver.top()
+    assert isinstance(panel, PausePanel)
+    next(each for each in panel.widgets if getattr(each, "text", "") == "Copy a link").confirm()
+    (again,) = load_levels(clipboard[0])
+    assert (again.level, again.name, again.author) == (named.level, named.name, named.author)
 
 
 def test_without_a_clipboard_a_file_is_written(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> None:

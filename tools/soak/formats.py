@@ -10,20 +10,26 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import io
+import json
 import random
 import sys
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import file_stem, shown_text
 from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
+from ninja_game.formats.links.fragment import read_link, write_link
+from ninja_game.formats.links.making import level_link, replay_link
+from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.legacy_demo import write_legacy_demo
 from ninja_game.formats.n14.level_file import read_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.named_level import parse_levels
 from ninja_game.formats.numbers import format_exact, parse_number
+from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.recording import parse_replays, record_of
 from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
 from ninja_game.levels.warnings import level_warnings
@@ -98,6 +104,10 @@ READERS: dict[str, Callable[[str], object]] = {
     "any recordings": read_recordings,
     "trace table": lambda text: list(read_csv(text.splitlines(keepends=True))),
     "name": show,
+    "link": read_link,
+    "level in a link": lambda text: load_levels(write_link("level", [text])),
+    "replay in a link": lambda text: load_replays(write_link("replay", [text])),
+    "pack in a link": lambda text: Pack(Path(write_link("pack", [text]))).episodes,
     "number": lambda text: format_exact(parse_number(text[:60])),
 }
 
@@ -120,6 +130,9 @@ def seeds(*, reference: bool) -> list[str]:
         write_replay(replay),
         write_replay(dataclasses.replace(replay, name='"two\nlines"\ud800', author=" me\0", level_name="\ud800")),
         " -0x1.5e+2",
+        json.dumps({"pack.toml": 'name = "p"\n[[episode]]\nnumber = 0', "00-0-a.txt": LEVEL, "pars.toml": ""}),
+        "https://example.org/game/" + level_link(level, name="A hill"),
+        replay_link([replay, replay]),
         trace.getvalue(),
         *[path.read_text(encoding="utf-8") for path in sorted(ROOT.glob("levels/*.txt"))],
         *[path.read_text(encoding="utf-8") for path in sorted(ROOT.glob("levels/certificates/*.txt"))],

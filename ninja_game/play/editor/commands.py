@@ -143,7 +143,7 @@ class EditorCommands:
             ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
             ("Open...", self.open, "Ctrl+O"), ("New", self.new, "Ctrl+N"), ("About the level...", self.about, "F2"),
             ("Copy a link", session.copy_link, "Opens the level"), ("Copy as a string of N", session.copy_string, ""),
-            ("Paste a string of N", session.paste_string, "From the clipboard; any format of levels"),
+            ("Paste a string of N", session.paste_string, "From the clipboard; any format of levels, or a link"),
             ("Export a picture", session.export_picture, "A PNG file among your exports"),
             ("Keep the solver's run", session.keep_certificate, "As a replay among yours"),
             ("Leave the editor", self.leave, ""),

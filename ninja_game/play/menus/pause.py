@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.menus.help.screen import HelpScreen
 from ninja_game.play.menus.panels import Panel
@@ -27,10 +28,16 @@ class PausePanel(Panel):
         return [
             ("Resume", self.back, ""),
             ("Retry", lambda: self._leave(self.playing.retry), ""),
+            ("Copy a link", self._copy_link, "Whoever opens the link plays this level"),
             ("Settings", lambda: self.app.push(SettingsScreen(self.app)), ""),
             ("Help", lambda: self.app.push(HelpScreen(self.app)), ""),
             ("Leave the level", lambda: self._leave(self.playing.quit), ""),
         ]
+
+    def _copy_link(self) -> None:
+        """The level as a link, in the clipboard."""
+        entry = self.playing.context.entry
+        copy_level_link(self.app, entry.named, entry.title)
 
     def handle(self, event: InputEvent) -> None:
         """The pause key ends the pause too, the quit key leaves."""
