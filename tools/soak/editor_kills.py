@@ -58,10 +58,14 @@ def edit(folder: str, seed: int, pipe: Connection) -> None:
 
 @dataclass
 class Said:
-    """What the child of the present folder has said: states with their times, and what its file may hold."""
+    """What the children of the present folder have said: states with their times, and what their file may hold.
+
+    ``made``: whether there is a file for certain.
+    """
 
     drawn: list[tuple[str, int]] = field(default_factory=list)
     saved: set[str] = field(default_factory=set)
+    made: bool = False
 
     def note(self, facts: list[tuple[str, str, int]]) -> None:
         """Take in what a child said."""
@@ -69,7 +73,7 @@ class Said:
             if kind == "drawn":
                 self.drawn.append((digest, at))
             elif kind == "saved":
-                self.saved = {digest}
+                self.saved, self.made = {digest}, True
             elif kind == "about":
                 self.saved |= {digest}
 
@@ -101,7 +105,7 @@ def kill_test(
         try:
             lost = seconds_lost(home, said, killed_at)
             file = home / "levels" / "kept.txt"
-            if said.saved and level_digest(load_levels(file)[0].level) not in said.saved:
+            if (said.made or file.exists()) and level_digest(load_levels(file)[0].level) not in said.saved:
                 wrong.append(f"kill {number + 1}: the file is not as it was saved")
         except (NinjaGameError, OSError) as error:
             lost = 0.0
