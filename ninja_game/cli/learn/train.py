@@ -56,16 +56,16 @@ def command(levels: Sequence[str], seconds: float, steps: int, seed: int, worlds
     check_output(output)
     source = level_source(list(levels))
     task = Task(source, seconds=seconds, steps=steps, seed=seed, worlds=worlds)
-    last: list[Progress] = []
+    click.echo(f"ninja-game: {len(source.names)} levels; first come runs through them, then the training", err=True)
     with options.progress_line() as shown:
-
-        def report(progress: Progress) -> None:
-            last[:] = [progress]
-            shown.say(progress_text(progress))
-
-        train(task, report=report, on_better=lambda agent: agent.save(output))
-    click.echo(f"{output}: {progress_text(last[0])}")
-    for name, rate in zip(source.names, last[0].rates, strict=True):
+        agent = train(
+            task,
+            report=lambda progress: shown.say(progress_text(progress)),
+            on_better=lambda agent: agent.save(output),
+        )
+    best, _, *rates = agent.training["curve"][-1]
+    click.echo(f"{output}: the best agent, after {best / 1e6:.1f}M steps")
+    for name, rate in zip(source.names, rates, strict=True):
         click.echo(f"  {rate:4.0%}  {name}")
 
 

@@ -33,8 +33,8 @@ STEPS_PER_SECOND = 25_000
 """Steps of all worlds together that are planned for a second, never measured: plans do not depend on the clock."""
 SMALLEST_DEVIATION = 0.02
 """Of an observation; what hardly ever changes would be blown up otherwise."""
-REPORT_EVERY = 16
-"""Rounds between two reports."""
+JUDGED_EVERY = 16
+"""Rounds between two points of the curve; only there an agent may be the best."""
 
 OBSERVATION = (
     StateVector(),
@@ -93,19 +93,18 @@ def train(
 
     Raises MissingExtraError without JAX and Optax (the extra `train`), MemoryUnavailableError without Numba.
     """
-    trainer = Trainer(task)
     began, used = time.monotonic(), time.process_time()
+    trainer = Trainer(task)
     curve: list[list[float]] = []
     best, best_rate = trainer.agent({}), -1.0
     for number in range(1, 10**9):
         trainer.improve()
         over = trainer.steps >= task.steps if task.steps else time.monotonic() - began >= task.seconds
-        if not over and number % REPORT_EVERY:
-            continue
         rates = trainer.starts.rates[: len(task.source.names)]
-        progress = Progress(trainer.steps, time.monotonic() - began, rates.copy())
         if report:
-            report(progress)
+            report(Progress(trainer.steps, time.monotonic() - began, rates.copy()))
+        if not over and number % JUDGED_EVERY:
+            continue
         curve.append([trainer.steps, round(time.process_time() - used, 1), *np.round(rates, 2).tolist()])
         if rates.mean() > best_rate:
             best_rate = float(rates.mean())
