@@ -49,7 +49,7 @@ ACTIONS: dict[str, Action] = {
     "fullscreen": Action("Full screen", ("f11",)),
 }
 
-PAGE_KEYS = {"slow": ("x",), "screenshot": ("f2",)}
+PAGE_KEYS = {"slow": ("x",), "screenshot": ("f10",)}
 """Keys in a page instead of those that the browser has its own use for: Ctrl with W, a jump, closes the tab."""
 
 if IN_PAGE:

@@ -26,6 +26,9 @@ const MODIFIERS = [["Shift", 1], ["Control", 64], ["Alt", 256], ["Meta", 1024]];
 const PAD_BUTTONS = { 0: 0, 1: 1, 2: 2, 3: 3, 4: 9, 5: 10, 8: 4, 9: 6, 10: 7, 11: 8, 12: 11, 13: 12, 14: 13, 15: 14, 16: 5 };
 const PLAIN = 100; // added to the number of a pad that is not a standard one
 
+// With Ctrl these are the editor's: save, open, undo, redo, choose all. The others stay with the browser.
+const EDITING = ["KeyS", "KeyO", "KeyZ", "KeyY", "KeyA"];
+
 function keycode(event) {
   if (event.code in CONTROLS) return CONTROLS[event.code];
   const letter = event.key.length === 1 && !event.code.startsWith("Numpad");
@@ -86,8 +89,9 @@ export class Input {
 
   keyDown(event) {
     this.pressed();
-    const own = event.ctrlKey || event.metaKey || event.altKey || event.key === "F12";
-    if (!own) event.preventDefault();
+    const command = event.ctrlKey || event.metaKey;
+    const browsers = (command && !EDITING.includes(event.code)) || event.altKey || event.key === "F12";
+    if (!browsers) event.preventDefault();
     const scancode = SCANCODES[event.code];
     if (!scancode || event.isComposing) return;
     if (!event.repeat || this.typing) {

@@ -9,7 +9,7 @@ import { button, lastLine, showTrouble } from "./trouble.js";
 
 const PAGE_STATE_MS = 100; // how often the page looks at what the game shows
 const KEEP_AFTER_MS = 3000; // when the game runs, what the next visit needs is put aside
-const ESCAPE = 41; // its scancode
+const MENU_KEYS = { back: "Escape", choose: "Enter", up: "ArrowUp", down: "ArrowDown", before: "ArrowLeft", next: "ArrowRight" };
 const canvas = document.getElementById("stage");
 const game = document.getElementById("game");
 
@@ -37,12 +37,12 @@ class Page {
     this.boot = boot;
     this.folder = new PlayerFolder(python.FS);
     await this.folder.open();
-    game.hidden = false; // before the host asks for the canvas' size
+    game.hidden = false; // before the host asks for the canvas' size, which touch changes
+    this.touch = new Touch((action, down) => this.press(action, down));
     this.host = createHost(canvas);
     this.host.attach(python);
     boot.start(this.host);
     this.services = services.PageServices(boot.app(), location.href.split("#")[0]);
-    this.touch = new Touch((action, down) => this.press(action, down));
     this.panel = new Panel(this);
     this.listen();
     await this.openLink();
@@ -104,11 +104,11 @@ class Page {
     }
   }
 
-  // A touch button is the player's first key of its action; in menus there is one key for going back.
+  // A touch button is the player's first key of its action; menus have keys of their own.
   press(action, down) {
     if (action === "jump" && this.state !== "play") action = "confirm";
-    const code = action === "back" ? ESCAPE : this.services.scancodes(action)[0];
-    if (code) this.host.key(codeOf(code), down);
+    const code = MENU_KEYS[action] ?? codeOf(this.services.scancodes(action)[0]);
+    if (code) this.host.key(code, down);
   }
 
   // What the page itself shows follows what the game shows.
