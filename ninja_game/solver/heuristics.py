@@ -112,11 +112,16 @@ class Heuristics:
         """What the moving enemies of a world do."""
         return bytes(world["objects"]["routine"][self.enemies].astype(np.uint8))
 
-    def gold_fields(self, switch_state: int, pieces: Sequence[int]) -> Field:
-        """The fields of some pieces of gold (pieces x points); closed locked doors count as passable but dear."""
-        costs = self._careful(self._closed(switch_state, DOOR_COST / 4), switch_state)
-        fields = [widened(self._field(costs, [(*self.gold_places[piece], 0.0)])) for piece in pieces]
-        return np.array(fields, np.float32).reshape(-1, POINTS)
+    def tour_fields(self, switch_state: int) -> Field:
+        """Ticks to each piece of gold and, last, to the exit by way of its switch (pieces + 1 x points).
+
+        Closed locked doors count as passable but dear.
+        """
+        dear = self._closed(switch_state, DOOR_COST / 4)
+        careful = self._careful(dear.copy(), switch_state)
+        fields = [self._field(careful, [(*place, 0.0)]) for place in self.gold_places]
+        fields.append(self._field(dear, self._exit_sources(switch_state, dear)))
+        return np.array([widened(field) for field in fields], np.float32)
 
     def gold_field(self, piece: int, switch_state: int, x: float, y: float) -> Field:
         """Ticks from every point to what a ninja at (x, y) should do next to collect a piece, and on to it."""
@@ -128,6 +133,10 @@ class Heuristics:
         """Ticks from every point to what a ninja at (x, y) should do next in this switch state, and on to the exit."""
         costs = self._closed(switch_state, 0.0)
         dear = self._closed(switch_state, DOOR_COST)
+        return self._toward(self._exit_sources(switch_state, dear), costs, dear, switch_state, point_at(x, y))
+
+    def _exit_sources(self, switch_state: int, dear: Costs) -> list[Source]:
+        """The open exits, and the switches of the others, worth what lies behind them."""
         sources = []
         for bit, exit_ in enumerate(self.exits):
             if bit < MAX_BITS and switch_state >> bit & 1:
@@ -136,7 +145,7 @@ class Heuristics:
                 home = widened(self._field(dear, [(exit_.x, exit_.y, 0.0)]))
                 rest = min(float(home[point_at(exit_.switch_x, exit_.switch_y)]), 5000.0)
                 sources.append((exit_.switch_x, exit_.switch_y, rest + 30.0))
-        return self._toward(sources, costs, dear, switch_state, point_at(x, y))
+        return sources
 
     def _toward(self, sources: list[Source], costs: Costs, dear: Costs, switch_state: int, here: int) -> Field:
         """The field of some places, by way of the switches of locked doors that are in the way from a point."""

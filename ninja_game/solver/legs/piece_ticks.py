@@ -53,15 +53,14 @@ class PieceTicks:
         if mask not in self._distances:
             if len(self._distances) >= MASKS_KEPT:
                 self._distances.clear()
-            self._distances[mask] = self._heuristics.gold_fields(mask, range(len(self._points)))
+            self._distances[mask] = self._heuristics.tour_fields(mask)
         fields = self._distances[mask]
-        far = np.minimum(np.vstack([fields[:, self._points].T, fields[:, here]]).astype(float), FAR)
+        far = np.minimum(np.vstack([fields[:-1, self._points].T, fields[:-1, here]]).astype(float), FAR)
         row = _last_piece(moment)
         known = np.vstack([self._measured[:-1], self._measured[row]])
         factors = np.vstack([self._factors[:-1], self._factors[row]])
         ticks = np.where(np.isnan(known), far, known) * factors
-        exit_field = self.field(-1, mask, *moment.place)
-        home = np.append(exit_field[self._points], exit_field[here]).astype(float)
+        home = np.append(fields[-1, self._points], fields[-1, here]).astype(float)
         return ticks[:-1], ticks[-1], np.minimum(home, FAR)
 
     def field(self, target: int, mask: int, x: float, y: float) -> Field:

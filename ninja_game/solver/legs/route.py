@@ -183,9 +183,9 @@ class Route:
         if front.count >= self.gold:
             return -1
         moment = front.moments[0]
-        fields = self._gold_distances(moment.mask)
+        fields = self._tour_fields(moment.mask)
         start = fields[left, point_at(*moment.place)].astype(np.float64)
-        home = self.heuristics.field(moment.mask, *moment.place)[self._points[left]]
+        home = fields[-1, self._points[left]]
         between = fields[left][:, self._points[left]].T.astype(np.float64)
         names = {piece: k for k, piece in enumerate(left)}
         order = [names[piece] for piece in front.tour]
@@ -195,11 +195,11 @@ class Route:
         ranks = [min(tour.index(k), nearest.index(k) + 0.5) + 2.5 * front.failed[left[k]] for k in range(len(left))]
         return min((start[k] >= UNREACHED, -self.urgency[left[k]], ranks[k], left[k]) for k in range(len(left)))[-1]
 
-    def _gold_distances(self, mask: int) -> Field:
+    def _tour_fields(self, mask: int) -> Field:
         if mask not in self._distances:
             if len(self._distances) >= 16:
                 self._distances.clear()
-            self._distances[mask] = self.heuristics.gold_fields(mask, range(len(self._points)))
+            self._distances[mask] = self.heuristics.tour_fields(mask)
         return self._distances[mask]
 
     def _field(self, target: int, mask: int, x: float, y: float) -> Field:

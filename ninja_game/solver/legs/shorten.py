@@ -38,8 +38,12 @@ EXIT_FACTOR = 10
 WIDTH = 40
 ENDS = 80
 """Moments kept in a front, and ends of a leg."""
+EFFORTS = (1, 4)
+"""How many times the ticks of a leg a front gets; the second only if the first found nothing: far pieces need more."""
 BREADTHS = (1, 2, 1, 2, 4)
 """Fronts that are searched on from at each level, sweep by sweep."""
+SPARE = 2
+"""Fronts that may take the place of others whose legs found nothing."""
 FRONTS_KEPT = 6
 """Fronts kept at each level from sweep to sweep."""
 ROLLOUTS = 16
@@ -125,20 +129,27 @@ class Shortener:
         while level <= max(self.levels):
             fronts = sorted(self.levels.get(level, {}).values(), key=self._value)
             self.levels[level] = {(front.taken, front.mask): front for front in fronts[:FRONTS_KEPT]}
-            for front in fronts[:breadth]:
-                if self._value(front) > self.ticks * HOPE:
-                    continue
-                found = self._leg(front, resolution, over)
-                if found:
-                    self.add_run(found)
-                    return found
-                if over(0):
-                    return None
+            led_on = 0
+            for front in fronts[: breadth + SPARE]:
+                if led_on == breadth or (front is not fronts[0] and self._value(front) > self.ticks * HOPE):
+                    break
+                for effort in EFFORTS:
+                    found, ends = self._leg(front, resolution, effort, over)
+                    if found:
+                        self.add_run(found)
+                        return found
+                    if over(0):
+                        return None
+                    if ends:
+                        led_on += 1
+                        break
             level += 1
         return None
 
-    def _leg(self, front: Front, resolution: Resolution, over: Callable[[int], bool]) -> bytes | None:
-        """Search from a front to the next piece, or to the exit; a run that is shorter than the best."""
+    def _leg(
+        self, front: Front, resolution: Resolution, effort: int, over: Callable[[int], bool]
+    ) -> tuple[bytes | None, int]:
+        """Search from a front to the next piece, or to the exit: a run that is shorter than the best; ends found."""
         self.legs += 1
         target = self._target(front)
         roots = [moment.words for moment in front.moments]
@@ -149,10 +160,10 @@ class Shortener:
                 roots, front.count + 1, front.mask, NEVER, ENDS, ROLLOUTS, partial(self.piece_ticks.field, target)
             )
         self.search.begin_leg(leg, resolution, seed=self.seed * 100_000 + self.legs, bound=self.ticks)
-        self._run(LEG_TICKS * (EXIT_FACTOR if target < 0 else 1), over)
+        self._run(LEG_TICKS * (EXIT_FACTOR if target < 0 else effort), over)
         if target < 0:
             best = self.search.best()
-            return front.moments[best[0]].run() + best[1] if best else None
+            return (front.moments[best[0]].run() + best[1] if best else None), 1
         ends = self.search.ends()
         moments = [
             Moment(
@@ -166,7 +177,7 @@ class Shortener:
         for moment in moments:
             self.piece_ticks.learn(front.moments[0], moment)
             self._add(moment, front.tour)
-        return None
+        return None, len(moments)
 
     def _run(self, budget: int, over: Callable[[int], bool]) -> None:
         search, stop = self.search, budget
