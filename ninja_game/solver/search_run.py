@@ -67,6 +67,7 @@ class End(NamedTuple):
     mask: int
     place: tuple[float, float]
     routines: bytes
+    pace: bytes
 
 
 class Search:
@@ -174,7 +175,10 @@ class Search:
             place = (float(world["ninja"]["x"]), float(world["ninja"]["y"]))
             mask = int(self.goals.masks[self.memory.nodes[index].switch_state])
             taken, routines = self.heuristics.taken(world), self.heuristics.routines(world)
-            found.append(End(root, inputs, words, int(world["tick"]), taken, mask, place, routines))
+            ninja = world["ninja"]
+            moved = (float(ninja["x"] - ninja["prev_x"]) / 1.5, float(ninja["y"] - ninja["prev_y"]) / 1.5)
+            pace = bytes(128 + max(-100, min(100, round(part))) for part in moved)
+            found.append(End(root, inputs, words, int(world["tick"]), taken, mask, place, routines, pace))
         return found
 
     def _path(self, index: int) -> tuple[int, bytes]:

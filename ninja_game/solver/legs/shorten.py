@@ -167,7 +167,7 @@ class Shortener:
         ends = self.search.ends()
         moments = [
             Moment(
-                end.words, end.tick, end.taken, end.mask, end.place, end.routines,
+                end.words, end.tick, end.taken, end.mask, end.place, end.routines + end.pace,
                 before=front.moments[end.root], inputs=end.inputs,
             )
             for end in ends
