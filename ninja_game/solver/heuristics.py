@@ -6,7 +6,6 @@ switch state has a distance field of its own, made when the search first reaches
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np

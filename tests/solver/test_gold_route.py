@@ -13,8 +13,9 @@ from ninja_game.sim.level import Level
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
-from ninja_game.solver.certificate import verified_run
+from ninja_game.solver.certificate import VerifiedRun, verified_run
 from ninja_game.solver.heuristics import Heuristics
+from ninja_game.solver.legs import shorten
 from ninja_game.solver.legs.fronts import Front, Moment
 from ninja_game.solver.legs.route import Route
 from ninja_game.solver.legs.shorten import Shortener
@@ -103,16 +104,44 @@ def test_a_run_may_go_from_switch_to_switch_without_gold() -> None:
     assert len({mask for _, mask in route.fronts}) > 1
 
 
-def test_a_run_with_gold_in_a_bad_order_gets_much_shorter() -> None:
-    first = solve(Task(LINES, gold=-1, work=20_000_000, first_only=True))
-    assert first
+@pytest.fixture(scope="module")
+def first() -> VerifiedRun:
+    """The first run with all gold of LINES that comes."""
+    run = solve(Task(LINES, gold=-1, work=20_000_000, first_only=True))
+    assert run
+    return run
+
+
+def shortener_of(first: VerifiedRun) -> Shortener:
+    """What sweeps a run of LINES."""
     start = open_start(LINES, box=False)
     search = Search(start, Heuristics(start.levels, start.worlds), nodes=50_000)
-    shortener = Shortener(search, first.inputs, seed=1)
+    return Shortener(search, first.inputs, seed=1)
+
+
+def test_a_run_with_gold_in_a_bad_order_gets_much_shorter(first: VerifiedRun) -> None:
+    shortener = shortener_of(first)
     runs = [shortener.sweep(lambda _: False) for _ in range(4)]
     best = min(filter(None, runs), key=len)
     assert len(best) == shortener.ticks
     assert verified_run(LINES, best, gold=all_gold(LINES)).end_tick < 0.85 * first.end_tick
+
+
+def test_a_sweep_keeps_moments_of_different_velocities(first: VerifiedRun) -> None:
+    """No enemy is there: only the velocities differ."""
+    shortener = shortener_of(first)
+    shortener.sweep(lambda _: False)
+    fronts = [front for fronts in shortener.levels.values() for front in fronts.values()]
+    assert max(len({moment.routines for moment in front.moments}) for front in fronts) > 5
+
+
+def test_a_leg_that_finds_nothing_gets_more_work(first: VerifiedRun, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Legs of one tick find nothing; only because they are tried again does the run get shorter."""
+    monkeypatch.setattr(shorten, "LEG_TICKS", 1)
+    monkeypatch.setattr(shorten, "EFFORTS", (1, 150_000))
+    monkeypatch.setattr(shorten, "EXIT_FACTOR", 1_500_000)
+    shortener = shortener_of(first)
+    assert any(shortener.sweep(lambda _: False) for _ in range(4))
 
 
 def test_shortening_a_run_with_gold_keeps_the_gold_and_is_the_same_every_time() -> None:

@@ -144,7 +144,14 @@ def test_values_spread_backwards_from_the_exit(memory: str) -> None:
 
 
 def test_no_gold_to_fetch_leaves_no_fields() -> None:
-    assert heuristics_of(OPEN + "5^100,300!11^700,300,400,300").gold_fields(0, []).shape == (0, POINTS)
+    assert heuristics_of(OPEN + "5^100,300!11^700,300,400,300").tour_fields(0).shape == (1, POINTS)
+
+
+def test_the_exit_is_not_out_of_reach_behind_a_closed_door() -> None:
+    """From both of its sides: the switch of the exit is at the left, the door at x = 264."""
+    heuristics = heuristics_of(CORRIDOR + "|5^60,566!11^100,566,130,566!9^36,566,0,0,10,23,1,0,0!0^400,566")
+    home = heuristics.tour_fields(0)[-1]
+    assert home[point_at(60, 566)] < home[point_at(400, 566)] < 1_000.0
 
 
 def test_gold_is_approached_away_from_an_open_exit() -> None:
@@ -159,7 +166,7 @@ def test_gold_is_approached_away_from_an_open_exit() -> None:
 def test_gold_in_a_wall_is_collected_from_beside_it() -> None:
     wall = "0" * 23 * 10 + "1" * 22 + "0" + "0" * 23 * 20
     heuristics = heuristics_of(wall + "|5^60,566!11^200,566,100,566!0^264,300")
-    assert heuristics.gold_fields(0, [0])[0, point_at(60, 566)] < UNREACHED
+    assert heuristics.tour_fields(0)[0, point_at(60, 566)] < UNREACHED
 
 
 def key_after(text: str, ticks: int, resolution: Resolution) -> int:
