@@ -115,3 +115,16 @@ def widened(field: Field, steps: int = 3) -> Field:
         nearest = np.minimum.reduce(around) + np.float32(2.0)
         grid = np.where(grid >= UNREACHED, np.minimum(nearest, UNREACHED), grid)
     return grid.reshape(-1)
+
+
+def points_about(x: float, y: float, radius: float) -> list[int]:
+    """All points nearer to a place than a radius (px)."""
+    reach = int(radius / SPACING) + 1
+    found = set()
+    for i in range(-reach, reach + 1):
+        for j in range(-reach, reach + 1):
+            point = point_at(x + i * SPACING, y + j * SPACING)
+            dx, dy = SPACING * (point % ACROSS) - x, SPACING * (point // ACROSS) - y
+            if dx * dx + dy * dy < radius * radius:
+                found.add(point)
+    return sorted(found)

@@ -27,6 +27,7 @@ from ninja_game.solver.distance_field import (
     Field,
     free_points,
     point_at,
+    points_about,
     spread,
     widened,
 )
@@ -122,17 +123,23 @@ class Heuristics:
         fields.append(self._field(dear, self._exit_sources(switch_state, dear)))
         return np.array([widened(field) for field in fields], np.float32)
 
-    def gold_field(self, piece: int, switch_state: int, x: float, y: float) -> Field:
-        """Ticks from every point to what a ninja at (x, y) should do next to collect a piece, and on to it."""
+    def field_to(self, place: tuple[float, float], switch_state: int, x: float, y: float) -> Field:
+        """Ticks from every point to what a ninja at (x, y) should do next to get to a place, and on to it."""
         costs = self._careful(self._closed(switch_state, 0.0), switch_state)
         dear = self._careful(self._closed(switch_state, DOOR_COST), switch_state)
-        return self._toward([(*self.gold_places[piece], 0.0)], costs, dear, switch_state, point_at(x, y))
+        return self._toward([(*place, 0.0)], costs, dear, switch_state, point_at(x, y))
 
     def field(self, switch_state: int, x: float, y: float) -> Field:
         """Ticks from every point to what a ninja at (x, y) should do next in this switch state, and on to the exit."""
         costs = self._closed(switch_state, 0.0)
         dear = self._closed(switch_state, DOOR_COST)
         return self._toward(self._exit_sources(switch_state, dear), costs, dear, switch_state, point_at(x, y))
+
+    def may_leave(self, switch_state: int, x: float, y: float) -> bool:
+        """Whether an exit is open to which a ninja at (x, y) could go without opening a door, as the fields see it."""
+        places = [(e.x, e.y, 0.0) for bit, e in enumerate(self.exits) if bit < MAX_BITS and switch_state >> bit & 1]
+        field = widened(self._field(self._closed(switch_state, 0.0), places))
+        return bool(field[point_at(x, y)] < UNREACHED)
 
     def _exit_sources(self, switch_state: int, dear: Costs) -> list[Source]:
         """The open exits, and the switches of the others, worth what lies behind them."""
@@ -166,9 +173,9 @@ class Heuristics:
         field = np.full(POINTS, UNREACHED, np.float32)
         for x, y, value in sources:
             # The ninja touches an object from up to 16 px away: any free point about it will do.
-            near = _points_about(x, y, 15.0)
+            near = points_about(x, y, 15.0)
             free = [point for point in near if costs[point] > 0.0]
-            free = free or [point for point in _points_about(x, y, 22.0) if costs[point] > 0.0] or near
+            free = free or [point for point in points_about(x, y, 22.0) if costs[point] > 0.0] or near
             field[free] = np.minimum(field[free], np.float32(value))
         fastest(spread)(costs, self.blocked, field, self._queue, self._waiting)
         return field
@@ -187,9 +194,9 @@ class Heuristics:
         for bit, switch in enumerate(self.switches):
             done = bool(switch_state >> bit & 1)
             if not switch.door and done:
-                costs[_points_about(switch.x, switch.y, 26.0)] *= np.float32(MINE_COST)
+                costs[points_about(switch.x, switch.y, 26.0)] *= np.float32(MINE_COST)
             elif not done and (switch.trap or not switch.door):
-                costs[_points_about(switch.switch_x, switch.switch_y, 18.0)] *= np.float32(SWITCH_COST)
+                costs[points_about(switch.switch_x, switch.switch_y, 18.0)] *= np.float32(SWITCH_COST)
         return costs
 
     def _first_door(self, field: Field, here: int, switch_state: int) -> Switchable | None:
@@ -211,12 +218,12 @@ class Heuristics:
         return None
 
     def _avoid(self, x: float, y: float) -> None:
-        for point in _points_about(x, y, 15.0):
+        for point in points_about(x, y, 15.0):
             self.costs[point] *= np.float32(MINE_COST)
 
     def _bar_one_way(self, x: float, y: float, face_x: float, face_y: float) -> None:
         """Forbid the moves through a one-way platform's face; the ninja's centre meets it 22 px from its middle."""
-        for point in _points_about(x, y, 40.0):
+        for point in points_about(x, y, 40.0):
             px, py = SPACING * (point % ACROSS), SPACING * (point // ACROSS)
             along = abs(px - x) if face_x == 0.0 else abs(py - y)
             depth = (px - x) * face_x + (py - y) * face_y
@@ -225,19 +232,6 @@ class Heuristics:
             for k in range(8):
                 if MOVE_X[k] * face_x + MOVE_Y[k] * face_y < 0.0:
                     self.blocked[point] |= np.uint8(1 << k)
-
-
-def _points_about(x: float, y: float, radius: float) -> list[int]:
-    """All points nearer to a place than a radius (px)."""
-    reach = int(radius / SPACING) + 1
-    found = set()
-    for i in range(-reach, reach + 1):
-        for j in range(-reach, reach + 1):
-            point = point_at(x + i * SPACING, y + j * SPACING)
-            dx, dy = SPACING * (point % ACROSS) - x, SPACING * (point // ACROSS) - y
-            if dx * dx + dy * dy < radius * radius:
-                found.add(point)
-    return sorted(found)
 
 
 def _bars(edge: int) -> tuple[int, ...]:

@@ -75,3 +75,11 @@ def test_difficulty_rises_over_the_columns() -> None:
     hard = {file: pars.difficulty for file, pars in OURS.pars.items() if pars.difficulty is not None}
     columns = [[value for file, value in hard.items() if file[0] == str(column)] for column in range(5)]
     assert not COMPLETE or [median(column) for column in columns] == sorted(map(median, columns))
+
+
+def test_difficulty_rises_inside_the_episodes_that_do_not_teach() -> None:
+    """From column 2 on: the last two levels of an episode are harder than its first two."""
+    hard = {file[:4]: pars.difficulty or 0.0 for file, pars in OURS.pars.items()}
+    for episode in {name[:2] for name in hard if name[0] in "234"}:
+        first, last = (sum(hard[f"{episode}-{level}"] for level in pair) for pair in ((0, 1), (3, 4)))
+        assert first < last, episode

@@ -50,6 +50,13 @@ BEHIND_A_DOOR = parse_level_string(
 )
 """Gold on both sides of a locked door, the switch behind the ninja, the exit near it."""
 
+KEY_AT_THE_LEFT = parse_level_string(
+    ("0" * 10 + "1" * 12 + "0") * 10
+    + "0" * COLUMN * 21
+    + "|5^130,566!11^400,566,160,566!9^36,566,0,0,10,23,1,0,0!0^100,566!0^80,566"
+)
+"""A locked door between the ninja and the exit, its switch at the left end of a low corridor, gold on the way."""
+
 WALLED_IN = parse_level_string(
     "0" * COLUMN * 20 + "1" * COLUMN + "0" * COLUMN * 10 + "|5^60,566!11^400,566,330,566!0^200,566!0^700,300"
 )
@@ -87,6 +94,17 @@ def test_a_front_keeps_the_earliest_moments_and_one_of_each_state_of_the_enemies
         routines = b"in flight" if tick == 9 else b"waiting"
         front.add(Moment(np.zeros(1, np.int64), tick, 0, 0, (0.0, 0.0), routines), 3)
     assert [moment.tick for moment in front.moments] == [1, 3, 9]
+
+
+def test_doors_are_opened_one_by_one_also_when_the_exit_is_open() -> None:
+    """The exit's switch is beside the ninja, the door's at the left end, the exit behind the door at the right."""
+    start = open_start(KEY_AT_THE_LEFT, box=False)
+    heuristics = Heuristics(start.levels, start.worlds)
+    assert [heuristics.may_leave(mask, 130.0, 566.0) for mask in (0, 1, 2, 3)] == [False, False, False, True]
+    route = Route(Search(start, heuristics, nodes=50_000), gold=0, seed=1)
+    runs = [route.step(lambda _: False) for _ in range(4)]
+    assert any(runs)
+    assert {mask for _, mask in route.fronts} >= {1, 3}
 
 
 def test_gold_that_was_never_collected_is_told() -> None:

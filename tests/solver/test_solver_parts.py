@@ -157,7 +157,7 @@ def test_the_exit_is_not_out_of_reach_behind_a_closed_door() -> None:
 def test_gold_is_approached_away_from_an_open_exit() -> None:
     """The straight way from the ninja to the gold leads over the exit's disc."""
     heuristics = heuristics_of(OPEN + "5^100,300!11^200,300,600,500!0^300,300")
-    closed, opened = (heuristics.gold_field(0, state, 100.0, 300.0) for state in (0, 1))
+    closed, opened = (heuristics.field_to(heuristics.gold_places[0], state, 100.0, 300.0) for state in (0, 1))
     here, on_exit = point_at(100, 300), point_at(204, 300)
     assert closed[on_exit] < 80.0 < opened[on_exit]
     assert opened[here] < closed[here] + 30.0

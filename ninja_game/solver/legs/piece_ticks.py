@@ -69,7 +69,11 @@ class PieceTicks:
             if len(self._fields) >= FIELDS_KEPT:
                 self._fields.clear()
             heuristics = self._heuristics
-            field = heuristics.field(mask, x, y) if target < 0 else heuristics.gold_field(target, mask, x, y)
+            field = (
+                heuristics.field(mask, x, y)
+                if target < 0
+                else heuristics.field_to(heuristics.gold_places[target], mask, x, y)
+            )
             self._fields[target, mask] = field
         return self._fields[target, mask]
 

@@ -18,7 +18,7 @@ from ninja_game.solver.heuristics import Heuristics
 from ninja_game.solver.legs.fronts import Front, Moment, pieces_of
 from ninja_game.solver.legs.tour import short_tour
 from ninja_game.solver.search_memory import Resolution
-from ninja_game.solver.search_run import Leg, Search
+from ninja_game.solver.search_run import FieldOf, Leg, Search
 
 LEGS = (
     (Resolution(cell=12.0, speed=1.0, macro=5, weight=1.6), 400_000),
@@ -149,11 +149,23 @@ class Route:
 
     def _leg(self, front: Front, target: int) -> Leg:
         roots = [moment.words for moment in front.moments]
-        if target < 0 and (front.mask & self._exits or not self._exits):
-            return Leg(roots, 0, front.mask, self.gold, 1, 0, self.heuristics.field)
         rollouts = ROLLOUTS if front.tries <= CAREFUL_TRIES else 0
-        field = self.heuristics.field if target < 0 else partial(self._field, target)
-        return Leg(roots, front.count + 1, front.mask, NEVER, ENDS, rollouts, field)
+        if target >= 0:
+            return Leg(roots, front.count + 1, front.mask, NEVER, ENDS, rollouts, partial(self._field, target))
+        if self.heuristics.may_leave(front.mask, *front.moments[0].place):
+            return Leg(roots, 0, front.mask, self.gold, 1, 0, self.heuristics.field)
+        return Leg(roots, NEVER, front.mask, NEVER, ENDS, rollouts, self._way_to_a_switch(front))
+
+    def _way_to_a_switch(self, front: Front) -> FieldOf:
+        """The fields of the first door in the way; at later tries, by turns, those of the other doors' switches."""
+        switches = enumerate(self.heuristics.switches)
+        closed = [s for bit, s in switches if s.door and not s.trap and not front.mask >> bit & 1]
+        turn = (front.tries - 1) % (len(closed) + 1)
+        if turn == 0:
+            return self.heuristics.field
+        x, y = front.moments[0].place
+        closed.sort(key=lambda switch: abs(switch.switch_x - x) + abs(switch.switch_y - y))
+        return partial(self.heuristics.field_to, (closed[turn - 1].switch_x, closed[turn - 1].switch_y))
 
     def _run(self, budget: int, over: Callable[[int], bool]) -> None:
         """Run the leg's search; from the first end or run to the exit on only as long again."""
@@ -168,7 +180,7 @@ class Route:
 
     def _add(self, moment: Moment, tour: list[int]) -> None:
         """Put a moment into its front, which keeps the best."""
-        key = (moment.taken, moment.mask)
+        key = (moment.taken if self.gold else 0, moment.mask)
         if key not in self.fronts:
             self.fronts[key] = Front(*key, tour=[k for k in tour if not moment.taken >> k & 1])
         front = self.fronts[key]
@@ -207,5 +219,5 @@ class Route:
         if (target, mask) not in self._fields:
             if len(self._fields) >= FIELDS_KEPT:
                 self._fields.clear()
-            self._fields[target, mask] = self.heuristics.gold_field(target, mask, x, y)
+            self._fields[target, mask] = self.heuristics.field_to(self.heuristics.gold_places[target], mask, x, y)
         return self._fields[target, mask]
