@@ -83,7 +83,9 @@ class CompiledWorlds:
         slots = int(self._fresh["slots_used"].max())
         self.worlds = block_of(count, slots)
         self.records = self.worlds[:count]
-        self._bytes, self._fresh_bytes = bytes_of(self.worlds), bytes_of(self._fresh)
+        self._bytes = bytes_of(self.worlds)
+        # A malformed exit has room for its switch, and does not use it.
+        self._fresh_bytes = bytes_of(self._fresh)[:, : self._bytes.shape[1]]
         self._ticks_at_once = max(1, 8 * SLICE // (slots * count))
 
     def kernel(self, entry: Kernel[R]) -> Kernel[R]:
@@ -192,7 +194,7 @@ class PlainWorlds:
         record["heads"] = w.heads
         record["edges"] = w.edges
         objects = np.ndarray((w.slots_used,), OBJECT, self._shown[index], OBJECTS_START - STATE_START)
-        for slot, o in enumerate(w.objects):
+        for slot, o in enumerate(w.objects[: w.slots_used]):
             if slot:
                 objects[_KIND_FIELDS[o.kind]][slot] = _KIND_VALUES[o.kind](o)
 

@@ -57,6 +57,15 @@ def test_a_batch_is_single_stepping_to_the_last_bit(memory: str) -> None:
 
 
 @needs_numba
+@pytest.mark.parametrize("memory", MEMORIES)
+def test_a_malformed_exit_is_an_object_like_any_other(memory: str) -> None:
+    """It has no switch, for which an exit has room."""
+    batch = Batch(parse_level(FLOOR + "|5^100,566!11^1,2"), 3, memory=memory)
+    batch.run([[2] * 3] * 10)
+    assert batch.used.tolist() == [3] * 3
+    assert batch.ticks.tolist() == [10] * 3
+
+
 def test_the_number_of_threads_changes_nothing() -> None:
     inputs = keys(60, 900)
     batches = [Batch(LEVELS, 900, memory="compiled", threads=threads) for threads in (1, 2, 4)]

@@ -42,10 +42,11 @@ def test_every_origin_gives_its_levels() -> None:
     assert len(set(source.names)) == len(bundled_levels())
 
 
-def test_levels_of_one_file_are_told_apart_by_their_records(tmp_path: Path) -> None:
+def test_levels_of_one_name_are_told_apart_by_numbers(tmp_path: Path) -> None:
     path = tmp_path / "two.nlevel"
     path.write_text(f"{FLAT}\n{FLAT}\n")
     assert level_source(path).names == ["two#0", "two#1"]
+    assert level_source([FLAT, path, FLAT]).names == ["level#0", "two#0", "two#1", "level#1"]
 
 
 def test_the_split_is_one_level_of_each_episode_and_never_changes() -> None:

@@ -24,11 +24,9 @@ from ninja_game.learn.observations.rays import Rays
 from ninja_game.learn.observations.state_vector import FIELDS, StateVector
 from ninja_game.learn.observations.time_left import TimeLeft
 from ninja_game.learn.worlds import EnvWorlds
-from ninja_game.sim.kinds import DOOR, GOLD, NINJA
-from ninja_game.sim.level import ObjectSpec
-from tests.support.learning import FLOOR, LEVELS, random_actions, same
+from ninja_game.sim.kinds import DOOR, GOLD
+from tests.support.learning import FLOOR, LEVELS, playable_levels, random_actions, same
 from tests.support.memories import BOTH
-from tests.support.strategies import odd_levels
 
 EVERY = [
     *(part(normalised=normalised) for part in PARTS.values() for normalised in (True, False)),
@@ -36,17 +34,6 @@ EVERY = [
     Pixels(width=60, height=40, view=240.0),
 ]
 needs_numba = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
-
-
-playable_levels = st.one_of(
-    st.builds(
-        lambda level, x, y, empty: Level(
-            (0,) * 713 if empty else level.tiles, (*level.objects, ObjectSpec(NINJA, (float(x), float(y))))
-        ),
-        odd_levels, st.integers(30, 760), st.integers(30, 570), st.booleans(),
-    ),
-    st.sampled_from(LEVELS),
-)  # fmt: skip
 
 
 def seen(level: Level, part: Part, actions: list[int] = [], memory: str = "auto") -> Any:  # noqa: B006

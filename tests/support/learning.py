@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from ninja_game import parse_level
 from ninja_game.learn.observations.observation import Observed
+from ninja_game.sim.kinds import NINJA
+from ninja_game.sim.level import Level, ObjectSpec
+from tests.support.strategies import odd_levels
 
 FLOOR = "0" * 713
 LEVELS = [
@@ -15,6 +19,18 @@ LEVELS = [
     parse_level(FLOOR + "|5^700,300!2^700,560,0,-1!4^200,564,0!" + "!".join(f"0^{x},566" for x in range(30, 760, 12))),
 ]
 """A short way to the exit; a mine, a block, a thwump, a turret, a launcher and a drone; a pad, a guard gold."""
+
+
+playable_levels = st.one_of(
+    st.builds(
+        lambda level, x, y, empty: Level(
+            (0,) * 713 if empty else level.tiles, (*level.objects, ObjectSpec(NINJA, (float(x), float(y))))
+        ),
+        odd_levels, st.integers(30, 760), st.integers(30, 570), st.booleans(),
+    ),
+    st.sampled_from(LEVELS),
+)  # fmt: skip
+"""Levels with a ninja somewhere, with odd tiles and objects as a rule."""
 
 
 def random_actions(steps: int, count: int, seed: int = 3, choices: int = 6) -> NDArray[np.int64]:

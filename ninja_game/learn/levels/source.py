@@ -9,6 +9,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 from functools import cache
@@ -37,12 +38,20 @@ Which: TypeAlias = str | int | Sequence[str | int] | NDArray[np.integer]
 
 
 class LevelSource:
-    """Levels with their names; each is as likely as any other. ``names`` and ``levels`` are lists of one length."""
+    """Levels with their names; each is as likely as any other. ``names`` and ``levels`` are lists of one length.
+
+    Names that are there twice get a number: "level#0", "level#1".
+    """
 
     def __init__(self, names: Sequence[str], levels: Sequence[Level]) -> None:
         if not levels or len(names) != len(levels):
             raise ArgumentError(f"{len(names)} names for {len(levels)} levels; expected at least one level, named")
-        self.names = list(names)
+        count = Counter(names)
+        seen: Counter[str] = Counter()
+        self.names = []
+        for name in names:
+            self.names.append(f"{name}#{seen[name]}" if count[name] > 1 else name)
+            seen[name] += 1
         self.levels = list(levels)
 
     def __repr__(self) -> str:
@@ -148,12 +157,8 @@ def _split(names: Sequence[str]) -> dict[str, list[str]]:
 
 
 def _named(found: Sequence[NamedLevel]) -> LevelSource:
-    """Levels by the names of their files; of a file with several, by name and record."""
-    files = [named.file for named in found]
-    names = []
-    for named in found:
-        name = Path(named.file).stem or named.name or "level"
-        names.append(f"{name}#{named.record}" if files.count(named.file) > 1 else name)
+    """Levels by the names of their files."""
+    names = [Path(named.file).stem or named.name or "level" for named in found]
     return LevelSource(names, [named.level for named in found])
 
 
