@@ -63,7 +63,7 @@ def same_world(single: tuple[Any, ...], vector: tuple[Any, ...], number: int, na
     )
 
 
-@settings(max_examples=12)
+@settings(max_examples=8)
 @given(
     levels=st.lists(playable_levels, min_size=1, max_size=3),
     actions=actions_of_all,
@@ -88,11 +88,11 @@ def test_single_plain_environments_are_the_compiled_vector(
 
 
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
-@settings(max_examples=10)
+@settings(max_examples=4)
 @given(levels=st.lists(playable_levels, min_size=1, max_size=3), seed=st.integers(0, 1000))
 def test_the_number_of_threads_changes_no_byte(levels: list[Level], seed: int) -> None:
-    """With 300 worlds, so that the threads have something to share out."""
-    count = 300
+    """With 130 worlds, so that the threads have something to share out."""
+    count = 130
     vectors = [NinjaVectorEnv(count, levels, threads=threads, **EVERYTHING) for threads in (1, 2, 4)]
     chance = np.random.default_rng(seed)
     bytes_of = {index: [flat(*vector.reset(seed=seed))] for index, vector in enumerate(vectors)}
