@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import importlib.util
+import json
+import os
+import re
+import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -15,6 +19,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 FOLDER = ROOT / "ninja_game" / "web" / "shim" / "pygame"
+RECORDED = ROOT / "tests" / "play" / "golden" / "screens"
 MOST_LINES = 900
 SIZE = (300, 200)
 
@@ -58,8 +63,6 @@ def test_it_is_short() -> None:
 
 
 def test_it_has_every_name_that_the_game_asks_for() -> None:
-    import re
-
     used = set()
     for path in (ROOT / "ninja_game" / "play").rglob("*.py"):
         used |= set(re.findall(r"\bpygame\.((?:[a-z_]+\.)?[A-Za-z_0-9]+)", path.read_text("utf-8")))
@@ -114,6 +117,7 @@ RECT_CALLS: dict[str, Callable[[Any, Any, list[float]], Any]] = {
     "move by a pair": lambda a, b, v: a.move((v[0], v[1])),
     "inflate": lambda a, b, v: a.inflate(v[0] / 2, v[1] / 2),
     "union": lambda a, b, v: a.union(b),
+    "union of many": lambda a, b, v: a.unionall([b, b.move(v[0], v[1])]),
     "union in place": lambda a, b, v: (a.union_ip(b), a)[1],
     "clip": lambda a, b, v: a.clip(b),
     "collide": lambda a, b, v: bool(a.colliderect(b)),
@@ -219,3 +223,14 @@ def test_events_carry_what_they_are_given() -> None:
         assert (event.type, event.key, event.mod) == (768, 97, 1)
         with pytest.raises(AttributeError):
             event.pos  # noqa: B018
+
+
+def test_every_screen_draws_over_it_what_it_draws_over_pygame(tmp_path: Path) -> None:
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join((str(FOLDER.parent), str(ROOT)))}
+    command = [sys.executable, "-m", "tests.support.shim_tour", str(tmp_path)]
+    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr[-3000:]
+    shown = json.loads(done.stdout)
+    recorded = {path.stem: path.read_text("utf-8") for path in RECORDED.glob("*.txt")}
+    assert shown.keys() == recorded.keys()
+    assert [name for name in recorded if shown[name] != recorded[name]] == []

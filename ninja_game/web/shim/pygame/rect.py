@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import reduce
 from typing import Any
 
 
@@ -74,6 +75,9 @@ class Rect:
 
     def union_ip(self, other: Any) -> None:
         self.x, self.y, self.w, self.h = self.union(other)
+
+    def unionall(self, others: Any) -> Rect:
+        return reduce(Rect.union, others, self.copy())
 
     def clip(self, other: Any) -> Rect:
         left, top, w, h = other
