@@ -9,10 +9,10 @@ import json
 import sys
 import time
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 
 import pygame
-from pygame.host import LINK  # type: ignore[import-not-found]
 
 from ninja_game import __version__
 from tests.support.draw_log import DrawLog
@@ -58,6 +58,6 @@ def screens(folder: Path) -> dict[str, str]:
 
 
 if __name__ == "__main__":
-    LINK.page = NoPage()
+    import_module("pygame.host").LINK.page = NoPage()
     pygame.event.clear = pygame.event.get  # type: ignore[assignment]
     json.dump(screens(Path(sys.argv[1])), sys.stdout)

@@ -18,6 +18,8 @@ from tools.measure.busy import BusyRun, Restless, busy_level
 
 MOST = 0.5
 """Mean difference of a channel, of 255."""
+MOST_IN_A_CELL = 9.0
+"""The same of a square of 24 px: a sprite that is missing, or elsewhere, differs by more."""
 
 ALL = scenes(busy_level, BusyRun, Restless)
 
@@ -75,4 +77,7 @@ def test_a_scene_looks_as_it_does_here(scene: Scene, app: App, page: Any) -> Non
     here = pixels(pygame.image.tobytes(app.surface, "RGBA"))
     there = pixels(base64.b64decode(page.evaluate(PIXELS, scene[0])))
     assert here.std() > 1, "nothing is shown"
-    assert np.abs(here - there).mean() <= MOST
+    difference = np.abs(here - there)
+    assert difference.mean() <= MOST
+    cells = difference.reshape(SIZE[1] // 24, 24, SIZE[0] // 24, 24, 3).mean((1, 3, 4))
+    assert cells.max() <= MOST_IN_A_CELL, f"row, column {divmod(int(cells.argmax()), SIZE[0] // 24)}"

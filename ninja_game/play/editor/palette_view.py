@@ -100,7 +100,8 @@ class PaletteView(Widget):
         for what, area in self.places():
             chosen = (what.name if isinstance(what, Sort) else what) == in_hand
             canvas.fill_rect(surface, palette.background, *area)
-            surface.blit(self._icon(theme, what, area), canvas.point(area[0], area[1]))
+            at = canvas.point(area[0], area[1])
+            surface.blit(self._icon(theme, what, area), at, special_flags=pygame.BLEND_PREMULTIPLIED)
             if isinstance(what, Sort):
                 at = area[0] + 1.5, area[1] + 1
                 canvas.fill_rect(surface, palette.panel, area[0] + 0.5, area[1] + 0.5, 7, 9, 2)
