@@ -60,7 +60,6 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = board_of_hostile_names(tmp_path_factory.mktemp("pages"))
     write_gallery(folder, exhibition(data_folder("levels")))
     (folder / "index.html").write_text("<!doctype html><title>the game</title>", "utf-8")
-    (folder / "favicon.ico").write_bytes(b"")
     return folder
 
 

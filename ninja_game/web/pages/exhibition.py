@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
+
+import pygame
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.links.fragment import write_watch
@@ -18,6 +19,7 @@ from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.play.ui.palette import CLASSIC
+from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.player.catalogue import Entry, EpisodeSet, episode_set
 from ninja_game.sim.level import Level
 
@@ -80,11 +82,7 @@ def picture_name(digest: str) -> str:
 
 def picture(level: Level, width: int = PICTURE_WIDTH) -> bytes:
     """The level as a PNG, as the game draws it; colours are reduced, so that it is small."""
-    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
-    import pygame
     from PIL import Image
-
-    from ninja_game.play.view.sprites.thumbnail import thumbnail
 
     surface = thumbnail(level, CLASSIC, width)
     image = Image.frombytes("RGB", surface.get_size(), pygame.image.tobytes(surface, "RGB"))

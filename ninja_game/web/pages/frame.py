@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from io import BytesIO
 from pathlib import Path
 
 import pygame
@@ -12,12 +13,13 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.play.ui.glyphs import CAP
 from ninja_game.play.ui.palette import PALETTES, Palette, mixed
 from ninja_game.play.ui.stroke_font import SPACING, WEIGHTS, glyph
+from ninja_game.play.window import icon
 from ninja_game.web.pages.html import Content, Markup, joined, tag
 
 POLICY = "default-src 'none'; img-src 'self'; style-src 'self'; script-src 'self'; base-uri 'none'; form-action 'none'"
 """The content security policy of every page: nothing from elsewhere, no script or style within the page."""
 
-STYLE, SCRIPT = "style.css", "search.js"
+STYLE, SCRIPT, ICON = "style.css", "search.js", "icon.png"
 MARK = ".ninja-game-pages"
 """A file in a folder of pages, which says that they may be replaced."""
 
@@ -38,6 +40,7 @@ _FAINT = 0.35
 """How far small text goes from the palette's ink to its faint one: enough contrast for small letters."""
 _FRAME = 0.4
 """How much darker than a tile the frame round a page is: letters stand on it."""
+_ICON_SIZE = 64
 _LONGEST_HEADING = 30
 _LONGEST_LINE = 24
 """Characters of a cell that stay in one line."""
@@ -54,6 +57,7 @@ class Pages:
         self.write(MARK, "made by ninja-game\n")
         self.write(STYLE, "\n".join((_colours(), (here / STYLE).read_text("utf-8"))))
         self.write(SCRIPT, (here / SCRIPT).read_text("utf-8"))
+        self.write(ICON, _icon())
 
     def write(self, name: str, content: str | bytes) -> None:
         """A file of the folder, below it or beside it; what was there is replaced: pages can always be made anew."""
@@ -78,6 +82,7 @@ def page(title: str, *contents: Content, up: str = "", links: Iterable[tuple[str
         tag("meta", name="referrer", content="no-referrer"),
         tag("title", f"{title} - ninja-game"),
         tag("link", rel="stylesheet", href=f"{up}{STYLE}"),
+        tag("link", rel="icon", href=f"{up}{ICON}"),
         tag("script", src=f"{up}{SCRIPT}", defer=True),
     )
     entries = [tag("li", tag("a", name, href=address)) for address, name in links]
@@ -107,6 +112,13 @@ def heading(text: str) -> Markup:
     box = f"0 0 {x:.1f} {CAP + 7:.1f}"
     picture = tag("svg", strokes, viewbox=box, aria_hidden="true", height=str(round(30 * (CAP + 7) / CAP)))
     return tag("h1", Markup(picture.replace("viewbox", "viewBox")), tag("span", shown, class_="hidden"))
+
+
+def _icon() -> bytes:
+    """The game's icon as a PNG."""
+    png = BytesIO()
+    pygame.image.save(icon(_ICON_SIZE), png, ICON)
+    return png.getvalue()
 
 
 def _colours() -> str:
