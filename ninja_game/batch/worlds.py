@@ -94,7 +94,9 @@ class CompiledWorlds:
 
     def load(self, worlds: Numbers, levels: Numbers) -> None:
         """Start worlds afresh, each in the level of that number."""
-        self._put(worlds, self._fresh_bytes[levels])
+        for index, number in zip(worlds.tolist(), levels.tolist(), strict=True):
+            self._bytes[index] = self._fresh_bytes[number]
+        self.records["event_count"][worlds] = 0
 
     def run(self, inputs: NDArray[np.uint8], level_of: Numbers, stop: bool, threads: int) -> int:
         """Run all worlds for all rows of ``inputs``, on all threads."""
@@ -115,10 +117,6 @@ class CompiledWorlds:
 
     def restore(self, worlds: Numbers, states: Any, levels: Numbers) -> None:  # noqa: ARG002
         """Put worlds back to states that ``save`` gave for as many; a state holds its level's objects."""
-        self._put(worlds, states)
-
-    def _put(self, worlds: Numbers, states: NDArray[np.uint8]) -> None:
-        """Overwrite the states of worlds; nothing has happened in their last tick."""
         self._bytes[worlds] = states
         self.records["event_count"][worlds] = 0
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ninja_game.batch.worlds import Numbers, Worlds, make_worlds
+from ninja_game.batch.worlds import Numbers, make_worlds
 from ninja_game.compile_cache import choose_memory
 from ninja_game.learn.observations.part import Ragged, Setting, clamp
 from ninja_game.sim.kinds import EXIT
@@ -38,9 +38,9 @@ class GoalDistance:
     of each world's switch state.
     """
 
-    def __init__(self, levels: Sequence[Level], worlds: Worlds, setting: Setting) -> None:
-        self._levels, self._worlds, self._setting = levels, worlds, setting
-        self._kernel = worlds.kernel(measure_distance)
+    def __init__(self, levels: Sequence[Level], setting: Setting) -> None:
+        self._levels, self._worlds, self._setting = levels, setting.worlds, setting
+        self._kernel = setting.kernel(measure_distance)
         self._made: dict[int, Heuristics] = {}
         count = setting.count
         self.ticks, self.start = np.zeros((2, count))

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from ninja_game.sim.events import EXIT_OPENED, GOLD_TAKEN
 from ninja_game.sim.inputs import pressed
 from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.memory.schema import MAX_EVENTS
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
 from ninja_game.sim.world import step
 
@@ -24,13 +26,15 @@ def advance_worlds(
     weights: Any,
     rewards: Any,
     facts: Any,
+    changed: Any,
 ) -> int:
     """Run worlds ``which[first:last]``, each with its ``keys`` for ``frame_skip`` ticks; the number of ticks run.
 
     A world stops at its first exit contact or death, and at ``time_limit`` ticks. Jump is pressed, as at a keyboard,
     where it is held and was not in the tick before. ``weights``: what an exit, a death, a piece of gold and a tick are
     worth; ``rewards`` (worlds) receives the sum. ``facts`` (worlds x 5): outcome, ticks, gold, the events of all these
-    ticks as bits, and how the episode goes on: 0, 1 terminated, 2 truncated.
+    ticks as bits, and how the episode goes on: 0, 1 terminated, 2 truncated. ``changed`` (worlds): whether gold was
+    taken or an exit opened, as far as events tell, of which there is room for so many only.
     """
     total = 0
     for k in range(first, last):
@@ -41,10 +45,13 @@ def advance_worlds(
         tick = w.tick
         gold = w.gold
         seen = 0
+        crowded = False
         for _ in range(frame_skip):
             step(level, w, pressed(down, w.ninja.jump_held))
             for event in range(w.event_count):
                 seen |= 1 << w.events[event].kind
+            if w.event_count >= MAX_EVENTS:
+                crowded = True
             if w.outcome or w.tick >= time_limit:
                 break
         ticks = w.tick - tick
@@ -59,5 +66,6 @@ def advance_worlds(
         facts[index, 2] = w.gold
         facts[index, 3] = seen
         facts[index, 4] = 1 if w.outcome else 2 if w.tick >= time_limit else 0
+        changed[index] = crowded or (seen >> GOLD_TAKEN) & 1 or (seen >> EXIT_OPENED) & 1
         total += ticks
     return total

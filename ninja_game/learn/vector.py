@@ -129,7 +129,7 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
             if ended.size:
                 final = self._final(ended, terminated | truncated)
                 worlds.reset(ended)
-        return self._shown(), rewards, terminated, truncated, self._infos(np.ones(self.num_envs, np.bool_)) | final
+        return self._shown(), rewards, terminated, truncated, self._infos() | final
 
     def _final(self, ended: NDArray[np.intp], mask: NDArray[np.bool_]) -> Infos:
         """What the worlds that have ended showed last."""
@@ -146,8 +146,8 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
             return seen
         return {name: part.copy() for name, part in seen.items()} if isinstance(seen, dict) else seen.copy()
 
-    def _infos(self, mask: NDArray[np.bool_]) -> Infos:
-        """Infos of the worlds in ``mask``, 0 for the others."""
+    def _infos(self, mask: NDArray[np.bool_] | None = None) -> Infos:
+        """Infos of all worlds, or of those in ``mask`` and 0 for the others."""
         worlds = self.worlds
         values = {
             "outcome": worlds.outcomes, "ticks": worlds.ticks, "gold": worlds.gold,
@@ -155,7 +155,8 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
         }  # fmt: skip
         infos: Infos = {}
         for name, value in values.items():
-            infos[name], infos[f"_{name}"] = np.where(mask, value, 0), mask.copy()
+            infos[name] = value.copy() if mask is None else np.where(mask, value, 0)
+            infos[f"_{name}"] = np.ones(self.num_envs, np.bool_) if mask is None else mask.copy()
         return infos
 
     def _refuse_closed(self) -> None:

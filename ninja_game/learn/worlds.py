@@ -45,7 +45,7 @@ OUTCOME, TICKS, GOLD, EVENTS, ENDED = range(5)
 """Columns of what the kernel tells of each world (``advance_worlds``)."""
 TERMINATED, TRUNCATED = 1, 2
 
-TOGETHER = 256
+TOGETHER = 512
 """Worlds that are run and then observed before the next ones: so many stay in the processor's cache."""
 
 
@@ -107,17 +107,17 @@ class EnvWorlds:
         self.source = level_source(level)
         self.levels = self.source.levels
         self.count, self.body, self.frame_skip, self.time_limit = count, body, frame_skip, time_limit
-        self.memory = choose_memory(memory)
-        self.threads = threads or cores()
+        self.memory, self.threads = choose_memory(memory), threads or cores()
         self._worlds = make_worlds(self.memory, self.levels, count, box=is_box(body))
+        self._changed = np.ones(count, np.bool_)
         fresh = [load_plain(level, is_box(body)) for level in self.levels]
-        setting = Setting(self._worlds.maps, fresh, count, time_limit, self.memory == "compiled", self._worlds.kernel)
+        setting = Setting(self._worlds, fresh, self._changed, time_limit, self.memory == "compiled")
         self.observation = Observation(observation, flat=flat)
         terms = reward_terms(reward)
         shaping = [term for term in terms if isinstance(term, DistanceShaping)]
         self._guided = any(part.needs_goal for part in self.observation.parts)
-        wanted = goal_distance or self._guided or bool(shaping)
-        self.goal = GoalDistance(self.levels, self._worlds, setting) if wanted else None
+        wanted = goal_distance or self._guided or shaping
+        self.goal = GoalDistance(self.levels, setting) if wanted else None
         self._shaping = Shaping(shaping, self.goal) if self.goal and shaping else None
         self.observations = self.observation.memory(count)
         self._writers = self.observation.writers(self.observations, replace(setting, goal=self.goal))
@@ -132,7 +132,7 @@ class EnvWorlds:
         weights = setting.table(weights_of(terms), np.float64)
         # What the kernels take, first and last.
         self._places = (self._worlds.maps, self.levels_now, self._worlds.worlds)
-        self._episodes = (frame_skip, time_limit, weights, self.rewards, self._facts)
+        self._episodes = (frame_skip, time_limit, weights, self.rewards, self._facts, self._changed)
         self.reset()
 
     # --- time ---
@@ -208,7 +208,7 @@ class EnvWorlds:
 
     def _look(self, numbers: Numbers, starts: NDArray[np.float64] | None) -> None:
         """Worlds are where they did not step to: measure, no reward. ``starts``: of their episodes, None: here."""
-        self.rewards[numbers] = 0.0
+        self.rewards[numbers], self._changed[numbers] = 0.0, True
         if self.goal:
             self.goal.begin(self.levels_now, numbers)
             self.goal.start[numbers] = self.goal.ticks[numbers] if starts is None else starts

@@ -11,6 +11,7 @@ import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
+from ninja_game.batch.worlds import Kernel, R, Worlds
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import TileMap, World
@@ -22,18 +23,31 @@ Array = NDArray[Any]
 class Setting:
     """What a part may know of the worlds when it makes its tables.
 
-    ``maps``: the levels as kernels take them; ``fresh``: of each its map and a new world, as plain objects. ``count``:
-    worlds. ``time_limit``: ticks of an episode. ``compiled``: whether kernels run compiled; ``kernel``: gives an entry
-    point as these worlds run it. ``goal``: their ``GoalDistance``, for parts that ask for one.
+    ``worlds``: they themselves, not loaded yet; ``fresh``: of each level its map and a new world, as plain objects.
+    ``changed`` (worlds): whether gold or exits may be others than at the last observation. ``time_limit``: ticks of an
+    episode. ``compiled``: whether kernels run compiled. ``goal``: their ``GoalDistance``, for parts that ask for one.
     """
 
-    maps: Any
+    worlds: Worlds
     fresh: Sequence[tuple[TileMap, World]]
-    count: int
+    changed: NDArray[np.bool_]
     time_limit: int
     compiled: bool
-    kernel: Callable[[Callable[..., Any]], Callable[..., Any]]
     goal: Any = None
+
+    @property
+    def maps(self) -> Any:
+        """The levels as kernels take them."""
+        return self.worlds.maps
+
+    def kernel(self, entry: Kernel[R]) -> Kernel[R]:
+        """An entry point as these worlds run it."""
+        return self.worlds.kernel(entry)
+
+    @property
+    def count(self) -> int:
+        """How many worlds there are."""
+        return len(self.changed)
 
     def objects(self, *kinds: int) -> list[list[tuple[World, Object]]]:
         """Of each level its new world with each of the objects of these kinds, in the order of their slots."""

@@ -59,6 +59,8 @@ _NAMES = tuple(FIELDS)
 FIRST_EXIT, FIRST_GOLD, FIRST_STATE = (_NAMES.index(name) for name in ("exit_there", "gold_there", STATE_NAMES[0]))
 FAR = 1.0e18
 """px², farther than anything."""
+MOST_EXITS = 60
+"""Exits of a level that are looked at: its first."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +86,11 @@ class StateVector(Part):
         return observe_state
 
     def tables(self, setting: Setting) -> tuple[Any, ...]:
-        """Factors and limits of the values; slots and places of exits and gold; each world's last nearest gold."""
+        """Factors and limits of the values; slots and places of exits and gold; what is known of each world.
+
+        That is which exits are open, in bits, and which gold was nearest. As long as nothing has changed, a world's
+        objects, which lie far away in memory, need not be asked.
+        """
         box = self.box
         factors = [1.0 / scale if self.normalised else 1.0 for _, _, scale in FIELDS.values()]
         exits = Ragged([[exit_row(w, o.slot) for w, o in found] for found in setting.objects(EXIT)])
@@ -93,7 +99,8 @@ class StateVector(Part):
             *(setting.table(values, np.float64) for values in (factors, box.low, box.high)),
             *exits.columns(setting, 5),
             *gold.columns(setting, 3),
-            setting.table([0] * setting.count, np.int64),
+            setting.changed,
+            *(setting.table([0] * setting.count, np.int64) for _ in range(2)),
         )
 
 
@@ -109,7 +116,8 @@ def observe_state(
     maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
     factors: Any, lows: Any, highs: Any,
     exit_starts: Any, exits: Any, exit_x: Any, exit_y: Any, switch_x: Any, switch_y: Any,
-    gold_starts: Any, gold: Any, gold_x: Any, gold_y: Any, nearest: Any,
+    gold_starts: Any, gold: Any, gold_x: Any, gold_y: Any,
+    changed: Any, opened: Any, nearest: Any,
 ) -> None:  # fmt: skip
     """Write the state vector of some worlds."""
     for k in range(first, last):
@@ -120,9 +128,12 @@ def observe_state(
         observe_ninja(w, out, index, offset, factors, lows, highs)
         for j in range(offset + FIRST_EXIT, offset + FIRST_STATE):
             out[index, j] = 0.0
-        chosen, is_open = choose_exit(
-            w, exits, exit_x, exit_y, switch_x, switch_y, exit_starts[level], exit_starts[level + 1]
-        )
+        start = exit_starts[level]
+        end = exit_starts[level + 1]
+        if changed[index]:
+            opened[index] = open_exits(w, exits, start, end)
+        chosen = choose_exit(n.x, n.y, opened[index], exit_x, exit_y, switch_x, switch_y, start, end)
+        is_open = chosen >= 0 and (opened[index] >> (chosen - start)) & 1
         if chosen >= 0:
             out[index, offset + FIRST_EXIT] = 1.0
             out[index, offset + FIRST_EXIT + 1] = 1.0 if is_open else 0.0
@@ -131,9 +142,15 @@ def observe_state(
             if not is_open:
                 put(out, index, offset, FIRST_EXIT + 4, factors, lows, highs, switch_x[chosen] - n.x)
                 put(out, index, offset, FIRST_EXIT + 5, factors, lows, highs, switch_y[chosen] - n.y)
-        chosen = nearest_gold(w, gold, gold_x, gold_y, gold_starts[level], gold_starts[level + 1], nearest[index])
+        start = gold_starts[level]
+        end = gold_starts[level + 1]
+        guess = nearest[index]
+        if changed[index] and not (start <= guess < end and not w.objects[int(gold[guess])].taken):
+            guess = -1
+        if changed[index] or guess >= 0:
+            nearest[index] = nearest_gold(w, gold, gold_x, gold_y, start, end, guess)
+        chosen = nearest[index]
         if chosen >= 0:
-            nearest[index] = chosen
             out[index, offset + FIRST_GOLD] = 1.0
             put(out, index, offset, FIRST_GOLD + 1, factors, lows, highs, gold_x[chosen] - n.x)
             put(out, index, offset, FIRST_GOLD + 2, factors, lows, highs, gold_y[chosen] - n.y)
@@ -168,43 +185,51 @@ def observe_ninja(w: World, out: Any, index: int, offset: int, factors: Any, low
 
 
 @fast
+def open_exits(w: World, exits: Any, start: int, end: int) -> int:
+    """Which exits of a level are open, a bit each; of more than there are bits, the first."""
+    opened = 0
+    for k in range(start, min(end, start + MOST_EXITS)):
+        if w.objects[int(exits[k])].is_open:
+            opened |= 1 << (k - start)
+    return opened
+
+
+@fast
 def choose_exit(
-    w: World, exits: Any, exit_x: Any, exit_y: Any, switch_x: Any, switch_y: Any, start: int, end: int
-) -> tuple[int, bool]:
-    """The exit that counts, -1: none, and whether it is open."""
-    n = w.ninja
+    x: float, y: float, opened: int, exit_x: Any, exit_y: Any, switch_x: Any, switch_y: Any, start: int, end: int
+) -> int:
+    """The exit that counts for a ninja at a place, -1: none."""
     best = FAR
     chosen = -1
-    chosen_open = False
-    for k in range(start, end):
-        is_open = w.objects[int(exits[k])].is_open == 1
-        dx = (exit_x[k] if is_open else switch_x[k]) - n.x
-        dy = (exit_y[k] if is_open else switch_y[k]) - n.y
+    chosen_open = 0
+    for k in range(start, min(end, start + MOST_EXITS)):
+        is_open = (opened >> (k - start)) & 1
+        dx = (exit_x[k] if is_open else switch_x[k]) - x
+        dy = (exit_y[k] if is_open else switch_y[k]) - y
         distance = dx * dx + dy * dy
-        better = distance < best if is_open == chosen_open else is_open
+        better = distance < best if is_open == chosen_open else is_open == 1
         if better or chosen < 0:
             best = distance
             chosen = k
             chosen_open = is_open
-    return chosen, chosen_open
+    return chosen
 
 
 @fast
 def nearest_gold(w: World, gold: Any, gold_x: Any, gold_y: Any, start: int, end: int, guess: int) -> int:
     """The nearest piece that is left, the first of those equally near; -1: none.
 
-    A world's objects are far away in memory, the level's table is near: they are asked last. With a good ``guess``,
-    such as the last nearest piece, only one of them is asked.
+    The level's table is near in memory, the world's objects are not: they are asked last. With a good ``guess``, a
+    piece that is left (or -1), such as the last nearest one, hardly any is asked.
     """
     x = w.ninja.x
     y = w.ninja.y
     best = FAR
-    chosen = -1
-    if start <= guess < end and not w.objects[int(gold[guess])].taken:
+    chosen = guess
+    if guess >= 0:
         dx = gold_x[guess] - x
         dy = gold_y[guess] - y
         best = dx * dx + dy * dy
-        chosen = guess
     for k in range(start, end):
         dx = gold_x[k] - x
         dy = gold_y[k] - y
