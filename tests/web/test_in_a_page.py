@@ -1,0 +1,84 @@
+"""What a page lacks (threads, Numba, NumPy, Pillow) is said where it is asked for, and nothing throws."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+
+from ninja_game.runtime import ONLY_ON_A_DESKTOP
+
+START = """
+import json, os, sys
+os.environ["NINJA_GAME_HOME"] = "/player-of-a-page"
+import boot, js
+boot.start(js.host)
+app = boot.app()
+def frames(count=3):
+    for _ in range(count):
+        app.frame(25)
+def told(action):
+    app.stack.clear()
+    return json.dumps(globals()[action]())
+def daily():
+    from ninja_game.play.menus.daily import DailyScreen
+    app.push(DailyScreen(app))
+    frames()
+    return app.top.message
+def film():
+    from ninja_game.files.resources import bundled_replays
+    from ninja_game.formats.load import load_replays
+    from ninja_game.play.replay.screen import ReplayScreen
+    app.push(ReplayScreen(app, load_replays(bundled_replays()[0])))
+    frames()
+    app.top.start_export()
+    frames()
+    return app.notice
+def certify():
+    from ninja_game.play.editor.screen import EditorScreen
+    app.push(EditorScreen(app))
+    frames()
+    session = app.top.session
+    session.certifier.start(session.draft.level)
+    return session.certifier.text
+def findings():
+    from ninja_game.play.editor.screen import EditorScreen
+    app.push(EditorScreen(app))
+    frames(40)
+    return app.top.session._checks.result is not None
+def picture():
+    app.push(__import__("ninja_game.play.menus.boss", fromlist=["BossScreen"]).BossScreen(app))
+    frames()
+    app.keep_screenshot()
+    with open(app.notice.removeprefix("Saved: "), "rb") as file:
+        return file.read(8).hex()
+def modules():
+    return sorted({name.partition(".")[0] for name in sys.modules})
+"""
+
+
+@pytest.fixture(scope="module")
+def told(python: Any) -> Any:
+    """What an action of the page above tells."""
+    python.evaluate("text => { python.runPython(text); }", START)
+    return lambda action: json.loads(python.evaluate("name => python.globals.get('told')(name)", action))
+
+
+@pytest.mark.parametrize("action", ["daily", "film", "certify"])
+def test_what_only_a_desktop_can_do_is_said(action: str, told: Any) -> None:
+    assert ONLY_ON_A_DESKTOP in told(action)
+
+
+def test_a_screenshot_is_a_png(told: Any) -> None:
+    assert bytes.fromhex(told("picture")).startswith(b"\x89PNG")
+
+
+def test_the_editor_judges_a_level_without_a_thread(told: Any) -> None:
+    assert told("findings") is True
+
+
+def test_only_what_is_needed_is_loaded(told: Any) -> None:
+    loaded = set(told("modules"))
+    assert {"ninja_game", "pygame", "sqlite3"} <= loaded
+    assert not loaded & {"numpy", "click", "rich", "platformdirs", "PIL", "numba", "multiprocessing", "asyncio.events"}
