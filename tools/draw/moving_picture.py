@@ -14,7 +14,7 @@ from ninja_game.play.replay.film import Film, write_film
 from ninja_game.play.replay.playback import recorded_run
 from tools import ROOT
 
-REPLAY = ROOT / "levels" / "certificates" / "11-4-night-shift.exit.replay.txt"
+REPLAY = ROOT / "levels" / "certificates" / "43-4-the-skull.exit.replay.txt"
 PICTURE = ROOT / "docs" / "pictures" / "ninja-game.gif"
 
 if __name__ == "__main__":
