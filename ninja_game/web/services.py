@@ -49,6 +49,10 @@ class PageServices:
         """Show a line below the stage."""
         self.app.notify(text)
 
+    def flush(self) -> None:
+        """Put what waits for the next save on the disk now."""
+        self.app.player.store.flush()
+
     def watched(self, fragment: str) -> list[str]:
         """The files of this site that a link names, relative to the page. Raises LinkError."""
         return watched(fragment)

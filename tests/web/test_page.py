@@ -163,6 +163,30 @@ def test_what_throws_in_a_turn_is_told_and_nothing_foreign_runs(new_visitor: New
     visitor.until("menu")
 
 
+def test_a_memory_that_cannot_be_used_is_given_up_and_a_game_that_ends_says_so(new_visitor: NewVisitor) -> None:
+    visitor = new_visitor()
+    visitor.visit()
+    visitor.page.evaluate("() => ninjaGame.kept")
+    visitor.page.evaluate(
+        "async () => { const cache = await caches.open((await caches.keys())[0]);"
+        " const kept = (await cache.keys()).find(request => request.url.includes('memory.bin'));"
+        " await cache.put(kept, new Response('0123456789abcdef'.repeat(99))); }"
+    )
+    visitor.page.reload()
+    visitor.until("menu")
+    assert not visitor.page.evaluate("ninjaGame.fromMemory")
+    # What the game keeps for its next save is there when the page is left.
+    ended = "app.player.statistics.attempt_ended('x', killer=None, passed=True, ticks=1, gold=0)"
+    visitor.python(f"app.player.store.later(lambda: {ended} or ())")
+    visitor.page.evaluate("() => { ninjaGame.pause(true); return ninjaGame.folder.saving; }")
+    visitor.page.reload()
+    visitor.until("menu")
+    assert visitor.python("app.player.store.connection.execute('SELECT count(*) FROM played').fetchone()[0]") == 1
+    visitor.python("app.quit()")
+    visitor.page.get_by_text("The game has ended").wait_for()
+    assert visitor.problems == []
+
+
 def test_one_tab_at_a_time_writes_the_records(new_visitor: NewVisitor) -> None:
     visitor = new_visitor()
     visitor.visit()

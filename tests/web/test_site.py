@@ -5,6 +5,7 @@ from __future__ import annotations
 import gzip
 import io
 import json
+import re
 import tarfile
 import threading
 import urllib.error
@@ -137,3 +138,21 @@ def test_the_local_server_names_the_kinds_of_files_and_lists_nothing(server: Thr
     finally:
         server.shutdown()
         server.server_close()
+
+
+def test_the_lines_of_the_readme_run(pyodide: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    readme = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
+    lines = re.findall(r"^ninja-game ((?:site|player) .*?)\s+#", readme, re.MULTILINE)
+    assert lines == ["site public", "site --serve", "player export my-data.zip"]
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path / "home"))
+    monkeypatch.setattr("ninja_game.cli.web.site._serve", lambda folder, _: (folder / "index.html").open().close())
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    monkeypatch.setattr("ninja_game.web.pages.gallery.write_gallery", lambda folder, _: folder)
+    for line in lines:
+        words = [*line.split(), *(["--pyodide", str(pyodide)] if line.startswith("site") else [])]
+        result = CliRunner().invoke(cli, words)
+        assert result.exit_code == 0, result.output
+    assert "compressed by gzip" in CliRunner().invoke(cli, ["site", "public", "--pyodide", str(pyodide)]).output
+    assert (tmp_path / "public" / "index.html").is_file()
+    assert (tmp_path / "my-data.zip").is_file()

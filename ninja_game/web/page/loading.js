@@ -13,7 +13,6 @@ let lowest = 1;
 export function progress(share, words) {
   lowest = Math.max(lowest, share);
   bar.value = lowest;
-  performance.mark(words);
   text.textContent = words;
 }
 
@@ -89,19 +88,31 @@ async function keptMemory(cache) {
   return kept ? new Uint8Array(await kept.arrayBuffer()) : null;
 }
 
-// Python with the game imported: {python, boot, services, keep}; `keep` puts its memory aside for the next visit.
+// Python with the game imported, from its memory if that can be had; a memory that cannot be used is given up.
 export async function startPython() {
   const cache = await openCache();
-  const memory = keptMemory(cache);
+  const memory = await keptMemory(cache);
+  try {
+    return await begin(cache, memory);
+  } catch (error) {
+    if (!memory) throw error;
+    console.warn("The kept memory cannot be used:", error);
+    await cache.delete(address(MEMORY));
+    location.reload();
+    return new Promise(() => {});
+  }
+}
+
+// Python with the game imported: {python, boot, services, keep}; `keep` puts its memory aside for the next visit.
+async function begin(cache, picture) {
   const archive = get(cache, "game.tar.gz");
   const wasm = get(cache, "pyodide/pyodide.asm.wasm");
   const library = get(cache, "pyodide/python_stdlib.zip");
-  for (const each of [memory, archive, wasm, library]) each.catch(() => {}); // told where it is awaited
+  for (const each of [archive, wasm, library]) each.catch(() => {}); // told where it is awaited
   const [{ loadPyodide }, { default: createPyodideModule }] = await Promise.all([
     import("./pyodide/pyodide.mjs"),
     import("./pyodide/pyodide.asm.mjs"),
   ]);
-  const picture = await memory;
   if (picture) sessionStorage.setItem(TRYING, "1");
   await library;
   progress(62, "Starting Python");

@@ -99,6 +99,7 @@ export class Panel {
   // --- the player's data ---
 
   save() {
+    navigator.storage?.persist?.(); // asks the browser not to drop the data when it runs out of room
     const data = this.page.services.backup();
     download(`ninja-game-player-${today()}.zip`, data.toJs());
     data.destroy();

@@ -5,7 +5,7 @@ import { codeOf } from "./input.js";
 import { Panel } from "./panel.js";
 import { PlayerFolder, takeTurn } from "./storage.js";
 import { Touch } from "./touch.js";
-import { button, lastLine, showTrouble } from "./trouble.js";
+import { button, lastLine, reloading, showStop, showTrouble } from "./trouble.js";
 
 const PAGE_STATE_MS = 100; // how often the page looks at what the game shows
 const KEEP_AFTER_MS = 3000; // when the game runs, what the next visit needs is put aside
@@ -16,9 +16,11 @@ const game = document.getElementById("game");
 class Page {
   async start() {
     if (await newerVersion()) return location.reload();
-    const taken = () => this.stop("The game has been opened in another tab", "It goes on there; your records are in one place at a time.");
-    this.taken = taken;
-    if (!(await takeTurn(taken))) return this.openElsewhere();
+    this.taken = () => {
+      this.stop();
+      showStop("The game has been opened in another tab", "It goes on there: only one of them keeps records.", reloading("Play here instead"));
+    };
+    if (!(await takeTurn(this.taken))) return this.openElsewhere();
     await this.load();
   }
 
@@ -28,7 +30,7 @@ class Page {
       document.getElementById("trouble").close();
       this.load().catch(failed);
     });
-    showTrouble("Two pages must not write the same records.", "The game is open in another tab or window", "Close it there, or go on here.", here);
+    showStop("The game is open in another tab or window", "Only one of them can keep records. Close it there, or go on here.", here);
   }
 
   async load() {
@@ -50,6 +52,7 @@ class Page {
     this.look(0);
     this.turn(performance.now());
     document.getElementById("start").remove();
+    performance.mark("ninja-game: menu");
     canvas.focus();
     this.kept = new Promise((done) => setTimeout(() => done(Promise.all([keep(), keepForLater()])), KEEP_AFTER_MS));
   }
@@ -67,9 +70,8 @@ class Page {
   }
 
   listen() {
-    const shown = () => this.pause(document.hidden);
-    document.addEventListener("visibilitychange", shown);
-    addEventListener("pagehide", () => this.folder.saveChanges(() => {}));
+    document.addEventListener("visibilitychange", () => this.pause(document.hidden));
+    addEventListener("pagehide", () => this.saveAll());
     addEventListener("blur", () => this.touch.release());
     addEventListener("hashchange", () => this.openLink().catch(failed));
     addEventListener("beforeunload", (event) => (this.state === "play" || this.folder.saving) && event.preventDefault());
@@ -87,8 +89,16 @@ class Page {
   pause(wanted) {
     this.paused = wanted;
     this.host.pause(wanted);
-    if (wanted) this.touch.release();
-    else this.boot.resume();
+    if (!wanted) return this.boot.resume();
+    this.touch.release();
+    this.saveAll();
+  }
+
+  // Also what the game keeps for its next save: a page may be closed without a word.
+  saveAll() {
+    if (this.stopped) return;
+    this.services.flush();
+    this.folder.saveChanges(() => {});
   }
 
   turn(now) {
@@ -96,8 +106,10 @@ class Page {
     requestAnimationFrame((next) => this.turn(next));
     if (this.paused || this.folder.saving) return;
     try {
-      if (!this.boot.turn(now)) return this.stop("The game has ended", "Close this tab, or begin anew.");
+      const goesOn = this.boot.turn(now);
+      if (!goesOn) this.services.flush();
       this.folder.saveChanges((text) => this.services.notify(text));
+      if (!goesOn) return this.end();
       if (now - this.looked >= PAGE_STATE_MS) this.look(now);
     } catch (error) {
       failed(error);
@@ -129,10 +141,16 @@ class Page {
     location.reload();
   }
 
-  stop(title, advice, error = "Nothing is lost.") {
+  async end() {
+    this.stop();
+    await this.folder.saving;
+    showStop("The game has ended", "You may close this tab.", reloading("Play again"));
+  }
+
+  stop() {
     this.stopped = true;
+    this.state = "";
     this.host?.pause(true);
-    showTrouble(error, title, advice);
   }
 }
 
@@ -152,7 +170,9 @@ globalThis.ninjaGame = page; // for those who look into a running game
 
 function failed(error) {
   console.error(error);
-  if (!page.stopped) page.stop("Something went wrong", "Your records are kept. Please report the text below, and load the page again.", error);
+  if (page.stopped) return; // the first fault is the one to tell
+  page.stop();
+  showTrouble(error, "Something went wrong", "Your records are kept. Please report the text below, and load the page again.");
 }
 
 addEventListener("error", (event) => event.error && failed(event.error));

@@ -21,8 +21,17 @@ export function lastLine(error) {
   return lines[lines.length - 1].replace(/^[\w.]*Error: /, "");
 }
 
-// `error`: anything thrown; `title` and `advice`: what to say above it.
-export function showTrouble(error, title, advice, ...more) {
+// The game stands still: why, what to do about it, buttons for that.
+export function showStop(title, advice, ...parts) {
+  dialog.replaceChildren(element("h2", { id: "trouble-title", textContent: title }), element("p", { textContent: advice }), ...parts);
+  dialog.oncancel = (event) => event.preventDefault();
+  if (!dialog.open) dialog.showModal();
+}
+
+export const reloading = (label) => button(label, () => location.reload());
+
+// The same for anything thrown, with a text that can be copied.
+export function showTrouble(error, title, advice) {
   const words = `${error?.message ?? error}\n\n${error?.name === "PythonError" ? "" : (error?.stack ?? "")}`.trim();
   const text = `ninja-game ${build.version} (${build.id})\n${navigator.userAgent}\n\n${words}`;
   const copy = button("Copy the text", async () => {
@@ -35,12 +44,5 @@ export function showTrouble(error, title, advice, ...more) {
     }
   });
   const shown = element("pre", { textContent: text });
-  dialog.replaceChildren(
-    element("h2", { id: "trouble-title", textContent: title }),
-    element("p", { textContent: advice }),
-    element("div", { className: "row" }, button("Load the page again", () => location.reload()), copy, ...more),
-    shown,
-  );
-  dialog.oncancel = (event) => event.preventDefault();
-  if (!dialog.open) dialog.showModal();
+  showStop(title, advice, element("div", { className: "row" }, reloading("Load the page again"), copy), shown);
 }

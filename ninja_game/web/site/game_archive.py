@@ -14,17 +14,9 @@ from ninja_game.files.resources import PACKAGE, data_folder
 from ninja_game.web.sounds import compressed
 
 LEFT_OUT = (
-    "batch",
-    "cli",
-    "learn",
-    "verification",
-    "web/site",
-    "web/board",
-    "web/gallery",
-    "web/page",
-    "web/licences",
-    "data",
-)
+    "batch", "cli", "data", "directed", "learn", "solver", "verification", "web/board", "web/pages", "web/licences",
+    "web/page", "web/site",
+)  # fmt: skip
 """What of the package a page has no use for."""
 
 
@@ -49,7 +41,7 @@ def game_files() -> Iterator[tuple[str, bytes]]:
     for folder in ("levels", "assets"):
         root = data_folder(folder)
         for path in root.rglob("*"):
-            if path.is_file() and path.suffix != ".md":
+            if path.is_file() and path.suffix != ".md" and path.relative_to(root).parts[0] not in LEFT_OUT:
                 data = path.read_bytes()
                 name = f"ninja_game/data/{folder}/{path.relative_to(root).as_posix()}"
                 yield name, compressed(data, str(path)) if path.suffix == ".wav" else data
