@@ -10,6 +10,7 @@ import pytest
 from gymnasium.error import ClosedEnvironmentError, InvalidAction, ResetNeeded
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
 from gymnasium.vector.utils import batch_space
+from gymnasium.wrappers import vector as wrappers
 
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.vector import NinjaVectorEnv
@@ -192,3 +193,23 @@ def test_spaces_are_those_of_one_world_batched(mode: str) -> None:
     assert envs.observation_space == batch_space(envs.single_observation_space, 4)
     assert envs.reset(seed=1)[0] in envs.observation_space
     assert random_actions(1, 4)[0] in envs.action_space
+
+
+@pytest.mark.parametrize("mode", ["NextStep", "SameStep"])
+def test_gymnasiums_vector_wrappers_take_it(mode: str) -> None:
+    made = gym.make_vec("ninja_game:Ninja-v0", num_envs=4, level=LEVELS, autoreset_mode=mode, time_limit=40)
+    assert made.spec is not None
+    envs: Any = wrappers.RecordEpisodeStatistics(made)
+    if mode == "NextStep":  # those of observations refuse the other
+        envs = wrappers.FlattenObservation(envs)
+    envs = wrappers.DictInfoToList(wrappers.NormalizeReward(envs))
+    envs.reset(seed=4)
+    lengths = []
+    for _ in range(30):
+        *_, infos = envs.step(envs.action_space.sample())
+        assert len(infos) == 4
+        lengths += [info["episode"]["l"] for info in infos if "episode" in info]
+    assert lengths
+    assert max(lengths) == 10
+    envs.close()
+    assert made.closed
