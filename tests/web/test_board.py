@@ -27,6 +27,7 @@ from ninja_game.web.board.ranking import FASTEST, HIGHEST, Ranking
 from ninja_game.web.board.runs import Judged, judge
 from ninja_game.web.pages.exhibition import exhibition
 from ninja_game.web.pages.frame import POLICY
+from ninja_game.web.pages.html import tag
 from tests.support.forgeries import FORGERIES, GOLD_LATER, WALKING, record, replay
 from tests.support.samples import SPIKED, WALK, WALK_END
 
@@ -77,9 +78,6 @@ def why(folder: Path, levels: Path) -> str:
     found = judged(folder, levels)
     assert found.runs == ()
     return " ".join(f"{each.kind} {each.why}" for each in found.apart)
-
-
-# --- what counts ---
 
 
 def test_runs_are_ranked_by_what_the_simulation_says(runs: Path, levels: Path) -> None:
@@ -145,9 +143,6 @@ def test_dates_are_those_of_the_repository(runs: Path, levels: Path) -> None:
     assert found == {"Ann": 1770091506, "Bea": 1767225600, "Cid": 3 * 86_400}
 
 
-# --- what does not ---
-
-
 @pytest.mark.parametrize("name", FORGERIES)
 def test_a_forgery_is_refused_with_its_reason(name: str, runs: Path, levels: Path) -> None:
     text, field = FORGERIES[name]
@@ -195,7 +190,7 @@ TRICKS: dict[str, tuple[Callable[[Path], object] | str, str]] = {
     "too many records": (records, "recordings in one file"),
     "a link to a file elsewhere": (link_out, "a link"),
     "a link to a folder elsewhere": (folder_link_out, "a link"),
-    "a file that takes in another one": (takes_in, ""),
+    "a file that takes in another one": (takes_in, "takes in no file"),
     "a pipe": (pipe, "a pipe"),
     "nothing": ("", "no recording"),
     "zero bytes": ("ninja-game replay 3\0", "zero byte"),
@@ -240,9 +235,6 @@ def test_a_run_that_goes_most_of_somebody_elses_way_says_so(runs: Path, levels: 
 def test_practice_runs_are_kept_apart(runs: Path, levels: Path) -> None:
     put(runs, "run.txt", replay(practice=True))
     assert [each.kind for each in judged(runs, levels).apart] == ["practice"]
-
-
-# --- pages ---
 
 
 class Tags(HTMLParser):
@@ -296,6 +288,14 @@ def test_no_text_becomes_markup(hostile: Path) -> None:
                 assert re.fullmatch(r"[\w./#=&,-]*", attributes.get(name) or "")
 
 
+@pytest.mark.parametrize(
+    "address", ["javascript:alert(1)", "//example.org/", "data:text/html,x", "a b", "a?b", "\\\\x"]
+)
+def test_no_address_leads_out_of_the_pages(address: str) -> None:
+    with pytest.raises(ValueError, match="not an address"):
+        tag("a", "x", href=address)
+
+
 def test_every_link_of_the_board_leads_to_a_file(hostile: Path) -> None:
     (hostile.parent / "index.html").write_text("the page with the game")
     watched = set()
@@ -326,9 +326,6 @@ def test_pages_are_written_anew_but_never_over_something_else(runs: Path, levels
         board_of(runs, levels, tmp_path / "other")
 
 
-# --- the check of a change ---
-
-
 def check(runs: Path, levels: Path, *more: str) -> tuple[int, str]:
     result = CliRunner().invoke(cli, ["board", str(runs), "--levels", str(levels), "--jobs", "1", *more])
     return result.exit_code, result.stdout
@@ -342,7 +339,7 @@ def test_check_tells_what_a_change_does(runs: Path, levels: Path, tmp_path: Path
     code, text = check(runs, levels, "--check", str(data))
     assert (code, text.splitlines()[0]) == (
         0,
-        "nothing has changed: 1 runs by 1 players on 1 levels count; apart: 1 refused",
+        "nothing has changed: 1 run by 1 player on 1 level; apart: 1 refused",
     )
     put(runs, "ann.txt", replay(author="A`nn"), day=2)
     code, text = check(runs, levels, "--check", str(data))

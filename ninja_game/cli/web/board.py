@@ -7,14 +7,14 @@ from pathlib import Path
 
 import click
 
-from ninja_game.cli.run_options import jobs_option
+from ninja_game.cli.run_options import InputPath, jobs_option
 
 
 @click.command()
 @click.argument("folder", type=click.Path(exists=True, file_okay=False, path_type=Path))
 @click.option(
-    "--levels", metavar="PACK", type=click.Path(exists=True, path_type=Path),
-    help="The levels that count: a pack, a file or a folder of levels. [default: the game's own]",
+    "--levels", metavar="PACK", type=InputPath(),
+    help="The levels that count: a pack, a file, a folder or a link of levels. [default: the game's own]",
 )  # fmt: skip
 @click.option(
     "--site", metavar="OUT", type=click.Path(file_okay=False, path_type=Path),

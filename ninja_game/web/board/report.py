@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -10,11 +11,14 @@ from typing import Any
 from ninja_game.errors import FormatError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import shown_text
+from ninja_game.play.ui.text_layout import counted
 from ninja_game.player.scoring import seconds_text
 from ninja_game.web.board.ranking import ORDERS, Ranking
 from ninja_game.web.board.runs import Apart, Judged, Run
 
 VERSION = 1
+
+IN_WORDS = {"practice": "of practice", "copy": "copied", "refused": "refused", "unreadable": "unreadable"}
 
 Key = tuple[str, int]
 Rows = dict[Key, dict[str, Any]]
@@ -105,7 +109,8 @@ def plain(text: str) -> str:
 def summary(judged: Judged) -> str:
     """All of it in a line."""
     players, levels = {run.player for run in judged.runs}, {run.entry.digest for run in judged.runs}
-    counts = f"{len(judged.runs)} runs by {len(players)} players on {len(levels)} levels count"
-    kinds = {each.kind for each in judged.apart}
-    rest = ", ".join(f"{sum(each.kind == kind for each in judged.apart)} {kind}" for kind in sorted(kinds))
-    return f"{counts}; apart: {rest or 'none'}"
+    counts = ("run", judged.runs), ("player", players), ("level", levels)
+    runs, by, on = (counted(len(each), name, f"{name}s") for name, each in counts)
+    kinds = Counter(each.kind for each in judged.apart)
+    apart = ", ".join(f"{kinds[kind]} {IN_WORDS[kind]}" for kind in sorted(kinds))
+    return f"{runs} by {by} on {on}; apart: {apart or 'none'}"

@@ -14,7 +14,7 @@ LONGEST = 400
 _EMPTY = frozenset({"img", "input", "link", "meta", "path"})
 """Elements without an end tag."""
 
-_ADDRESS = re.compile(r"(?:https?://[\w.:-]+/)?[\w./#=&,-]*")
+_ADDRESS = re.compile(r"(?:https?://[\w.:-]+/)?(?!//)[\w./#=&,-]*")
 """Where a page may lead: a file of its site, a page with the game, a fragment; no scheme that runs anything."""
 
 
