@@ -51,10 +51,16 @@ def test_pictures_of_all_steps_are_collected() -> None:
     assert len({np.asarray(frame).tobytes() for frame in frames}) == 4
 
 
-@pytest.mark.parametrize("mode", ["sync", "async"])
-def test_vectors_of_single_environments_are_the_vector_environment(mode: str) -> None:
+@pytest.mark.parametrize(
+    "mode, more",
+    # Other processes that begin afresh: a copy of this one would lack the threads that it has.
+    [("sync", {}), ("async", {"context": "spawn"})],
+)
+def test_vectors_of_single_environments_are_the_vector_environment(mode: str, more: dict[str, str]) -> None:
     settings: dict[str, Any] = {"level": ["00-0-first-steps", NEAR], "memory": "plain"}
-    single = gymnasium.make_vec("ninja_game:Ninja-v0", num_envs=2, vectorization_mode=mode, **settings)
+    single = gymnasium.make_vec(
+        "ninja_game:Ninja-v0", num_envs=2, vectorization_mode=mode, vector_kwargs=more, **settings
+    )
     whole = gymnasium.make_vec("ninja_game:Ninja-v0", num_envs=2, **settings)
     assert isinstance(whole, NinjaVectorEnv)
     assert whole.metadata["autoreset_mode"] is AutoresetMode.NEXT_STEP
