@@ -91,7 +91,8 @@ class Bench(Hand):
             self._change(Stamp(dict.fromkeys(filled(self.draft, self.cell), self.tile)))
             return
         many = not self.objects or self.record.kind in (GOLD, MINE)
-        drawn = "rectangle" if self.tool == "rectangle" else "draw" if many else "drop"
+        boxed = self.tool == "rectangle" and not self.draws_one
+        drawn = "rectangle" if boxed else "draw" if many else "drop"
         self._doing = "erase" if erase else drawn
         self.move(*self.pointer)
 

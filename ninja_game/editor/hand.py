@@ -69,6 +69,11 @@ class Hand:
         """Whether the next press says where the switch of a door or an exit is."""
         return self._switchless is not None
 
+    @property
+    def draws_one(self) -> bool:
+        """Whether every tool puts one object at a time: a ninja, or what has a switch to be placed after it."""
+        return self.objects and (self.record.kind == NINJA or has_switch(self.record))
+
     def _change(self, stamp: Stamp, draft: Draft | None = None) -> None:
         self.history.change(put(draft or self.draft, stamp, SYMMETRIES[self.symmetry]))
 
@@ -86,9 +91,6 @@ class Hand:
         area = area_between(cell_of(*self._pressed_at), self.cell)
         if not self.objects:
             self._change(Stamp(dict.fromkeys(cells_of(area), self.tile)), self.history.began)
-            return
-        if self.record.kind == NINJA or has_switch(self.record):
-            self._drop()
             return
         step = max(SNAPS[self.snap], 12.0)
         (ax, ay), (bx, by) = snapped(*self._pressed_at, self.snap), snapped(*self.pointer, self.snap)

@@ -53,6 +53,11 @@ class LevelContext:
         self._ghosts: tuple[tuple[str, int], list[GhostRun]] = ("", -1), []
 
     @property
+    def leads_on(self) -> bool:
+        """Whether something else comes after this level is passed; else it begins again."""
+        return True
+
+    @property
     def title(self) -> str:
         """How the level is announced."""
         return self.entry.title

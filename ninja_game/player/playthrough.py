@@ -49,6 +49,11 @@ class LevelRun(LevelContext):
         self._levels, self.entry = levels, replace(self.entry, named=named, pars=pars)
         return changed
 
+    @property
+    def leads_on(self) -> bool:
+        """No: it begins again."""
+        return False
+
     def passed(self, attempt: Attempt) -> list[str]:
         """Save what a passed attempt is worth; notices about it."""
         count = count_of(self.data, self.entry, attempt, passed=True)
@@ -71,6 +76,11 @@ class FileRun(LevelRun):
         super().__init__(data, Entry(levels[0], "yours"), body=body, practice_mode=practice_mode)
         self._levels = levels
         self._number = 0
+
+    @property
+    def leads_on(self) -> bool:
+        """Whether the file holds other levels."""
+        return len(self._levels) > 1
 
     def advance(self) -> Navigation:
         """The next level of the file that can be played; files may hold levels without a ninja."""

@@ -72,8 +72,10 @@ def test_fill_takes_one_press(bench: Bench) -> None:
     assert set(bench.draft.level.tiles) == {1}
 
 
+@pytest.mark.parametrize("tool", ["brush", "rectangle"])
 @pytest.mark.parametrize("name", ["locked door", "trap door", "exit"])
-def test_what_has_a_switch_takes_two_presses_or_one_drag(bench: Bench, name: str) -> None:
+def test_what_has_a_switch_takes_two_presses_or_one_drag(bench: Bench, name: str, tool: str) -> None:
+    bench.tool = tool
     bench.take(sort(name))
     drag(bench, (238, 300))
     assert pending(bench)

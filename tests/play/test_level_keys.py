@@ -9,6 +9,7 @@ import pygame
 import pytest
 
 from ninja_game.formats.load import load_levels
+from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
 from ninja_game.play.input.actions import ACTIONS
@@ -21,6 +22,7 @@ from ninja_game.player.playthrough import EpisodeRun, FileRun
 from tests.support.scripted import (
     ScriptedControls,
     frames,
+    level_run,
     open_level,
     phase_of,
     play_to_the_end,
@@ -159,6 +161,26 @@ def test_skipping_with_locked_records_goes_on_with_a_notice(
     frames(app)
     assert run.position == 1
     assert "Not saved yet" in app.notice
+
+
+def test_a_passed_level_says_what_its_keys_do(
+    stage: tuple[App, ScriptedControls], recording: Recording, tmp_path: Path
+) -> None:
+    app, controls = stage
+    text = write_level_string(recording.level)
+    (tmp_path / "two.txt").write_text(f"$one#me#a#{text}#\n$two#me#a#{text}#\n")
+    two = LevelScreen(app, FileRun(app.player, load_levels(str(tmp_path / "two.txt"))))
+    alone = LevelScreen(app, level_run(app, recording.level))
+    for screen, words in ((two, "Confirm: go on"), (alone, "Confirm: play it again")):
+        app.push(screen)
+        play_to_the_end(app, controls, screen, recording)
+        message = hud_view(screen.play).message
+        assert message is not None
+        assert words in message[1][-1]
+    press("confirm")
+    frames(app)
+    assert app.top is alone
+    assert phase_of(alone) is Phase.READY
 
 
 def test_nothing_is_written_over_the_level_but_the_passed_panel(

@@ -160,6 +160,8 @@ class Desk:
         stale = certifier.is_stale(session.draft.level)
         if stale and not certifier.busy:
             text = "Certified before the last change: F7 again"
+        elif certifier.run and not certifier.busy:
+            text += ". To keep it: File, Keep the solver's run"
         for number, line in enumerate(wrapped(theme, text, w, 9)[:3]):
             colour = palette.good if certifier.run and not stale else palette.text
             theme.text(surface, line, x, y + 36 + 12 * number, size=9, colour=colour)
@@ -178,7 +180,8 @@ class Desk:
         theme.text(surface, f"{column},{row}", 8, top, size=9.5, colour=palette.on_tile)
         theme.text(surface, f"{x:.0f},{y:.0f} px", 58, top, size=9.5, colour=palette.on_tile)
         text = "Click where the switch is; Esc gives up" if bench.placing_switch else self.hint
-        theme.text(surface, text or _TOOL_HINTS[bench.tool], 140, top, size=9.5, colour=palette.on_tile, width=640)
+        tool = "brush" if bench.tool == "rectangle" and bench.draws_one else bench.tool
+        theme.text(surface, text or _TOOL_HINTS[tool], 140, top, size=9.5, colour=palette.on_tile, width=640)
         return rect
 
 

@@ -25,6 +25,8 @@ def hud_view(play: LevelPlay) -> HudView:
     message, medal = None, ""
     if play.phase is Phase.PASSED:
         keys = f"{key('confirm')}: go on    {key('retry')}: retry    {key('replay')}: replay"
+        if not context.leads_on:
+            keys = f"{key('confirm')}: play it again    {key('replay')}: replay    {key('back')}: leave"
         # At the far side from the ninja, so that neither its dance nor the way that it came is hidden.
         y = ABOVE if attempt.simulation.world.ninja.y > HEIGHT / 2 else BELOW
         message = f"Passed with {seconds_text(attempt.score)}", [*_reached(play, gold), keys], y
