@@ -51,12 +51,20 @@ def draw_level(named: NamedLevel, width: int, certificates: Path | None) -> tupl
     return picture, ", ".join(words) if words or not certificates else "no certificates"
 
 
+def caption(text: str, width: int) -> pygame.Surface:
+    """Words in the largest type, 22 px at most, in which they are no wider than ``width``."""
+    for size in range(22, 8, -1):
+        drawn = pygame.font.Font(None, size).render(text, True, (230, 230, 230))
+        if drawn.get_width() <= width:
+            break
+    return drawn
+
+
 def sheet(
     levels: list[NamedLevel], columns: int, width: int, certificates: Path | None, *, named: bool
 ) -> pygame.Surface:
     """All levels in rows of ``columns``, with names below, or numbers where names would tell too much."""
     pygame.font.init()
-    font = pygame.font.Font(None, 22)
     height = round(width * 25 / 33) + CAPTION
     rows = -(-len(levels) // columns)
     picture = pygame.Surface((columns * (width + 8) + 8, rows * (height + 8) + 8))
@@ -65,8 +73,8 @@ def sheet(
         x, y = 8 + number % columns * (width + 8), 8 + number // columns * (height + 8)
         drawn, words = draw_level(level, width, certificates)
         picture.blit(drawn, (x, y))
-        text = f"{Path(level.file).stem}: {level.name}  {words}" if named else f"{number + 1}"
-        picture.blit(font.render(text, True, (230, 230, 230)), (x, y + height - CAPTION + 5))
+        text = f"{Path(level.file).stem[:4]} {level.name}: {words}" if named else f"{number + 1}"
+        picture.blit(caption(text, width), (x, y + height - CAPTION + 5))
     return picture
 
 
