@@ -87,13 +87,13 @@ class BoardPages:
     def _first(self) -> str:
         rows = [
             (
-                day(record.run.added), self._entry(record.run.entry), HEADS[record.kind], self._name(record.run.player),
-                _value(record.kind, record.run), _gain(record.kind, record.run, record.before),
-                self._watch([record.run], "", "Watch"),
+                self._entry(record.run.entry), self._watch([record.run], "", "Watch"), HEADS[record.kind],
+                self._name(record.run.player), _value(record.kind, record.run),
+                _gain(record.kind, record.run, record.before), day(record.run.added),
             )
             for record in self.ranking.records[:NEWEST]
         ]  # fmt: skip
-        heads = ("Date", "Level", "", "Player", "Result", "Better by", "")
+        heads = ("Level", "", "Record", "Player", "Result", "Better by", "Date")
         newest = section("Newest records", table("Newest first", heads, rows)) if rows else None
         leading = section("Players", self._players(LEADING))
         lead = tag("p", f"{self.ranking.shown.name}: {summary(self.ranking.judged)}.", class_="lead")
@@ -137,13 +137,13 @@ class BoardPages:
     def _table(self, kind: str, ranked: Sequence[Ranked]) -> Markup:
         rows: list[tuple[Content, ...]] = [
             (
-                each.place, self._name(each.run.player, "../"), _value(kind, each.run), each.run.gold,
-                medal_mark(each.run.medal), day(each.run.added), self._watch([each.run], "../", "Watch"),
+                each.place, self._name(each.run.player, "../"), _value(kind, each.run),
+                self._watch([each.run], "../", "Watch"), medal_mark(each.run.medal), each.run.gold, day(each.run.added),
                 each.run.remark,
             )
             for each in ranked
         ]  # fmt: skip
-        heads = ["Place", "Player", "Score" if kind == HIGHEST else "Time", "Gold", "", "Date", "", "Remark"]
+        heads = ["Place", "Player", "Score" if kind == HIGHEST else "Time", "", "", "Gold", "Date", "Remark"]
         if not any(each.run.remark for each in ranked):
             rows, heads = [row[:-1] for row in rows], heads[:-1]
         first = [each.run for each in ranked[:TOGETHER]]
