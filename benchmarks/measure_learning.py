@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from statistics import median
 from typing import Any, NamedTuple
 
 import gymnasium
@@ -39,10 +40,14 @@ MANY = 10_000
 
 
 class Speed(NamedTuple):
-    """Ticks/s of an environment and of the bare kernel in the same ticks, each the best of some rounds."""
+    """Ticks/s of an environment and of the bare kernel in the same ticks, each the best of some rounds.
+
+    ``share``: the environment's of the kernel's, the middle of the rounds; a round measures one right after the other.
+    """
 
     environment: float
     kernel: float
+    share: float
 
 
 def random_actions(steps: int, count: int) -> NDArray[np.int64]:
@@ -68,9 +73,10 @@ def vector_speed(count: int, parts: Sequence[str], *, level: str = "set", rounds
             levels.append(envs.worlds.levels_now[ended[-1]])
         kernel = Replay(envs.worlds.levels, begun)
         ticks = kernel.run(actions, ended, levels)
-        speeds.append(Speed(ticks / seconds, ticks / kernel.seconds))
+        speeds.append((ticks / seconds, ticks / kernel.seconds, kernel.seconds / seconds))
     # The first round compiles, and warms the caches.
-    return Speed(*(max(column) for column in zip(*speeds[1:], strict=True)))
+    environments, kernels, shares = zip(*speeds[1:], strict=True)
+    return Speed(max(environments), max(kernels), median(shares))
 
 
 class Replay:

@@ -35,12 +35,14 @@ Kernel: TypeAlias = Callable[..., R]
 class Worlds(Protocol):
     """What a batch asks of a memory.
 
-    ``records``: the worlds as an array of records, in one block. ``maps`` and ``worlds``: the levels, and the worlds,
-    as kernels take them: arrays of records, or lists of plain objects.
+    ``records``: the worlds as an array of records, in one block. ``maps``, ``fresh`` and ``worlds``: the levels, a new
+    world in each, which nobody changes, and the worlds, as kernels take them: arrays of records, or lists of plain
+    objects.
     """
 
     records: Records
     maps: Any
+    fresh: Any
     worlds: Any
 
     def kernel(self, entry: Kernel[R]) -> Kernel[R]:
@@ -79,13 +81,13 @@ class CompiledWorlds:
     """Worlds of the compiled memory. Every level is loaded once; a fresh world is a copy of bytes."""
 
     def __init__(self, levels: Sequence[Level], count: int, box: bool) -> None:
-        self.maps, self._fresh = load_worlds(compiled, levels, box=box)
-        slots = int(self._fresh["slots_used"].max())
-        self.worlds = block_of(count, slots)
+        self.maps, loaded = load_worlds(compiled, levels, box=box)
+        slots = int(loaded["slots_used"].max())
+        self.fresh, self.worlds = block_of(len(levels), slots), block_of(count, slots)
         self.records = self.worlds[:count]
-        self._bytes = bytes_of(self.worlds)
+        self._bytes, self._fresh_bytes = bytes_of(self.worlds), bytes_of(self.fresh)
         # A malformed exit has room for its switch, and does not use it.
-        self._fresh_bytes = bytes_of(self._fresh)[:, : self._bytes.shape[1]]
+        self._fresh_bytes[: len(levels)] = bytes_of(loaded)[:, : self._bytes.shape[1]]
         self._ticks_at_once = max(1, 8 * SLICE // (slots * count))
 
     def kernel(self, entry: Kernel[R]) -> Kernel[R]:
@@ -142,7 +144,8 @@ class PlainWorlds:
         self._box = box
         fresh = [load_plain(level, box) for level in levels]
         self.maps = [tiles for tiles, _ in fresh]
-        self._fresh = [save_plain(w) for _, w in fresh]
+        self.fresh = [w for _, w in fresh]
+        self._states = [save_plain(w) for w in self.fresh]
         self.worlds = [load_plain(levels[0], box)[1] for _ in range(count)]
         self._playing = [0] * count
         block = block_of(count, max(w.slots_used for _, w in fresh))
@@ -155,7 +158,7 @@ class PlainWorlds:
 
     def load(self, worlds: Numbers, levels: Numbers) -> None:
         """Start worlds afresh, each in the level of that number."""
-        self.restore(worlds, [self._fresh[number] for number in levels.tolist()], levels)
+        self.restore(worlds, [self._states[number] for number in levels.tolist()], levels)
 
     def run(self, inputs: NDArray[np.uint8], level_of: Numbers, stop: bool, threads: int) -> int:  # noqa: ARG002
         """Run all worlds for all rows of ``inputs``, one after the other: the interpreter has one lock."""

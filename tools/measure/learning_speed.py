@@ -28,7 +28,7 @@ def main() -> None:
         speed = measured.vector_speed(WORLDS, parts)
         print(
             f"NinjaVectorEnv, {WORLDS} worlds, {name}: {speed.environment:,.0f} ticks/s, "
-            f"{speed.environment / measured.FRAME_SKIP:,.0f} steps/s, {speed.environment / speed.kernel:.2f} of the "
+            f"{speed.environment / measured.FRAME_SKIP:,.0f} steps/s, {speed.share:.2f} of the "
             f"bare kernel's {speed.kernel:,.0f} ticks/s, {speed.environment / plain:,.0f} times the plain wrapper"
         )
     print(f"memory of {measured.MANY:,} worlds: {measured.memory_of(measured.MANY) / 2**20:,.0f} MiB")

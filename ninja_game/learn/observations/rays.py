@@ -13,6 +13,7 @@ from gymnasium.spaces import Box
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.observations.part import Part, Setting, clamp
 from ninja_game.sim.collision.rays import cast
+from ninja_game.sim.kinds import DOOR
 from ninja_game.sim.memory.declare import entry_point
 from ninja_game.sim.rules import WORLD_WIDTH
 
@@ -48,24 +49,30 @@ class Rays(Part):
         return observe_rays
 
     def tables(self, setting: Setting) -> tuple[Any, ...]:
-        """The directions, to 12 digits, so that every machine has the same; the reach; the factor."""
+        """The directions, to 12 digits, so that every machine has the same; the reach; the factor; where edges change.
+
+        In a level without doors the edges never change: those of a new world lie nearer than those of each world.
+        """
         angles = [2.0 * pi * k / self.count for k in range(self.count)]
         directions = [setting.table([round(f(angle), 12) for angle in angles], np.float64) for f in (cos, sin)]
-        return *directions, float(self.reach), 1.0 / self.reach if self.normalised else 1.0
+        doors = [int(bool(found)) for found in setting.objects(DOOR)]
+        factor = 1.0 / self.reach if self.normalised else 1.0
+        return *directions, float(self.reach), factor, setting.worlds.fresh, setting.table(doors, np.int64)
 
 
 @entry_point
 def observe_rays(
     maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
-    dx: Any, dy: Any, reach: float, factor: float,
+    dx: Any, dy: Any, reach: float, factor: float, fresh: Any, doors: Any,
 ) -> None:  # fmt: skip
     """Follow the rays of some worlds."""
     for k in range(first, last):
         index = which[k]
-        level = maps[level_of[index]]
-        w = worlds[index]
-        x = w.ninja.x
-        y = w.ninja.y
+        number = level_of[index]
+        level = maps[number]
+        w = worlds[index] if doors[number] else fresh[number]
+        x = worlds[index].ninja.x
+        y = worlds[index].ninja.y
         for j in range(len(dx)):
             stopped, hit_x, hit_y = cast(level, w, x, y, dx[j], dy[j])
             # A hit may lie behind the start, within a tile: that is no way at all.
