@@ -1,4 +1,7 @@
-"""What the page asks of the game: which screen is on, keys for touch, verdicts on a file, the player's data."""
+"""What the page asks of the game: which screen is on, keys for touch, verdicts on a file, the player's data.
+
+What the first picture does not need is imported when it is asked for.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +9,9 @@ import json
 import sqlite3
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.resources import bundled_levels
 from ninja_game.formats.links.fragment import is_link, watched
-from ninja_game.formats.load import load_levels
-from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.play.app import App
 from ninja_game.play.input.scancodes import scancode_named
 from ninja_game.play.level.play import Phase
@@ -20,10 +19,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main import first_screen, watch_screen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.player.backup import read_backup, write_backup
 from ninja_game.player.settings import RULES
-from ninja_game.runs.recording_reader import Unreadable, recordings_in
-from ninja_game.runs.verify import judged, verify_recording
 
 
 class PageServices:
@@ -79,6 +75,10 @@ class PageServices:
 
     def backup(self) -> bytes:
         """All data of the player as a zip (``player.backup``). Raises FileError, OSError, sqlite3.Error."""
+        from tempfile import TemporaryDirectory
+
+        from ninja_game.player.backup import write_backup
+
         with TemporaryDirectory() as folder:
             path = Path(folder) / "player.zip"
             write_backup(self.app.player, path)
@@ -86,6 +86,8 @@ class PageServices:
 
     def take_in(self, data: bytes) -> str:
         """Take such a zip in; what came of it, or why not. The page is to be loaded again then."""
+        from ninja_game.player.backup import read_backup
+
         try:
             return "\n".join(read_backup(self.app.player, bytes(data)))
         except (NinjaGameError, OSError, sqlite3.Error) as error:
@@ -96,6 +98,14 @@ class PageServices:
 
         ``{"unreadable": message}`` for what cannot be read.
         """
+        from tempfile import TemporaryDirectory
+
+        from ninja_game.files.resources import bundled_levels
+        from ninja_game.formats.load import load_levels
+        from ninja_game.formats.n14.level_string import level_digest
+        from ninja_game.runs.recording_reader import Unreadable, recordings_in
+        from ninja_game.runs.verify import judged, verify_recording
+
         names = {level_digest(each.level): each.name for path in bundled_levels() for each in load_levels(path)}
         with TemporaryDirectory() as folder:
             path = Path(folder) / Path(name).name

@@ -133,7 +133,7 @@ async function begin(cache, picture) {
   }
   progress(picture ? 90 : 75, "Loading the game");
   await unpack(python.FS, await archive);
-  if (!picture) python.runPython(`import sys\nsys.path[:0] = ["/game/ninja_game/web/shim", "/game"]`);
+  if (!picture) python.runPython(`import gc, sys\ngc.disable()  # boot.py decides when\nsys.path[:0] = ["/game/ninja_game/web/shim", "/game"]`);
   const boot = python.pyimport("boot");
   const services = python.pyimport("ninja_game.web.services");
   progress(95, "Opening the menu");
