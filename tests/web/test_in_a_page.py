@@ -7,7 +7,9 @@ from typing import Any
 
 import pytest
 
+from ninja_game.play.editor.session import PICTURE_WIDTH
 from ninja_game.runtime import ONLY_ON_A_DESKTOP
+from tests.support.web_page import SIZE
 
 START = """
 import json, os, sys
@@ -51,8 +53,16 @@ def picture():
     app.push(__import__("ninja_game.play.menus.boss", fromlist=["BossScreen"]).BossScreen(app))
     frames()
     app.keep_screenshot()
-    with open(app.notice.removeprefix("Saved: "), "rb") as file:
-        return file.read(8).hex()
+    return head_of(app.notice)
+def level_picture():
+    from ninja_game.play.editor.screen import EditorScreen
+    app.push(EditorScreen(app))
+    app.top.session.export_picture()
+    return head_of(app.notice)
+def head_of(notice):
+    with open(notice.removeprefix("Saved: "), "rb") as file:
+        data = file.read()
+    return [data[:8].hex(), int.from_bytes(data[16:20]), int.from_bytes(data[20:24])]
 def modules():
     return sorted({name.partition(".")[0] for name in sys.modules})
 """
@@ -70,8 +80,10 @@ def test_what_only_a_desktop_can_do_is_said(action: str, told: Any) -> None:
     assert ONLY_ON_A_DESKTOP in told(action)
 
 
-def test_a_screenshot_is_a_png(told: Any) -> None:
-    assert bytes.fromhex(told("picture")).startswith(b"\x89PNG")
+def test_pictures_are_saved_as_png(told: Any) -> None:
+    png = b"\x89PNG\r\n\x1a\n".hex()
+    assert told("picture") == [png, *SIZE]
+    assert told("level_picture") == [png, PICTURE_WIDTH, round(PICTURE_WIDTH * 600 / 792)]
 
 
 def test_the_editor_judges_a_level_without_a_thread(told: Any) -> None:

@@ -71,8 +71,11 @@ class Host {
     return this.painter.letters(text);
   }
 
-  picture() {
-    return this.canvas.toDataURL("image/png").split(",")[1];
+  // A canvas of the painter, as a PNG in base 64.
+  picture(number, width, height) {
+    const sheet = Object.assign(document.createElement("canvas"), { width, height });
+    sheet.getContext("2d").drawImage(this.painter.sheets[number].canvas, 0, 0);
+    return sheet.toDataURL("image/png").split(",")[1];
   }
 
   fullscreen(wanted) {
