@@ -207,3 +207,13 @@ def test_the_guide_points_to_the_exit() -> None:
 def test_parts_that_there_are_not_are_refused(make: Any) -> None:
     with pytest.raises(ArgumentError, match="expected"):
         make()
+
+
+@needs_numba
+def test_the_guide_is_computed_in_double_precision_on_both_memories() -> None:
+    """Near the exit, where ticks are few and their differences not exact in single precision."""
+    plain, compiled = (EnvWorlds(LEVELS[0], 1, observation="guide", memory=memory) for memory in ("plain", "compiled"))
+    for _ in range(12):
+        for worlds in (plain, compiled):
+            worlds.step(DISCRETE_KEYS[[2]])
+        assert same(plain.observations, compiled.observations)

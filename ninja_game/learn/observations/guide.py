@@ -65,8 +65,9 @@ def observe_guide(
         row = rows[index]
         x = worlds[index].ninja.x
         y = worlds[index].ninja.y
-        here = float(fields[row, point_within(x, y)])
+        # Compiled, `float` of a float32 stays one, and the difference below would be rounded to that.
+        here = np.float64(fields[row, point_within(x, y)])
         for j in range(len(dx)):
-            there = float(fields[row, point_within(x + dx[j], y + dy[j])])
+            there = np.float64(fields[row, point_within(x + dx[j], y + dy[j])])
             out[index, offset + j] = clamp((here - there) * share[j], -1.0, 1.0)
         out[index, offset + len(dx)] = clamp(here * factor, 0.0, highest)
