@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from time import monotonic
 from typing import TYPE_CHECKING
 
 from ninja_game.compile_cache import compiled_available
@@ -45,10 +46,7 @@ class _StoppedError(Exception):
 
 
 class Certifier:
-    """``run``: the best run found for ``level``, None so far; ``route``: its way. ``share``: of the work that is done.
-
-    ``text``: how it stands, in a line.
-    """
+    """The solver at work: ``run``, the best one found for ``level``; ``route``, its way; ``share`` of the work done."""
 
     def __init__(self, seconds: float = SECONDS) -> None:
         self.seconds = seconds
@@ -56,9 +54,17 @@ class Certifier:
         self.run: VerifiedRun | None = None
         self.route: Route = ()
         self.share = 0.0
-        self.text = ""
+        self._said = ""
+        self._began = 0.0
         self._job: NewestJob[Level, None] = NewestJob(self._work)
         self._stop = False
+
+    @property
+    def text(self) -> str:
+        """How it stands, in a line, "" before the first start; while the solver is made ready, for how long."""
+        if self.level is None or self._said:
+            return self._said
+        return f"Getting ready, {monotonic() - self._began:.0f} s: minutes the first time. Go on editing"
 
     @property
     def busy(self) -> bool:
@@ -73,10 +79,10 @@ class Certifier:
         """Begin with a level; what was found for another one is forgotten."""
         self.stop()
         if not compiled_available():
-            self.text = f"Certifying needs Numba: {how_to_install('fast')}"
+            self._said = f"Certifying needs Numba: {how_to_install('fast')}"
             return
         self.level, self.run, self.route, self.share = level, None, (), 0.0
-        self.text = "Getting ready (the first time this takes a minute or two)"
+        self._said, self._began = "", monotonic()
         self._stop = False
         self._job.ask(level)
 
@@ -91,9 +97,9 @@ class Certifier:
                 raise _StoppedError
             self.share = min(1.0, progress.seconds / self.seconds)
             if self.run is None:
-                self.text = f"Looking for a run: {progress.worlds // 1000} thousand moments tried"
+                self._said = f"Looking for a run: {progress.worlds // 1000} thousand moments tried"
             else:
-                self.text = f"{self._found()}, shortening"
+                self._said = f"{self._found()}, shortening"
 
         def better(run: VerifiedRun) -> None:
             self.run, self.route = run, route_of(level, run.inputs)
@@ -105,10 +111,10 @@ class Certifier:
         except _StoppedError:
             pass
         except NinjaGameError as error:
-            self.text = str(error)
+            self._said = str(error)
             return
         self.share = 1.0
-        self.text = self._found() if self.run else "No run found in the time; that proves nothing"
+        self._said = self._found() if self.run else "No run found in the time; that proves nothing"
 
     def _found(self) -> str:
         assert self.run is not None  # noqa: S101 - asked only then
