@@ -31,7 +31,7 @@ FORMAT = 1
 
 @dataclass(eq=False)
 class PolicyAgent:
-    """Plays the likeliest action.
+    """Plays actions by their chances, drawn by the seed of ``reset``.
 
     ``layers``: weights (inputs x outputs) and biases, with tanh between them, on observations less ``mean`` times
     ``scale``. ``settings``: the keywords of the environment it was made for. ``training``: how it was made, by name.
@@ -43,12 +43,18 @@ class PolicyAgent:
     settings: dict[str, Any]
     training: dict[str, Any] = field(default_factory=dict)
 
-    def reset(self, count: int, seed: int) -> None:
-        """Nothing is remembered from step to step."""
+    def __post_init__(self) -> None:
+        self.reset(1, 0)
+
+    def reset(self, count: int, seed: int) -> None:  # noqa: ARG002 - as all agents
+        """Begin: only what is drawn is remembered from step to step."""
+        self._chance = np.random.default_rng(seed)
 
     def act(self, observations: Floats) -> NDArray[np.int64]:
-        """The likeliest action of each world, (n,)."""
-        return np.asarray(self.scores(observations).argmax(axis=1), np.int64)
+        """An action of each world, (n,)."""
+        scores = self.scores(observations)
+        # The largest of sums with Gumbel noise is a draw by the chances.
+        return np.asarray((scores + self._chance.gumbel(size=scores.shape)).argmax(axis=1), np.int64)
 
     def scores(self, observations: Floats) -> Floats:
         """A number for each action, (n, 6): the logarithm of its chance, up to a constant of the row."""

@@ -32,7 +32,17 @@ def test_what_is_saved_is_loaded(tmp_path: Path) -> None:
     seen = np.random.default_rng(1).standard_normal((20, 30)).astype(np.float32)
     assert again.scores(seen).tobytes() == agent.scores(seen).tobytes()
     assert (again.settings, again.training) == (agent.settings, agent.training)
-    assert again.act(seen).tolist() == agent.scores(seen).argmax(axis=1).tolist()
+    agent.reset(20, 4)
+    again.reset(20, 4)
+    assert again.act(seen).tolist() == agent.act(seen).tolist()
+
+
+def test_actions_are_drawn_by_their_chances() -> None:
+    agent = small_agent()
+    seen = np.repeat(np.random.default_rng(2).standard_normal((1, 30)).astype(np.float32), 20_000, axis=0)
+    shares = np.bincount(agent.act(seen), minlength=6) / len(seen)
+    chances = np.exp(agent.scores(seen[:1])[0])
+    assert np.allclose(shares, chances / chances.sum(), atol=0.02)
 
 
 def changed(path: Path, **arrays: object) -> Path:
