@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import sqlite3
 import time
 from collections.abc import Callable
@@ -17,6 +18,7 @@ from ninja_game.cli.main import cli
 from ninja_game.formats.links.making import level_link, replay_link
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.runs.run import record_replay
+from tests.support.web_page import served
 
 TEXT = "0" * 713 + "|5^100,566!11^160,564,130,564"
 LEVEL = parse_level_string(TEXT)
@@ -214,3 +216,26 @@ def test_verdicts_in_the_page_are_those_of_the_command(new_visitor: NewVisitor, 
     visitor.page.set_input_files("#panel input[type=file]", [{"name": "x", "mimeType": "", "buffer": b"\0\1"}])
     visitor.page.get_by_text("not a text file").wait_for(timeout=60_000)
     assert visitor.problems == []
+
+
+def test_a_new_version_takes_over_on_the_next_visit(new_visitor: NewVisitor, site: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "site"
+    shutil.copytree(site, folder)
+    with served(folder) as address:
+        visitor = new_visitor()
+        visitor.address = address
+        visitor.visit()
+        visitor.page.evaluate("() => navigator.serviceWorker.ready.then(() => ninjaGame.kept)")
+        before = json.loads(visitor.page.locator("#build").text_content())["id"]
+        for name in ("index.html", "sw.js"):
+            (folder / name).write_text((folder / name).read_text("utf-8").replace(before, "a-new-version"), "utf-8")
+        # The page that is open stays as it is, while the new version is fetched.
+        visitor.page.evaluate(
+            "async () => { const about = await navigator.serviceWorker.ready; const before = about.active;"
+            " await about.update(); while (about.active === before || about.active.state !== 'activated')"
+            " await new Promise(done => setTimeout(done, 50)); }"
+        )
+        visitor.visit()
+        assert "a-new-version" in visitor.page.locator("#build").text_content()
+        assert visitor.page.evaluate("caches.keys().then(names => names.length)") == 1
+        assert visitor.problems == []

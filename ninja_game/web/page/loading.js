@@ -155,12 +155,3 @@ function takeMemory(python) {
 export function keepForLater() {
   return navigator.serviceWorker?.register("sw.js").catch(() => {}); // offline, or no secure page
 }
-
-// Whether an earlier visit has fetched a newer version, which takes over now; the page must then be loaded again.
-export async function newerVersion() {
-  const waiting = (await navigator.serviceWorker?.getRegistration().catch(() => null))?.waiting;
-  if (!waiting) return false;
-  const changed = new Promise((done) => navigator.serviceWorker.addEventListener("controllerchange", () => done(true)));
-  waiting.postMessage("take over");
-  return Promise.race([changed, new Promise((done) => setTimeout(() => done(false), 2000))]);
-}

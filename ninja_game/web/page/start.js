@@ -1,5 +1,5 @@
 // The page: loads the game, runs it turn by turn, keeps the player's folder, and says what went wrong.
-import { keepForLater, newerVersion, progress, startPython } from "./loading.js";
+import { keepForLater, progress, startPython } from "./loading.js";
 import { createHost } from "./host.js";
 import { codeOf } from "./input.js";
 import { Panel } from "./panel.js";
@@ -15,7 +15,6 @@ const game = document.getElementById("game");
 
 class Page {
   async start() {
-    if (await newerVersion()) return location.reload();
     this.taken = () => {
       this.stop();
       showStop("The game has been opened in another tab", "It goes on there: only one of them keeps records.", reloading("Play here instead"));

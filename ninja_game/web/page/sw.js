@@ -10,6 +10,8 @@ self.addEventListener("install", (event) => {
       for (const name of Object.keys(build.sizes)) {
         if (!(await cache.match(`${name}?v=${build.id}`))) await cache.add(`${name}?v=${build.id}`);
       }
+      // A page that is open has loaded all that it needs; the next one is of this version.
+      await self.skipWaiting();
     })(),
   );
 });
@@ -24,9 +26,6 @@ self.addEventListener("activate", (event) => {
     })(),
   );
 });
-
-// The page asks for this when it starts, before anything is loaded.
-self.addEventListener("message", (event) => event.data === "take over" && self.skipWaiting());
 
 self.addEventListener("fetch", (event) => {
   const url = new URL(event.request.url);
