@@ -5,11 +5,28 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from threading import Thread
+from typing import TypeVar
+
+from ninja_game.errors import NinjaGameError
+
+Key = TypeVar("Key")
+Value = TypeVar("Value")
 
 IN_PAGE = sys.platform == "emscripten"
 """Whether this is a page, which has no threads, no compiler, no NumPy and no Pillow."""
 
-ONLY_ON_A_DESKTOP = "only the program for the desktop can do that, not a page"
+ONLY_ON_A_DESKTOP = "only the program for the desktop can make that, not a page"
+
+
+def only_in_a_page(table: dict[Key, Value]) -> dict[Key, Value]:
+    """A table that counts in a page; an empty one elsewhere."""
+    return table if IN_PAGE else {}
+
+
+def require_desktop() -> None:
+    """Raises NinjaGameError in a page."""
+    if IN_PAGE:
+        raise NinjaGameError(ONLY_ON_A_DESKTOP)
 
 
 def beside(work: Callable[[], object]) -> Thread:

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from threading import Condition, Thread
+from threading import Condition
 from typing import Generic, TypeVar
 
-from ninja_game.runtime import IN_PAGE, beside
+from ninja_game.runtime import beside
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")
 
 
 class NewestJob(Generic[Job, Result]):
-    """Calls ``work`` with the newest job, in a thread that begins with the first one.
+    """Calls ``work`` with the newest job, in a thread that ends when there is none.
 
     ``result``: of the job that was finished last, None so far.
     """
@@ -23,40 +23,45 @@ class NewestJob(Generic[Job, Result]):
         self._news = Condition()
         self._waiting: list[Job] = []
         self._busy = False
-        self._thread: Thread | None = None
         self.result: Result | None = None
 
     def ask(self, job: Job) -> None:
         """Do this job next, instead of any that still waits."""
-        if IN_PAGE:
-            self.result = self._work(job)
-            return
         with self._news:
             self._waiting[:] = [job]
-            if self._thread is None:
-                self._thread = beside(self._run)
-            self._news.notify_all()
+            if not self._busy:
+                self._busy = True
+                beside(self._run)
 
     @property
     def idle(self) -> bool:
         """Whether all is done."""
         with self._news:
-            return not (self._waiting or self._busy)
+            return not self._busy
 
     def finish(self, seconds: float = 10.0) -> None:
         """Wait until all is done."""
         with self._news:
-            self._news.wait_for(lambda: not (self._waiting or self._busy), seconds)
+            self._news.wait_for(lambda: not self._busy, seconds)
 
     def _run(self) -> None:
-        while True:
-            with self._news:
-                self._news.wait_for(lambda: bool(self._waiting))
-                job = self._waiting.pop()
-                self._busy = True
+        while job := self._next():
             try:
-                self.result = self._work(job)
-            finally:
-                with self._news:
-                    self._busy = False
-                    self._news.notify_all()
+                self.result = self._work(job[0])
+            except BaseException:
+                self._rest()
+                raise
+
+    def _next(self) -> list[Job]:
+        """The job that waits, in a list; with an empty one the thread is over."""
+        with self._news:
+            job, self._waiting[:] = self._waiting[:], []
+            if not job:
+                self._rest()
+            return job
+
+    def _rest(self) -> None:
+        """The thread ends here; the next job begins another."""
+        with self._news:
+            self._busy = False
+            self._news.notify_all()

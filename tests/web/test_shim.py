@@ -234,3 +234,9 @@ def test_every_screen_draws_over_it_what_it_draws_over_pygame(tmp_path: Path) ->
     recorded = {path.stem: path.read_text("utf-8") for path in RECORDED.glob("*.txt")}
     assert shown.keys() == recorded.keys()
     assert [name for name in recorded if shown[name] != recorded[name]] == []
+
+
+def test_only_one_module_knows_that_it_runs_in_a_page() -> None:
+    files = [path for path in (ROOT / "ninja_game").rglob("*.py") if "web" not in path.relative_to(ROOT).parts]
+    knowing = [path.name for path in files if re.search(r"IN_PAGE|emscripten|pyodide", path.read_text("utf-8"))]
+    assert sorted(knowing) == ["resources.py", "runtime.py"]  # one tells how to install what is missing

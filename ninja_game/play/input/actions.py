@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from ninja_game.runtime import IN_PAGE
+from ninja_game.runtime import only_in_a_page
 
 
 class Action(NamedTuple):
@@ -52,8 +52,7 @@ ACTIONS: dict[str, Action] = {
 PAGE_KEYS = {"slow": ("x",), "screenshot": ("f10",)}
 """Keys in a page instead of those that the browser has its own use for: Ctrl with W, a jump, closes the tab."""
 
-if IN_PAGE:
-    ACTIONS |= {action: ACTIONS[action]._replace(keys=keys) for action, keys in PAGE_KEYS.items()}
+ACTIONS |= {action: ACTIONS[action]._replace(keys=keys) for action, keys in only_in_a_page(PAGE_KEYS).items()}
 
 MENU_KEYS: dict[str, str] = {
     "left": "left", "right": "right", "up": "up", "down": "down", "return": "confirm", "kp_enter": "confirm",

@@ -22,7 +22,7 @@ from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.player.scoring import seconds_text
-from ninja_game.runtime import IN_PAGE, ONLY_ON_A_DESKTOP, beside
+from ninja_game.runtime import beside, require_desktop
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
@@ -46,10 +46,8 @@ class _Maker:
         return self._thread.is_alive()
 
     def _run(self, levels: Path, day: date) -> None:
-        if IN_PAGE:
-            self.problem = f"The level of the day is made on your own machine: {ONLY_ON_A_DESKTOP}."
-            return
         try:
+            require_desktop()
             choose_memory("compiled")
             if not daily.make_daily(levels, day, report=self._tell, stop=self.stop):
                 self.problem = "No level could be made of this day."

@@ -11,11 +11,11 @@ from typing import Any
 
 import pygame
 
-from ninja_game.errors import ArgumentError, MissingExtraError, NinjaGameError
+from ninja_game.errors import ArgumentError, MissingExtraError
 from ninja_game.files.resources import how_to_install
 from ninja_game.files.writing import write_atomically
 from ninja_game.play.ui.palette import ROLES, Palette, mixed
-from ninja_game.runtime import IN_PAGE, ONLY_ON_A_DESKTOP
+from ninja_game.runtime import require_desktop
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 _SHORTEST_MS = 20
@@ -33,8 +33,7 @@ def write_gif(
 
     Raises OSError, and NinjaGameError in a page, which has no library for GIFs.
     """
-    if IN_PAGE:
-        raise NinjaGameError(ONLY_ON_A_DESKTOP)
+    require_desktop()
     from PIL import Image
 
     tick_ms = 1000 / TICKS_PER_SECOND / speed
