@@ -14,6 +14,8 @@ const canvas = document.getElementById("stage");
 const game = document.getElementById("game");
 
 class Page {
+  keys = {}; // that touch holds down, by the actions of its buttons
+
   async start() {
     this.taken = () => {
       this.stop();
@@ -69,7 +71,7 @@ class Page {
   }
 
   listen() {
-    document.addEventListener("visibilitychange", () => this.pause(document.hidden));
+    document.addEventListener("visibilitychange", () => this.pause(document.hidden || document.querySelector("dialog[open]") !== null));
     addEventListener("pagehide", () => this.saveAll());
     addEventListener("blur", () => this.touch.release());
     addEventListener("hashchange", () => this.openLink().catch(failed));
@@ -117,9 +119,11 @@ class Page {
 
   // A touch button is the player's first key of its action; menus have keys of their own.
   press(action, down) {
-    if (action === "jump" && this.state !== "play") action = "confirm";
-    const code = MENU_KEYS[action] ?? codeOf(this.services.scancodes(action)[0]);
-    if (code) this.host.key(code, down);
+    if (down) {
+      const meant = action === "jump" && this.state !== "play" ? "confirm" : action;
+      this.keys[action] = MENU_KEYS[meant] ?? codeOf(this.services.scancodes(meant)[0]);
+    }
+    if (this.keys[action]) this.host.key(this.keys[action], down);
   }
 
   // What the page itself shows follows what the game shows.
