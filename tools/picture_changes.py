@@ -95,7 +95,7 @@ CHANGES = (
     Change("bound-keys", "menus/settings/rebinding.py", "if slot < len(inputs):", "if slot < 1:"),
     Change("chosen-tab", "menus/settings/screen.py", "chosen=index == self.tabs.index", "chosen=False"),
     Change("boss-figures", "menus/boss.py", "str(sum(figures))", '""'),
-    Change("panel-veil", "menus/panels.py", "veil.a = 130", "veil.a = 0"),
+    Change("panel-veil", "menus/panels.py", "palette.tile.b, 130)", "palette.tile.b, 0)"),
     # Letters, colours.
     Change("letter-spacing", "ui/stroke_font.py", "SPACING = 1.18", "SPACING = 0.6"),
     Change("bold", "ui/stroke_font.py", "WEIGHTS = (0.95, 1.42)", "WEIGHTS = (0.95, 0.95)"),

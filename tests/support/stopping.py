@@ -26,10 +26,11 @@ COMMANDS = {
     "trace": "trace archive.txt --memory plain --jobs 2 -o out/trace.csv",
     "solve": "solve far.txt --seconds 100 --jobs 2 -o out/run.replay.txt",
     "improve": "improve walk.replay.txt --seconds 100 --jobs 1 -o out/run.replay.txt",
+    "search": "search walk.replay.txt --from 0 --to 20 --goal x>9999 --seconds 100 -o out/run.replay.txt",
     "check": "check far.txt --seconds 100 --replays out",
     "bench": "bench walk.replay.txt",
     "play": "play --replay archive.txt --size 132x100",
-    "export": "export archive.txt -o out/film.gif",
+    "film": "film archive.txt -o out/film.gif",
     "learn train": "learn train --levels far.txt --seconds 100 -o out/agent.npz",
     "convert": "convert archive.txt out/replays --to replay",
 }

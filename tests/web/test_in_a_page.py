@@ -21,6 +21,8 @@ def frames(count=3):
     for _ in range(count):
         app.frame(25)
 def told(action):
+    import pygame
+    pygame.event.get()  # what other tests left in the same page
     app.stack.clear()
     return json.dumps(globals()[action]())
 def daily():

@@ -211,7 +211,7 @@ def test_pause_offers_going_on_retry_and_leaving(driver: MenuDriver) -> None:
 
 def test_settings_and_help_open_from_the_pause(driver: MenuDriver) -> None:
     driver.open("Play")
-    driver.press("return", "space", "p", "down", "down", "return")
+    driver.press("return", "space", "p", "down", "down", "down", "return")
     assert isinstance(driver.top(), SettingsScreen)
     driver.press("escape", "down", "return")
     assert isinstance(driver.top(), HelpScreen)
