@@ -8,7 +8,7 @@ processor's time, on one thread; some minutes.
 
 from __future__ import annotations
 
-import sys
+import argparse
 from pathlib import Path
 
 from benchmarks import measure_learning as measured
@@ -19,6 +19,9 @@ WORLDS = 1024
 
 def main() -> None:
     """Print the table, save the chart."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", nargs="?", type=Path)
+    folder = parser.parse_args().folder
     levels = level_source("set").levels[::5]
     plain = measured.single_speed(measured.PlainWrapper, levels)
     print(f"plain wrapper round Simulation: {plain:,.0f} ticks/s")
@@ -32,8 +35,8 @@ def main() -> None:
             f"bare kernel's {speed.kernel:,.0f} ticks/s, {speed.environment / plain:,.0f} times the plain wrapper"
         )
     print(f"memory of {measured.MANY:,} worlds: {measured.memory_of(measured.MANY) / 2**20:,.0f} MiB")
-    if sys.argv[1:]:
-        measured.against_worlds().save(Path(sys.argv[1]))
+    if folder:
+        measured.against_worlds().save(folder)
 
 
 if __name__ == "__main__":
