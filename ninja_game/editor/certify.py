@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from struct import iter_unpack
 from time import monotonic
 from typing import TYPE_CHECKING
 
@@ -9,9 +10,10 @@ from ninja_game.compile_cache import compiled_available
 from ninja_game.editor.background import NewestJob
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.resources import how_to_install
+from ninja_game.runs.run import run_level
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.simulation import Body, Simulation
+from ninja_game.simulation import Body
 
 if TYPE_CHECKING:
     from ninja_game.solver.certificate import VerifiedRun
@@ -26,19 +28,11 @@ Route = tuple[tuple[float, float], ...]
 
 
 def route_of(level: Level, inputs: bytes, body: Body = "circle") -> Route:
-    """The way of the ninja from its start to the end of the run or of the inputs; () for a level without one."""
+    """The way of the ninja to the end of the run or of the inputs; () for a level that cannot be played."""
     try:
-        run = Simulation(level, body=body)
+        return tuple(iter_unpack("<2d", run_level(level, inputs, body=body, memory="plain").places))
     except LevelError:
         return ()
-    world = run.world
-    way = [(world.ninja.x, world.ninja.y)]
-    for keys in inputs:
-        run.step_keys(keys)
-        way.append((world.ninja.x, world.ninja.y))
-        if run.outcome != "running":
-            break
-    return tuple(way)
 
 
 class _StoppedError(Exception):

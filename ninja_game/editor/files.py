@@ -10,7 +10,6 @@ from ninja_game.editor.ascii_text import ascii_text, updated_text
 from ninja_game.editor.draft import Draft
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.reading import read_bytes
-from ninja_game.files.shown_text import file_stem
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.load import load_levels, texts_of
@@ -91,16 +90,6 @@ def save(source: Source, draft: Draft, path: Path, *, replacing: bool = False) -
 
 def _digest(data: bytes) -> str:
     return sha256(data).hexdigest()
-
-
-def free_path(folder: Path, name: str) -> Path:
-    """A path for a level of that name in a folder, which no file has yet."""
-    stem = file_stem(name, "level")
-    path, number = folder / f"{stem}{SUFFIX}", 1
-    while path.exists():
-        number += 1
-        path = folder / f"{stem}-{number}{SUFFIX}"
-    return path
 
 
 def draft_of_text(text: str, about: Draft) -> Draft:

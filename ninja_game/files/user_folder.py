@@ -58,6 +58,15 @@ def quarantine(path: Path, why: str) -> Path:
     return target
 
 
+def free_path(folder: Path, stem: str, suffix: str) -> Path:
+    """The first of ``stem.txt``, ``stem-2.txt``, … in a folder, for the suffix ``.txt``, that no file has."""
+    path, number = folder / f"{stem}{suffix}", 1
+    while path.exists():
+        number += 1
+        path = folder / f"{stem}-{number}{suffix}"
+    return path
+
+
 def export_path(folder: Path, title: str, suffix: str) -> Path:
     """A free path for a picture, a film or a replay that the game writes: ``exports/title-1.gif`` and so on.
 

@@ -11,9 +11,9 @@ from click.testing import CliRunner, Result
 
 from ninja_game.cli import run_options
 from ninja_game.cli.main import cli
-from ninja_game.cli.runs.solve import free_replay
 from ninja_game.cli.solver_options import default_threads, progress_text
 from ninja_game.compile_cache import compiled_available
+from ninja_game.files.user_folder import free_path
 from ninja_game.formats.ascii.reader import write_ascii_level
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
@@ -230,9 +230,9 @@ def test_bad_requests_are_explained(
 
 def test_a_run_without_a_name_is_called_after_its_level(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    assert free_replay(Path("levels/hill.txt")) == Path("hill.replay.txt")
+    assert free_path(Path(), "hill", ".replay.txt") == Path("hill.replay.txt")
     Path("hill.replay.txt").touch()
-    assert free_replay(Path("levels/hill.txt")) == Path("hill-2.replay.txt")
+    assert free_path(Path(), "hill", ".replay.txt") == Path("hill-2.replay.txt")
 
 
 def test_a_certificate_names_its_level_and_who_made_it(tmp_path: Path) -> None:

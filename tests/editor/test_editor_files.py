@@ -19,7 +19,6 @@ from ninja_game.editor.files import (
     OccupiedError,
     draft_of,
     draft_of_text,
-    free_path,
     new_source,
     open_source,
     save,
@@ -29,6 +28,7 @@ from ninja_game.editor.motion import Motion
 from ninja_game.editor.stamp import Selection, Stamp, everything, moved, put, removed
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.resources import bundled_levels
+from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.named_level import parse_levels
@@ -189,9 +189,9 @@ def test_a_level_of_n_is_saved_as_a_file_of_ours(tmp_path: Path) -> None:
     source = open_source(path, 0)
     assert source.path is None
     assert open_source(path, 1).draft.tile((3, 3)) == 0
-    saved = save(source, source.draft, free_path(tmp_path, "some"))
+    saved = save(source, source.draft, free_path(tmp_path, "some", ".txt"))
     assert saved.path == tmp_path / "some.txt"
-    assert free_path(tmp_path, "some") == tmp_path / "some-2.txt"
+    assert free_path(tmp_path, "some", ".txt") == tmp_path / "some-2.txt"
     assert same(open_source(saved.path).draft.level, level)
     with pytest.raises(LevelError, match="there is no record 2"):
         open_source(path, 2)

@@ -8,7 +8,7 @@ import click
 
 from ninja_game.cli.levels.convert import Output
 from ninja_game.cli.run_options import choose, level_given, level_option
-from ninja_game.cli.runs.solve import free_replay
+from ninja_game.files.user_folder import free_path
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 
@@ -40,7 +40,7 @@ def command(inputs: Path, output: Path | None, record: int | None, level_path: P
 
     recordings = load_replays(inputs, level=level_given(level_path))
     (text,) = replay_texts([choose(recordings, "recordings", inputs, record)])
-    path = output or free_replay(Path(inputs.name.partition(".")[0]))
+    path = output or free_path(Path(), inputs.name.partition(".")[0], ".replay.txt")
     Output(str(path), [inputs], force=force).write(text)
     new = parse_replay(text)
     when = f"tick {new.final_tick} ({new.ticks / TICKS_PER_SECOND:.3f} s)"

@@ -9,6 +9,7 @@ import click
 
 from ninja_game.cli import solver_options as options
 from ninja_game.cli.run_options import LevelPath, choose_level
+from ninja_game.files.user_folder import free_path
 
 
 @click.command()
@@ -51,7 +52,7 @@ def command(
     from ninja_game.solver.solve import Task, solve
 
     chosen = choose_level(level, record)
-    output = output or free_replay(level)
+    output = output or free_path(Path(), level.stem, ".replay.txt")
     task = Task(chosen.level, jobs=options.default_threads(jobs), **task_options)
     options.check_gold(task)
     save = options.saver(output, chosen)
@@ -64,9 +65,3 @@ def command(
         run = options.smoothed_run(run, smooth)
         save(run)
     click.echo(f"{output}: {options.time_text(run.end_tick)}, {run.gold} gold")
-
-
-def free_replay(level: Path) -> Path:
-    """A path in the current folder that nothing has yet, named after a level's file."""
-    names = (f"{level.stem}{number}.replay.txt" for number in ("", *(f"-{count}" for count in range(2, 10_000))))
-    return next(path for path in map(Path, names) if not path.exists())

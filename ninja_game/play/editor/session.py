@@ -14,9 +14,11 @@ from ninja_game.editor.bench import Bench
 from ninja_game.editor.brush import SORTS, placed
 from ninja_game.editor.certify import Certifier, Route, route_of
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import Source, draft_of_text, free_path, new_source, save
+from ninja_game.editor.files import SUFFIX, Source, draft_of_text, new_source, save
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.shown_text import file_stem
+from ninja_game.files.user_folder import free_path
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
@@ -115,7 +117,8 @@ class EditorSession:
     @property
     def own_path(self) -> Path:
         """Where the level would be saved: its file, or a new one among the player's levels."""
-        return self.source.path or free_path(self.app.player.folder / "levels", self.draft.name)
+        levels = self.app.player.folder / "levels"
+        return self.source.path or free_path(levels, file_stem(self.draft.name, "level"), SUFFIX)
 
     def save(self, path: Path, *, replacing: bool = False) -> None:
         """Write the level, and say so. Raises OccupiedError where that would replace what somebody else wrote."""

@@ -45,10 +45,8 @@ class TryScreen(LevelScreen):
     """Plays a level; the back key leaves at once, whatever is going on. Raises LevelError for one without a ninja."""
 
     def __init__(self, app: App, name: str, level: Level, left: Left) -> None:
-        entry = Entry(
-            NamedLevel(f"{name}    {app.controls.name('back')}: back to the editor", "", "", level, ""), "yours"
-        )
-        super().__init__(app, TryContext(app.player, entry, practice_mode=True))
+        named = NamedLevel(f"{name}    {app.controls.name('back')}: back to the editor", "", "", level, "")
+        super().__init__(app, TryContext(app.player, Entry(named, "yours"), practice_mode=True))
         self._left = left
         self._last = b""
 

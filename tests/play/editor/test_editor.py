@@ -92,7 +92,7 @@ def test_a_test_leads_back_in_one_press_with_everything_as_it_was(room: Maker) -
     assert isinstance(room.top(), EditorScreen)
     assert room.draft is before
     assert bench.history._done == history
-    assert len(room.editor.session.last_try) == 21
+    assert len(room.editor.session.last_try) == 20
     assert room.editor.session.last_try[0] == (60.0, 542.0)
     room.mouse(*room.at(400, 100), click=False)
     room.press("f6")
