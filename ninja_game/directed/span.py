@@ -114,9 +114,9 @@ class SpanWorlds:
         single.run(before[:, np.newaxis], stop=True)
         if single.outcomes[0]:
             raise ArgumentError(f"the run is over before tick {task.first}")
-        self.batch.run(np.tile(before[:, np.newaxis], (1, count)), stop=True)
-        self.start = self.batch.save()
-        self.ticks_run = task.first * count
+        self.start = single.save([0] * count)
+        self.batch.restore(self.start)
+        self.ticks_run = task.first
         own = int(self._try(np.tile(task.base[:, np.newaxis], (1, count))).ticks[0]) if task.rest and task.goal else 0
         self.rest = np.frombuffer(task.inputs[task.first + own if own else task.last :], np.uint8) & KEYS_DOWN
 

@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
-from ninja_game.runs.recording_reader import named_errors
-from ninja_game.runs.run import RunResult, run_level
 from ninja_game.runs.splits import run_splits
 from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
 
@@ -66,13 +64,13 @@ def compare_runs(ours: Recording, theirs: Recording) -> Comparison:
     """
     if level_digest(ours.level) != level_digest(theirs.level):
         raise ArgumentError(f"{ours.file} and {theirs.file} are recordings of different levels")
-    here, there = _run(ours), _run(theirs)
+    here, there = run_splits(ours), run_splits(theirs)
     first_keys = _first_unequal(*(np.frombuffer(each.playback(each.ticks), np.uint8) for each in (ours, theirs)))
     first_place = _first_unequal(here.positions, there.positions)
-    other_splits = run_splits(theirs).by_key
+    other_splits = there.by_key
     splits = tuple(
         Lead(str(split), split.x, split.y, split.tick, other_splits[split.key].tick)
-        for split in run_splits(ours).splits
+        for split in here.splits
         if split.key in other_splits
     )
     partner = aligned(here.positions, there.positions)
@@ -127,11 +125,6 @@ def _nearest_on_path(
         way = came_from[i, j]
         i, j = i - (way != 2), j - (way != 1)
     return partner
-
-
-def _run(recording: Recording) -> RunResult:
-    with named_errors(recording):
-        return run_level(recording.level, recording.playback(recording.ticks), body=recording.body)
 
 
 def _first_unequal(ours: NDArray[np.generic], theirs: NDArray[np.generic]) -> int | None:

@@ -7,6 +7,9 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.recording_reader import named_errors
@@ -44,13 +47,21 @@ class Split(NamedTuple):
 
 @dataclass(frozen=True)
 class RunSplits:
-    """The splits of a run in order, until its end as ``verify`` has it; ``ticks``: ticks run."""
+    """The splits of a run in order, until its end as ``verify`` has it.
+
+    ``positions``: float64 (ticks, 2), px, the ninja after each tick.
+    """
 
     recording: Recording = field(repr=False)
     outcome: str
-    ticks: int
     gold: int
     splits: tuple[Split, ...]
+    positions: NDArray[np.float64] = field(repr=False)
+
+    @property
+    def ticks(self) -> int:
+        """Ticks run."""
+        return len(self.positions)
 
     @property
     def level_digest(self) -> str:
@@ -71,9 +82,11 @@ def run_splits(recording: Recording, events: Sequence[str] = SPLIT_EVENTS) -> Ru
     with named_errors(recording):
         run = Simulation(recording.level, body=recording.body)
     splits: list[Split] = []
+    positions: list[tuple[float, float]] = []
     counts: dict[tuple[str, int | None], int] = {}
     for keys in recording.playback(recording.ticks):
         run.step_keys(keys)
+        positions.append((run.ninja.x, run.ninja.y))
         for event in run.events:
             if event.name in events:
                 number = counts.get((event.name, event.object_id), 0)
@@ -83,7 +96,8 @@ def run_splits(recording: Recording, events: Sequence[str] = SPLIT_EVENTS) -> Ru
                 splits.append(Split(run.tick - 1, event.name, id_, number, event.x, event.y))
         if run.outcome != "running":
             break
-    return RunSplits(recording, run.outcome, run.tick, run.gold, tuple(splits))
+    places = np.array(positions, np.float64).reshape(-1, 2)
+    return RunSplits(recording, run.outcome, run.gold, tuple(splits), places)
 
 
 class SplitRow(NamedTuple):

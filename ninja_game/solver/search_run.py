@@ -156,6 +156,20 @@ class Search:
                 return int(ended)
         return MORE
 
+    def run_leg(self, budget: int, over: Callable[[int], bool], *, part: int, least: int = 0) -> None:
+        """Run a leg's search for at most so many ticks, in parts; ``over`` is told the ticks of each, and may end it.
+
+        From the first end or run to the exit on it goes on only as long again, or up to ``least`` ticks.
+        """
+        stop = budget
+        while self.ticks < stop:
+            before = self.ticks
+            self.run(min(part, stop - before))
+            if over(self.ticks - before) or self.ticks == before or self.counters.ends >= self.goals.ends:
+                return
+            if self.counters.ends or self.counters.best_node >= 0:
+                stop = min(stop, max(2 * self.ticks, least)) if stop == budget else stop
+
     def _fill_fields(self) -> None:
         """Make the distance fields that the search wants."""
         goals = self.goals

@@ -61,7 +61,8 @@ def command(
     else:
         _show(found, ours, theirs)
     if picture:
-        draw(picture, [ours, theirs], [first, second, *filter(None, [level_path])])
+        paths = list(zip(titles([ours, theirs]), found.positions, strict=True))
+        draw(picture, ours.level, paths, [first, second, *filter(None, [level_path])])
 
 
 def _cells(lead: Lead) -> tuple[str, float, float, int, int, int]:

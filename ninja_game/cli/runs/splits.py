@@ -19,6 +19,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
     from ninja_game.runs.splits import RunSplits, SplitRow
+    from ninja_game.sim.level import Level
 
 WIDTH = 160
 """Of a table in a pipe, letters."""
@@ -99,7 +100,9 @@ def command(
     else:
         _show(tables)
     if picture:
-        draw(picture, [each.recording for each in tables[0][0]], [*files, *filter(None, [level_path, against])])
+        drawn = tables[0][0]
+        paths = list(zip(titles([run.recording for run in drawn]), (run.positions for run in drawn), strict=True))
+        draw(picture, drawn[0].recording.level, paths, [*files, *filter(None, [level_path, against])])
     ctx.exit(2 if unreadable else 0)
 
 
@@ -209,7 +212,7 @@ def _write_csv(tables: Sequence[Table]) -> None:
                     writer.writerow([*who, *where, tick, behind, row.best_segment])
 
 
-def draw(picture: Path, recordings: Sequence[Recording], keep: Sequence[Path]) -> None:
+def draw(picture: Path, level: Level, paths: Sequence[tuple[str, Any]], keep: Sequence[Path]) -> None:
     """Write the picture of runs of one level. Raises ArgumentError where it would replace one of ``keep``, OSError."""
     import io
     import os
@@ -221,11 +224,8 @@ def draw(picture: Path, recordings: Sequence[Recording], keep: Sequence[Path]) -
     from ninja_game.files.writing import write_atomically
     from ninja_game.play.replay.paths import paths_picture
     from ninja_game.play.ui.palette import PALETTES
-    from ninja_game.runs.run import run_level
 
-    runs = [run_level(each.level, each.playback(each.ticks), body=each.body).positions for each in recordings]
-    paths = list(zip(titles(recordings), runs, strict=True))
-    surface = paths_picture(recordings[0].level, paths, PALETTES["classic"], 1584)
+    surface = paths_picture(level, paths, PALETTES["classic"], 1584)
     data = io.BytesIO()
     pygame.image.save(surface, data, "x.png")
     write_atomically(picture, data.getvalue(), keep=keep)

@@ -97,7 +97,7 @@ class Route:
         leg = self._leg(front, target)
         self.search.begin_leg(leg, resolution, seed=self.seed * 10_000 + self.steps, bound=0)
         before = self._most_now
-        self._run(budget, over)
+        self.search.run_leg(budget, over, part=EXTRA, least=EXTRA)
         self._stalled_ticks += self.search.ticks
         self._stalled_steps += 1
         if leg.gold < NEVER:
@@ -166,17 +166,6 @@ class Route:
         x, y = front.moments[0].place
         closed.sort(key=lambda switch: abs(switch.switch_x - x) + abs(switch.switch_y - y))
         return partial(self.heuristics.field_to, (closed[turn - 1].switch_x, closed[turn - 1].switch_y))
-
-    def _run(self, budget: int, over: Callable[[int], bool]) -> None:
-        """Run the leg's search; from the first end or run to the exit on only as long again."""
-        search, stop = self.search, budget
-        while search.ticks < stop:
-            before = search.ticks
-            search.run(min(EXTRA, stop - before))
-            if over(search.ticks - before) or search.ticks == before or search.counters.ends >= search.goals.ends:
-                return
-            if search.counters.ends or search.counters.best_node >= 0:
-                stop = min(stop, max(2 * search.ticks, EXTRA)) if stop == budget else stop
 
     def _add(self, moment: Moment, tour: list[int]) -> None:
         """Put a moment into its front, which keeps the best."""

@@ -160,7 +160,8 @@ class Shortener:
                 roots, front.count + 1, front.mask, NEVER, ENDS, ROLLOUTS, partial(self.piece_ticks.field, target)
             )
         self.search.begin_leg(leg, resolution, seed=self.seed * 100_000 + self.legs, bound=self.ticks)
-        self._run(LEG_TICKS * (EXIT_FACTOR if target < 0 else effort), over)
+        budget = LEG_TICKS * (EXIT_FACTOR if target < 0 else effort)
+        self.search.run_leg(budget, over, part=LEG_EXTRA)
         if target < 0:
             best = self.search.best()
             return (front.moments[best[0]].run() + best[1] if best else None), 1
@@ -178,16 +179,6 @@ class Shortener:
             self.piece_ticks.learn(front.moments[0], moment)
             self._add(moment, front.tour)
         return None, len(moments)
-
-    def _run(self, budget: int, over: Callable[[int], bool]) -> None:
-        search, stop = self.search, budget
-        while search.ticks < stop:
-            before = search.ticks
-            search.run(min(LEG_EXTRA, stop - before))
-            if over(search.ticks - before) or search.ticks == before or search.counters.ends >= search.goals.ends:
-                return
-            if search.counters.ends or search.counters.best_node >= 0:
-                stop = min(stop, 2 * search.ticks) if stop == budget else stop
 
     def _add(self, moment: Moment, tour: list[int]) -> None:
         key = (moment.taken, moment.mask)
