@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -37,50 +39,55 @@ def mutate_rows(rows: Keys, length: int, source: list[RandomState]) -> None:
             mutate(row, length, random_below(source[0], length), source[0])
 
 
+def _chance_for_kernels(seed: int) -> list[RandomState]:
+    source: list[RandomState] = zeroed(RandomState, 1)
+    source[0].random = seed
+    return source
+
+
 class Results:
-    """The best keys so far, different ones; tells a report of each that is better than all before."""
+    """The best keys so far, different ones, and whom to tell of them."""
 
     def __init__(self, worlds: SpanWorlds, report: Report) -> None:
         self.worlds = worlds
-        self.best: list[Found] = []
+        self.best: tuple[Found, ...] = ()
         self.going = True
         self._report = report
 
     def try_all(self, keys: Keys) -> Trials:
         """Try keys, (ticks, worlds), and keep what is good; ``going`` is then whether to go on."""
         trials = self.worlds.try_all(keys)
-        better = None
         for index in trials.order[:KEPT]:
             if not np.isfinite(trials.scores[index]):
                 break
             found = self.worlds.found(trials, int(index), keys[:, index])
             if any(np.array_equal(found.keys[: found.ticks], old.keys[: old.ticks]) for old in self.best):
                 continue
-            if not self.best or found < self.best[0]:
-                better = found
-            self.best = sorted([*self.best, found])[:KEPT]
-        self.tell(better)
+            self.best = tuple(sorted([*self.best, found])[:KEPT])
+        self.tell()
         return trials
 
-    def tell(self, better: Found | None) -> None:
+    def tell(self) -> None:
         """Report how it stands."""
-        self.going = self._report(self.worlds.ticks_run, better)
+        self.going = self._report(self.worlds.ticks_run, self.best)
 
 
 def search_span(
     task: SpanTask, report: Report, *, method: str = "auto", every: int = 1, seed: int = 1, memory: str = "auto",
     threads: int | None = None,
-) -> list[Found]:  # fmt: skip
+) -> tuple[Found, ...]:  # fmt: skip
     """The best keys that were found, best first, at most KEPT; none where nothing reached the goal.
 
     ``method``: one of METHODS, or "auto": a beam, then small changes of what it found, again and again. ``every``: for
-    "exhaustive", how many ticks each choice of keys holds. Goes on until ``report`` gives False; "exhaustive" ends
-    when all is tried. The same seed does the same work in the same order. Raises ArgumentError for a span with too many
-    ways through it, and what SpanTask does.
+    "exhaustive", how many ticks each choice of keys holds. ``report`` is called first when all is compiled. The search
+    goes on until it gives False; "exhaustive" ends when all is tried. The same seed does the same work in the same
+    order. Raises ArgumentError for a span with too many ways through it, and what SpanTask does.
     """
     if method == "exhaustive":
         count_ways(task, every)
     worlds = SpanWorlds(task, WORLDS, memory=memory, threads=threads)
+    mutated = compiled(mutate_rows) if worlds.batch.memory == "compiled" else mutate_rows
+    mutated(np.zeros((1, 1), np.uint8), 1, _chance_for_kernels(1))
     results = Results(worlds, report)
     chance = np.random.default_rng(seed)
     results.try_all(np.tile(task.base[:, np.newaxis], (1, WORLDS)))
@@ -91,7 +98,7 @@ def search_span(
         if method != "local":
             beam(task, STEPS[turn % len(STEPS)], results, chance, noise=0.1 * (turn // len(STEPS)))
         if method != "beam":
-            change(task, results, chance, rounds=40)
+            change(task, mutated, results, chance, rounds=40)
         turn += 1
     return results.best
 
@@ -118,13 +125,13 @@ def exhaust(task: SpanTask, every: int, results: Results) -> None:
             return
 
 
-def change(task: SpanTask, results: Results, chance: np.random.Generator, rounds: int) -> None:
+def change(
+    task: SpanTask, mutated: Callable[..., None], results: Results, chance: np.random.Generator, rounds: int
+) -> None:
     """Change keys a little, many ways at once, and go on from the best of them."""
-    source = zeroed(RandomState, 1)
-    source[0].random = int(chance.integers(1, 1 << 62))
+    source = _chance_for_kernels(int(chance.integers(1, 1 << 62)))
     chosen = results.best[int(chance.integers(len(results.best)))].keys if results.best else task.base
     current, standing = chosen.copy(), (np.inf, np.inf)
-    mutated = compiled(mutate_rows) if results.worlds.batch.memory == "compiled" else mutate_rows
     for _ in range(rounds):
         rows = np.tile(current, (WORLDS, 1))
         mutated(rows[1:], task.length, source)
@@ -174,7 +181,7 @@ def beam(task: SpanTask, step: int, results: Results, chance: np.random.Generato
         picked[:KEPT] = found[-KEPT:]
         results.try_all(np.stack((picked * (WORLDS // len(picked) + 1))[:WORLDS], axis=1))
     else:
-        results.tell(None)
+        results.tell()
 
 
 def _different(batch: Batch, orders: list[NDArray[np.intp]], most: int) -> NDArray[np.intp]:

@@ -181,5 +181,5 @@ class SpanWorlds:
         trials.margins[:] = np.where(reached & ~passed, 0.0, trials.margins)
 
 
-Report = Callable[[int, Found | None], bool]
-"""Told the ticks run so far and a better result, if there is one; False ends the search."""
+Report = Callable[[int, tuple[Found, ...]], bool]
+"""Told the ticks run so far and the best results so far, best first; False ends the search."""

@@ -141,11 +141,11 @@ def test_an_object_that_there_is_not_is_named() -> None:
 # --- Spans ---
 
 
-def searched(task: SpanTask, *, rounds: int = 30, **options: object) -> list[Found]:
+def searched(task: SpanTask, *, rounds: int = 30, **options: object) -> tuple[Found, ...]:
     """A search of so many reports, on the plain memory where none is asked for."""
     reports: list[int] = []
 
-    def report(ticks: int, _: Found | None) -> bool:
+    def report(ticks: int, _: tuple[Found, ...]) -> bool:
         reports.append(ticks)
         return len(reports) < rounds
 
@@ -202,7 +202,7 @@ def test_the_same_seed_finds_the_same() -> None:
 
 def test_results_are_different_and_sorted() -> None:
     found = searched(SpanTask(LEVEL, WAITING, 0, 30, goal="x > 110"))
-    assert found == sorted(found)
+    assert list(found) == sorted(found)
     assert len({each.keys[: each.ticks].tobytes() for each in found}) == len(found) > 1
 
 

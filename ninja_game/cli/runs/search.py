@@ -73,16 +73,17 @@ def command(
         recording.level, recording.playback(recording.ticks), first, last, goal=goal, measure=maximise or minimise,
         least=bool(minimise), rest=rest, body=recording.body,
     )  # fmt: skip
-    start = time.monotonic()
+    start = 0.0
     with options.progress_line() as shown:
-        best: list[Found] = []
+        saved: list[Found] = []
 
-        def report(ticks: int, better: Found | None) -> bool:
-            if better:
-                best[:] = [better]
-                if output:
-                    _save(output, recording, task, better)
+        def report(ticks: int, best: tuple[Found, ...]) -> bool:
+            if output and best and (not saved or best[0] < saved[-1]):
+                saved.append(best[0])
+                _save(output, recording, task, best[0])
             standing = _score(task, best[0]) if best else "nothing yet"
+            nonlocal start
+            start = start or time.monotonic()
             spent = time.monotonic() - start
             shown.say(f"{spent:4.0f} s  best {standing}  {ticks / 1e6:.1f}M ticks")
             return spent < seconds

@@ -1,0 +1,95 @@
+"""A span's search beside a program: live results, the end, what goes wrong."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import pytest
+
+from ninja_game import ArgumentError, Simulation, parse_level
+from ninja_game.compile_cache import compiled_available
+from ninja_game.directed.background import SpanSearch
+from ninja_game.directed.expressions import FormulaError
+from ninja_game.directed.span import Found, SpanTask
+
+LEVEL = parse_level("0" * 713 + "|5^100,566!11^200,564,170,564!0^140,566!12^400,400")
+WAITING = bytes([0] * 6 + [2] * 60)
+"""Stands for six ticks, then runs over gold and switch into the exit."""
+
+
+def task(**changes: object) -> SpanTask:
+    given: dict[str, Any] = {"first": 0, "last": 30, "goal": "x > 130", **changes}
+    return SpanTask(LEVEL, WAITING, **given)
+
+
+def until_found(search: SpanSearch, seconds: float = 60.0) -> Found:
+    deadline = time.monotonic() + seconds
+    while not search.found:
+        assert time.monotonic() < deadline
+        assert not search.done, search.problem
+        time.sleep(0.005)
+    return search.found[0]
+
+
+def test_results_show_while_it_goes_on_and_stay_after_the_end() -> None:
+    search = SpanSearch(task())
+    assert (search.found, search.done, search.seconds) == ((), False, 0.0)
+    search.start()
+    first = until_found(search)
+    before = search.done
+    run = Simulation(LEVEL)
+    for keys in first.inputs:
+        run.step_keys(keys)
+    assert run.ninja.x > 130
+    assert search.ticks_run > 0
+    search.cancel()
+    search.finish(20.0)
+    assert (before, search.done) == (False, True)
+    assert search.found[0] <= first
+    assert list(search.found) == sorted(search.found)
+    assert search.problem == ""
+    assert search.seconds > 0
+
+
+def test_it_ends_by_itself_after_its_time_or_when_all_is_tried() -> None:
+    for search in (SpanSearch(task(), seconds=0.05), SpanSearch(task(last=12, goal=""), "exhaustive", every=12)):
+        search.start()
+        search.start()
+        search.finish(60.0)
+        assert search.done
+        assert search.found or search._limit
+
+
+def test_what_cannot_be_searched_is_said() -> None:
+    with pytest.raises(FormulaError):
+        SpanSearch(task(goal="x >"))
+    with pytest.raises(ArgumentError, match="expected 'auto', 'local'"):
+        SpanSearch(task(), "magic")
+    for search in (
+        SpanSearch(task(first=60, last=70)),
+        SpanSearch(task(), "exhaustive"),
+        SpanSearch(task(goal="taken(1)")),
+    ):
+        search.start()
+        search.finish(60.0)
+        assert search.done
+        assert search.problem
+        assert not search.found
+
+
+@pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+def test_the_interpreter_is_free_for_a_window_meanwhile() -> None:
+    """A program that sleeps for 4 ms wakes in time for its next picture, mostly."""
+    search = SpanSearch(task(last=60), jobs=1)
+    search.start()
+    until_found(search)
+    late = []
+    for _ in range(100):
+        before = time.perf_counter()
+        time.sleep(0.004)
+        late.append(time.perf_counter() - before - 0.004)
+    search.cancel()
+    search.finish(20.0)
+    assert sorted(late)[50] < 0.016
+    assert sorted(late)[98] < 0.1
