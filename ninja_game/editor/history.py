@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from ninja_game.editor.draft import Draft
+from typing import Generic, TypeVar
+
+Draft = TypeVar("Draft")
+"""A level or a run under edit: never changed, equal to another one that says the same."""
 
 
-class History:
-    """``draft``: the present one. A *stroke* is several changes that are undone as one, such as a line of tiles.
-
-    Drafts share what they have in common: one takes a few kB.
-    """
+class History(Generic[Draft]):
+    """``draft``: the present one. A *stroke* is several changes that are undone as one, such as a line of tiles."""
 
     def __init__(self, draft: Draft) -> None:
         self.draft = draft
@@ -31,6 +31,11 @@ class History:
     def began(self) -> Draft:
         """The draft at the begin of the stroke; the present one outside of strokes."""
         return self.draft if self._began is None else self._began
+
+    @property
+    def in_stroke(self) -> bool:
+        """Whether a stroke has begun."""
+        return self._began is not None
 
     def begin(self) -> None:
         """A stroke begins."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import check_inputs
 from ninja_game.sim.kinds import KIND_NAMES, KIND_OF
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.interface import TraceRecord
+from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES, TraceRecord
 from ninja_game.sim.memory.schema import MAX_EVENTS
 from ninja_game.simulation import Body, is_box
 
@@ -76,23 +77,28 @@ def trace_level(
         raise ArgumentError(f"the trace is too large: {found}; leave the objects out, or trace fewer ticks")
     record = world.trace(inputs, [id_ + 1 for id_ in ids], events=events)
     names = tuple(KIND_NAMES[kinds[id_]] for id_ in ids)
-    return RunTrace(_ninja_rows(record), _object_rows(record, len(ids)), ids, names, _event_names(record))
+    return RunTrace(_ninja_rows(record), object_rows(record, len(ids)), ids, names, event_names(record))
+
+
+def ninja_columns(record: TraceRecord) -> dict[str, NDArray[Any]]:
+    """TRACED_PLACES (float64) and TRACED_NUMBERS (int32) by name, each (ticks,)."""
+    places = np.frombuffer(record.ninja, np.float64).reshape(-1, len(TRACED_PLACES))
+    numbers = np.frombuffer(record.numbers, np.int32).reshape(-1, len(TRACED_NUMBERS))
+    return dict(zip((*TRACED_PLACES, *TRACED_NUMBERS), (*places.T, *numbers.T), strict=True))
 
 
 def _ninja_rows(record: TraceRecord) -> NDArray[np.void]:
     """The ninja of each tick as NINJA_RECORD."""
-    places = np.frombuffer(record.ninja, np.float64).reshape(-1, 4)
-    numbers = np.frombuffer(record.numbers, np.int32).reshape(-1, 2)
-    rows = np.empty(len(places), NINJA_RECORD)
-    for column, name in enumerate(("x", "y", "prev_x", "prev_y")):
-        rows[name] = places[:, column]
-    rows["s"], rows["gold"] = numbers.T
+    seen = ninja_columns(record)
+    rows = np.empty(len(seen["x"]), NINJA_RECORD)
+    for name in NINJA_RECORD.names or ():
+        rows[name] = seen["state" if name == "s" else name]
     return rows
 
 
-def _object_rows(record: TraceRecord, count: int) -> NDArray[np.void]:
+def object_rows(record: TraceRecord, count: int) -> NDArray[np.void]:
     """The objects of each tick as OBJECT_RECORD."""
-    shape = len(record.numbers) // 2, count
+    shape = len(record.numbers) // len(TRACED_NUMBERS), count
     places = np.frombuffer(record.places, np.float64).reshape(*shape, 2)
     rows = np.empty(shape, OBJECT_RECORD)
     rows["x"], rows["y"] = places[..., 0], places[..., 1]
@@ -100,7 +106,10 @@ def _object_rows(record: TraceRecord, count: int) -> NDArray[np.void]:
     return rows
 
 
-def _event_names(record: TraceRecord) -> tuple[str, ...]:
+def event_names(record: TraceRecord) -> tuple[str, ...]:
     """The names of each tick's events, with blanks between."""
     ticks = np.frombuffer(record.events, np.uint8).reshape(-1, MAX_EVENTS)
-    return tuple(" ".join(EVENT_NAMES[number - 1] for number in tick[tick > 0].tolist()) for tick in ticks)
+    names = [""] * len(ticks)
+    for tick in np.flatnonzero(ticks[:, 0]).tolist():
+        names[tick] = " ".join(EVENT_NAMES[number - 1] for number in ticks[tick].tolist() if number)
+    return tuple(names)

@@ -17,6 +17,7 @@ from ninja_game.formats.replay.text import RULES_VERSION, Replay
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.memory.interface import TRACED_NUMBERS
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.simulation import Simulation, is_box
 
@@ -161,7 +162,8 @@ def _in_time(recording: Recording, run: RunResult, memory: str) -> bool:
     record = open_memory(memory, recording.level, box=is_box(recording.body)).trace(inputs, [], events=False)
     # After each tick but that of the end one tick of lifetime is gone; none may be the last.
     lived = run.ticks - (run.outcome != "running")
-    gold = map(int, record.numbers[1 : 2 * lived : 2])
+    width, at = len(TRACED_NUMBERS), TRACED_NUMBERS.index("gold")
+    gold = map(int, record.numbers[at : width * lived : width])
     return all(LIFETIME + GOLD_BONUS * got > tick for tick, got in enumerate(gold, 1))
 
 

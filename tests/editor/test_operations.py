@@ -67,7 +67,7 @@ steps = st.one_of(
 )
 
 
-def step(history: History, what: tuple[object, ...]) -> None:
+def step(history: History[Draft], what: tuple[object, ...]) -> None:
     draft = history.draft
     match what:
         case ("tiles", tiles):

@@ -14,6 +14,7 @@ from ninja_game.play.replay.film import Film, write_film
 from ninja_game.play.replay.playback import RecordedRun, recorded_run
 from ninja_game.play.replay.screen import AFTERMATH, SPEEDS, ReplayScreen
 from ninja_game.play.ui.theme import Theme
+from ninja_game.runs import save_states
 from ninja_game.simulation import Simulation
 from tests.support.own_pack import PACK
 from tests.support.scripted import frames, press, scripted_app
@@ -195,7 +196,7 @@ def test_sound_is_back_after_seeking_even_if_it_fails(monkeypatch: pytest.Monkey
 
 
 def test_long_run_keeps_few_states_and_every_moment_stays_exact(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(playback, "MOST_STATES", 10)
+    monkeypatch.setattr(save_states, "MOST_STATES", 10)
     played = playback.Playback(Simulation(TAKE.level), TAKE.inputs, spacing=4)
     digests = straight_digests(TAKE, 300)
     played.seek(300)

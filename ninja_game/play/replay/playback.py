@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from dataclasses import dataclass, field, replace
 
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
+from ninja_game.runs.save_states import SPACING, SaveStates
 from ninja_game.sim.level import Level
-from ninja_game.simulation import Body, SaveState, Simulation
-
-SPACING = 60
-"""A save-state every so many ticks, at first."""
-MOST_STATES = 300
-"""With more save-states than this every second one is dropped, so that a run of any length fits into the memory."""
+from ninja_game.simulation import Body, Simulation
 
 
 @dataclass(frozen=True)
@@ -55,9 +50,7 @@ class Playback:
     def __init__(self, simulation: Simulation, inputs: bytes | bytearray, *, spacing: int = SPACING) -> None:
         self.simulation = simulation
         self.inputs = inputs
-        self._spacing = spacing
-        self._ticks = [simulation.tick]
-        self._states: list[SaveState] = [simulation.save()]
+        self._states = SaveStates(simulation.tick, simulation.save(), spacing=spacing)
 
     @property
     def tick(self) -> int:
@@ -75,29 +68,19 @@ class Playback:
 
     def note(self) -> None:
         """Keep this moment if it is due: for ticks that were not played by ``step``."""
-        tick = self.simulation.tick
-        if not self._spacing or tick % self._spacing:
-            return
-        at = bisect_right(self._ticks, tick)
-        if at and self._ticks[at - 1] == tick:
-            return
-        self._ticks.insert(at, tick)
-        self._states.insert(at, self.simulation.save())
-        if len(self._ticks) > MOST_STATES:
-            self._spacing *= 2
-            del self._ticks[1::2], self._states[1::2]
+        if self._states.wants(self.simulation.tick):
+            self._states.keep(self.simulation.tick, self.simulation.save())
 
     def forget_after(self, tick: int) -> None:
         """Drop the moments after a tick: from there the run goes another way."""
-        keep = max(1, bisect_right(self._ticks, tick))
-        del self._ticks[keep:], self._states[keep:]
+        self._states.forget_after(tick)
 
     def seek(self, tick: int) -> None:
         """Go to the moment after so many ticks."""
         run = self.simulation
-        at = max(0, bisect_right(self._ticks, tick) - 1)
-        if not self._ticks[at] <= run.tick <= tick:
-            run.restore(self._states[at])
+        nearest, state = self._states.nearest(tick)
+        if not nearest <= run.tick <= tick:
+            run.restore(state)
         while run.tick < tick:
             self.step()
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import grid_tiles, record_table
 from ninja_game.sim.memory.declare import fields_of
-from ninja_game.sim.memory.interface import MemoryName, RunRecord, TraceRecord
+from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES, MemoryName, RunRecord, TraceRecord
 from ninja_game.sim.memory.kernels import kill_ninja, load_world, observe_object, run_world, step_world, trace_world
 from ninja_game.sim.memory.layout import TILE_MAP, Records, new_worlds, plain_copy, state_view
 from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, TileMap, World
@@ -110,7 +110,7 @@ class CompiledMemory:
         """Run all of ``inputs`` and record everything."""
         keys, columns = np.frombuffer(inputs, np.uint8), np.array(slots, np.int64)
         ticks, width = len(keys), MAX_EVENTS if events else 0
-        widths = (4, 2, 2 * len(columns), len(columns), width)
+        widths = (len(TRACED_PLACES), len(TRACED_NUMBERS), 2 * len(columns), len(columns), width)
         kinds = (np.float64, np.int32, np.float64, np.int32, np.uint8)
         record = TraceRecord(*(np.zeros(ticks * wide, kind) for wide, kind in zip(widths, kinds, strict=True)))
         kernel = self._compiled(trace_world)

@@ -21,6 +21,11 @@ class RunRecord(NamedTuple):
     states: Any
 
 
+TRACED_PLACES = ("x", "y", "prev_x", "prev_y", "wall_x", "floor_x", "floor_y")
+TRACED_NUMBERS = ("state", "gold", "jump_timer", "in_air", "near_wall", "floor_contacts", "outcome")
+"""What a trace records of the ninja and the run: the schema's fields, seven of each sort."""
+
+
 class TraceRecord(NamedTuple):
     """What a trace recorded, in flat buffers as ``trace_world`` has them: float64, int32, float64, int32, uint8."""
 

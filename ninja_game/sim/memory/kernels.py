@@ -103,7 +103,7 @@ def trace_world(
 ) -> None:
     """Run all of ``inputs``, whatever happens, and record everything after each tick.
 
-    ``ninja``: x, y, prev_x, prev_y of each tick in turn; ``numbers``: state, gold. ``places``: x, y of each object in
+    ``ninja``: TRACED_PLACES of each tick in turn; ``numbers``: TRACED_NUMBERS. ``places``: x, y of each object in
     ``slots``; ``statuses``: one of each. ``events``: MAX_EVENTS numbers a tick, each event's plus 1, 0 behind the last;
     nothing is recorded in an empty array.
     """
@@ -113,12 +113,20 @@ def trace_world(
     count = len(slots)
     for tick in range(len(inputs)):
         step(level, w, int(inputs[tick]))
-        ninja[4 * tick] = canonical(n.x)
-        ninja[4 * tick + 1] = canonical(n.y)
-        ninja[4 * tick + 2] = canonical(n.prev_x)
-        ninja[4 * tick + 3] = canonical(n.prev_y)
-        numbers[2 * tick] = n.state
-        numbers[2 * tick + 1] = w.gold
+        ninja[7 * tick] = canonical(n.x)
+        ninja[7 * tick + 1] = canonical(n.y)
+        ninja[7 * tick + 2] = canonical(n.prev_x)
+        ninja[7 * tick + 3] = canonical(n.prev_y)
+        ninja[7 * tick + 4] = canonical(n.wall_x)
+        ninja[7 * tick + 5] = canonical(n.floor_x)
+        ninja[7 * tick + 6] = canonical(n.floor_y)
+        numbers[7 * tick] = n.state
+        numbers[7 * tick + 1] = w.gold
+        numbers[7 * tick + 2] = n.jump_timer
+        numbers[7 * tick + 3] = n.in_air
+        numbers[7 * tick + 4] = n.near_wall
+        numbers[7 * tick + 5] = n.floor_contacts
+        numbers[7 * tick + 6] = w.outcome
         for k in range(count):
             row = tick * count + k
             x, y = place_of(w, slots[k])

@@ -11,7 +11,7 @@ from ninja_game.sim.collision.tiles import set_edges
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import grid_tiles, populate, record_table
 from ninja_game.sim.memory.declare import Field, fields_of
-from ninja_game.sim.memory.interface import MemoryName, RunRecord, TraceRecord
+from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES, MemoryName, RunRecord, TraceRecord
 from ninja_game.sim.memory.kernels import kill_ninja, observe_object, run_world, trace_world
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, TileMap, World
@@ -129,9 +129,8 @@ class PlainMemory:
         """Run all of ``inputs`` and record everything."""
         ticks, rows = len(inputs), len(inputs) * len(slots)
         happened = bytearray(MAX_EVENTS * ticks if events else 0)
-        record = TraceRecord(
-            _zeros("d", 4 * ticks), _zeros("i", 2 * ticks), _zeros("d", 2 * rows), _zeros("i", rows), happened
-        )
+        ninja, numbers = _zeros("d", len(TRACED_PLACES) * ticks), _zeros("i", len(TRACED_NUMBERS) * ticks)
+        record = TraceRecord(ninja, numbers, _zeros("d", 2 * rows), _zeros("i", rows), happened)
         trace_world([self.tiles], [self._world], 0, inputs, slots, *record)
         return record
 

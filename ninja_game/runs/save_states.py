@@ -1,0 +1,53 @@
+"""Save-states of a run at even distances, so that going to any of its ticks is quick."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from typing import Generic, TypeVar
+
+State = TypeVar("State")
+
+SPACING = 60
+"""A save-state every so many ticks, at first."""
+MOST_STATES = 300
+"""With more save-states than this every second one is dropped, so that a run of any length fits into the memory."""
+
+
+class SaveStates(Generic[State]):
+    """The save-states of one run, by tick. ``first``: its start, always kept. ``spacing`` 0: nothing else is kept."""
+
+    def __init__(self, tick: int, first: State, *, spacing: int = SPACING) -> None:
+        self.spacing = spacing
+        self._ticks = [tick]
+        self._states = [first]
+
+    def __len__(self) -> int:
+        return len(self._ticks)
+
+    def wants(self, tick: int) -> bool:
+        """Whether a state of this tick is due and not kept yet."""
+        if not self.spacing or tick % self.spacing:
+            return False
+        return self._ticks[self._at(tick)] != tick
+
+    def keep(self, tick: int, state: State) -> None:
+        """Keep a state."""
+        at = self._at(tick) + 1
+        self._ticks.insert(at, tick)
+        self._states.insert(at, state)
+        if len(self._ticks) > MOST_STATES:
+            self.spacing *= 2
+            del self._ticks[1::2], self._states[1::2]
+
+    def nearest(self, tick: int) -> tuple[int, State]:
+        """The last state at or before a tick, and its tick."""
+        at = self._at(tick)
+        return self._ticks[at], self._states[at]
+
+    def forget_after(self, tick: int) -> None:
+        """Drop the states after a tick: from there the run goes another way."""
+        keep = self._at(tick) + 1
+        del self._ticks[keep:], self._states[keep:]
+
+    def _at(self, tick: int) -> int:
+        return max(0, bisect_right(self._ticks, tick) - 1)

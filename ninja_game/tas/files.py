@@ -1,0 +1,163 @@
+"""Runs from files and back: authors stay, and nothing that a person wrote is replaced without being told to."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from pathlib import Path
+
+from ninja_game.editor.files import OccupiedError
+from ninja_game.errors import NinjaGameError, ReplayError
+from ninja_game.files.reading import read_bytes, read_utf8
+from ninja_game.files.writing import write_atomically
+from ninja_game.formats.links.fragment import is_link
+from ninja_game.formats.load import load_replays
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
+from ninja_game.runs.run import record_replay
+from ninja_game.sim.inputs import Demo
+from ninja_game.sim.level import Level
+from ninja_game.tas.branches import Branches, branches_of_json
+from ninja_game.tas.take import Take
+
+SUFFIX = ".replay.txt"
+
+
+@dataclass(frozen=True)
+class RunFile:
+    """Where a run is at home. ``path``: None without a file that may be replaced; ``digest``: of that file's bytes."""
+
+    path: Path | None = None
+    digest: str = ""
+
+
+@dataclass(frozen=True)
+class OpenedRun:
+    """A run that was opened: its recording, the take in it, its file, and the branches beside it."""
+
+    recording: Recording
+    take: Take
+    file: RunFile
+    branches: Branches
+
+
+def open_run(path: Path, *, record: int | None = None, level: Level | None = None) -> OpenedRun:
+    """The recording number ``record`` of a file or link; None: its only one.
+
+    Only replay texts that ``save_run`` could have written are replaced by it: those with comments, blocks or other
+    files in them stay. Raises ReplayError, DemoError, LevelError; OSError for a file that cannot be opened.
+    """
+    recordings = load_replays(path, level=level)
+    if record is None and len(recordings) > 1:
+        raise ReplayError(f"{len(recordings)} recordings", str(path), hint="say which one with --record")
+    recording = next((each for each in recordings if each.record == (record or 0)), None)
+    if recording is None:
+        raise ReplayError(f"there is no record {record}", str(path), expected=f"0 to {len(recordings) - 1}")
+    file = RunFile()
+    if not is_link(path) and recording.replay is not None:
+        data = read_bytes(path)
+        if _written_by_us(data):
+            file = RunFile(path, sha256(data).hexdigest())
+    branches = read_branches(path) if file.path else Branches()
+    return OpenedRun(recording, take_of(recording), file, branches)
+
+
+def take_of(recording: Recording) -> Take:
+    """A recording as a take: the keys of all ticks that it plays."""
+    markers = recording.replay.markers if recording.replay else ()
+    return Take(recording.playback(recording.ticks), tuple(each for each in markers if each.tick <= recording.ticks))
+
+
+def _written_by_us(data: bytes) -> bool:
+    """Whether a text says nothing but what we would write: no comments, blocks, taken-in files."""
+    text = data.decode("utf-8", "replace").replace("\r\n", "\n")
+    with suppress(NinjaGameError):
+        return is_replay(text) and _facts(write_replay(parse_replay(text))) == _facts(text)
+    return False
+
+
+def _facts(text: str) -> list[str]:
+    """The words of a text without its first line, which has the version, and the last."""
+    return [word for line in text.splitlines()[1:] if line != "end" for word in line.split()]
+
+
+def recording_of(about: Recording, take: Take, name: str = "") -> Recording:
+    """A take as a recording without claims, of the level and the author of another one."""
+    replay = loose_replay(about, take)
+    demo = Demo(take.inputs, float(len(take)))
+    return replace(about, name=name or about.name, file=name or about.file, demo=demo, replay=replay)
+
+
+def loose_replay(about: Recording, take: Take) -> Replay:
+    """A take as a replay without claims, with its level inside."""
+    old = about.replay
+    return Replay(
+        take.inputs, max(0, len(take) - 1), "", name=about.name, author=about.author, body=about.body,
+        level=about.level, level_name=old.level_name if old else about.name,
+        level_author=old.level_author if old else "", markers=take.markers, practice=bool(old and old.practice),
+    )  # fmt: skip
+
+
+def replay_of_take(about: Recording, take: Take) -> Replay:
+    """A take as a replay of ours: with claims, or without where keys are pressed behind its end, which stay.
+
+    Raises ArgumentError for a run without ticks.
+    """
+    loose = loose_replay(about, take)
+    run = record_replay(about.level, take.inputs, body=about.body, name=about.name, author=about.author)
+    if any(take.inputs[run.ticks :]):
+        return loose
+    markers = tuple(each for each in take.markers if each.tick <= run.ticks)
+    return replace(
+        run, markers=markers, practice=loose.practice, level_name=loose.level_name, level_author=loose.level_author
+    )
+
+
+def save_run(
+    about: Recording, take: Take, branches: Branches, path: Path, file: RunFile, *, replacing: bool = False
+) -> RunFile:
+    """Write a take, and its branches beside it; where it is at home now.
+
+    Raises OccupiedError where that would replace another file, or one that was changed since it was read, unless
+    ``replacing``; FileError, OSError for what cannot be written.
+    """
+    there = sha256(read_bytes(path)).hexdigest() if path.exists() else ""
+    if there and not replacing:
+        if path != file.path:
+            raise OccupiedError(f"there is a file {path.name} already")
+        if there != file.digest:
+            raise OccupiedError(f"{path.name} was changed by another program")
+    data = write_replay(replay_of_take(about, take)).encode("utf-8", "replace")
+    write_atomically(path, data)
+    if len(branches) or branches_path(path).exists():
+        write_atomically(branches_path(path), json.dumps(branches.as_json(), indent=1))
+    return RunFile(path, sha256(data).hexdigest())
+
+
+def branches_path(path: Path) -> Path:
+    """The file of a run's branches, beside it."""
+    stem = path.name.removesuffix(".txt").removesuffix(".replay")
+    return path.with_name(f"{stem}.branches.json")
+
+
+def read_branches(path: Path) -> Branches:
+    """The branches beside a run; none where there is no such file.
+
+    Raises ReplayError for a file that holds something else: saving would replace it.
+    """
+    beside = branches_path(path)
+    if not beside.is_file():
+        return Branches()
+    try:
+        return branches_of_json(json.loads(read_utf8(beside)))
+    except (ValueError, KeyError, TypeError, NinjaGameError) as error:
+        hint = "move it away, and the run opens without branches"
+        raise ReplayError("not the branches of a run", str(beside), found=str(error)[:60], hint=hint) from None
+
+
+def takes_of(recordings: Sequence[Recording]) -> list[tuple[str, Take]]:
+    """Recordings as named takes, such as ghosts."""
+    return [(each.name or Path(each.file).stem, take_of(each)) for each in recordings]

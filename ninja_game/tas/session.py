@@ -1,0 +1,172 @@
+"""A run under edit: its take with undo, what it leads to, its branches, its file and its journal. No window."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.editor.history import History
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import write_replay
+from ninja_game.tas.branches import Branch, Branches
+from ninja_game.tas.files import OpenedRun, RunFile, loose_replay, recording_of, save_run
+from ninja_game.tas.journal import Journal, Recovered
+from ninja_game.tas.take import Take
+from ninja_game.tas.timeline import Timeline
+
+SOON = 6000
+"""Ticks that are simulated at once after an edit on the compiled memory: some ms."""
+SOON_PLAIN = 2000
+
+
+class Session:
+    """One run that is edited. ``folder``: the player's, for the journal.
+
+    ``about``: level, body, name and author of the run. ``before``: float64 (ticks, 2), where the ninja was in the run
+    before the last edit, px. Raises LevelError for a level that cannot be played.
+    """
+
+    def __init__(self, opened: OpenedRun, folder: Path, *, memory: str = "auto") -> None:
+        self.about: Recording = opened.recording
+        self.file: RunFile = opened.file
+        self.branches: Branches = opened.branches
+        self.history: History[Take] = History(opened.take)
+        self.saved = opened.take
+        self._saved_branches = list(opened.branches.all)
+        self.timeline = Timeline(self.about.level, opened.take.inputs, body=self.about.body, memory=memory)
+        self.before: NDArray[np.float64] = np.zeros((0, 2))
+        self._noted = opened.take
+        self.journal = Journal(folder, self._opened())
+        self.timeline.work(self.soon)
+
+    def _opened(self) -> dict[str, object]:
+        """What the journal says first."""
+        text = write_replay(loose_replay(self.about, self.take))
+        path = str(self.file.path.absolute()) if self.file.path else ""
+        return {"path": path, "digest": self.file.digest, "replay": text, "branches": self.branches.as_json()}
+
+    @property
+    def take(self) -> Take:
+        """The run as it is now."""
+        return self.history.draft
+
+    @property
+    def is_saved(self) -> bool:
+        """Whether the file holds what is here."""
+        return self.take == self.saved and self.branches.all == self._saved_branches
+
+    @property
+    def soon(self) -> int:
+        """Ticks to be simulated in one picture at most."""
+        return SOON if self.timeline.memory == "compiled" else SOON_PLAIN
+
+    # --- edits ---
+
+    def begin(self) -> None:
+        """A stroke begins: what changes until its end is one edit."""
+        self.end()
+        self.history.begin()
+        self.before = self.timeline.positions
+
+    def change(self, take: Take) -> None:
+        """Another take, as a part of the stroke or an edit of its own. It is simulated at once, as far as is quick."""
+        if take == self.take:
+            return
+        if not self.history.in_stroke:
+            self.before = self.timeline.positions
+        self.history.change(take)
+        self._follow()
+
+    def end(self) -> None:
+        """The stroke ends."""
+        self.history.end()
+        self._note()
+
+    def undo(self) -> bool:
+        """Take the last edit back; whether there was one."""
+        return self._step(self.history.undo)
+
+    def redo(self) -> bool:
+        """Do again what was taken back last; whether there was anything."""
+        return self._step(self.history.redo)
+
+    def _step(self, step: Callable[[], bool]) -> bool:
+        positions = self.timeline.positions
+        if not step():
+            return False
+        self.before = positions
+        self._follow()
+        return True
+
+    def _follow(self) -> None:
+        """Show what the take leads to, and note it once it is no part of a stroke."""
+        self.timeline.show(self.take.inputs)
+        self.timeline.work(self.soon)
+        if not self.history.in_stroke:
+            self._note()
+
+    def _note(self) -> None:
+        if self.take != self._noted:
+            self.journal.edit(self._noted, self.take)
+            self._noted = self.take
+
+    # --- branches ---
+
+    def keep_branch(self, name: str) -> int:
+        """Keep the take as a branch; its number. What is not simulated yet is simulated first."""
+        self.timeline.work(len(self.timeline))
+        end, outcome = self.timeline.end
+        gold = self.timeline.column("gold")
+        reached = int(gold[end]) if len(gold) else 0
+        number = self.branches.keep(Branch(name, self.take, None, end, outcome, reached))
+        self.journal.branches(self.branches)
+        return number
+
+    def take_branch(self, number: int) -> None:
+        """Go on from a branch; undo brings back what was there before."""
+        self.branches.current = number
+        self.change(self.branches.all[number].take)
+        self.journal.branches(self.branches)
+
+    def drop_branch(self, number: int) -> None:
+        """Forget a branch."""
+        self.branches.drop(number)
+        self.journal.branches(self.branches)
+
+    def rename_branch(self, number: int, name: str) -> None:
+        """Give a branch another name."""
+        self.branches.rename(number, name)
+        self.journal.branches(self.branches)
+
+    def recording(self, take: Take | None = None, name: str = "") -> Recording:
+        """A take (None: the present one) as a recording, for what compares and searches runs."""
+        return recording_of(self.about, self.take if take is None else take, name)
+
+    # --- files ---
+
+    def save(self, path: Path, *, replacing: bool = False) -> None:
+        """Write run and branches. Raises OccupiedError, FileError, OSError as ``save_run`` does, ArgumentError."""
+        self.end()
+        self.file = save_run(self.about, self.take, self.branches, path, self.file, replacing=replacing)
+        self.saved, self._saved_branches = self.take, list(self.branches.all)
+        self.journal.begin_anew(self._opened())
+
+    def close(self, *, keep: bool = False) -> None:
+        """End. ``keep``: what is not saved stays in the journal, for the next session."""
+        self.end()
+        self.journal.close(keep=keep and not self.is_saved)
+
+    def recover(self, found: Recovered) -> None:
+        """Go on where a session that has died was; its edits can be undone."""
+        for take in found.takes[1:]:
+            self.history.change(take)
+        self.branches = found.branches
+        self._noted = self.take
+        self.journal.close()
+        self.journal = Journal(found.file.parent.parent, found.opened, found.file)
+        self.saved = Take(b"") if self.take != found.takes[0] else self.saved
+        self.timeline.show(self.take.inputs)
+        self.timeline.work(self.soon)

@@ -1,0 +1,172 @@
+"""What a run leads to, tick by tick, kept while its inputs change: only what an edit can change is run again."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.compile_cache import open_memory
+from ninja_game.errors import ArgumentError
+from ninja_game.runs.run_trace import OBJECT_RECORD, event_names, ninja_columns, object_rows
+from ninja_game.runs.save_states import SaveStates
+from ninja_game.sim.inputs import first_ticks
+from ninja_game.sim.kinds import EXIT, KIND_OF
+from ninja_game.sim.level import Level
+from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES
+from ninja_game.sim.states import OUTCOME_NAMES
+from ninja_game.simulation import Body, SaveState, is_box
+from ninja_game.tas.take import first_difference
+
+AFTERMATH = 40
+"""Ticks that are run behind the last input, without a key: what it leads to."""
+_GROWTH = 4096
+"""Rows by which the table grows at least."""
+
+
+class Timeline:
+    """The world after every tick of a run. ``valid``: so many ticks are simulated, the *greenzone*; ``work`` adds more.
+
+    Row k of each column is the world after tick k. ``watched``: ids of the objects that are recorded too.
+    Raises LevelError for a level that cannot be played.
+    """
+
+    def __init__(self, level: Level, inputs: bytes, *, body: Body = "circle", memory: str = "auto") -> None:
+        self.level, self.body = level, body
+        self._memory = open_memory(memory, level, box=is_box(body))
+        self.memory = self._memory.name
+        self._seen = [self._memory.observe(id_ + 1) for id_ in range(self._memory.id_count)]
+        self.watched: tuple[int, ...] = ()
+        self._states: SaveStates[Any] = SaveStates(0, self._memory.save())
+        self._columns: dict[str, NDArray[Any]] = {
+            **{name: np.zeros(0) for name in TRACED_PLACES},
+            **{name: np.zeros(0, np.int32) for name in TRACED_NUMBERS},
+        }
+        self._objects = np.zeros((0, 0), OBJECT_RECORD)
+        self._events: list[str] = []
+        self.inputs = b""
+        self.valid = 0
+        self.show(inputs)
+
+    def __len__(self) -> int:
+        """Ticks to be simulated: those with inputs and some more."""
+        return len(self.inputs) + AFTERMATH
+
+    @property
+    def complete(self) -> bool:
+        """Whether all ticks are simulated."""
+        return self.valid >= len(self)
+
+    # --- edits ---
+
+    def show(self, inputs: bytes) -> int:
+        """Other inputs. What they have in common with those before stays simulated. The first tick that differs."""
+        same = first_difference(self.inputs, inputs)
+        # Behind the inputs no key is down: a run that grows by such ticks goes the same way.
+        longest = max(len(self.inputs), len(inputs))
+        same = max(same, first_difference(first_ticks(self.inputs, longest), first_ticks(inputs, longest)))
+        self.inputs = inputs
+        self._forget(min(same, len(self)))
+        return same
+
+    def watch(self, ids: Collection[int]) -> None:
+        """Record these objects besides the ninja, instead of those before; for others all is simulated anew.
+
+        Raises ArgumentError for an object that there is not.
+        """
+        for id_ in ids:
+            self.first_look(id_)
+        wanted = tuple(sorted(set(ids)))
+        if wanted != self.watched:
+            self.watched = wanted
+            self._objects = np.zeros((len(self._objects), len(wanted)), OBJECT_RECORD)
+            self._forget(0)
+
+    def _forget(self, tick: int) -> None:
+        """From this tick on nothing is known any more."""
+        self._states.forget_after(tick)
+        self.valid = min(self.valid, tick)
+        del self._events[self.valid :]
+
+    def work(self, ticks: int) -> bool:
+        """Simulate up to so many ticks more; whether all is simulated now."""
+        self._reserve(len(self))
+        stop = min(len(self), self.valid + ticks)
+        first = self._states.nearest(self.valid)[0]
+        while self.valid < stop:
+            start, state = self._states.nearest(self.valid)
+            if self._memory.tick != start or start == first:
+                self._memory.restore(state)
+            end = min(stop, start + max(1, self._states.spacing))
+            self._run(start, end)
+            if self._states.wants(end):
+                self._states.keep(end, self._memory.save())
+        return self.complete
+
+    def need(self, tick: int) -> None:
+        """Have all ticks up to this one simulated."""
+        if self.valid <= min(tick, len(self) - 1):
+            self.work(tick + 1 - self.valid)
+
+    def _run(self, first: int, last: int) -> None:
+        """Simulate the ticks ``first`` … ``last`` - 1 and note what they show."""
+        inputs = first_ticks(self.inputs[first:last], last - first)
+        record = self._memory.trace(inputs, [id_ + 1 for id_ in self.watched], events=True)
+        for name, values in ninja_columns(record).items():
+            self._columns[name][first:last] = values
+        self._objects[first:last] = object_rows(record, len(self.watched))
+        self._events[first:] = event_names(record)
+        self.valid = last
+
+    def _reserve(self, rows: int) -> None:
+        """Have room for so many rows."""
+        if len(self._objects) >= rows:
+            return
+        more = max(rows - len(self._objects), _GROWTH)
+        for name, column in self._columns.items():
+            self._columns[name] = np.concatenate([column, np.zeros(more, column.dtype)])
+        self._objects = np.concatenate([self._objects, np.zeros((more, len(self.watched)), OBJECT_RECORD)])
+
+    # --- looking ---
+
+    def column(self, name: str) -> NDArray[Any]:
+        """A field of TRACED_PLACES (px, px/tick) or TRACED_NUMBERS after each simulated tick: (valid,)."""
+        return self._columns[name][: self.valid]
+
+    def object_column(self, id_: int, name: str) -> NDArray[Any]:
+        """x, y (px) or s (status number) of a watched object after each simulated tick: (valid,)."""
+        return self._objects[: self.valid, self.watched.index(id_)][name]
+
+    def events(self, tick: int) -> str:
+        """The names of what happened in a simulated tick, with blanks between; of others ''."""
+        return self._events[tick] if 0 <= tick < len(self._events) else ""
+
+    def first_look(self, id_: float) -> tuple[int, float, float, int]:
+        """Kind, x, y (px) and status of an object at the start. Raises ArgumentError for one that there is not."""
+        if id_ != int(id_) or not 0 <= id_ < len(self._seen) or not KIND_OF[self._seen[int(id_)][0]].traced:
+            raise ArgumentError(f"there is no object {id_:g}; ids are those that `ninja-game splits` shows")
+        return self._seen[int(id_)]
+
+    @property
+    def exits(self) -> list[tuple[float, float]]:
+        """Where the exits are, px."""
+        return [(x, y) for kind, x, y, _ in self._seen if kind == EXIT]
+
+    @property
+    def positions(self) -> NDArray[np.float64]:
+        """The ninja after each simulated tick: float64 (valid, 2), px."""
+        return np.column_stack([self.column("x"), self.column("y")])
+
+    @property
+    def end(self) -> tuple[int, str]:
+        """The first tick of exit contact or death among those simulated, and which; (-1, "running") without one."""
+        outcomes = self.column("outcome")
+        ended = np.flatnonzero(outcomes)
+        return (int(ended[0]), OUTCOME_NAMES[int(outcomes[ended[0]])]) if len(ended) else (-1, OUTCOME_NAMES[0])
+
+    def save_state(self, tick: int) -> SaveState:
+        """The nearest moment that is kept at or before the one after so many ticks, for ``Simulation.restore``."""
+        at, state = self._states.nearest(min(tick, self.valid))
+        return SaveState(self.level, self.body, self.memory, first_ticks(self.inputs[:at], at), state)
