@@ -37,6 +37,7 @@ GROUPS = {
         "convert": "Turn levels and recordings from one format into the other.",
     },
     "runs": {
+        "tas": "Edit a run tick by tick, in a window.",
         "record": "Run inputs that a person wrote, and write what comes of them.",
         "verify": "Run recordings again and judge them.",
         "trace": "Show every tick of recordings: position, velocity, state, events.",
@@ -62,7 +63,7 @@ MODULES = {
 }
 
 COMPILING = (
-    "verify", "board", "trace", "splits", "compare", "bench", "solve", "improve", "search",
+    "verify", "board", "trace", "splits", "compare", "bench", "solve", "improve", "search", "tas",
     "check", "levels", "generate", "learn",
 )  # fmt: skip
 """Those that may have to compile the rules first."""

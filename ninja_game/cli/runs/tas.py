@@ -1,0 +1,45 @@
+"""`ninja-game tas`: the bench."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import click
+
+from ninja_game.cli.run_options import level_given, level_option
+
+
+@click.command()
+@click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
+@level_option
+@click.option("--size", metavar="WIDTHxHEIGHT", help="Size of the window in px, e.g. 1584x1200.")
+@click.option("--frames", type=click.IntRange(1, 10**9), help="End after so many pictures.")
+@click.option("--screenshot", type=click.Path(dir_okay=False), help="Write the last picture to this PNG file.")
+@click.pass_context
+def command(
+    ctx: click.Context, file: Path, record: int | None, level_path: Path | None, size: str | None, frames: int | None,
+    screenshot: str | None,
+) -> None:  # fmt: skip
+    """Edit a run tick by tick, in a window.
+
+    FILE is a recording of any format. On one side the level, on the other a row for each tick: its keys, and what the
+    world says after it. Change keys, take over and play on, search for something better, keep branches. A replay text
+    of ours is saved into its file; any other recording becomes a new one.
+
+    \b
+    Examples:
+      ninja-game tas best.replay.txt
+      ninja-game tas demos.txt --record 3
+    """
+    from ninja_game.cli.game.play import pixels
+    from ninja_game.tas.files import open_run
+
+    window = pixels(size) if size else None
+    opened = open_run(file, record=record, level=level_given(level_path))
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    from ninja_game.play.main import run_app
+    from ninja_game.play.tas.screen import TasScreen
+
+    ctx.exit(run_app(lambda app: TasScreen(app, opened), size=window, frames=frames, screenshot=screenshot))

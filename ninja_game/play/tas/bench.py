@@ -1,0 +1,90 @@
+"""What all parts of the bench share: the session, the tick under the cursor, the selected ticks, other runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.tas.session import Session
+from ninja_game.tas.take import Take
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+Span = tuple[int, int]
+"""The first tick, and the first one behind the last."""
+
+
+@dataclass(frozen=True)
+class OtherRun:
+    """A run that is shown beside the one under edit. ``positions``: float64 (ticks, 2), px, after each tick."""
+
+    name: str
+    take: Take
+    positions: NDArray[np.float64] = field(repr=False)
+
+
+class Bench:
+    """``cursor``: the tick whose row is the present one; the level is shown as it is after that tick.
+
+    ``anchor``: where a selection began; None: only the tick under the cursor is selected. ``others``: runs that were
+    opened beside this one; ``chosen``: the number of the one that parts are taken from, where there are any.
+    """
+
+    def __init__(self, app: App, session: Session) -> None:
+        self.app = app
+        self.session = session
+        self.cursor = 0
+        self.anchor: int | None = None
+        self.others: list[OtherRun] = []
+        self.chosen = 0
+        self.ghosts = True
+
+    @property
+    def take(self) -> Take:
+        """The run as it is now."""
+        return self.session.take
+
+    @property
+    def selection(self) -> Span:
+        """The selected ticks, at least the one under the cursor."""
+        anchor = self.cursor if self.anchor is None else self.anchor
+        return min(anchor, self.cursor), max(anchor, self.cursor) + 1
+
+    @property
+    def last_tick(self) -> int:
+        """The last tick that has a row."""
+        return len(self.session.timeline) - 1
+
+    def go(self, tick: int, *, select: bool = False) -> None:
+        """Put the cursor on a tick; ``select``: what lies between is selected."""
+        if not select:
+            self.anchor = None
+        elif self.anchor is None:
+            self.anchor = self.cursor
+        self.cursor = min(max(0, tick), self.last_tick)
+
+    def select(self, first: int, last: int) -> None:
+        """Select the ticks ``first`` … ``last`` - 1."""
+        self.cursor, self.anchor = first, max(first, last - 1)
+
+    def attempt(self, edit: Callable[[], object]) -> bool:
+        """Do something that may be refused; a notice says why. Whether it was done."""
+        try:
+            edit()
+        except (NinjaGameError, OSError) as error:
+            self.app.notify(str(getattr(error, "strerror", "") or error))
+            return False
+        self.cursor = min(self.cursor, self.last_tick)
+        if self.anchor is not None:
+            self.anchor = min(self.anchor, self.last_tick)
+        return True
+
+    def edit(self, make: Callable[[Take], Take]) -> bool:
+        """Change the run as a function of what it is; a refusal is told. Whether it was done."""
+        return self.attempt(lambda: self.session.change(make(self.take)))

@@ -1,0 +1,65 @@
+"""The bench's commands: what they are called, and which keys mean them. The help page is this table."""
+
+from __future__ import annotations
+
+from ninja_game.play.editor.controls import Command, chord
+from ninja_game.play.input.events import InputEvent
+
+COMMANDS = (
+    Command("help", "This page", ("f1",)),
+    Command("menu", "File menu; ends what is going on", ("escape",)),
+    Command("save", "Save", ("ctrl+s",)),
+    Command("save_as", "Save under another name", ("ctrl+shift+s",)),
+    Command("open_other", "Open another run beside this one", ("ctrl+o",)),
+    Command("undo", "Undo", ("ctrl+z",)),
+    Command("redo", "Redo", ("ctrl+y", "ctrl+shift+z")),
+    Command("up", "A tick up", ("up",)),
+    Command("down", "A tick down", ("down",)),
+    Command("page_up", "A page up", ("pageup",)),
+    Command("page_down", "A page down", ("pagedown",)),
+    Command("first", "First tick", ("home",)),
+    Command("last", "Exit or death, then the last tick", ("end",)),
+    Command("select_up", "Select upwards", ("shift+up",)),
+    Command("select_down", "Select downwards", ("shift+down",)),
+    Command("select_page_up", "Select a page upwards", ("shift+pageup",)),
+    Command("select_page_down", "Select a page downwards", ("shift+pagedown",)),
+    Command("select_first", "Select up to the first tick", ("shift+home",)),
+    Command("select_last", "Select to the last tick", ("shift+end",)),
+    Command("select_all", "Select everything", ("ctrl+a",)),
+    Command("go_to", "Go to a tick", ("ctrl+g",)),
+    Command("key_left", "Left: down or up in the selected ticks", ("left", "a")),
+    Command("key_right", "Right: down or up in the selected ticks", ("right", "d")),
+    Command("key_jump", "Jump: down or up in the selected ticks", ("z", "w")),
+    Command("clear", "All keys up in the selected ticks", ("delete",)),
+    Command("insert", "Insert ticks without a key, as many as are selected", ("insert", "i")),
+    Command("remove", "Take the selected ticks out", ("backspace", "ctrl+delete")),
+    Command("copy", "Copy", ("ctrl+c",)),
+    Command("cut", "Copy and take out", ("ctrl+x",)),
+    Command("paste", "Paste over what is there", ("ctrl+v",)),
+    Command("paste_insert", "Paste between", ("ctrl+shift+v",)),
+    Command("cut_end", "Take out everything behind the exit or death", ("ctrl+e",)),
+    Command("marker", "Name this tick, or rename it", ("m",)),
+    Command("next_marker", "Next named tick", ("n",)),
+    Command("previous_marker", "Named tick before", ("shift+n",)),
+    Command("play", "Play and stop", ("space",)),
+    Command("step_back", "A tick back", ("comma",)),
+    Command("step", "A tick on; taken over: with the keys that are down", ("period",)),
+    Command("faster", "Faster", ("equals", "kp_plus")),
+    Command("slower", "Slower", ("minus", "kp_minus")),
+    Command("take_over", "Take over: play on yourself from here", ("return", "kp_enter")),
+    Command("ghosts", "Other runs, on or off", ("g",)),
+    Command("splice", "The selected ticks from the other run", ("ctrl+p",)),
+    Command("next_other", "Next other run", ("o",)),
+    Command("next_tab", "Next of: values, branches, lead, search", ("f6",)),
+    Command("watch", "Watch another value", ("v",)),
+    Command("branch", "Keep this run as a branch", ("b",)),
+    Command("search", "Search the selected ticks for something better", ("f",)),
+)
+"""Everything that a key does, unless the run is taken over: then the keys of the game play."""
+
+_BY_KEY = {key: command.name for command in COMMANDS for key in command.keys}
+
+
+def command_of(event: InputEvent) -> str:
+    """The command that a key means; '' for none."""
+    return _BY_KEY.get(chord(event.raw), "") if event.source and event.source[0] == "keys" else ""

@@ -1,0 +1,60 @@
+"""The line above the bench and the line below it: which run, where the cursor is, what was just done."""
+
+from __future__ import annotations
+
+import pygame
+
+from ninja_game.play.tas.part import Part
+from ninja_game.play.ui.theme import Theme
+from ninja_game.sim.rules import TICKS_PER_SECOND
+
+
+class Head(Part):
+    """The run's name and file, and whether it is saved."""
+
+    area = (0, 0, 792, 26)
+
+    def look(self) -> tuple[object, ...]:
+        """Name, file, saved, outcome."""
+        session = self.bench.session
+        return session.about.name, session.file.path, session.is_saved, session.timeline.end, session.journal.problem
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        """One line."""
+        session, palette = self.bench.session, theme.palette
+        theme.canvas.fill_rect(surface, palette.tile, *self.area)
+        end, outcome = session.timeline.end
+        file = session.file.path.name if session.file.path else "no file yet"
+        author = f" - {session.about.author}" if session.about.author else ""
+        title = theme.text(
+            surface, f"{session.about.name}{author}", 8, 6, size=13, bold=True, colour=palette.on_tile, width=330
+        )
+        x = title.right / theme.canvas.scale + 12
+        state = session.journal.problem or f"{file}  {'saved' if session.is_saved else 'not saved'}"
+        theme.text(surface, state, x, 9, size=9.5, colour=palette.on_tile, width=560 - x)
+        words = {"exit": f"exit in tick {end}", "dead": f"dead in tick {end}"}.get(outcome, "no exit yet")
+        seconds = f"  {(end + 1) / TICKS_PER_SECOND:.3f} s" if end >= 0 else ""
+        theme.text(surface, words + seconds, 784, 8, size=11, bold=True, colour=palette.on_tile, align="right")
+
+
+class Foot(Part):
+    """Where the cursor is, what is selected, and a hint."""
+
+    area = (0, 579, 792, 21)
+
+    def look(self) -> tuple[object, ...]:
+        """Cursor, selection, the run's length."""
+        return self.bench.cursor, self.bench.selection, len(self.bench.take), self.bench.session.timeline.valid
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        """One line."""
+        bench, palette = self.bench, theme.palette
+        theme.canvas.fill_rect(surface, palette.tile, *self.area)
+        first, last = bench.selection
+        selected = f"   {last - first} selected" if last - first > 1 else ""
+        timeline = bench.session.timeline
+        known = "" if timeline.complete else f"   simulated up to {timeline.valid}"
+        text = f"tick {bench.cursor} of {len(bench.take)}{selected}{known}"
+        theme.text(surface, text, 8, 584, size=9.5, colour=palette.on_tile)
+        hint = "Click L R J to change keys; Enter: take over; F: search; F1: help"
+        theme.text(surface, hint, 784, 584, size=9.5, colour=palette.on_tile, align="right")

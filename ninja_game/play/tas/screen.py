@@ -1,0 +1,186 @@
+"""The bench in the window: its parts, and which of them gets what mouse and keys do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from functools import partial
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.play.input.events import InputEvent
+from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.controls import command_of
+from ninja_game.play.tas.file_commands import FileCommands
+from ninja_game.play.tas.head import Foot, Head
+from ninja_game.play.tas.level_part import LevelPart
+from ninja_game.play.tas.part import Commands, Part
+from ninja_game.play.tas.roll import Roll
+from ninja_game.play.tas.tabs import Tab, all_tabs
+from ninja_game.play.ui.text_entry import TextEntry
+from ninja_game.play.ui.widgets import Button, Widget
+from ninja_game.tas.session import Session
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+    from ninja_game.tas.files import OpenedRun
+
+_MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL)
+
+
+class TasScreen(MenuScreen):
+    """A run is edited here. ``bench``: what is seen and selected; ``session``: the run.
+
+    Raises LevelError for a run on a level that cannot be played.
+    """
+
+    def __init__(self, app: App, opened: OpenedRun) -> None:
+        super().__init__(app)
+        self.session = Session(opened, app.player.folder)
+        self.bench = Bench(app, self.session)
+        self.level, self.roll = LevelPart(self.bench), Roll(self.bench)
+        self.tabs = all_tabs(self.bench)
+        self.tab: Tab = self.tabs[0]
+        self.head, self.foot_line = Head(self.bench), Foot(self.bench)
+        self.files = FileCommands(app, self.bench)
+        self._entered = False
+        self._widgets_stale = True
+        self._dragging: Part | None = None
+
+    @property
+    def parts(self) -> list[Part]:
+        """All that draws itself."""
+        return [self.head, self.level, self.roll, self.tab, self.foot_line]
+
+    def commands(self) -> Commands:
+        """What commands do, by name."""
+        own: Commands = {"next_tab": self.next_tab, **self.files.commands()}
+        for part in (*self.parts, *self.tabs):
+            own = {**own, **part.commands()}
+        return own
+
+    def build(self) -> Sequence[Widget]:
+        """The names of the tabs, and what is in the present one."""
+        x, y, w, h = Tab.strip
+        width = w / len(self.tabs)
+        names = [
+            Button((x + width * k, y, width - 4, h), tab.name, partial(self.show_tab, tab), size=9)
+            for k, tab in enumerate(self.tabs)
+        ]
+        return [*names, *self.tab.build()]
+
+    def enter(self) -> None:
+        """Nothing has the focus: keys edit."""
+        super().enter()
+        self.focus = None
+        self._widgets_stale = True
+        if not self._entered:
+            self._entered = True
+            self.files.offer_recovered()
+
+    def leave(self) -> None:
+        """Covered or closed: what is going on ends."""
+        super().leave()
+        self.level.stop()
+        self.session.end()
+
+    def chime(self, name: str) -> None:
+        """Editing is silent."""
+
+    def show_tab(self, tab: Tab) -> None:
+        """Show another tab."""
+        self.tab = tab
+        self.rebuild()
+
+    def next_tab(self) -> None:
+        """The next tab."""
+        self.show_tab(self.tabs[(self.tabs.index(self.tab) + 1) % len(self.tabs)])
+
+    def rebuild(self) -> None:
+        """Make the tab's widgets anew."""
+        self.widgets = list(self.build())
+        self.focus = None
+        self._widgets_stale = True
+
+    # --- keys and mouse ---
+
+    @contextmanager
+    def _widgets_only(self) -> Iterator[None]:
+        """What widgets want drawn again is their tab."""
+        before, self.redraw = self.redraw, False
+        yield
+        self._widgets_stale, self.redraw = self._widgets_stale or self.redraw, before
+
+    def capture(self, event: InputEvent) -> bool:
+        """Typed text goes into the field with the focus, keys of the game to the ninja that was taken over."""
+        if (
+            isinstance(self.focus, TextEntry)
+            and event.menu in ("confirm", "back")
+            and event.source == ("keys", "escape")
+        ):
+            self.focus = None
+            return True
+        with self._widgets_only():
+            if super().capture(event):
+                return True
+        return self.level.capture(event)
+
+    def handle(self, event: InputEvent) -> None:
+        """Commands, then the mouse, then the widgets of the tab."""
+        command = command_of(event)
+        typing = self.focus is not None and event.menu in ("confirm", "up", "down", "left", "right", "first", "last")
+        if event.raw.type in _MOUSE:
+            self._give_mouse(event.raw)
+        elif command and not typing:
+            self.commands()[command]()
+        else:
+            with self._widgets_only():
+                super().handle(event)
+        if self.tab.stale:
+            self.rebuild()
+
+    def back(self) -> None:
+        """Escape is a command."""
+
+    def _give_mouse(self, raw: pygame.Event) -> None:
+        pos = pygame.mouse.get_pos() if raw.type == pygame.MOUSEWHEEL else raw.pos
+        x, y = self.app.canvas.logical(pos)
+        part = self._dragging or next((each for each in self.parts if each.contains(x, y)), None)
+        if raw.type == pygame.MOUSEBUTTONDOWN:
+            self._dragging = part
+        elif raw.type == pygame.MOUSEBUTTONUP:
+            self._dragging = None
+        if part is not None and part is not self.tab:
+            self.focus = None
+        if part is None or not part.mouse(raw, x, y):
+            with self._widgets_only():
+                super()._handle_mouse(raw)
+
+    # --- time and picture ---
+
+    def update(self, real_ms: int) -> None:
+        """Simulate what is not simulated yet; parts go on."""
+        super().update(real_ms)
+        self.session.timeline.work(self.session.soon)
+        for part in (self.level, self.roll, *self.tabs):
+            part.update(real_ms)
+        if self.tab.stale:
+            self.rebuild()
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        """What has changed."""
+        theme, whole = self.app.theme, self.redraw
+        if whole:
+            surface.fill(theme.palette.tile)
+        stale = whole or self._widgets_stale
+        changed = []
+        for part in self.parts:
+            drawn = part.draw(surface, theme, whole=whole or (part is self.tab and stale))
+            changed += drawn
+            if part is self.tab and drawn:
+                self.draw_widgets(surface)
+                changed.append(theme.canvas.rect(*Tab.strip))
+        self._widgets_stale = False
+        return None if whole else changed
