@@ -12,19 +12,18 @@ from math import inf
 from threading import Event
 
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.sim.inputs import press_jumps
-from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, verified_run
+from ninja_game.solver.certificate import VerifiedRun, with_plain_triggers
 from ninja_game.solver.heuristics import Heuristics
 from ninja_game.solver.legs.route import LEG_NODES, Route
 from ninja_game.solver.legs.shorten import Shortener
-from ninja_game.solver.local_search import LocalSearch
 from ninja_game.solver.search import MORE
 from ninja_game.solver.search_memory import Resolution, open_start
 from ninja_game.solver.search_run import Search
+from ninja_game.solver.spans.run_shortener import RunShortener
 from ninja_game.solver.task import (
-    COOLING,
     LEGS_TICKS,
     SEARCH_COST,
+    SLICE,
     SWEEP_TICKS,
     VARY,
     VARY_TICKS,
@@ -37,9 +36,6 @@ from ninja_game.solver.task import (
 )
 
 __all__ = ["Progress", "Task", "compile_solver", "solve"]
-
-SLICE = 1_000_000
-"""Ticks between two looks at the clock."""
 
 
 class _Job:
@@ -54,9 +50,11 @@ class _Job:
         self.shares = Shares()
         self.start = open_start(task.level, box=task.body == "box")
         self.heuristics = Heuristics(self.start.levels, self.start.worlds)
-        self._shortener: Shortener | None = None
+        self._sweeper: Shortener | None = None
         self._turn = 2 * number
-        self._local_searches = 0
+        self.shortener = RunShortener(
+            self.start, self.heuristics, gold=task.gold_wanted, seed=self.seed, submit=state.submit, over=self._spend
+        )
 
     def run(self) -> None:
         """Find, vary, local search, until the end."""
@@ -74,7 +72,15 @@ class _Job:
                 rank = (0, 1, 0, 2, 0)[self._turn % 5] if not state.task.first else 0
                 with state.lock:
                     inputs = state.runs[min(rank, len(state.runs) - 1)]
-                self._shorten(inputs, shares.long_climb)
+                if self.work or not state.task.first:
+                    inputs = self.shortener.search_spans(inputs, shares.spans)
+                self.shortener.climb(inputs, shares.climb)
+
+    def _spend(self, played: int, cost: float) -> bool:
+        """Count ticks of shortening; whether the job is over."""
+        self.work += cost
+        self.state.count(played, 0, "shortening")
+        return self._over
 
     @property
     def _over(self) -> bool:
@@ -104,10 +110,10 @@ class _Job:
     def _sweep(self) -> None:
         """Make a run with gold shorter, by sweeps of legs and then by a local search; what is found is submitted."""
         best = self.state.runs[0]
-        if self._shortener is None:
-            self._shortener = Shortener(self._leg_search, best, seed=self.seed)
-        elif len(best) < self._shortener.ticks:
-            self._shortener.add_run(best)
+        if self._sweeper is None:
+            self._sweeper = Shortener(self._leg_search, best, seed=self.seed)
+        elif len(best) < self._sweeper.ticks:
+            self._sweeper.add_run(best)
         until = self.work + SWEEP_TICKS * SEARCH_COST
 
         def over(played: int) -> bool:
@@ -116,10 +122,10 @@ class _Job:
             return self._over
 
         while self.work < until and not over(0):
-            found = self._shortener.sweep(over)
+            found = self._sweeper.sweep(over)
             if found:
                 self.state.submit(found)
-        self._shorten(self.state.runs[0], self.shares.first_climb)
+        self.shortener.climb(self.state.runs[0], self.shares.first_climb)
 
     def _follow(self, route: Route, ticks: float) -> None:
         """Search a run in legs, for so many ticks; one that is found is submitted."""
@@ -150,7 +156,7 @@ class _Job:
         resolution = resolution._replace(slack=resolution.slack * shortest)
         bound = shortest + max(4, shortest // 20)
         found = self._search_once(resolution, VARY_TICKS, seed=100 + turn, bound=bound, guided=guided)
-        self._shorten(found or self.state.runs[0], self.shares.first_climb)
+        self.shortener.climb(found or self.state.runs[0], self.shares.first_climb)
 
     def _search_once(
         self, resolution: Resolution, ticks: int, *, seed: int, bound: int, guided: bool = False,
@@ -173,21 +179,6 @@ class _Job:
         self.state.submit(best[1])
         return best[1]
 
-    def _shorten(self, inputs: bytes, ticks: int) -> None:
-        self._local_searches += 1
-        gold = self.state.task.gold_wanted
-        local_search = LocalSearch(self.start, inputs, gold=gold, seed=self.seed + 7919 * self._local_searches)
-        for temperature in COOLING:
-            until = local_search.played + ticks // len(COOLING)
-            while local_search.played < until and not self._over:
-                before, trials, best = local_search.played, local_search.trials, local_search.ticks
-                local_search.run(min(SLICE, until - before), temperature=temperature)
-                self.work += local_search.played - before
-                self.state.count(local_search.played - before, local_search.trials - trials, "shortening")
-                if local_search.ticks < best:
-                    self.state.submit(local_search.best())
-            local_search.return_to_best()
-
 
 _SMALL = "0" * 713 + "|5^100,566!11^160,564,130,564!0^115,566"
 
@@ -199,7 +190,9 @@ def compile_solver() -> None:
     Raises MemoryUnavailableError without Numba.
     """
     for gold in (0, -1):
-        _Job(SearchState(Task(parse_level_string(_SMALL), gold=gold, work=30_000), None), 0).run()
+        job = _Job(SearchState(Task(parse_level_string(_SMALL), gold=gold, work=30_000), None), 0)
+        job.run()
+        job.shortener.compile(job.state.runs[0])
 
 
 def solve(
@@ -220,7 +213,7 @@ def solve(
     compile_solver()
     state = SearchState(task, report, on_better=on_better, cancelled=stop or Event())
     if task.first:
-        state.submit(_with_plain_triggers(task))
+        state.submit(with_plain_triggers(task.level, task.first, body=task.body, gold=task.gold_wanted))
     jobs = [_Job(state, number) for number in range(task.jobs)]
     if len(jobs) == 1:
         jobs[0].run()
@@ -235,16 +228,3 @@ def solve(
         finally:
             state.stop.set()
     return state.best
-
-
-def _with_plain_triggers(task: Task) -> bytes:
-    """The first run with triggers just where the jump key goes down, as mutations keep them.
-
-    Raises UnverifiedRunError where the run does not reach the exit, or only by triggers that no keyboard makes.
-    """
-    plain = press_jumps(task.first)
-    try:
-        return verified_run(task.level, plain, body=task.body, gold=task.gold_wanted).inputs
-    except UnverifiedRunError:
-        verified_run(task.level, task.first, body=task.body, gold=task.gold_wanted)
-        raise UnverifiedRunError("the run triggers jumps without a fresh press, as no keyboard does") from None

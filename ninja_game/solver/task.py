@@ -154,17 +154,22 @@ VARY_TICKS = 12_000_000
 SWEEP_TICKS = 12_000_000
 """Ticks that a run with gold is swept before it gets a local search."""
 
+SLICE = 1_000_000
+"""Ticks between two looks at the clock."""
+SHORT_CLIMB = 3_000_000
+"""Ticks of the local search from a run that came of the search of a span."""
 COOLING = (6.0, 4.0, 2.5, 1.2, 0.4)
 """Temperatures of a local search, one after the other."""
 
 
 @dataclass(frozen=True)
 class Shares:
-    """How a solver's work is divided: until which part of all work it looks for other routes."""
+    """How a solver's work is divided: until which part of all work it looks for other routes; ticks of the others."""
 
     vary_until: float = 0.4
+    spans: int = 20_000_000
     first_climb: int = 8_000_000
-    long_climb: int = 30_000_000
+    climb: int = 15_000_000
 
 
 def find_order(job: int) -> Iterator[tuple[Resolution, int, int]]:

@@ -1,0 +1,145 @@
+"""Searches along known runs of a level, one span after the other, each a little differently."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from ninja_game.compile_cache import compiled
+from ninja_game.sim.inputs import KEYS_DOWN, press_jumps
+from ninja_game.solver.heuristics import Heuristics
+from ninja_game.solver.macro_actions import action_inputs
+from ninja_game.solver.search import MORE, add_root
+from ninja_game.solver.search_memory import Resolution, Start, clear, new_memory
+from ninja_game.solver.spans.known_run import KnownRun, play_known
+from ninja_game.solver.spans.span_search import FOLLOWED, expand_along
+from ninja_game.solver.state_abstraction import MAX_SWITCH_STATES, NOT_MADE, Goals
+
+NODES = 300_000
+PART = 500_000
+"""Ticks between two looks at the clock."""
+
+
+CELLS, SPEEDS, MACROS, JITTERS = (3.0, 4.0, 6.0, 8.0), (0.2, 0.35, 0.5), (1, 2, 3, 4), (3, 5, 8)
+BEHIND, PLACE_PRICES, SPEED_PRICES = (4.0, 8.0, 16.0, 30.0), (0.6, 0.9, 1.2), (0.5, 1.0, 2.0, 4.0)
+LENGTHS = (40, 60, 90)
+"""What is drawn for each search: see Resolution and KnownRun; ticks of a span."""
+SPAN_TICKS = 2_000_000
+EACH_COSTS = 10_000
+"""Ticks that it takes to prepare a search."""
+
+
+class Fineness(NamedTuple):
+    """How a span is searched: the resolution, and what the known run is told besides its span."""
+
+    resolution: Resolution
+    behind: float
+    place_price: float
+    speed_price: float
+
+
+def draw_fineness(random: np.random.Generator) -> Fineness:
+    """Draw how finely to search."""
+    resolution = Resolution(
+        cell=float(random.choice(CELLS)), speed=float(random.choice(SPEEDS)), macro=int(random.choice(MACROS)),
+        jitter=int(random.choice(JITTERS)),
+    )  # fmt: skip
+    behind, place_price, speed_price = (float(random.choice(part)) for part in (BEHIND, PLACE_PRICES, SPEED_PRICES))
+    return Fineness(resolution, behind, place_price, speed_price)
+
+
+class SpanSearches:
+    """Searches along runs of one level."""
+
+    def __init__(self, start: Start, heuristics: Heuristics, *, gold: int) -> None:
+        self.start = start
+        self.memory = new_memory(NODES)
+        self.gold = gold
+        self.goals = Goals(
+            gold=gold, leg=0, mask=0, ends=1, rollouts=0, gold_slots=heuristics.gold_slots,
+            enemies=heuristics.enemies, switch_slots=heuristics.slots, masks=np.full(MAX_SWITCH_STATES, -1, np.int64),
+            places=np.zeros((MAX_SWITCH_STATES, 2)), fields=np.full((MAX_SWITCH_STATES, 1), NOT_MADE, np.float32),
+        )  # fmt: skip
+        self.run = self._noted(b"")
+        self._inputs = b""
+
+    def know(self, inputs: bytes) -> None:
+        """Take a run to the exit as the known one."""
+        if inputs != self._inputs:
+            self._inputs, self.run = inputs, self._noted(inputs)
+
+    def _noted(self, inputs: bytes) -> KnownRun:
+        ticks = len(inputs)
+        keys = np.array(list(inputs), np.uint8) & np.uint8(KEYS_DOWN)
+        masks, gold = np.zeros((2, ticks + 1), np.int64)
+        run = KnownRun(np.zeros((ticks + 1, 4)), keys, masks, gold, (0, ticks), 0.0, 1.0, 1.0)
+        compiled(play_known)(self.start, run, self.goals.switch_slots, ticks, 1)
+        if not self.gold:
+            gold[:] = 0
+        return run
+
+    def shorter(self, inputs: bytes, *, seed: int, over: Callable[[int], bool]) -> bytes | None:
+        """Search spans of a run by chance until a shorter run is found; ``over`` as for ``search``, without it None."""
+        self.know(inputs)
+        random = np.random.default_rng([seed, 9])
+
+        while not over(EACH_COSTS):
+            length = int(random.choice(LENGTHS))
+            first = max(0, int(random.integers(-length // 2, max(len(inputs) - 5, 1))))
+            fineness = draw_fineness(random)
+            chosen = int(random.integers(1 << 30))
+            found = self.search(first, first + length, fineness, seed=chosen, ticks=SPAN_TICKS, over=over)
+            if found:
+                return found
+        return None
+
+    def search(
+        self, first: int, last: int, fineness: Fineness, *, seed: int, ticks: int, over: Callable[[int], bool]
+    ) -> bytes | None:
+        """Search the span from tick ``first`` to before ``last``; a shorter run than the known one, None if none.
+
+        ``over`` is told the ticks of each part, and may end it.
+        """
+        run = self.run._replace(
+            span=(first, last), behind=fineness.behind, place_price=fineness.place_price,
+            speed_price=fineness.speed_price,
+        )  # fmt: skip
+        clear(self.memory)
+        counters = self.memory.counters[0]
+        random = np.random.default_rng([seed, 8])
+        shifts = random.random(4)
+        resolution = fineness.resolution
+        resolution = resolution._replace(
+            shift_x=float(shifts[0]) * resolution.cell, shift_y=float(shifts[1]) * resolution.cell,
+            shift_vx=float(shifts[2]) * resolution.speed, shift_vy=float(shifts[3]) * resolution.speed,
+        )  # fmt: skip
+        counters.random = int(random.integers(1, 1 << 62))
+        counters.best_ticks = len(self._inputs)
+        compiled(play_known)(self.start, run, self.goals.switch_slots, first, 0)
+        compiled(add_root)(self.start, self.memory, self.goals, resolution)
+        while int(counters.ticks) < ticks:
+            before = int(counters.ticks)
+            ended = compiled(expand_along)(
+                self.start, self.memory, self.goals, run, resolution, min(PART, ticks - before)
+            )
+            if over(int(counters.ticks) - before) or ended != MORE:
+                break
+        if counters.best_node < 0:
+            return None
+        # A press is there where the key goes down; joined parts need it anew.
+        return press_jumps(self._inputs[:first] + self._path(int(counters.best_node)))
+
+    def _path(self, index: int) -> bytes:
+        nodes = self.memory.nodes
+        parts = []
+        while nodes[index].parent >= 0:
+            parts.append(self._action_inputs(int(nodes[index].action)))
+            index = int(nodes[index].parent)
+        return b"".join(reversed(parts))
+
+    def _action_inputs(self, action: int) -> bytes:
+        if action >> 2 & 3 != FOLLOWED:
+            return action_inputs(action)
+        return self._inputs[action >> 16 : (action >> 16) + (action >> 8 & 255)]
