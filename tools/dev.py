@@ -41,6 +41,12 @@ CACHES = (".pytest_cache", ".mypy_cache", ".ruff_cache", ".import_linter_cache",
 SOURCES = ("ninja_game", "tests", "tools", "benchmarks")
 EXTRAS = ("cluster", "fast", "film", "learn", "minari", "plots", "train")
 DEVELOPMENT = (*EXTRAS, "dev")
+USES = {
+    "play": (), "edit": ("fast",), "info": (), "convert": (), "record": (), "link": (), "player": (), "completion": (),
+    "lab": (), "site": (), "film": ("film",), "bench": ("fast", "plots"), "verify": ("cluster", "fast"),
+    "learn": ("fast", "learn", "minari"),
+}  # fmt: skip
+"""The extras that commands of the game use; those that are not here use Numba."""
 DRAWINGS = ("draw.how_it_works", "draw.legend")
 PICTURE_TESTS = ("tests/play/test_recorded_screens.py", "tests/play/test_pictures.py")
 
@@ -124,6 +130,12 @@ def pip_install(names: Sequence[str]) -> bool:
         return run(program("python"), *words, "--editable", f"{ROOT}[{','.join(extras)}]", *tools) == 0
 
 
+def extras_of(words: Sequence[str]) -> list[str]:
+    """The extras that a command of the game uses; training alone needs the largest."""
+    command, rest = (words[0], words[1:]) if words else ("play", ())
+    return [*USES.get(command, ("fast",)), *(["train"] if command == "learn" and "train" in rest else [])]
+
+
 def lint(*fix: str) -> int:
     """Style, format, types and the import contract."""
     install(DEVELOPMENT)
@@ -169,7 +181,7 @@ def main(words: Sequence[str]) -> int:
             install(())
             return become("-m", "ninja_game", "play", *rest)
         case ["run", *rest]:
-            install(EXTRAS)
+            install(extras_of(rest))
             return become("-m", "ninja_game", *rest)
         case ["test", *rest]:
             return test(rest)

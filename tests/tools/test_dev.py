@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from ninja_game.cli.main import COMMANDS
 from tools import ROOT, dev
 
 MODULES = ("click", "json", "numba", "numpy", "pathlib", "rich", "socket", "tomllib")
@@ -61,7 +62,7 @@ def test_the_command_runs_nothing_from_the_current_folder(poisoned: Path, door: 
     assert not (poisoned / "ran").exists()
 
 
-@pytest.mark.parametrize("command", ["check", "solve", "improve", "verify", "bench", "info"])
+@pytest.mark.parametrize("command", ["check", "solve", "improve", "verify", "bench", "tas"])
 def test_run_installs_numba_for_whatever_may_need_it(installed: list[tuple[str, ...]], command: str) -> None:
     dev.main(["run", command, "--help"])
     assert all("fast" in names for names in installed)
@@ -88,6 +89,15 @@ def test_what_is_installed_is_installed_once(tmp_path: Path, monkeypatch: pytest
     dev.install(["cluster", "fast"])
     dev.install(["cluster"])
     assert calls == [["cluster"], ["cluster", "fast"]]
+
+
+def test_run_installs_what_its_command_uses() -> None:
+    assert dev.extras_of(["info", "levels"]) == []
+    assert dev.extras_of(["solve", "level.txt"]) == ["fast"]
+    assert dev.extras_of(["learn", "train", "--help"]) == ["fast", "learn", "minari", "train"]
+    assert set(dev.USES) <= set(COMMANDS)
+    used = {extra for command in COMMANDS for extra in dev.extras_of([command, "train"])}
+    assert used == set(dev.EXTRAS)
 
 
 def test_pip_installs_the_locked_versions_where_uv_cannot_be_had(
