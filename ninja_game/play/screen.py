@@ -59,6 +59,9 @@ class ScreenStack:
     def __len__(self) -> int:
         return len(self._screens)
 
+    def __contains__(self, screen: Screen) -> bool:
+        return screen in self._screens
+
     @property
     def top(self) -> Screen:
         """The screen that gets the events. Raises IndexError if there is none."""

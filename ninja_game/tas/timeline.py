@@ -143,6 +143,17 @@ class Timeline:
         """The names of what happened in a simulated tick, with blanks between; of others ''."""
         return self._events[tick] if 0 <= tick < len(self._events) else ""
 
+    @property
+    def event_ticks(self) -> list[tuple[int, str]]:
+        """The simulated ticks in which anything happened, and what."""
+        return [(tick, names) for tick, names in enumerate(self._events) if names]
+
+    @property
+    def objects(self) -> list[tuple[int, int, float, float]]:
+        """Id, kind, x and y (px, at the start) of every object that can be watched."""
+        seen = enumerate(self._seen)
+        return [(id_, kind, x, y) for id_, (kind, x, y, _) in seen if KIND_OF[kind].traced]
+
     def first_look(self, id_: float) -> tuple[int, float, float, int]:
         """Kind, x, y (px) and status of an object at the start. Raises ArgumentError for one that there is not."""
         if id_ != int(id_) or not 0 <= id_ < len(self._seen) or not KIND_OF[self._seen[int(id_)][0]].traced:

@@ -64,11 +64,15 @@ class MenuScreen(Screen):
         wanted = self.widgets[place] if place < len(self.widgets) else None
         self.focus = wanted if wanted in able else next(iter(able), None)
         self._repeat = ""
+        self.await_text()
+        self.app.tell_problems()
+
+    def await_text(self) -> None:
+        """Have the system say what is typed, where there is a field for it."""
         if any(isinstance(widget, TextEntry) for widget in self.widgets):
             pygame.key.start_text_input()
         else:
             pygame.key.stop_text_input()
-        self.app.tell_problems()
 
     # --- input ---
 

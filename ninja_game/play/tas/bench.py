@@ -34,6 +34,7 @@ class Bench:
 
     ``anchor``: where a selection began; None: only the tick under the cursor is selected. ``others``: runs that were
     opened beside this one; ``chosen``: the number of the one that parts are taken from, where there are any.
+    ``preview``: a result of a search that is looked at. ``tab``: the name of the tab that is to be shown.
     """
 
     def __init__(self, app: App, session: Session) -> None:
@@ -44,6 +45,8 @@ class Bench:
         self.others: list[OtherRun] = []
         self.chosen = 0
         self.ghosts = True
+        self.preview: OtherRun | None = None
+        self.tab = "Values"
 
     @property
     def take(self) -> Take:

@@ -18,9 +18,10 @@ from ninja_game.play.tas.head import Foot, Head
 from ninja_game.play.tas.level_part import LevelPart
 from ninja_game.play.tas.part import Commands, Part
 from ninja_game.play.tas.roll import Roll
-from ninja_game.play.tas.tabs import Tab, all_tabs
+from ninja_game.play.tas.tabs.all_tabs import all_tabs
+from ninja_game.play.tas.tabs.tab import Tab, TabName
 from ninja_game.play.ui.text_entry import TextEntry
-from ninja_game.play.ui.widgets import Button, Widget
+from ninja_game.play.ui.widgets import Widget
 from ninja_game.tas.session import Session
 
 if TYPE_CHECKING:
@@ -66,10 +67,10 @@ class TasScreen(MenuScreen):
         x, y, w, h = Tab.strip
         width = w / len(self.tabs)
         names = [
-            Button((x + width * k, y, width - 4, h), tab.name, partial(self.show_tab, tab), size=9)
+            TabName((x + width * k, y, width - 4, h), tab, partial(self.show_tab, tab))
             for k, tab in enumerate(self.tabs)
         ]
-        return [*names, *self.tab.build()]
+        return [*names, *self.tab.widgets]
 
     def enter(self) -> None:
         """Nothing has the focus: keys edit."""
@@ -85,6 +86,9 @@ class TasScreen(MenuScreen):
         super().leave()
         self.level.stop()
         self.session.end()
+        if self not in self.app.stack:
+            for tab in self.tabs:
+                tab.close()
 
     def chime(self, name: str) -> None:
         """Editing is silent."""
@@ -92,6 +96,7 @@ class TasScreen(MenuScreen):
     def show_tab(self, tab: Tab) -> None:
         """Show another tab."""
         self.tab = tab
+        self.bench.tab = tab.name
         self.rebuild()
 
     def next_tab(self) -> None:
@@ -99,9 +104,10 @@ class TasScreen(MenuScreen):
         self.show_tab(self.tabs[(self.tabs.index(self.tab) + 1) % len(self.tabs)])
 
     def rebuild(self) -> None:
-        """Make the tab's widgets anew."""
+        """Take the widgets of the tab that is shown now."""
         self.widgets = list(self.build())
-        self.focus = None
+        self.focus, self.tab.wants = self.tab.wants, None
+        self.await_text()
         self._widgets_stale = True
 
     # --- keys and mouse ---
@@ -138,8 +144,6 @@ class TasScreen(MenuScreen):
         else:
             with self._widgets_only():
                 super().handle(event)
-        if self.tab.stale:
-            self.rebuild()
 
     def back(self) -> None:
         """Escape is a command."""
@@ -155,8 +159,13 @@ class TasScreen(MenuScreen):
         if part is not None and part is not self.tab:
             self.focus = None
         if part is None or not part.mouse(raw, x, y):
+            focus = self.focus
             with self._widgets_only():
                 super()._handle_mouse(raw)
+            # Neither the mouse over a widget nor a click on a button takes keys away from the run.
+            if raw.type == pygame.MOUSEBUTTONDOWN:
+                focus = self.focus if isinstance(self.focus, TextEntry) else None
+            self.focus = focus
 
     # --- time and picture ---
 
@@ -166,8 +175,10 @@ class TasScreen(MenuScreen):
         self.session.timeline.work(self.session.soon)
         for part in (self.level, self.roll, *self.tabs):
             part.update(real_ms)
-        if self.tab.stale:
-            self.rebuild()
+        # What a command wants to show comes now: the letter of its key is not typed into a field.
+        asked = next(tab for tab in self.tabs if tab.name == self.bench.tab)
+        if asked is not self.tab or asked.wants is not None:
+            self.show_tab(asked)
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
         """What has changed."""

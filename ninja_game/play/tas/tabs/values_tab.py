@@ -1,0 +1,222 @@
+"""Watched values: what they are at the cursor's tick, and their course over the run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import pygame
+
+from ninja_game.directed.formula import Numbers
+from ninja_game.errors import NinjaGameError
+from ninja_game.play.editor.panels import Form
+from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.part import Commands
+from ninja_game.play.tas.tabs.object_list import ObjectList
+from ninja_game.play.tas.tabs.plot import Window, colour_of, draw_lane
+from ninja_game.play.tas.tabs.tab import SMALL, Rows, Tab, buttons_in_a_row, what_is_wrong
+from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.runs.splits import SPLIT_EVENTS
+from ninja_game.tas.watch import Watch, parse_watch
+
+LANES = 4
+"""Values whose course is shown at once."""
+LONGEST = 200
+"""Characters of a formula that one can type."""
+
+_PLOT: Area = (214, 377, 210, 180)
+_STILL = 3.0
+"""The mouse that moves less, px, clicks."""
+
+
+@dataclass(eq=False)
+class Watched:
+    """A value that is watched. ``plotted``: its course is shown; ``number``: of its colour."""
+
+    watch: Watch
+    number: int
+    plotted: bool = True
+    values: Numbers = field(default_factory=lambda: np.zeros(0))
+
+
+class ValuesTab(Tab):
+    """The list of watched values at the left, their plots at the right."""
+
+    name = "Values"
+
+    def __init__(self, bench: Bench) -> None:
+        super().__init__(bench)
+        self.watched = [Watched(parse_watch(text), number) for number, text in enumerate(("speed", "vx", "vy"))]
+        self.window = Window(_PLOT[0], _PLOT[2])
+        self.events: list[tuple[int, str]] = []
+        self.list = Rows((10, 378, 168, 176), self._draw_row, self._toggle, empty="V watches a value")
+        buttons = buttons_in_a_row(
+            10, 555, [("Watch", 48, self.ask), ("Objects", 54, self.show_objects), ("Remove", 54, self.remove)]
+        )
+        self.widgets = [self.list, *buttons]
+        self._made: tuple[object, ...] = ()
+        self._cursor = 0
+        self._grabbed: float | None = None
+        self._dragged = False
+
+    def commands(self) -> Commands:
+        """Watching."""
+        return {"watch": self.ask}
+
+    # --- the values ---
+
+    def refresh(self) -> None:
+        """Have the values of the run as it is now."""
+        timeline = self.bench.session.timeline
+        made = (self.bench.take.inputs, timeline.valid, *self.watched)
+        if made != self._made:
+            for each in self.watched:
+                each.values = each.watch.values(timeline)
+            self.events = timeline.event_ticks
+            self._made = made
+            self.list.fill(self.watched)
+
+    def ask(self, text: str = "") -> None:
+        """Ask for a formula."""
+        self.bench.tab = self.name
+        fields = [("speed, x > 400, object_x(12) ...", text, LONGEST)]
+        self.bench.app.push(Form(self.bench.app, "Watch a value", fields, "Watch", lambda texts: self.add(texts[0])))
+
+    def add(self, text: str) -> None:
+        """Watch a formula; what is wrong with it is told, and asked again."""
+        try:
+            watch = parse_watch(text)
+            watch.values(self.bench.session.timeline)
+        except NinjaGameError as error:
+            self.bench.app.notify(what_is_wrong(error))
+            self.ask(text)
+            return
+        number = next(k for k in range(len(self.watched) + 1) if k not in {each.number for each in self.watched})
+        self.watched.append(Watched(watch, number))
+        self.list.fill(self.watched)
+        self.list.nudge("last")
+        self._few_lanes(self.watched[-1])
+
+    def remove(self) -> None:
+        """Watch the chosen value no more."""
+        del self.watched[self.list.index : self.list.index + 1]
+        self.list.fill(self.watched)
+
+    def show_objects(self) -> None:
+        """The list of all objects; one that is chosen is proposed to be watched."""
+        self.bench.app.push(ObjectList(self.bench.app, self.bench.session.timeline.objects, self.ask))
+
+    def _toggle(self, index: int) -> None:
+        each = self.watched[index]
+        each.plotted = not each.plotted
+        self._few_lanes(each)
+
+    def _few_lanes(self, latest: Watched) -> None:
+        """Where too many are plotted, the first other one goes."""
+        others = [each for each in self.watched if each.plotted and each is not latest]
+        if latest.plotted and len(others) >= LANES:
+            others[0].plotted = False
+
+    # --- picture ---
+
+    def update(self, real_ms: int) -> None:
+        """While it is shown: follow the run and the cursor."""
+        if self.bench.tab != self.name:
+            return
+        self.refresh()
+        self.window.fit(self.bench.last_tick)
+        if self.bench.cursor != self._cursor:
+            self._cursor = self.bench.cursor
+            self.window.follow(self._cursor)
+
+    def look(self) -> tuple[object, ...]:
+        """Run, cursor, selection, what is watched, what is shown of it."""
+        bench = self.bench
+        plotted = tuple((each, each.plotted) for each in self.watched)
+        shown = self.window.first, self.window.last
+        return bench.take, bench.session.timeline.valid, bench.cursor, bench.selection, plotted, shown
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        """The plots; the list is a widget."""
+        super().paint(surface, theme)
+        x, y, w, h = _PLOT
+        lanes = [each for each in self.watched if each.plotted]
+        if not lanes:
+            theme.text(surface, "Click a value to see its course", x + w / 2, y + h / 2, size=SMALL, align="centre",
+                       colour=theme.palette.faint, width=w)  # fmt: skip
+        for k, each in enumerate(lanes):
+            lane = (x, y + h * k / len(lanes), w, h / len(lanes) - 3)
+            draw_lane(surface, theme, lane, self.window, each.values, colour_of(each.number, theme.palette))
+        self._paint_ticks(surface, theme)
+
+    def _paint_ticks(self, surface: pygame.Surface, theme: Theme) -> None:
+        """Selection, events, the cursor, and the numbers of ticks below."""
+        canvas, palette, window = theme.canvas, theme.palette, self.window
+        x, y, w, h = _PLOT
+        before = surface.get_clip()
+        surface.set_clip(canvas.rect(x, y, w, h + 8))
+        first, last = self.bench.selection
+        if last - first > 1:
+            tint = pygame.Color(palette.accent.r, palette.accent.g, palette.accent.b, 40)
+            canvas.fill_rect(surface, tint, window.x(first), y, window.x(last) - window.x(first), h)
+        for tick, names in self.events:
+            if window.first <= tick <= window.last:
+                counts = any(name in SPLIT_EVENTS for name in names.split())
+                colour = palette.gold_dark if "gold-taken" in names else palette.accent if counts else palette.faint
+                canvas.fill_rect(surface, colour, window.x(tick) - 0.5, y + h - 1, 1, 7 if counts else 3)
+        canvas.fill_rect(surface, palette.accent, window.x(self.bench.cursor) - 0.5, y, 1, h)
+        surface.set_clip(before)
+        for tick in window.axis():
+            theme.text(surface, str(tick), window.x(tick), y + h + 7, size=8, colour=palette.faint, align="centre")
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
+        """A sign of its colour, the formula, the value at the cursor."""
+        each, palette = self.watched[index], theme.palette
+        x, y, w, h = area
+        sign = (x + 4, y + h / 2 - 4, 8, 8)
+        colour = colour_of(each.number, palette)
+        if each.plotted:
+            theme.canvas.fill_rect(surface, colour, *sign, 2)
+        else:
+            theme.canvas.frame_rect(surface, colour, *sign, 1, 2)
+        value = shown_value(each, self.bench.cursor)
+        right = theme.text(surface, value, x + w - 4, y + 3, size=SMALL, bold=True, align="right")
+        room = right.left / theme.canvas.scale - theme.canvas.origin[0] / theme.canvas.scale - (x + 16) - 4
+        theme.text(surface, each.watch.text, x + 16, y + 3, size=SMALL, width=room)
+
+    # --- mouse ---
+
+    def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
+        """In the plot: the wheel zooms, a drag moves, a click puts the cursor there, the right button shows all."""
+        left, top, w, h = _PLOT
+        inside = left <= x < left + w and top <= y < top + h + 18
+        if event.type == pygame.MOUSEBUTTONUP and self._grabbed is not None:
+            if not self._dragged:
+                self.bench.go(round(self.window.tick(x)), select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
+            self._grabbed = None
+            return True
+        if event.type == pygame.MOUSEMOTION and self._grabbed is not None:
+            self._dragged = self._dragged or abs(x - self._grabbed) > _STILL
+            if self._dragged:
+                self.window.move(self.window.tick(self._grabbed) - self.window.tick(x))
+                self._grabbed = x
+            return True
+        if not inside:
+            return False
+        if event.type == pygame.MOUSEWHEEL:
+            self.window.zoom(x, event.y)
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
+            self._grabbed, self._dragged = x, False
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 3:
+            self.window.show_all()
+        return True
+
+
+def shown_value(each: Watched, tick: int) -> str:
+    """A value at a tick, as the list has it."""
+    value = float(each.values[tick]) if tick < len(each.values) else np.nan
+    if not np.isfinite(value):
+        return "-"
+    if each.watch.formula.truth:
+        return "yes" if value > 0 else "no"
+    return f"{value:.6g}"

@@ -1,0 +1,23 @@
+"""Somebody at the bench with a run of a small level."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from shutil import copy
+
+import pytest
+
+from tests.support.bench_driver import BenchDriver
+from tests.support.own_pack import PACK
+
+RUN = PACK / "certificates" / "01-2-the-works.exit.replay.txt"
+
+
+@pytest.fixture(name="at")
+def bench_with_a_run(tmp_path: Path) -> Iterator[BenchDriver]:
+    driver = BenchDriver(tmp_path / "player", Path(copy(RUN, tmp_path / "run.replay.txt")))
+    try:
+        yield driver
+    finally:
+        driver.close()

@@ -1,0 +1,74 @@
+"""Somebody at the bench, with mouse and keys."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pygame
+
+from ninja_game.play.app import build_app
+from ninja_game.play.input.scancodes import SCANCODES
+from ninja_game.play.tas.screen import TasScreen
+from ninja_game.play.ui.widgets import Widget
+from ninja_game.tas.files import open_run
+from tests.support.menu_driver import MenuDriver, ScriptedKeys
+
+
+class BenchDriver(MenuDriver):
+    """A run on the bench, alone in its window."""
+
+    def __init__(self, folder: Path, run: Path, size: tuple[int, int] = (792, 600)) -> None:
+        self.keys = ScriptedKeys()
+        self.keys.script = []
+        self.app = build_app(folder, size=size, controls=self.keys)
+        self.screen = TasScreen(self.app, open_run(run))
+        self.bench = self.screen.bench
+        self.session = self.screen.session
+        self.app.push(self.screen)
+        self.frames(2)
+
+    def event(self, kind: int, x: float = 0, y: float = 0, **more: object) -> None:
+        """A mouse event at a logical point, and a picture."""
+        px = self.app.canvas.point(x, y)
+        shared = {"pos": px, "rel": (0, 0), "buttons": (0, 0, 0), "touch": False}
+        pygame.event.post(pygame.Event(kind, shared | more))
+        self.frames()
+
+    def drag(self, *places: tuple[float, float], button: int = 1) -> None:
+        """Press a mouse button at the first place, go to all others, release it."""
+        self.event(pygame.MOUSEMOTION, *places[0])
+        self.event(pygame.MOUSEBUTTONDOWN, *places[0], button=button)
+        for place in places[1:]:
+            self.event(pygame.MOUSEMOTION, *place)
+        self.event(pygame.MOUSEBUTTONUP, *places[-1], button=button)
+
+    def chord(self, key: str, *modifiers: int) -> None:
+        """A key with modifiers."""
+        for kind in (pygame.KEYDOWN, pygame.KEYUP):
+            pygame.event.post(pygame.Event(kind, key=0, scancode=SCANCODES[key], mod=sum(modifiers), unicode=""))
+        self.frames()
+
+    def write(self, text: str) -> None:
+        """Type any text, as the system gives it behind the keys."""
+        pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=text))
+        self.frames()
+
+    def button(self, text: str) -> Widget:
+        """The widget with a text on the screen on top."""
+        widgets = self.top().widgets  # type: ignore[attr-defined]
+        found: Widget = next(each for each in widgets if getattr(each, "text", "") == text)
+        return found
+
+    def choose(self, text: str) -> None:
+        """Click the button with a text."""
+        self.mouse(*self.button(text).centre)
+
+    def wait(self, condition: Callable[[], object], what: str, *, seconds: float = 60.0) -> None:
+        """Let pictures pass until something is so."""
+        end = time.monotonic() + seconds
+        while not condition():
+            assert time.monotonic() < end, what
+            time.sleep(0.01)
+            self.frames()
