@@ -7,6 +7,8 @@ keyboard, exactly in the tick in which it goes down.
 
 from __future__ import annotations
 
+from functools import cache
+
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, pressed
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import TileMap, World
@@ -58,6 +60,7 @@ def action_code(direction: int, mode: int, held: int, ticks: int) -> int:
     return (direction + 1) | mode << 2 | held << 4 | ticks << 8
 
 
+@cache
 def action_inputs(action: int) -> bytes:
     """The inputs of an action, one byte a tick."""
     direction, mode, held, ticks = (action & 3) - 1, action >> 2 & 3, action >> 4 & 1, action >> 8

@@ -205,8 +205,8 @@ def new_memory(nodes: int) -> SearchMemory:
 
 
 def clear(memory: Any) -> None:
-    """Forget all nodes, entries, links and save-states."""
-    memory.table[:] = 0
+    """Forget all nodes, entries, links and save-states. The table is that of the nodes, or an empty one."""
+    memory.table[memory.nodes["entry"][: int(memory.counters[0].nodes)]] = 0
     memory.chunk_next[:] = np.arange(1, len(memory.chunk_next) + 1, dtype=np.int32)
     memory.chunk_next[-1] = -1
     memory.buckets[:] = -1

@@ -138,9 +138,9 @@ class Search:
         """The table of the search just made, with its values; the next search gets the other table."""
         table = self.memory.table
         compiled(back_up_values)(table, self.memory.links, int(self.counters.links), SWEEPS)
-        self.memory = self.memory._replace(
-            table=new_table(self._nodes) if self._other_table is None else self._other_table
-        )
+        other = new_table(self._nodes) if self._other_table is None else self._other_table
+        other[:] = 0
+        self.memory = self.memory._replace(table=other)
         self._other_table = table
         return Guide(table, self.resolution)
 
@@ -197,11 +197,12 @@ class Search:
 
     def _path(self, index: int) -> tuple[int, bytes]:
         """From which root a node comes, and the inputs from there, one byte a tick."""
-        nodes = self.memory.nodes
+        nodes: Any = self.memory.nodes
+        parents, actions = nodes["parent"], nodes["action"]
         parts = []
-        while nodes[index].parent >= 0:
-            parts.append(action_inputs(int(nodes[index].action)))
-            index = int(nodes[index].parent)
+        while parents[index] >= 0:
+            parts.append(action_inputs(int(actions[index])))
+            index = int(parents[index])
         return index, b"".join(reversed(parts))
 
     @property

@@ -13,6 +13,8 @@ FAR = 20_000.0
 """Ticks that an unreachable piece counts."""
 FAILED = 200.0
 """Ticks that a way counts at least which a leg did not find."""
+SLOWER, TURN = 1.4, 10.0
+"""What legs take, against distance fields, which know no run-ups: so many times the ticks, and ticks more a piece."""
 FIELDS_KEPT = 400
 MASKS_KEPT = 16
 
@@ -55,12 +57,13 @@ class PieceTicks:
                 self._distances.clear()
             self._distances[mask] = self._heuristics.tour_fields(mask)
         fields = self._distances[mask]
-        far = np.minimum(np.vstack([fields[:-1, self._points].T, fields[:-1, here]]).astype(float), FAR)
+        far = np.vstack([fields[:-1, self._points].T, fields[:-1, here]]).astype(float)
+        far = np.minimum(SLOWER * far + TURN, FAR)
         row = _last_piece(moment)
         known = np.vstack([self._measured[:-1], self._measured[row]])
         factors = np.vstack([self._factors[:-1], self._factors[row]])
         ticks = np.where(np.isnan(known), far, known) * factors
-        home = np.append(fields[-1, self._points], fields[-1, here]).astype(float)
+        home = SLOWER * np.append(fields[-1, self._points], fields[-1, here]).astype(float)
         return ticks[:-1], ticks[-1], np.minimum(home, FAR)
 
     def field(self, target: int, mask: int, x: float, y: float) -> Field:

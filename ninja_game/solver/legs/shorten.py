@@ -40,11 +40,11 @@ ENDS = 80
 """Moments kept in a front, and ends of a leg."""
 EFFORTS = (1, 4)
 """How many times the ticks of a leg a front gets; the second only if the first found nothing: far pieces need more."""
-BREADTHS = (1, 2, 1, 2, 4)
+BREADTHS = (3, 6, 3, 6, 10)
 """Fronts that are searched on from at each level, sweep by sweep."""
 SPARE = 2
 """Fronts that may take the place of others whose legs found nothing."""
-FRONTS_KEPT = 6
+FRONTS_KEPT = 10
 """Fronts kept at each level from sweep to sweep."""
 ROLLOUTS = 16
 NEVER = 1 << 30
