@@ -35,6 +35,7 @@ class Bench:
     ``anchor``: where a selection began; None: only the tick under the cursor is selected. ``others``: runs that were
     opened beside this one; ``chosen``: the number of the one that parts are taken from, where there are any.
     ``preview``: a result of a search that is looked at. ``tab``: the name of the tab that is to be shown.
+    ``against``: the run that the lead is told over; None: the run as it was opened.
     """
 
     def __init__(self, app: App, session: Session) -> None:
@@ -47,6 +48,7 @@ class Bench:
         self.ghosts = True
         self.preview: OtherRun | None = None
         self.tab = "Values"
+        self.against: Take | None = None
 
     @property
     def take(self) -> Take:

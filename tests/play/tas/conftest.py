@@ -11,7 +11,7 @@ import pytest
 from tests.support.bench_driver import BenchDriver
 from tests.support.own_pack import PACK
 
-RUN = PACK / "certificates" / "01-2-the-works.exit.replay.txt"
+RUN = PACK / "certificates" / "00-2-the-chimney.exit.replay.txt"
 
 
 @pytest.fixture(name="at")

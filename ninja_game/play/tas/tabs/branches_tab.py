@@ -1,15 +1,151 @@
-"""Branches."""
+"""Branches: takes that are kept, as a tree."""
 
 from __future__ import annotations
 
-from ninja_game.play.tas.tabs.tab import Tab
+import pygame
+
+from ninja_game.play.editor.panels import Form
+from ninja_game.play.menus.panels import Question
+from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.part import Commands
+from ninja_game.play.tas.tabs.tab import SMALL, Rows, Tab, buttons_in_a_row
+from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.widgets import Button
+from ninja_game.tas.branches import Branch, Branches
+
+LONGEST = 60
+"""Characters of a name."""
+
+_INDENT, _DEEPEST = 9, 12
+_COLUMNS = (230, 292, 340)
+"""Where end, gold and the difference stand, px from the left of a row."""
 
 
 class BranchesTab(Tab):
-    """Branches."""
+    """The tree of branches, and what can be done with the chosen one."""
 
     name = "Branches"
 
+    def __init__(self, bench: Bench) -> None:
+        super().__init__(bench)
+        self.tree: list[tuple[int, int]] = []
+        self.list = Rows((10, 393, 416, 160), self._draw_row, lambda _: None, empty="B keeps the run as a branch")
+        actions = [("Keep", 46, self.keep), ("Go to it", 58, self.take), ("Compare", 58, self.compare),
+                   ("Rename", 56, self.rename), ("Drop", 46, self.drop)]  # fmt: skip
+        keep, *self._for_one = buttons_in_a_row(10, 556, actions)
+        self.widgets: list[Rows | Button] = [self.list, keep, *self._for_one]
+
+    def commands(self) -> Commands:
+        """Keeping."""
+        return {"branch": self.keep}
+
+    @property
+    def branches(self) -> Branches:
+        """The run's."""
+        return self.bench.session.branches
+
+    @property
+    def chosen(self) -> int | None:
+        """The number of the branch that is chosen in the tree."""
+        return self.tree[self.list.index][0] if self.list.index < len(self.tree) else None
+
+    # --- what can be done ---
+
+    def keep(self) -> None:
+        """Keep the run as a branch, after asking for a name."""
+        self.bench.tab = self.name
+        session = self.bench.session
+        end, outcome = session.timeline.end
+        name = f"{outcome} {end}" if end >= 0 else f"branch {len(self.branches) + 1}"
+
+        def kept(texts: list[str]) -> None:
+            number = session.keep_branch(texts[0].strip() or name)
+            self.refresh()
+            self.list.index = [each for each, _ in self.tree].index(number)
+
+        app = self.bench.app
+        app.push(Form(app, "Keep the run as a branch", [("its name", name, LONGEST)], "Keep", kept))
+
+    def take(self) -> None:
+        """Go on from the chosen branch."""
+        number = self.chosen
+        if number is not None:
+            self.bench.attempt(lambda: self.bench.session.take_branch(number))
+
+    def compare(self) -> None:
+        """Show the lead over the chosen branch."""
+        if self.chosen is not None:
+            self.bench.against = self.branches.all[self.chosen].take
+            self.bench.tab = "Lead"
+
+    def rename(self) -> None:
+        """Ask for another name."""
+        number = self.chosen
+        if number is None:
+            return
+        app, session, old = self.bench.app, self.bench.session, self.branches.all[number].name
+
+        def renamed(texts: list[str]) -> None:
+            session.rename_branch(number, texts[0].strip() or old)
+
+        app.push(Form(app, "Rename the branch", [("its name", old, LONGEST)], "Rename", renamed))
+
+    def drop(self) -> None:
+        """Forget the chosen branch, after a question."""
+        number = self.chosen
+        if number is not None:
+            app, session = self.bench.app, self.bench.session
+            title = f"Drop {self.branches.all[number].name}?"
+            app.push(Question(app, title, "Drop it", lambda: session.drop_branch(number)))
+
+    # --- picture ---
+
+    def refresh(self) -> None:
+        """Have the tree as it is now."""
+        self.tree = list(self.branches.in_tree())
+        self.list.fill(self.tree)
+        for button in self._for_one:
+            button.enabled = bool(self.tree)
+
     def look(self) -> tuple[object, ...]:
-        """Nothing but its background."""
-        return ()
+        """Branches, the run and its end."""
+        session = self.bench.session
+        return tuple(self.branches.all), self.branches.current, session.take, session.timeline.end
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        """The names of the columns; the list is a widget."""
+        super().paint(surface, theme)
+        self.refresh()
+        x, y, _, _ = self.list.area
+        for at, text in zip((8, *_COLUMNS), ("Branch", "Ends in tick", "Gold", "Against the run now"), strict=True):
+            theme.text(surface, text, x + at, y - 13, size=8, colour=theme.palette.faint)
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
+        """Name, end, gold, the difference to the run."""
+        number, depth = self.tree[index]
+        branch, palette = self.branches.all[number], theme.palette
+        x, y, h = area[0], area[1], area[3]
+        left = x + 16 + _INDENT * min(depth, _DEEPEST)
+        current = number == self.branches.current
+        if current:
+            tip = left - 4
+            theme.canvas.polygon(surface, palette.accent, [(tip - 6, y + 4), (tip - 6, y + h - 4), (tip, y + h / 2)])
+        changed = " (changed since)" if current and branch.take != self.bench.take else ""
+        room = x + _COLUMNS[0] - left - 6
+        theme.text(surface, branch.name + changed, left, y + 3, size=SMALL, bold=current, width=room)
+        cells = (f"{branch.outcome} {branch.end}" if branch.end >= 0 else "no end", str(branch.gold))
+        for at, text in zip(_COLUMNS, cells, strict=False):
+            theme.text(surface, text, x + at, y + 3, size=SMALL)
+        words, ahead = self._difference(branch)
+        colour = palette.good if ahead > 0 else palette.bad if ahead < 0 else palette.text
+        theme.text(surface, words, x + _COLUMNS[2], y + 3, size=SMALL, bold=bool(ahead), colour=colour)
+
+    def _difference(self, branch: Branch) -> tuple[str, int]:
+        """How much a branch is shorter than the run, in words and ticks."""
+        end, outcome = self.bench.session.timeline.end
+        if branch.take.inputs == self.bench.take.inputs:
+            return "the same", 0
+        if {branch.outcome, outcome} != {"exit"}:
+            return "", 0
+        ahead = end - branch.end
+        return ("as long" if not ahead else f"{abs(ahead)} {'shorter' if ahead > 0 else 'longer'}"), ahead

@@ -1,0 +1,95 @@
+"""The tab of branches: kept, chosen, gone to, renamed, dropped."""
+
+from __future__ import annotations
+
+import pytest
+
+from ninja_game.play.menus.panels import Question
+from ninja_game.play.tas.tabs.branches_tab import BranchesTab
+from ninja_game.sim.inputs import Input
+from tests.support.bench_driver import BenchDriver
+
+
+@pytest.fixture(name="tab")
+def branches_tab(at: BenchDriver) -> BranchesTab:
+    at.choose("Branches")
+    tab = at.screen.tab
+    assert isinstance(tab, BranchesTab)
+    return tab
+
+
+def keep(at: BenchDriver, name: str) -> None:
+    at.press("b")
+    at.write(name)
+    at.press("return")
+
+
+def row(at: BenchDriver, tab: BranchesTab, index: int) -> None:
+    x, y, _, h = tab.list.row_area(index)
+    at.mouse(x + 60, y + h / 2)
+
+
+def test_the_name_that_is_proposed_is_the_outcome(at: BenchDriver, tab: BranchesTab) -> None:
+    at.press("b", "return")
+    end, outcome = at.session.timeline.end
+    assert [branch.name for branch in tab.branches.all] == [f"{outcome} {end}"]
+
+
+def test_branches_are_shown_as_a_tree(at: BenchDriver, tab: BranchesTab) -> None:
+    for name in ("one", "two"):
+        keep(at, name)
+    row(at, tab, 0)
+    at.choose("Go to it")
+    keep(at, "three")
+    assert [(tab.branches.all[number].name[-5:], depth) for number, depth in tab.tree] == [
+        (tab.branches.all[0].name[-5:], 0), (tab.branches.all[1].name[-5:], 1), (tab.branches.all[2].name[-5:], 1),
+    ]  # fmt: skip
+    assert tab.chosen == 2, "the one that was kept last"
+
+
+def test_going_to_a_branch_is_an_edit(at: BenchDriver, tab: BranchesTab) -> None:
+    first = at.bench.take
+    keep(at, "")
+    at.bench.edit(lambda take: take.with_key(5, 9, Input.LEFT, down=True))
+    second = at.bench.take
+    row(at, tab, 0)
+    assert at.bench.take == second, "a click only chooses"
+    at.choose("Go to it")
+    assert at.bench.take == first
+    at.session.undo()
+    assert at.bench.take == second
+
+
+def test_a_branch_is_renamed_and_dropped_after_a_question(at: BenchDriver, tab: BranchesTab) -> None:
+    keep(at, "")
+    at.choose("Rename")
+    at.write(" again")
+    at.press("return")
+    assert tab.branches.all[0].name.endswith(" again")
+    at.choose("Drop")
+    assert isinstance(at.top(), Question)
+    at.press("return")
+    assert len(tab.branches) == 1, "stay is the first answer"
+    at.choose("Drop")
+    at.choose("Drop it")
+    assert not tab.branches.all
+    for text in ("Go to it", "Rename", "Drop", "Compare"):
+        at.choose(text)
+    assert at.top() is at.screen, "without a branch there is nothing to do"
+
+
+def test_comparing_opens_the_lead_over_the_branch(at: BenchDriver, tab: BranchesTab) -> None:
+    keep(at, "")
+    at.bench.edit(lambda take: take.with_key(5, 9, Input.LEFT, down=True))
+    at.choose("Compare")
+    assert at.screen.tab.name == "Lead"
+    assert at.bench.against == tab.branches.all[0].take
+
+
+def test_differences_are_told_between_runs_to_the_exit(at: BenchDriver, tab: BranchesTab) -> None:
+    keep(at, "")
+    assert tab._difference(tab.branches.all[0]) == ("the same", 0)
+    at.bench.edit(lambda take: take.replaced(0, 0, [0] * 3))
+    assert tab._difference(tab.branches.all[0]) == ("3 shorter", 3)
+    at.bench.edit(lambda take: take.replaced(10, len(take), []))
+    assert tab._difference(tab.branches.all[0]) == ("", 0)
