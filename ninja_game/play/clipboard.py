@@ -29,6 +29,17 @@ def copy_text(app: App, text: str, *, title: str, suffix: str) -> None:
         app.notify(f"In the clipboard: {len(text):,} characters")
 
 
+def pasted_text() -> str:
+    """The text in the clipboard. Raises NinjaGameError where there is none."""
+    try:
+        text: str = pygame.scrap.get_text()
+    except pygame.error:
+        text = ""
+    if not text.strip():
+        raise NinjaGameError("there is no text in the clipboard: copy it first")
+    return text
+
+
 def copy_link(app: App, make: Callable[[], str], *, title: str) -> None:
     """Put the link that ``make`` gives behind the address of the player's page, and into the clipboard."""
     try:

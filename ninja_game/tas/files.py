@@ -13,10 +13,13 @@ from ninja_game.editor.files import OccupiedError
 from ninja_game.errors import NinjaGameError, ReplayError
 from ninja_game.files.reading import read_bytes, read_utf8
 from ninja_game.files.writing import write_atomically
+from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.input_text import Inputs, read_inputs
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
+from ninja_game.formats.tas_lines import in_our_notation, is_tas_text
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.inputs import Demo
 from ninja_game.sim.level import Level
@@ -69,6 +72,20 @@ def take_of(recording: Recording) -> Take:
     """A recording as a take: the keys of all ticks that it plays."""
     markers = recording.replay.markers if recording.replay else ()
     return Take(recording.playback(recording.ticks), tuple(each for each in markers if each.tick <= recording.ticks))
+
+
+def inputs_of_text(text: str, place: str) -> Inputs:
+    """The ticks that a text describes: one of our replays, our notation without anything else, or another tool's.
+
+    ``place``: what the text is called in messages. Raises ReplayError, also for a text without ticks; LevelError.
+    """
+    if is_replay(text):
+        replay = parse_replay(text, file=place)
+        return Inputs(replay.inputs, replay.markers)
+    inputs = read_inputs(in_our_notation(text, place) if is_tas_text(text) else numbered_lines(text), file=place)
+    if not inputs.keys:
+        raise ReplayError("there are no inputs", place, expected="keys and counts, such as R*30 RJ*10")
+    return inputs
 
 
 def _written_by_us(data: bytes) -> bool:

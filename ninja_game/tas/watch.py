@@ -63,9 +63,12 @@ def parse_watch(text: str) -> Watch:
             raise error from None
 
 
-def exit_distance(timeline: Timeline) -> Numbers:
-    """How far the ninja is from the disc of the nearest exit after each tick, px; 0 or less: it touches it."""
-    x, y = timeline.column("x"), timeline.column("y")
+def exit_distance(timeline: Timeline, span: slice = slice(None)) -> Numbers:
+    """How far the ninja is from the disc of the nearest exit after each tick, px; 0 or less: it touches it.
+
+    ``span``: of these ticks only.
+    """
+    x, y = timeline.column("x")[span], timeline.column("y")[span]
     far = [np.hypot(x - exit_x, y - exit_y) for exit_x, exit_y in timeline.exits] or [np.full(len(x), np.inf)]
     nearest: Numbers = np.min(far, axis=0) - (EXIT_RADIUS + RADIUS)
     return nearest

@@ -41,8 +41,16 @@ class BenchDriver(MenuDriver):
         self.event(pygame.MOUSEMOTION, *places[0])
         self.event(pygame.MOUSEBUTTONDOWN, *places[0], button=button)
         for place in places[1:]:
-            self.event(pygame.MOUSEMOTION, *place)
+            self.event(pygame.MOUSEMOTION, *place, buttons=(button == 1, button == 2, button == 3))
         self.event(pygame.MOUSEBUTTONUP, *places[-1], button=button)
+
+    def cell(self, tick: int, column: str) -> tuple[float, float]:
+        """The middle of a cell of the roll, which may be beyond its edges; a logical point."""
+        roll = self.screen.roll
+        layout = roll.layout
+        place = next(each for each in layout.places if each.column.name == column)
+        y = layout.body.top + (tick - roll.top) * layout.row + layout.row // 2
+        return self.app.canvas.logical((place.left + place.width // 2, y))
 
     def chord(self, key: str, *modifiers: int) -> None:
         """A key with modifiers."""

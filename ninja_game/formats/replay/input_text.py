@@ -22,7 +22,7 @@ DEEPEST = 8
 _WORD = re.compile(r";.*|\(|\)[^ \t();]*|[^ \t();]+")
 _RUN = re.compile(r"(\.|L?R?J?)([!-]?)(?:\*([1-9][0-9]{0,6}))?")
 _BLOCK_END = re.compile(r"\)(?:\*([1-9][0-9]{0,6}))?")
-_MARKER = re.compile(r"#([\w.-]{1,100})")
+_NAME = re.compile(r"[\w.-]{1,100}")
 _INCLUDE = re.compile(r"[ \t]*include[ \t]+([^;]*)(?:;.*)?")
 
 _KEY_BITS = {text: keys for keys, text in enumerate(KEY_NAMES)}
@@ -49,6 +49,14 @@ def read_inputs(lines: Iterable[Line], *, file: str = "", include: Include | Non
     """
     reader = _Reader(include)
     return _as_inputs(reader.block(lines, [file]).items)
+
+
+def marker_name(name: str, file: str = "", line: int = 0, column: int = 0) -> str:
+    """The name, if it is one for a marker. Raises ReplayError."""
+    if _NAME.fullmatch(name):
+        return name
+    expected = "a name of letters, digits, '-', '_' and '.', such as #first-jump"
+    raise ReplayError("not a marker", file, line, column, repr(f"#{name}"[:30]), expected)
 
 
 @dataclass
@@ -103,14 +111,11 @@ class _Reader:
         elif text.startswith(")"):
             _end_block(text, stack, place)
         elif text.startswith("#"):
-            name = _MARKER.fullmatch(text)
-            if not name:
-                expected = "a name of letters, digits, '-', '_' and '.', such as #first-jump"
-                raise ReplayError("not a marker", *place, repr(text[:30]), expected)
-            if name[1] in seen:
+            name = marker_name(text[1:], *place)
+            if name in seen:
                 raise ReplayError("a marker given twice", *place, repr(text), hint="choose another name")
-            seen.add(name[1])
-            stack[-1].items.append(name[1])
+            seen.add(name)
+            stack[-1].items.append(name)
         else:
             match = _RUN.fullmatch(text)
             if match is None or not match[1]:

@@ -6,8 +6,6 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING
 
-import pygame
-
 from ninja_game.editor.autosave import Autosave, Recovered
 from ninja_game.editor.background import NewestJob
 from ninja_game.editor.bench import Bench
@@ -22,7 +20,7 @@ from ninja_game.files.user_folder import free_path
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
-from ninja_game.play.clipboard import copy_level_link, copy_text, write_export
+from ninja_game.play.clipboard import copy_level_link, copy_text, pasted_text, write_export
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.play.window import save_picture
 from ninja_game.player.saving import keep_replay
@@ -153,9 +151,9 @@ class EditorSession:
         """The level of a text in the clipboard, in any format, in the place of this one; it can be undone."""
         try:
             self.bench.finish()
-            self.bench.history.change(draft_of_text(pygame.scrap.get_text(), self.draft))
+            self.bench.history.change(draft_of_text(pasted_text(), self.draft))
             self.app.notify("The level of the clipboard; undo brings yours back")
-        except (pygame.error, NinjaGameError):
+        except NinjaGameError:
             self.app.notify("There is no level in the clipboard: copy its text first")
 
     # --- tests and certificates ---

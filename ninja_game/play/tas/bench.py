@@ -36,6 +36,7 @@ class Bench:
     opened beside this one; ``chosen``: the number of the one that parts are taken from, where there are any.
     ``preview``: a result of a search that is looked at. ``tab``: the name of the tab that is to be shown.
     ``against``: the run that the lead is told over; None: the run as it was opened.
+    ``hint``: of what is under the mouse, for the line below.
     """
 
     def __init__(self, app: App, session: Session) -> None:
@@ -49,6 +50,7 @@ class Bench:
         self.preview: OtherRun | None = None
         self.tab = "Values"
         self.against: Take | None = None
+        self.hint = ""
 
     @property
     def take(self) -> Take:

@@ -43,8 +43,9 @@ class Foot(Part):
     area = (0, 579, 792, 21)
 
     def look(self) -> tuple[object, ...]:
-        """Cursor, selection, the run's length."""
-        return self.bench.cursor, self.bench.selection, len(self.bench.take), self.bench.session.timeline.valid
+        """Cursor, selection, the run's length, the hint."""
+        bench = self.bench
+        return bench.cursor, bench.selection, len(bench.take), bench.session.timeline.valid, bench.hint
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """One line."""
@@ -56,5 +57,7 @@ class Foot(Part):
         known = "" if timeline.complete else f"   simulated up to {timeline.valid}"
         text = f"tick {bench.cursor} of {len(bench.take)}{selected}{known}"
         theme.text(surface, text, 8, 584, size=9.5, colour=palette.on_tile)
-        hint = "Click L R J to change keys; Enter: take over; F: search; F1: help"
-        theme.text(surface, hint, 784, 584, size=9.5, colour=palette.on_tile, align="right")
+        hint = bench.hint or "Click L R J to change keys; Enter: take over; F: search; F1: help"
+        theme.text(
+            surface, hint, 784, 584, size=9.5, colour=palette.on_tile, align="right", width=764 - theme.width(text, 9.5)
+        )

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.play.input.events import InputEvent
-from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.menu_screen import LONGEST_STEP_MS, MenuScreen
 from ninja_game.play.tas.bench import Bench
-from ninja_game.play.tas.controls import command_of
+from ninja_game.play.tas.controls import FIRST_REPEAT_MS, REPEAT_MS, REPEATING, command_of
 from ninja_game.play.tas.file_commands import FileCommands
 from ninja_game.play.tas.head import Foot, Head
 from ninja_game.play.tas.level_part import LevelPart
 from ninja_game.play.tas.part import Commands, Part
-from ninja_game.play.tas.roll import Roll
+from ninja_game.play.tas.roll.part import Roll
 from ninja_game.play.tas.tabs.all_tabs import all_tabs
 from ninja_game.play.tas.tabs.tab import Tab, TabName
 from ninja_game.play.ui.text_entry import TextEntry
@@ -49,6 +49,7 @@ class TasScreen(MenuScreen):
         self._entered = False
         self._widgets_stale = True
         self._dragging: Part | None = None
+        self._held_command, self._held_key, self._again_in = "", 0, 0
 
     @property
     def parts(self) -> list[Part]:
@@ -86,6 +87,7 @@ class TasScreen(MenuScreen):
         super().leave()
         self.level.stop()
         self.session.end()
+        self._held_command = ""
         if self not in self.app.stack:
             for tab in self.tabs:
                 tab.close()
@@ -136,11 +138,17 @@ class TasScreen(MenuScreen):
     def handle(self, event: InputEvent) -> None:
         """Commands, then the mouse, then the widgets of the tab."""
         command = command_of(event)
+        if event.raw.type == pygame.KEYDOWN or (
+            event.raw.type == pygame.KEYUP and event.raw.scancode == self._held_key
+        ):
+            self._held_command = ""
         typing = self.focus is not None and event.menu in ("confirm", "up", "down", "left", "right", "first", "last")
         if event.raw.type in _MOUSE:
             self._give_mouse(event.raw)
         elif command and not typing:
             self.commands()[command]()
+            if command in REPEATING:
+                self._held_command, self._held_key, self._again_in = command, event.raw.scancode, FIRST_REPEAT_MS
         else:
             with self._widgets_only():
                 super().handle(event)
@@ -151,10 +159,12 @@ class TasScreen(MenuScreen):
     def _give_mouse(self, raw: pygame.Event) -> None:
         pos = pygame.mouse.get_pos() if raw.type == pygame.MOUSEWHEEL else raw.pos
         x, y = self.app.canvas.logical(pos)
+        if raw.type == pygame.MOUSEMOTION:
+            self.bench.hint = ""
         part = self._dragging or next((each for each in self.parts if each.contains(x, y)), None)
-        if raw.type == pygame.MOUSEBUTTONDOWN:
+        if raw.type == pygame.MOUSEBUTTONDOWN and raw.button <= pygame.BUTTON_RIGHT:
             self._dragging = part
-        elif raw.type == pygame.MOUSEBUTTONUP:
+        elif raw.type == pygame.MOUSEBUTTONUP and raw.button <= pygame.BUTTON_RIGHT:
             self._dragging = None
         if part is not None and part is not self.tab:
             self.focus = None
@@ -172,6 +182,7 @@ class TasScreen(MenuScreen):
     def update(self, real_ms: int) -> None:
         """Simulate what is not simulated yet; parts go on."""
         super().update(real_ms)
+        self._repeat_command(min(real_ms, LONGEST_STEP_MS))
         self.session.timeline.work(self.session.soon)
         for part in (self.level, self.roll, *self.tabs):
             part.update(real_ms)
@@ -179,6 +190,13 @@ class TasScreen(MenuScreen):
         asked = next(tab for tab in self.tabs if tab.name == self.bench.tab)
         if asked is not self.tab or asked.wants is not None:
             self.show_tab(asked)
+
+    def _repeat_command(self, real_ms: int) -> None:
+        """A command whose key is held is done again and again."""
+        self._again_in -= real_ms
+        while self._held_command and self._again_in <= 0:
+            self._again_in += REPEAT_MS
+            self.commands()[self._held_command]()
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
         """What has changed."""

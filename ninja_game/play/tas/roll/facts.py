@@ -1,0 +1,124 @@
+"""What the rows of the roll show: keys and values of each tick."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from ninja_game.play.tas.bench import Bench
+from ninja_game.sim.states import STATE_NAMES
+from ninja_game.tas.take import Take
+from ninja_game.tas.watch import exit_distance
+
+FLOOR, WALL_LEFT, WALL_RIGHT = 1, 2, 4
+"""Contacts, as a sum."""
+
+
+class Values(NamedTuple):
+    """What the world says after a tick: px, px/tick, numbers; ``contacts``: a sum of FLOOR, WALL_LEFT, WALL_RIGHT."""
+
+    x: float
+    y: float
+    vx: float
+    vy: float
+    state: int
+    jump_timer: int
+    contacts: int
+    gold: int
+    exit: float
+
+
+class RowFacts(NamedTuple):
+    """All that the picture of a row depends on.
+
+    ``keys``, ``before``: inputs of the tick and of the one before it. ``values``: None where nothing is simulated.
+    ``beyond``: behind the last input; ``over``: behind exit or death. ``changed``: its keys are not the saved ones.
+    """
+
+    tick: int
+    keys: int
+    before: int
+    values: Values | None
+    events: str
+    name: str
+    beyond: bool
+    over: bool
+    changed: bool
+    selected: bool
+    cursor: bool
+
+
+def row_facts(bench: Bench, first: int, last: int) -> list[RowFacts]:
+    """The rows of the ticks ``first`` … ``last`` - 1."""
+    take, timeline = bench.take, bench.session.timeline
+    values: list[Values | None] = [*_values(bench, first, last)]
+    values += [None] * (last - first - len(values))
+    end = timeline.end[0]
+    begin, behind = bench.selection
+    changed = changed_ticks(take, bench.session.saved)
+    names = {tick: name for tick, name in take.markers if first <= tick < last}
+    count, inputs = len(take), take.inputs
+    return [
+        RowFacts(
+            tick,
+            inputs[tick] if tick < count else 0,
+            inputs[tick - 1] if 0 < tick <= count else 0,
+            values[tick - first],
+            timeline.events(tick),
+            names.get(tick, ""),
+            tick >= count,
+            0 <= end < tick,
+            tick in changed if isinstance(changed, range) else tick < count and bool(changed[tick]),
+            begin <= tick < behind,
+            tick == bench.cursor,
+        )
+        for tick in range(first, last)
+    ]
+
+
+def _values(bench: Bench, first: int, last: int) -> list[Values]:
+    """The values of those ticks of them that are simulated."""
+    timeline = bench.session.timeline
+    span = slice(first, min(last, timeline.valid))
+    column = timeline.column
+    x, y = column("x")[span], column("y")[span]
+    wall = np.where(column("wall_x")[span] > 0, WALL_LEFT, WALL_RIGHT) * column("near_wall")[span]
+    contacts = wall + FLOOR * (column("floor_contacts")[span] > 0)
+    found = (
+        x, y, x - column("prev_x")[span], y - column("prev_y")[span], column("state")[span],
+        column("jump_timer")[span], contacts, column("gold")[span], exit_distance(timeline, span),
+    )  # fmt: skip
+    return [Values(*row) for row in zip(*(values.tolist() for values in found), strict=True)]
+
+
+@lru_cache(maxsize=2)
+def changed_ticks(take: Take, saved: Take) -> range | bytes:
+    """Where a take is not the saved one: a truth a tick, or, where it is longer or shorter, the span between."""
+    ours, theirs = np.frombuffer(take.inputs, np.uint8), np.frombuffer(saved.inputs, np.uint8)
+    if len(ours) == len(theirs):
+        return bytes(ours != theirs)
+    first, shared = take.first_difference(saved), min(len(ours), len(theirs))
+    unequal = np.flatnonzero(ours[::-1][:shared] != theirs[::-1][:shared])
+    same = int(unequal[0]) if len(unequal) else shared
+    return range(first, len(ours) - min(same, shared - first))
+
+
+def in_words(row: RowFacts, *, numbers: bool) -> str:
+    """A row in full: places and speeds to the last digit, or the rest."""
+    name = f"#{row.name}  " if row.name else ""
+    if row.values is None:
+        return f"{name}{row.tick}: not simulated yet"
+    seen = row.values
+    if numbers:
+        places = "  ".join(f"{key} {getattr(seen, key)!r}" for key in ("x", "y", "vx", "vy"))
+        return f"{name}{row.tick}:  {places}  {row.events.replace(' ', ', ')}"
+    touched = [
+        word
+        for bit, word in ((FLOOR, "on a floor"), (WALL_LEFT, "wall at the left"), (WALL_RIGHT, "wall at the right"))
+        if seen.contacts & bit
+    ]
+    words = [STATE_NAMES[seen.state], f"jump timer {seen.jump_timer}", *touched, f"gold {seen.gold}"]
+    far = f", {seen.exit!r} px to the exit's disc" if np.isfinite(seen.exit) else ""
+    return f"{name}{row.tick}:  {', '.join(words)}{far}"

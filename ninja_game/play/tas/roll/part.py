@@ -1,0 +1,114 @@
+"""The piano roll in the window."""
+
+from __future__ import annotations
+
+import pygame
+
+from ninja_game.play.editor.panels import Menu
+from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.part import Commands, Part
+from ninja_game.play.tas.roll.bar import ScrollBar
+from ninja_game.play.tas.roll.columns import AREA, CHOSEN, COLUMNS, Layout, layout_of
+from ninja_game.play.tas.roll.commands import RollCommands
+from ninja_game.play.tas.roll.facts import row_facts
+from ninja_game.play.tas.roll.mouse import RollMouse
+from ninja_game.play.tas.roll.rows import RowSheet
+from ninja_game.play.ui.theme import Theme
+
+MARGIN = 4
+"""Rows that are seen above and below the cursor, where there are any."""
+
+
+class Roll(Part):
+    """A row a tick. ``top``: the first tick that is seen; ``hidden``: the names of columns that are not."""
+
+    area = AREA
+
+    def __init__(self, bench: Bench) -> None:
+        super().__init__(bench)
+        self.top = 0
+        self.hidden: frozenset[str] = frozenset()
+        self._followed = 0
+        self._sheet: RowSheet | None = None
+        self.bar = ScrollBar(bench)
+        self.edits = RollCommands(bench, lambda: self.layout.rows)
+        self.pointer = RollMouse(self)
+
+    @property
+    def layout(self) -> Layout:
+        """Where things are in the window as it is now."""
+        return layout_of(self.bench.app.canvas, self.hidden)
+
+    def scroll(self, top: int) -> None:
+        """Have this tick at the upper edge, as far as there are ticks."""
+        self.top = max(0, min(top, self.bench.last_tick + 1 - self.layout.rows))
+
+    def follow(self) -> None:
+        """Scroll to the cursor if it has moved out of sight."""
+        cursor, rows = self.bench.cursor, self.layout.rows
+        if cursor != self._followed:
+            self._followed = cursor
+            if not self.top - rows < cursor < self.top + 2 * rows:
+                self.top = cursor - rows // 2
+            margin = min(MARGIN, rows // 3)
+            self.top = min(max(self.top, cursor + margin + 1 - rows), cursor - margin)
+        self.scroll(self.top)
+
+    def stay(self) -> None:
+        """Take the cursor's present tick as seen: no row moves under the mouse."""
+        self._followed = self.bench.cursor
+
+    def choose_columns(self) -> None:
+        """Ask which columns are shown."""
+
+        def switch(name: str) -> None:
+            self.hidden = self.hidden ^ {name}
+            self.choose_columns()
+
+        rows = [
+            (
+                f"{'+' if column.name not in self.hidden else '   '} {column.meaning}",
+                lambda n=column.name: switch(n),
+                "",
+            )
+            for column in COLUMNS
+            if column.name in CHOSEN
+        ]
+        self.bench.app.push(Menu(self.bench.app, "Columns", [*rows, ("Done", lambda: None, "")]))
+
+    # --- a part of the window ---
+
+    def look(self) -> tuple[object, ...]:
+        """Runs, cursor, selection, what is simulated and what is seen of it."""
+        bench = self.bench
+        timeline = bench.session.timeline
+        return bench.take, bench.session.saved, bench.cursor, bench.selection, timeline.valid, self.top, self.hidden
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        """Heads, rows, scroll bar."""
+        layout = self.layout
+        if self._sheet is None or self._sheet.theme is not theme or self._sheet.layout != layout:
+            self._sheet = RowSheet(theme, layout)
+        self._sheet.draw(
+            surface, row_facts(self.bench, self.top, min(self.top + layout.rows, self.bench.last_tick + 1))
+        )
+        self.bar.draw(surface, theme, layout, self.top)
+        surface.fill(theme.palette.tile, layout.heads)
+        scale = theme.canvas.scale
+        for place in layout.places:
+            x = (place.left - theme.canvas.origin[0] + place.width / 2) / scale
+            theme.text(surface, place.column.head, x, AREA[1] + 4, size=8, colour=theme.palette.on_tile, align="centre")
+        theme.canvas.frame_rect(surface, theme.palette.panel_edge, *AREA)
+
+    def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
+        """Painting, selecting, scrolling."""
+        return self.pointer.take(event, *self.bench.app.canvas.point(x, y))
+
+    def update(self, real_ms: int) -> None:
+        """A drag beyond the edge scrolls on; the cursor stays in sight."""
+        self.pointer.update(real_ms)
+        self.follow()
+
+    def commands(self) -> Commands:
+        """Moving and editing."""
+        return self.edits.commands()

@@ -1,0 +1,166 @@
+"""Draws the rows of the roll. A row that looks as before is not drawn again, wherever it is in the window now."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pygame
+
+from ninja_game.play.tas.roll.columns import Layout, Place
+from ninja_game.play.tas.roll.event_words import EVENTS, STATES
+from ninja_game.play.tas.roll.facts import FLOOR, WALL_LEFT, WALL_RIGHT, RowFacts, Values
+from ninja_game.play.tas.roll.glyphs import Blit, Digits
+from ninja_game.play.ui.palette import Palette, mixed
+from ninja_game.play.ui.theme import Theme
+from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT, pressed
+from ninja_game.sim.states import JUMPING
+
+SIZE = 8.0
+"""Of the letters, logical px."""
+_LETTERS = {KEY_LEFT: "L", KEY_RIGHT: "R", JUMP_HELD: "J"}
+
+
+class RowSheet:
+    """The rows that are seen as one picture. Tick k is at row k modulo their number: scrolling moves none."""
+
+    def __init__(self, theme: Theme, layout: Layout) -> None:
+        self.theme, self.layout = theme, layout
+        self._picture = pygame.Surface(layout.body.size)
+        self._drawn: list[RowFacts | None] = [None] * layout.rows
+        self._digits = Digits(theme, SIZE)
+        self._blits: list[Blit] = []
+        self._lift = (layout.row - theme.lettering.rendered("0", SIZE, theme.palette.text).get_height() + 1) // 2
+
+    def draw(self, surface: pygame.Surface, rows: Sequence[RowFacts]) -> int:
+        """Draw rows, one below the other, from the upper edge on; how many did not look as before."""
+        layout = self.layout
+        changed = [row for row in rows if self._drawn[row.tick % layout.rows] != row]
+        for row in changed:
+            self._drawn[row.tick % layout.rows] = row
+            self._row(row, (row.tick % layout.rows) * layout.row)
+        self._picture.fblits(self._blits)
+        self._blits.clear()
+        self._show(surface, rows)
+        return len(changed)
+
+    def _show(self, surface: pygame.Surface, rows: Sequence[RowFacts]) -> None:
+        """The picture in its two parts, and nothing below the last row."""
+        body, row = self.layout.body, self.layout.row
+        split = (rows[0].tick % self.layout.rows) * row if rows else 0
+        surface.blit(self._picture, body, (0, split, body.width, body.height - split))
+        if split:
+            surface.blit(self._picture, (body.left, body.bottom - split), (0, 0, body.width, split))
+        below = body.top + len(rows) * row
+        surface.fill(self.theme.palette.background, (body.left, below, body.width, body.bottom - below))
+
+    def _row(self, row: RowFacts, y: int) -> None:
+        """One row at a px of the picture; its texts are noted."""
+        palette, layout, fill = self.theme.palette, self.layout, self._picture.fill
+        ground, ink = _inks(palette, row)
+        fill(ground, (0, y, layout.body.width, layout.row))
+        known = mixed(ground, palette.good, 0.17) if row.values else ground
+        line = mixed(ground, palette.panel_edge, 0.55)
+        for place in layout.places:
+            left = place.left - layout.body.left
+            if place.column.key:
+                fill(known, (left, y, place.width, layout.row))
+                self._key(row, place, left, y, line)
+            elif place.column.name == "tick":
+                tint = palette.bar_full if row.name else known
+                fill(tint, (left, y, place.width, layout.row))
+                dark = palette.outline if row.name else ink
+                self._blits += self._digits.blits(str(row.tick), left + place.width - 3, y + self._lift, dark)
+            elif place.column.name == "events":
+                self._events(row, left, place.width, y, ink)
+            elif row.values:
+                self._value(row.values, place, left, y, ink)
+            fill(line, (left, y, 1, layout.row))
+        if row.tick % 10 == 0:
+            fill(line, (0, y, layout.body.width, 1))
+        if row.changed:
+            fill(palette.ember, (0, y, self.theme.canvas.px(2), layout.row))
+        if row.cursor:
+            frame = (0, y, layout.body.width, layout.row)
+            pygame.draw.rect(self._picture, palette.accent, frame, max(1, layout.row // 11))
+
+    def _key(self, row: RowFacts, place: Place, left: int, y: int, line: pygame.Color) -> None:
+        """A cell of a key: a bar that begins where the key goes down."""
+        key, palette, height = place.column.key, self.theme.palette, self.layout.row
+        if not row.keys & key:
+            return
+        begins = not row.before & key
+        margin, gap = max(1, height // 8), max(1, height // 11) if begins else 0
+        colour = palette.accent if key == JUMP_HELD else palette.switch
+        box = (left + 1 + margin, y + gap, place.width - 2 * margin - 1, height - gap)
+        self._picture.fill(mixed(colour, line, 0.35) if row.over else colour, box)
+        letter = _LETTERS[key] if begins else ""
+        if key == JUMP_HELD and row.keys != pressed(row.keys, row.before & JUMP_HELD):
+            # A recording may jump without the press, and press without the jump.
+            letter = "!" if row.keys & JUMP_PRESSED else "-"
+        if letter:
+            picture = self.theme.lettering.rendered(letter, SIZE, palette.panel, bold=True)
+            middle = left + 1 + (place.width - picture.get_width()) // 2
+            self._blits.append((picture, (middle, y + self._lift)))
+
+    def _value(self, values: Values, place: Place, left: int, y: int, ink: pygame.Color) -> None:
+        """What a column says after the tick."""
+        name, theme = place.column.name, self.theme
+        if name == "state":
+            word = theme.lettering.rendered(STATES[values.state], SIZE, ink)
+            self._blits.append((word, (left + theme.canvas.px(2), y + self._lift)))
+        elif name == "contacts":
+            self._contacts(values.contacts, place, left, y, ink)
+        elif name != "jump_timer" or values.state == JUMPING:
+            value = getattr(values, name)
+            if value == 0:
+                text, ink = "0", mixed(ink, theme.palette.panel, 0.5)
+            else:
+                text = f"{value:.{place.column.decimals}f}" if abs(value) < 100_000 else "-"
+            self._blits += self._digits.blits(text, left + place.width - 3, y + self._lift, ink)
+
+    def _contacts(self, contacts: int, place: Place, left: int, y: int, ink: pygame.Color) -> None:
+        """Bars at the sides that touch something."""
+        thick, height = max(2, self.theme.canvas.px(2)), self.layout.row
+        x, width, fill = left + 1 + thick, place.width - 2 * thick - 1, self._picture.fill
+        if contacts & FLOOR:
+            fill(ink, (x, y + height - thick, width, thick))
+        if contacts & WALL_LEFT:
+            fill(ink, (x, y + 1, thick, height - 1))
+        if contacts & WALL_RIGHT:
+            fill(ink, (x + width - thick, y + 1, thick, height - 1))
+
+    def _events(self, row: RowFacts, left: int, width: int, y: int, ink: pygame.Color) -> None:
+        """The marker's name at the right, what happened at the left, as far as there is room, what matters first."""
+        palette, gap = self.theme.palette, self.theme.canvas.px(2)
+        x, right = left + gap + 1, left + width
+        if row.name:
+            room = (width if not row.events else width // 2) / self.theme.canvas.scale - 4
+            text = self.theme.fit(row.name, room, SIZE)
+            name = self.theme.lettering.rendered(text, SIZE, palette.outline)
+            right -= name.get_width() + 2 * gap
+            self._picture.fill(palette.bar_full, (right, y, left + width - right, self.layout.row))
+            self._blits.append((name, (right + gap, y + self._lift)))
+        for event in sorted(map(EVENTS.__getitem__, row.events.split())) if row.events else ():
+            chip = pygame.Color(getattr(palette, event.chip)) if event.chip else None
+            dark = ink if chip is None else getattr(palette, event.ink)
+            word = self.theme.lettering.rendered(event.word, SIZE, dark, bold=chip is not None)
+            if x + word.get_width() > right:
+                break
+            if chip is not None:
+                self._picture.fill(chip, (x - gap, y + 1, word.get_width() + 2 * gap, self.layout.row - 1))
+            self._blits.append((word, (x, y + self._lift)))
+            x += word.get_width() + 2 * gap
+
+
+def _inks(palette: Palette, row: RowFacts) -> tuple[pygame.Color, pygame.Color]:
+    """The colours of a row's ground and letters."""
+    ground, ink = palette.panel, palette.text
+    if row.values is None:
+        ground = mixed(ground, palette.tile, 0.45)
+    elif row.over or row.beyond:
+        ground = mixed(ground, palette.tile, 0.18)
+    if row.over or row.beyond:
+        ink = palette.faint
+    if row.selected:
+        ground = mixed(ground, palette.bar_full, 0.55)
+    return ground, ink
