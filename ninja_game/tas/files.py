@@ -16,6 +16,7 @@ from ninja_game.files.writing import write_atomically
 from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.load import load_replays
+from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.input_text import Inputs, read_inputs
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
@@ -66,6 +67,25 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
             file = RunFile(path, sha256(data).hexdigest())
     branches = read_branches(path) if file.path else Branches()
     return OpenedRun(recording, take_of(recording), file, branches)
+
+
+def runs_beside(path: Path, about: Recording) -> list[Recording]:
+    """The recordings of a file or link that can be shown beside a run: all those of its level, with its body.
+
+    Those without a level are on that of the run. Raises ReplayError if there is none, and what ``load_replays`` does.
+    """
+    found = load_replays(path, level=about.level)
+    fitting = [each for each in found if same_level(each, about)]
+    if not fitting:
+        raise ReplayError(
+            f"no run of {about.name or 'this level'} with its body", str(path), found=f"{len(found)} others"
+        )
+    return fitting
+
+
+def same_level(recording: Recording, other: Recording) -> bool:
+    """Whether two runs are of the same level and have the same body."""
+    return recording.body == other.body and level_digest(recording.level) == level_digest(other.level)
 
 
 def take_of(recording: Recording) -> Take:

@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ninja_game.editor.history import History
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.tas.branches import Branch, Branches
+from ninja_game.tas.course import NOWHERE, Course
 from ninja_game.tas.files import OpenedRun, RunFile, loose_replay, recording_of, save_run
 from ninja_game.tas.journal import Journal, Recovered
 from ninja_game.tas.take import Take
@@ -25,8 +23,8 @@ SOON_PLAIN = 2000
 class Session:
     """One run that is edited. ``folder``: the player's, for the journal.
 
-    ``about``: level, body, name and author of the run. ``before``: float64 (ticks, 2), where the ninja was in the run
-    before the last edit, px. Raises LevelError for a level that cannot be played.
+    ``about``: level, body, name and author of the run. ``before``: what the ninja did in the run before the last
+    edit. Raises LevelError for a level that cannot be played.
     """
 
     def __init__(self, opened: OpenedRun, folder: Path, *, memory: str = "auto") -> None:
@@ -37,7 +35,7 @@ class Session:
         self.saved = opened.take
         self._saved_branches = list(opened.branches.all)
         self.timeline = Timeline(self.about.level, opened.take.inputs, body=self.about.body, memory=memory)
-        self.before: NDArray[np.float64] = np.zeros((0, 2))
+        self.before: Course = NOWHERE
         self._noted = opened.take
         self.journal = Journal(folder, self._opened())
         self.timeline.work(self.soon)
@@ -69,21 +67,24 @@ class Session:
         """A stroke begins: what changes until its end is one edit."""
         self.end()
         self.history.begin()
-        self.before = self.timeline.positions
+        self.before = self.timeline.course()
 
-    def change(self, take: Take) -> None:
-        """Another take, as a part of the stroke or an edit of its own. It is simulated at once, as far as is quick."""
+    def change(self, take: Take, *, ticks: int | None = None) -> None:
+        """Another take, as a part of the stroke or an edit of its own. So many ticks of it are simulated at once.
+
+        ``ticks``: None: as many as are quick.
+        """
         if take == self.take:
             return
         if not self.history.in_stroke:
-            self.before = self.timeline.positions
+            self.before = self.timeline.course()
         self.history.change(take)
-        self._follow()
+        self._follow(ticks)
 
     def end(self) -> None:
         """The stroke ends."""
         self.history.end()
-        self._note()
+        self.note()
 
     def undo(self) -> bool:
         """Take the last edit back; whether there was one."""
@@ -94,21 +95,22 @@ class Session:
         return self._step(self.history.redo)
 
     def _step(self, step: Callable[[], bool]) -> bool:
-        positions = self.timeline.positions
+        before = self.timeline.course()
         if not step():
             return False
-        self.before = positions
+        self.before = before
         self._follow()
         return True
 
-    def _follow(self) -> None:
+    def _follow(self, ticks: int | None = None) -> None:
         """Show what the take leads to, and note it once it is no part of a stroke."""
         self.timeline.show(self.take.inputs)
-        self.timeline.work(self.soon)
+        self.timeline.work(self.soon if ticks is None else ticks)
         if not self.history.in_stroke:
-            self._note()
+            self.note()
 
-    def _note(self) -> None:
+    def note(self) -> None:
+        """Have the journal know what has changed, also while a stroke goes on."""
         if self.take != self._noted:
             self.journal.edit(self._noted, self.take)
             self._noted = self.take

@@ -18,6 +18,7 @@ from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES
 from ninja_game.sim.states import OUTCOME_NAMES
 from ninja_game.simulation import Body, SaveState, is_box
+from ninja_game.tas.course import FIGURE, Course
 from ninja_game.tas.take import first_difference
 
 AFTERMATH = 40
@@ -169,6 +170,10 @@ class Timeline:
     def positions(self) -> NDArray[np.float64]:
         """The ninja after each simulated tick: float64 (valid, 2), px."""
         return np.column_stack([self.column("x"), self.column("y")])
+
+    def course(self) -> Course:
+        """What the ninja does in the simulated ticks, as it is now."""
+        return Course({name: self.column(name).copy() for name in FIGURE})
 
     @property
     def end(self) -> tuple[int, str]:

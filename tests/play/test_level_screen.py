@@ -48,7 +48,7 @@ def test_passing_makes_a_ghost_for_the_next_try(stage: tuple[App, ScriptedContro
     assert len(screen.play.view.ghosts) == 1
     press("confirm")
     frames(app, 40)
-    ghost = screen.play.view.ghosts[0]
+    ghost = screen.play.ghosts[0]
     assert ghost.simulation.tick == screen.attempt.simulation.tick == 40
 
 

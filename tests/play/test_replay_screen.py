@@ -88,9 +88,9 @@ def test_others_on_the_same_level_run_along() -> None:
         screen = ReplayScreen(app, [TAKE, other, other])
         app.push(screen)
         screen.seek(80)
-        assert [ghost.simulation.tick for ghost in screen.view.ghosts] == [80, 80]
+        assert [ghost.simulation.tick for ghost in screen.ghosts] == [80, 80]
         screen.seek(20)
-        assert [ghost.simulation.tick for ghost in screen.view.ghosts] == [20, 20]
+        assert [ghost.simulation.tick for ghost in screen.ghosts] == [20, 20]
 
 
 def test_the_mouse_drags_the_bar() -> None:

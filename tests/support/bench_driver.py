@@ -12,6 +12,7 @@ from ninja_game.play.app import build_app
 from ninja_game.play.input.scancodes import SCANCODES
 from ninja_game.play.tas.screen import TasScreen
 from ninja_game.play.ui.widgets import Widget
+from ninja_game.simulation import Simulation
 from ninja_game.tas.files import open_run
 from tests.support.menu_driver import MenuDriver, ScriptedKeys
 
@@ -80,3 +81,15 @@ class BenchDriver(MenuDriver):
             assert time.monotonic() < end, what
             time.sleep(0.01)
             self.frames()
+
+    def shown_digest(self) -> str:
+        """Of the world that the level shows."""
+        return self.screen.level.picture.run.digest()
+
+    def straight_digest(self, tick: int) -> str:
+        """Of the world after a tick of the run, run from its start."""
+        about, inputs = self.session.about, self.bench.take.inputs
+        run = Simulation(about.level, body=about.body)
+        for each in range(tick + 1):
+            run.step_keys(inputs[each] if each < len(inputs) else 0)
+        return run.digest()

@@ -14,13 +14,17 @@ from ninja_game.cli.run_options import level_given, level_option
 @click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
 @level_option
+@click.option(
+    "--beside", multiple=True, type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="Another file with runs of the same level, to be shown beside; may be given several times.",
+)  # fmt: skip
 @click.option("--size", metavar="WIDTHxHEIGHT", help="Size of the window in px, e.g. 1584x1200.")
 @click.option("--frames", type=click.IntRange(1, 10**9), help="End after so many pictures.")
 @click.option("--screenshot", type=click.Path(dir_okay=False), help="Write the last picture to this PNG file.")
 @click.pass_context
 def command(
-    ctx: click.Context, file: Path, record: int | None, level_path: Path | None, size: str | None, frames: int | None,
-    screenshot: str | None,
+    ctx: click.Context, file: Path, record: int | None, level_path: Path | None, beside: tuple[Path, ...],
+    size: str | None, frames: int | None, screenshot: str | None,
 ) -> None:  # fmt: skip
     """Edit a run tick by tick, in a window.
 
@@ -32,14 +36,16 @@ def command(
     Examples:
       ninja-game tas best.replay.txt
       ninja-game tas demos.txt --record 3
+      ninja-game tas best.replay.txt --beside theirs.replay.txt
     """
     from ninja_game.cli.game.play import pixels
-    from ninja_game.tas.files import open_run
+    from ninja_game.tas.files import open_run, runs_beside
 
     window = pixels(size) if size else None
     opened = open_run(file, record=record, level=level_given(level_path))
+    others = [run for path in beside for run in runs_beside(path, opened.recording)]
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from ninja_game.play.main import run_app
     from ninja_game.play.tas.screen import TasScreen
 
-    ctx.exit(run_app(lambda app: TasScreen(app, opened), size=window, frames=frames, screenshot=screenshot))
+    ctx.exit(run_app(lambda app: TasScreen(app, opened, others), size=window, frames=frames, screenshot=screenshot))

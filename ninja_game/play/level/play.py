@@ -59,6 +59,7 @@ class LevelPlay:
         self.all_gold = sum(record.kind == GOLD for record in context.level.objects)
         self.show_tutorial = context.show_tutorial
         self.shown_lifetime = 0.0
+        self.ghosts: list[Ghost] = []
         self._phase_before = Phase.READY
         self._wait_at_start()
 
@@ -71,8 +72,9 @@ class LevelPlay:
         self.notices: list[str] = []
         self.aim = self.context.aim()
         runs = self.context.ghosts()
-        if [run.inputs for run in runs] != [ghost.inputs for ghost in self.view.ghosts]:
-            self.view.ghosts = [Ghost(run, self.context.level, self.context.body) for run in runs]
+        if [run.inputs for run in runs] != [ghost.inputs for ghost in self.ghosts]:
+            self.ghosts = [Ghost(run, self.context.level, self.context.body) for run in runs]
+            self.view.ghosts = self.ghosts
         self.view.on_seek()
 
     # --- from phase to phase ---

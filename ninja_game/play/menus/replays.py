@@ -54,27 +54,32 @@ class ReplayRow(NamedTuple):
 
 
 class ReplaysScreen(MenuScreen):
-    """One list of all replays. Delete removes one of the records that no best needs."""
+    """One list of all replays. Delete removes one of the records that no best needs. ``hint``: of the list."""
 
     title = "Replays"
+    hint = HINT
 
     def __init__(self, app: App) -> None:
         super().__init__(app)
         self.rows: list[ReplayRow] = []
         self.problems: list[str] = []
         self._files: list[ReplayRow] | None = None
-        self.list = ListView((44, 96, 712, 13 * ROW), ROW, self._draw_row, self._watch)
+        self.list = ListView((44, 96, 712, 13 * ROW), ROW, self._draw_row, self._choose)
         self.list.empty = "No replays yet"
-        self.list.hint = HINT
+        self.list.hint = self.hint
         self.message = ""
 
     def build(self) -> Sequence[Widget]:
         """The list, the newest records first, then files."""
         if self._files is None:
             self._files = self._file_rows()
-        self.rows = [_row_of(saved) for saved in self.player.records.replays()] + self._files
+        self.rows = list(filter(self.fits, [*map(_row_of, self.player.records.replays()), *self._files]))
         self.list.fill(self.rows)
         return [self.list]
+
+    def fits(self, row: ReplayRow) -> bool:
+        """Whether a replay is shown."""
+        return True
 
     def _file_rows(self) -> list[ReplayRow]:
         rows: list[ReplayRow] = []
@@ -93,8 +98,11 @@ class ReplaysScreen(MenuScreen):
                     break
         return rows
 
-    def _watch(self, index: int) -> None:
-        source = self.rows[index].source
+    def _choose(self, index: int) -> None:
+        self.choose(self.rows[index].source)
+
+    def choose(self, source: SavedReplay | Recording) -> None:
+        """Watch a replay."""
         if isinstance(source, Recording):
             watch_recording(self.app, source)
         else:

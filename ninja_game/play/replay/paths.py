@@ -42,11 +42,13 @@ def paths_picture(level: Level, paths: Sequence[Path], palette: Palette, width: 
     return picture
 
 
-def draw_path(surface: pygame.Surface, canvas: Canvas, positions: NDArray[np.float64], colour: pygame.Color) -> None:
-    """A path as a line over a picture of its level."""
+def draw_path(
+    surface: pygame.Surface, canvas: Canvas, positions: NDArray[np.float64], colour: pygame.Color, width: float = 1.5
+) -> None:
+    """A path as a line, ``width`` logical px wide, over a picture of its level."""
     if len(positions) > 1:
         points = [canvas.exact(x, y) for x, y in positions.tolist()]
-        pygame.draw.lines(surface, colour, False, points, max(1, canvas.px(1.5)))
+        pygame.draw.lines(surface, colour, False, points, max(1, canvas.px(width)))
 
 
 def _draw_speeds(surface: pygame.Surface, theme: Theme, paths: Sequence[Path]) -> None:

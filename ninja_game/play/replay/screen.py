@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ninja_game.play.app import App
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
-_NORMAL = SPEEDS.index(1.0)
+NORMAL_SPEED = SPEEDS.index(1.0)
 AFTERMATH = 130
 """Ticks that are shown after the end (game.md §2)."""
 _WARM = 12
@@ -50,7 +50,7 @@ class ReplayScreen(Screen):
         self.clock = RunClock()
         self.overlays = Overlays()
         self.bar = ReplayBar()
-        self.speed = _NORMAL
+        self.speed = NORMAL_SPEED
         self.show(0)
 
     def show(self, index: int) -> None:
@@ -65,9 +65,8 @@ class ReplayScreen(Screen):
         self.view = LevelView(self.app, self.playback.simulation)
         self.view.overlays = self.overlays
         others = [other for other in self.runs if other is not run and other.level == run.level]
-        self.view.ghosts = [
-            Ghost(GhostRun(other.title, other.inputs), other.level, other.body) for other in others[:8]
-        ]  # fmt: skip
+        self.ghosts = [Ghost(GhostRun(other.title, other.inputs), other.level, other.body) for other in others[:8]]
+        self.view.ghosts = self.ghosts
         self.paused = False
         self.still_ms = _STILL_MS
         self.export: FilmJob | None = None

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.tas.course import Course
 from ninja_game.tas.session import Session
 from ninja_game.tas.take import Take
 
@@ -22,11 +23,16 @@ Span = tuple[int, int]
 
 @dataclass(frozen=True)
 class OtherRun:
-    """A run that is shown beside the one under edit. ``positions``: float64 (ticks, 2), px, after each tick."""
+    """A run that is shown beside the one under edit. ``course``: what its ninja does."""
 
     name: str
     take: Take
-    positions: NDArray[np.float64] = field(repr=False)
+    course: Course = field(repr=False)
+
+    @property
+    def positions(self) -> NDArray[np.float64]:
+        """The ninja after each tick: float64 (ticks, 2), px."""
+        return self.course.positions
 
 
 class Bench:

@@ -49,6 +49,7 @@ COMMANDS = (
     Command("take_over", "Take over: play on yourself from here", ("return", "kp_enter")),
     Command("ghosts", "Other runs, on or off", ("g",)),
     Command("splice", "The selected ticks from the other run", ("ctrl+p",)),
+    Command("splice_here", "Here the rest of the other run, from its nearest tick", ("ctrl+shift+p",)),
     Command("next_other", "Next other run", ("o",)),
     Command("next_tab", "Next of: values, branches, lead, search", ("f6",)),
     Command("watch", "Watch another value", ("v",)),

@@ -44,6 +44,9 @@ class Part:
         """
         return False
 
+    def mouse_left(self) -> None:
+        """The mouse is elsewhere now."""
+
     def update(self, real_ms: int) -> None:
         """Let real time pass."""
 

@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 
 import pygame
 
+from ninja_game.formats.recording import Recording
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.menus.menu_screen import LONGEST_STEP_MS, MenuScreen
 from ninja_game.play.tas.bench import Bench
-from ninja_game.play.tas.controls import FIRST_REPEAT_MS, REPEAT_MS, REPEATING, command_of
+from ninja_game.play.tas.controls import FIRST_REPEAT_MS, REPEAT_MS, REPEATING
 from ninja_game.play.tas.file_commands import FileCommands
 from ninja_game.play.tas.head import Foot, Head
-from ninja_game.play.tas.level_part import LevelPart
+from ninja_game.play.tas.level.part import LevelPart
 from ninja_game.play.tas.part import Commands, Part
 from ninja_game.play.tas.roll.part import Roll
 from ninja_game.play.tas.tabs.all_tabs import all_tabs
@@ -34,10 +35,11 @@ _MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pyga
 class TasScreen(MenuScreen):
     """A run is edited here. ``bench``: what is seen and selected; ``session``: the run.
 
-    Raises LevelError for a run on a level that cannot be played.
+    ``beside``: other runs of its level. Raises LevelError for a run on a level that cannot be played, ReplayError for
+    one beside that is of another level or has another body.
     """
 
-    def __init__(self, app: App, opened: OpenedRun) -> None:
+    def __init__(self, app: App, opened: OpenedRun, beside: Sequence[Recording] = ()) -> None:
         super().__init__(app)
         self.session = Session(opened, app.player.folder)
         self.bench = Bench(app, self.session)
@@ -46,10 +48,12 @@ class TasScreen(MenuScreen):
         self.tab: Tab = self.tabs[0]
         self.head, self.foot_line = Head(self.bench), Foot(self.bench)
         self.files = FileCommands(app, self.bench)
+        self.level.others.open(beside)
         self._entered = False
         self._widgets_stale = True
         self._dragging: Part | None = None
         self._held_command, self._held_key, self._again_in = "", 0, 0
+        self._pointed: Part | None = None
 
     @property
     def parts(self) -> list[Part]:
@@ -123,6 +127,8 @@ class TasScreen(MenuScreen):
 
     def capture(self, event: InputEvent) -> bool:
         """Typed text goes into the field with the focus, keys of the game to the ninja that was taken over."""
+        if self.level.capture(event):
+            return True
         if (
             isinstance(self.focus, TextEntry)
             and event.menu in ("confirm", "back")
@@ -131,13 +137,11 @@ class TasScreen(MenuScreen):
             self.focus = None
             return True
         with self._widgets_only():
-            if super().capture(event):
-                return True
-        return self.level.capture(event)
+            return super().capture(event)
 
     def handle(self, event: InputEvent) -> None:
         """Commands, then the mouse, then the widgets of the tab."""
-        command = command_of(event)
+        command = self.level.meaning(event)
         if event.raw.type == pygame.KEYDOWN or (
             event.raw.type == pygame.KEYUP and event.raw.scancode == self._held_key
         ):
@@ -162,6 +166,9 @@ class TasScreen(MenuScreen):
         if raw.type == pygame.MOUSEMOTION:
             self.bench.hint = ""
         part = self._dragging or next((each for each in self.parts if each.contains(x, y)), None)
+        if self._pointed is not part and self._pointed is not None:
+            self._pointed.mouse_left()
+        self._pointed = part
         if raw.type == pygame.MOUSEBUTTONDOWN and raw.button <= pygame.BUTTON_RIGHT:
             self._dragging = part
         elif raw.type == pygame.MOUSEBUTTONUP and raw.button <= pygame.BUTTON_RIGHT:
@@ -183,7 +190,8 @@ class TasScreen(MenuScreen):
         """Simulate what is not simulated yet; parts go on."""
         super().update(real_ms)
         self._repeat_command(min(real_ms, LONGEST_STEP_MS))
-        self.session.timeline.work(self.session.soon)
+        if not self.level.take_over.on:
+            self.session.timeline.work(self.session.soon)
         for part in (self.level, self.roll, *self.tabs):
             part.update(real_ms)
         # What a command wants to show comes now: the letter of its key is not typed into a field.

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from random import Random
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import pygame
 
+from ninja_game.play.ui.canvas import Point
+from ninja_game.play.ui.palette import Palette
 from ninja_game.play.view.effects.effects import Effects
 from ninja_game.play.view.effects.particles import Particles
 from ninja_game.play.view.ninja.appearance import draw_ghost, draw_ninja, draw_ragdoll
@@ -25,8 +27,25 @@ from ninja_game.sim.states import DEAD
 from ninja_game.simulation import Simulation
 
 if TYPE_CHECKING:
-    from ninja_game.play.level.ghosts import Ghost
     from ninja_game.play.view.overlays import Overlays
+
+
+class Ghost(Protocol):
+    """Another run's ninja that goes along."""
+
+    ninja_animation: NinjaAnimation
+
+    def on_tick(self) -> None:
+        """One more tick."""
+
+    def on_seek(self, tick: int) -> None:
+        """Be where the run is after that many ticks."""
+
+    def place(self, fraction: float) -> Point:
+        """Where to draw it, px."""
+
+    def colour(self, palette: Palette) -> pygame.Color:
+        """Its colour."""
 
 
 class LevelView:

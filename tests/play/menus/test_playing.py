@@ -88,7 +88,7 @@ def test_best_run_of_a_level_runs_along_the_next_time(driver: MenuDriver, tmp_pa
     again.press("return")
     level = again.top()
     assert isinstance(level, LevelScreen)
-    assert [ghost.inputs for ghost in level.play.view.ghosts]
+    assert [ghost.inputs for ghost in level.play.ghosts]
     assert isinstance(browser, Browser)
     again.press("q", "escape")
     assert isinstance(again.open("Records"), RecordsScreen)

@@ -1,0 +1,133 @@
+"""Other runs of the same level beside the one under edit: opened, chosen, and taken in part by part."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ninja_game.errors import ReplayError
+from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.formats.recording import Recording
+from ninja_game.play.menus.replays import ReplayRow, ReplaysScreen
+from ninja_game.play.tas.bench import Bench, OtherRun
+from ninja_game.play.tas.part import Commands
+from ninja_game.player.records import SavedReplay
+from ninja_game.sim.inputs import Demo
+from ninja_game.tas.files import same_level, take_of
+from ninja_game.tas.timeline import Timeline
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+NONE_YET = "No other run is open: Ctrl+O opens one"
+
+
+class OtherRuns:
+    """The commands that concern other runs."""
+
+    def __init__(self, bench: Bench) -> None:
+        self.bench = bench
+
+    def commands(self) -> Commands:
+        """By name."""
+        return {
+            "open_other": lambda: self.bench.app.push(OtherRunScreen(self.bench.app, self)),
+            "next_other": self.next, "splice": self.splice, "splice_here": self.splice_here,
+        }  # fmt: skip
+
+    def open(self, recordings: Sequence[Recording]) -> None:
+        """Show recordings beside the run. Raises ReplayError for one of another level, or with another body."""
+        bench = self.bench
+        for recording in recordings:
+            bench.others.append(other_run(bench, recording))
+            bench.chosen = len(bench.others) - 1
+
+    @property
+    def chosen(self) -> OtherRun | None:
+        """The run that parts are taken from; a notice where there is none."""
+        bench = self.bench
+        if not bench.others:
+            bench.app.notify(NONE_YET)
+            return None
+        return bench.others[bench.chosen % len(bench.others)]
+
+    def next(self) -> None:
+        """Choose the next one."""
+        bench = self.bench
+        if self.chosen is not None:
+            bench.chosen = (bench.chosen + 1) % len(bench.others)
+            bench.app.notify(f"Parts are taken from {bench.others[bench.chosen].name}")
+
+    def splice(self) -> None:
+        """The selected ticks get the keys that the other run has in the same ticks; all others keep theirs."""
+        other = self.chosen
+        if other is not None:
+            first, last = self.bench.selection
+            keys = [other.take.keys_at(tick) for tick in range(first, last)]
+            if self.bench.edit(lambda take: take.replaced(first, last, keys)):
+                self.bench.app.notify(f"Ticks {first} to {last - 1} are those of {other.name}")
+
+    def splice_here(self) -> None:
+        """Behind the cursor comes the rest of the other run, from the tick in which its ninja was nearest to ours."""
+        bench, other = self.bench, self.chosen
+        tick, positions = bench.cursor, bench.session.timeline.positions
+        if other is None or tick >= len(positions):
+            return
+        far = np.hypot(*(other.positions - positions[tick]).T)
+        there = int(np.argmin(far))
+        keys = [other.take.keys_at(k) for k in range(there + 1, len(other.take))]
+        if bench.edit(lambda take: take.replaced(tick + 1, max(tick + 1, len(take)), keys)):
+            bench.app.notify(f"From here on {other.name} from its tick {there} on, {far[there]:.2f} px away")
+
+
+def other_run(bench: Bench, recording: Recording) -> OtherRun:
+    """A recording as a run to be shown beside. Raises ReplayError for another level, or another body."""
+    about = bench.session.about
+    if not same_level(recording, about):
+        what = "body" if recording.body != about.body else "level"
+        raise ReplayError(f"{recording.name or 'this run'} is a run with another {what} than the one on the bench")
+    take = take_of(recording)
+    timeline = Timeline(about.level, take.inputs, body=about.body, memory=bench.session.timeline.memory)
+    timeline.work(len(timeline))
+    return OtherRun(_free_name(recording, about, {other.name for other in bench.others}), take, timeline.course())
+
+
+def _free_name(recording: Recording, about: Recording, taken: set[str]) -> str:
+    """What tells a run from the others: its author, or its file, or its name."""
+    author = recording.author if recording.author != about.author else ""
+    name = author or Path(recording.file).name.removesuffix(".replay.txt") or recording.name or "another run"
+    return next(each for each in (name, *(f"{name} {n}" for n in range(2, len(taken) + 3))) if each not in taken)
+
+
+class OtherRunScreen(ReplaysScreen):
+    """The replays of the level that is on the bench; the chosen one is shown beside."""
+
+    title = "Another run of this level"
+    hint = "Enter: show it beside the run on the bench"
+
+    def __init__(self, app: App, others: OtherRuns) -> None:
+        self.others = others
+        self._digest = level_digest(others.bench.session.about.level)
+        super().__init__(app)
+        self.list.empty = "No other run of this level is known. From any file: ninja-game tas FILE --beside OTHER"
+
+    def fits(self, row: ReplayRow) -> bool:
+        """Whether it is of the same level."""
+        source = row.source
+        return (level_digest(source.level) if isinstance(source, Recording) else source.level) == self._digest
+
+    def choose(self, source: SavedReplay | Recording) -> None:
+        """Show it, and go back to the bench."""
+        if not isinstance(source, Recording):
+            replay = self.player.records.replay(source.id)
+            if replay is None or replay.level is None:
+                self.app.notify("This replay is not there any more")
+                return
+            demo = Demo(replay.inputs, float(len(replay.inputs)))
+            source = Recording(replay.name, replay.author, "", replay.level, demo, "", replay=replay)
+        recording = source
+        if self.others.bench.attempt(lambda: self.others.open([recording])):
+            self.app.pop()

@@ -1,0 +1,205 @@
+"""The level beside the roll: the world after the tick under the cursor, and the ways of runs."""
+
+from __future__ import annotations
+
+import numpy as np
+import pygame
+
+from ninja_game.play.input.events import InputEvent
+from ninja_game.play.replay.paths import COLOURS
+from ninja_game.play.replay.screen import SPEEDS
+from ninja_game.play.tas.bench import Bench, OtherRun
+from ninja_game.play.tas.controls import command_of
+from ninja_game.play.tas.level.other_runs import OtherRuns
+from ninja_game.play.tas.level.paths import LevelPaths, Positions, first_other_place
+from ninja_game.play.tas.level.picture import LevelPicture
+from ninja_game.play.tas.level.playing import Playing
+from ninja_game.play.tas.level.run_ghost import RunGhost
+from ninja_game.play.tas.level.take_over import TakeOver
+from ninja_game.play.tas.part import Commands, Part
+from ninja_game.play.ui.theme import Theme
+
+_FAR = 40.0
+"""px of the level: a drag does not leap to a part of the run that is nearer by less, but so many ticks away."""
+_LETTERS = 17
+"""Size of what is written into the level's frame, px of the level."""
+
+
+class LevelPart(Part):
+    """The level, smaller than in the game. ``hover``: the tick that a click would go to."""
+
+    area = (6, 28, 424, 322)
+
+    def __init__(self, bench: Bench) -> None:
+        super().__init__(bench)
+        self.picture = LevelPicture(bench)
+        self.playing = Playing(bench, self.picture)
+        self.take_over = TakeOver(self.playing)
+        self.others = OtherRuns(bench)
+        self.hover: int | None = None
+        self._paths: LevelPaths | None = None
+        self._ghosts: dict[object, RunGhost] = {}
+        self._known: tuple[object, ...] = ()
+        self._positions: Positions = np.zeros((0, 2))
+
+    def commands(self) -> Commands:
+        """Playing, taking over, other runs."""
+        playing, taken = self.playing, self.take_over
+        shared: Commands = {
+            "faster": lambda: playing.change_speed(1), "slower": lambda: playing.change_speed(-1),
+            "ghosts": self._toggle_ghosts, **self.others.commands(),
+        }  # fmt: skip
+        if taken.on:
+            return {
+                "play": taken.pause, "step": taken.step, "step_back": taken.step_back, "take_over": taken.end, **shared
+            }  # fmt: skip
+        return {
+            "play": playing.toggle, "step": lambda: playing.step(1), "step_back": lambda: playing.step(-1),
+            "take_over": taken.begin, **shared,
+        }  # fmt: skip
+
+    def meaning(self, event: InputEvent) -> str:
+        """The command that an event means; '' for none."""
+        return self.take_over.meaning(event) if self.take_over.on else command_of(event)
+
+    @property
+    def ghosts(self) -> list[RunGhost]:
+        """Those that were drawn last."""
+        return list(self._ghosts.values())
+
+    def _toggle_ghosts(self) -> None:
+        self.bench.ghosts = not self.bench.ghosts
+
+    # --- time ---
+
+    def update(self, real_ms: int) -> None:
+        """Play on."""
+        self.playing.update(real_ms)
+        self.take_over.update(real_ms)
+
+    def stop(self) -> None:
+        """End playing and taking over."""
+        self.playing.stop()
+        self.take_over.end()
+
+    # --- keys and mouse ---
+
+    def capture(self, event: InputEvent) -> bool:
+        """Take the keys of the game while the run is taken over; Escape ends playing. Whether it did."""
+        taken = self.take_over
+        if taken.on:
+            if event.raw.type == pygame.WINDOWFOCUSLOST:
+                taken.stand_still()
+            return event.raw.type == pygame.MOUSEBUTTONDOWN or taken.captures(event)
+        if self.playing.on and event.source == ("keys", "escape"):
+            self.playing.stop()
+            return True
+        return False
+
+    def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
+        """A click, or a drag, goes to the tick in which the ninja was nearest."""
+        if event.type == pygame.MOUSEWHEEL:
+            if not self.take_over.on:
+                self.playing.step(-event.y)
+            return True
+        positions = self.bench.session.timeline.positions
+        if self.take_over.on or not len(positions):
+            return False
+        factor = self.bench.app.canvas.scale / self.picture.canvas.scale
+        far = np.hypot(positions[:, 0] - (x - self.area[0]) * factor, positions[:, 1] - (y - self.area[1]) * factor)
+        dragged = event.type == pygame.MOUSEMOTION and event.buttons[0]
+        if dragged:
+            far += np.minimum(np.abs(np.arange(len(far)) - self.bench.cursor), _FAR)
+        self.hover = int(np.argmin(far))
+        if dragged or (event.type == pygame.MOUSEBUTTONDOWN and event.button == 1):
+            self.playing.stop()
+            self.bench.go(self.hover, select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
+        return True
+
+    def mouse_left(self) -> None:
+        """No tick is pointed at."""
+        self.hover = None
+
+    # --- picture ---
+
+    def look(self) -> tuple[object, ...]:
+        """Run, cursor, what is shown beside, playing."""
+        bench, timeline, playing = self.bench, self.bench.session.timeline, self.playing
+        moving = playing.on or self.take_over.on
+        return (
+            bench.take, bench.cursor, bench.selection, timeline.valid, bench.session.before, bench.ghosts,
+            tuple(bench.others), bench.chosen, self.hover, bench.app.settings, playing.on, playing.speed,
+            self.take_over.on, self.take_over.still, self.take_over.waiting, moving and playing.clock.remainder,
+        )  # fmt: skip
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        """The level, the ways of runs, their ghosts, what goes on."""
+        bench, picture = self.bench, self.picture
+        rect = theme.canvas.rect(*self.area)
+        whole = picture.fit(rect.size)
+        if whole or self._paths is None:
+            self._paths = LevelPaths(picture.context.theme)
+        positions = self._present()
+        self._follow_others(positions)
+        picture.show(bench.cursor)
+        running = self.playing.on or (self.take_over.on and not (self.take_over.still or self.take_over.waiting))
+        fraction = self.playing.clock.fraction if running else 1.0
+        picture.draw(fraction, whole=whole)
+        surface.blit(picture.surface, rect)
+        inner = surface.subsurface(rect.clip(surface.get_rect()))
+        paths = self._paths
+        if bench.ghosts:
+            paths.draw_beside(inner, positions, bench.session.before, self._shown_others())
+        if len(positions):
+            paths.draw_present(inner, positions, bench.cursor, bench.selection)
+            paths.draw_flags(inner, positions, bench.take.markers)
+        for ghost in self.ghosts:
+            if ghost.label:
+                paths.draw_name(inner, ghost.label, ghost.place(fraction), ghost.colour(picture.context.theme.palette))
+        if self.hover is not None and self.hover < len(positions):
+            paths.draw_hover(inner, positions, self.hover)
+        self._write(inner, picture.context.theme)
+
+    def _present(self) -> Positions:
+        """Where the ninja is after each simulated tick."""
+        timeline = self.bench.session.timeline
+        known = timeline.inputs, timeline.valid
+        if known != self._known:
+            self._known, self._positions = known, timeline.positions
+        return self._positions
+
+    def _shown_others(self) -> list[tuple[OtherRun, pygame.Color]]:
+        return [(run, COLOURS[number % len(COLOURS)]) for number, run in enumerate(self.bench.others)]
+
+    def _follow_others(self, positions: Positions) -> None:
+        """Have the ghosts of the runs beside, and of the run before the last edit where it was elsewhere."""
+        bench = self.bench
+        kept, self._ghosts = self._ghosts, {}
+        if bench.ghosts:
+            before = bench.session.before
+            at = first_other_place(positions, before.positions)
+            if at <= min(bench.cursor, len(before) - 1, len(positions) - 1):
+                self._ghosts[before] = kept.get(before) or RunGhost(before)
+            for run, colour in self._shown_others():
+                self._ghosts[run.course] = kept.get(run.course) or RunGhost(run.course, run.name, colour)
+        self.picture.follow(self.ghosts)
+
+    def _write(self, surface: pygame.Surface, theme: Theme) -> None:
+        """What goes on, in the level's frame."""
+        take_over = self.take_over
+        if take_over.on:
+            now = (
+                "begins with your first key"
+                if take_over.waiting
+                else "tick by tick"
+                if take_over.still
+                else "your keys"
+            )
+            text = f"Taken over: {now}.   Enter: end   Space: pause   . ,: a tick on, back"
+        elif self.playing.on:
+            text = "Playing.   Space: stop"
+        else:
+            text = "Space: play   Enter: take over"
+        colour = theme.palette.on_tile
+        theme.text(surface, text, 10, 578, size=_LETTERS, colour=colour, bold=take_over.on, width=690)
+        theme.text(surface, f"x {SPEEDS[self.playing.speed]:g}", 782, 578, size=_LETTERS, colour=colour, align="right")

@@ -1,0 +1,133 @@
+"""The world after any tick of the run, drawn as the game draws it."""
+
+from __future__ import annotations
+
+import pygame
+
+from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.level.run_ghost import RunGhost
+from ninja_game.play.ui.canvas import Canvas
+from ninja_game.play.view.level_view import LevelView
+from ninja_game.play.view.render_context import OffscreenContext
+from ninja_game.sim.inputs import first_ticks
+from ninja_game.sim.memory.schema import World
+from ninja_game.simulation import SaveState, Simulation
+
+_WARM = 6
+"""Ticks that are run with their animations before the one that is sought, so that it looks as if played."""
+_NEAR = 6
+"""Ticks that are played on to, rather than sought."""
+
+
+class _Seen(Simulation):
+    """A simulation whose world is copied once a tick at most."""
+
+    _copy: World | None = None
+
+    @property
+    def world(self) -> World:
+        """The whole state as plain objects, as it is in this tick."""
+        if self._copy is None:
+            self._copy = super().world
+        return self._copy
+
+    def step_keys(self, keys: int) -> None:
+        """Advance one tick with these keys."""
+        self._copy = None
+        super().step_keys(keys)
+
+    def restore(self, state: SaveState) -> None:
+        """Go back to a saved moment."""
+        self._copy = None
+        super().restore(state)
+
+
+class LevelPicture:
+    """``canvas``: from px of the level to px of ``surface``, which is the picture. ``run``: what it shows."""
+
+    def __init__(self, bench: Bench) -> None:
+        self.bench = bench
+        session = bench.session
+        self.run = _Seen(session.about.level, body=session.about.body, memory=session.timeline.memory)
+        self._context = OffscreenContext((1, 1), bench.app.settings)
+        self._view: LevelView | None = None
+        self.surface = pygame.Surface((1, 1))
+
+    @property
+    def context(self) -> OffscreenContext:
+        """Palette and lettering in the size of the picture."""
+        return self._context
+
+    @property
+    def canvas(self) -> Canvas:
+        """From px of the level to px of the picture."""
+        return self._context.canvas
+
+    @property
+    def tick(self) -> int:
+        """The tick after which the world is shown; -1 at the start."""
+        return self.run.tick - 1
+
+    def fit(self, size: tuple[int, int]) -> bool:
+        """Have a size, px, and the player's settings; whether everything is to be drawn anew."""
+        app = self.bench.app
+        settings = app.settings.changed(show_ghost=True)
+        if self.surface.get_size() == size and self._context.settings.palette == settings.palette and self._view:
+            self._context.settings = settings
+            return False
+        self._context = OffscreenContext(size, settings)
+        self._context.audio_output = app.audio_output
+        self.surface = pygame.Surface(size)
+        self._view = LevelView(self._context, self.run, audible=False)
+        self._view.on_seek()
+        return True
+
+    def follow(self, ghosts: list[RunGhost]) -> None:
+        """Have other runs go along."""
+        if self._view is not None and self._view.ghosts != ghosts:
+            self._view.ghosts = ghosts
+            for ghost in ghosts:
+                ghost.on_seek(self.run.tick)
+
+    def show(self, tick: int, *, audible: bool = False) -> None:
+        """Show the world after a tick, if that is simulated. ``audible``: it is played, and its events are heard."""
+        timeline = self.bench.session.timeline
+        moment = tick + 1
+        if timeline.valid < moment:
+            return
+        run, inputs = self.run, first_ticks(timeline.inputs[:moment], moment)
+        if run.inputs == inputs:
+            return
+        if self._view is not None:
+            self._view.audible = audible
+        if not (moment - _NEAR <= run.tick < moment and inputs.startswith(run.inputs)):
+            self._seek(moment, inputs)
+        self._play(inputs)
+        if self._view is not None:
+            self._view.audible = False
+
+    def _seek(self, moment: int, inputs: bytes) -> None:
+        """Some ticks before the moment after so many ticks."""
+        timeline = self.bench.session.timeline
+        start = max(0, moment - _WARM)
+        end, outcome = timeline.end
+        if outcome == "dead" and start > end:
+            # A corpse lies where it fell: its fall is run again.
+            start = end
+        self.run.restore(timeline.save_state(start))
+        while self.run.tick < start:
+            self.run.step_keys(inputs[self.run.tick])
+        if self._view is not None:
+            self._view.on_seek()
+
+    def _play(self, inputs: bytes) -> None:
+        """All ticks that are missing."""
+        for keys in inputs[self.run.tick :]:
+            self.run.step_keys(keys)
+            if self._view is not None:
+                self._view.on_tick()
+
+    def draw(self, fraction: float, *, whole: bool) -> None:
+        """Draw it, ``fraction`` of a tick after the last but one."""
+        if self._view is not None:
+            self._view.draw(self.surface, fraction, whole=whole)

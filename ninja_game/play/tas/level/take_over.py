@@ -1,0 +1,136 @@
+"""Taking over: the player's own keys play the run on from the tick under the cursor."""
+
+from __future__ import annotations
+
+from ninja_game.play.input.events import InputEvent
+from ninja_game.play.tas.controls import COMMANDS
+from ninja_game.play.tas.level.playing import Playing
+from ninja_game.tas.timeline import AFTERMATH
+
+_OF_THE_APP = frozenset({"fullscreen", "screenshot", "boss"})
+_MOVES = frozenset({"left", "right", "jump"})
+_BY_ACTION = {"pause": "play", "back": "take_over", "frame_forward": "step", "frame_back": "step_back"}
+"""Commands by actions of the game, for pads and for other keys."""
+_BY_KEY = {"escape": "take_over"} | {
+    key: command.name
+    for command in COMMANDS
+    if command.name in ("play", "take_over", "step", "step_back", "faster", "slower", "ghosts")
+    for key in command.keys
+}
+"""The commands of a run that is taken over."""
+_KEPT_EVERY = 40
+"""Ticks after which what was played is noted in the journal."""
+
+
+class TakeOver:
+    """``on``: the run is taken over. ``waiting``: it begins with the first key. ``still``: tick by tick, or paused.
+
+    Each tick gets the keys that are down then; all of it is one edit. After an exit or a death nothing is recorded any
+    more; it ends when the aftermath has been shown.
+    """
+
+    def __init__(self, playing: Playing) -> None:
+        self.playing = playing
+        self.bench = playing.bench
+        self.on = self.waiting = self.still = False
+        self.tick = 0
+        self._held_before = 0
+
+    def begin(self) -> None:
+        """Take over from the tick under the cursor; it begins with the first key that is pressed."""
+        bench = self.bench
+        self.playing.stop()
+        bench.session.timeline.need(bench.cursor)
+        if self._ended(bench.cursor):
+            end, outcome = bench.session.timeline.end
+            words = "has left" if outcome == "exit" else "is dead"
+            bench.app.notify(f"The ninja {words} in tick {end}: take over in a tick before")
+            return
+        bench.session.begin()
+        self.on = self.waiting = True
+        self.still = False
+        self.tick = bench.cursor
+        bench.go(self.tick)
+        self._held_before = bench.app.controls.held()
+
+    def end(self) -> None:
+        """The run is edited as before; all that was played is one edit."""
+        if self.on:
+            self.on = False
+            self.bench.app.audio_output.quiet()
+            self.bench.session.end()
+            self.bench.session.timeline.work(self.bench.session.soon)
+
+    def pause(self) -> None:
+        """Stand still, or go on."""
+        self.stand_still(still=not (self.still or self.waiting))
+
+    def stand_still(self, *, still: bool = True) -> None:
+        """Stand still, or not."""
+        self.still, self.waiting = still, False
+        self.playing.clock.reset()
+        self.bench.app.audio_output.quiet()
+
+    def step(self) -> None:
+        """One tick with the keys that are down; then it stands still."""
+        self.stand_still()
+        self._play_tick()
+
+    def step_back(self) -> None:
+        """A tick back, to go on from there; it stands still."""
+        self.stand_still()
+        self._go(max(0, self.tick - 1))
+
+    def _go(self, tick: int, *, audible: bool = False) -> None:
+        self.tick = tick
+        self.bench.go(tick)
+        self.playing.picture.show(tick, audible=audible)
+
+    def _ended(self, tick: int, after: int = 0) -> bool:
+        """Whether the exit or death was so many ticks before."""
+        end = self.bench.session.timeline.end[0]
+        return 0 <= end <= tick - after
+
+    def _play_tick(self) -> None:
+        """The next tick, with the keys that are down right now."""
+        bench, tick = self.bench, self.tick + 1
+        session = bench.session
+        if not self._ended(self.tick):
+            keys = bench.app.controls.held()
+            if not bench.attempt(lambda: session.change(bench.take.replaced(tick, tick + 1, [keys]), ticks=0)):
+                self.end()
+                return
+            if tick % _KEPT_EVERY == 0:
+                session.note()
+        session.timeline.need(tick)
+        self._go(tick, audible=True)
+        if self._ended(tick, AFTERMATH) or tick >= bench.last_tick:
+            self.end()
+
+    def update(self, real_ms: int) -> None:
+        """Let real time pass."""
+        if not self.on or self.still:
+            return
+        if self.waiting:
+            # Keys that were down before do not count until they are pressed again.
+            held = self.bench.app.controls.held()
+            self._held_before &= held
+            self.waiting = not held & ~self._held_before
+            self.playing.clock.reset()
+            return
+        for _ in range(self.playing.clock.ticks_due(real_ms, self.playing.tick_ms)):
+            if self.on:
+                self._play_tick()
+
+    @staticmethod
+    def meaning(event: InputEvent) -> str:
+        """The command that an event means now; '' for none."""
+        if event.source is None or _MOVES.intersection(event.pressed):
+            return ""
+        # By the bare key: Shift may be down, which jumps.
+        of_key = _BY_KEY.get(event.source[1], "") if event.source[0] == "keys" else ""
+        return of_key or next((_BY_ACTION[action] for action in event.pressed if action in _BY_ACTION), "")
+
+    def captures(self, event: InputEvent) -> bool:
+        """Whether a key is none that goes on to the commands or to the app."""
+        return event.source is not None and not self.meaning(event) and not _OF_THE_APP.intersection(event.pressed)

@@ -1,0 +1,190 @@
+"""The level on the bench: any tick exact, ways and ghosts, playing, other runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+from random import Random
+from shutil import copy
+
+import numpy as np
+import pygame
+import pytest
+
+from ninja_game.errors import ReplayError
+from ninja_game.formats.load import load_replays
+from ninja_game.play.replay.screen import SPEEDS
+from ninja_game.play.tas.level.other_runs import OtherRunScreen
+from ninja_game.tas.files import runs_beside
+from tests.support.bench_driver import BenchDriver
+from tests.support.own_pack import PACK
+
+RUN = PACK / "certificates" / "01-2-the-works.exit.replay.txt"
+
+
+@pytest.fixture(name="at")
+def bench_with_a_run(tmp_path: Path) -> Iterator[BenchDriver]:
+    driver = BenchDriver(tmp_path / "player", Path(copy(RUN, tmp_path / "run.replay.txt")))
+    try:
+        yield driver
+    finally:
+        driver.close()
+
+
+def test_any_tick_is_that_of_a_straight_run_after_any_edits(at: BenchDriver) -> None:
+    bench, chance = at.bench, Random(7)
+    for _ in range(40):
+        if chance.random() < 0.5:
+            first = chance.randrange(len(bench.take))
+            keys = [chance.randrange(8) for _ in range(chance.randrange(1, 30))]
+            edited = bench.take.replaced(first, first + chance.randrange(9), keys)
+            assert bench.attempt(partial(at.session.change, edited))
+        bench.go(chance.choice([chance.randrange(bench.last_tick + 1), bench.cursor + chance.randrange(-3, 4)]))
+        at.frames()
+        assert at.screen.level.picture.tick == bench.cursor
+        assert at.shown_digest() == at.straight_digest(bench.cursor)
+
+
+def test_playing_takes_the_cursor_along_at_the_chosen_speed(at: BenchDriver) -> None:
+    screen = at.screen
+    bench, playing = screen.bench, screen.level.playing
+    bench.go(50)
+    at.press("space")
+    at.frames(11)
+    assert 61 <= bench.cursor <= 62
+    at.press("equals")
+    at.frames(1)
+    assert SPEEDS[playing.speed] == 2.0
+    before = bench.cursor
+    at.frames(10)
+    assert 19 <= bench.cursor - before <= 21
+    at.press("escape")
+    at.frames()
+    assert not playing.on
+    assert at.top() is screen
+    before = bench.cursor
+    at.frames(5)
+    assert bench.cursor == before
+    at.press("period")
+    at.press("period")
+    at.press("comma")
+    at.frames()
+    assert bench.cursor == before + 1
+    assert at.shown_digest() == at.straight_digest(before + 1)
+
+
+def test_it_stops_at_the_last_tick_and_begins_again(at: BenchDriver) -> None:
+    screen = at.screen
+    bench = screen.bench
+    bench.go(bench.last_tick - 3)
+    at.press("space")
+    at.frames(10)
+    assert (bench.cursor, screen.level.playing.on) == (bench.last_tick, False)
+    at.press("space")
+    at.frames(5)
+    assert bench.cursor < 10
+
+
+@pytest.mark.parametrize("tick", [0, 90, 200])
+def test_a_click_goes_to_the_nearest_tick(at: BenchDriver, tick: int) -> None:
+    screen = at.screen
+    positions = screen.session.timeline.positions
+    left, top, *_ = screen.level.area
+    factor = screen.level.picture.canvas.scale / at.app.canvas.scale
+    place = left + positions[tick, 0] * factor, top + positions[tick, 1] * factor
+    at.mouse(*place, click=False)
+    hovered = screen.level.hover
+    assert hovered is not None
+    assert np.hypot(*(positions[hovered] - positions[tick])) < 3
+    at.mouse(*place)
+    at.mouse(700, 300, click=False)
+    assert screen.bench.cursor == hovered
+    assert screen.level.hover is None
+
+
+def test_the_run_before_the_edit_is_a_ghost_where_it_was_elsewhere(at: BenchDriver) -> None:
+    screen = at.screen
+    bench = screen.bench
+    bench.go(150)
+    at.frames()
+    assert not screen.level.ghosts
+    bench.edit(lambda take: take.replaced(100, 160, [1] * 60))
+    at.frames()
+    assert [ghost.label for ghost in screen.level.ghosts] == [""]
+    (ghost,) = screen.level.ghosts
+    assert ghost.place(1.0) == tuple(bench.session.before.positions[150])
+    at.press("g")
+    at.frames()
+    assert not screen.level.ghosts
+    at.press("g")
+    bench.go(80)
+    at.frames()
+    assert not screen.level.ghosts, "there it was at the same place"
+
+
+def test_other_runs_are_opened_chosen_and_taken_in(at: BenchDriver) -> None:
+    screen = at.screen
+    bench, mod = screen.bench, pygame.KMOD_LCTRL
+    before = bench.take
+    at.chord("p", mod)
+    at.frames()
+    assert bench.take == before
+    assert "Ctrl+O" in at.app.notice
+    other = before.replaced(100, 140, [2] * 40)
+    recording = screen.session.recording(other, "theirs")
+    screen.level.others.open([recording, recording])
+    at.frames()
+    assert len({run.name for run in bench.others}) == 2
+    assert len(screen.level.ghosts) == 2
+    bench.select(110, 120)
+    at.chord("p", mod)
+    at.frames()
+    assert bench.take.inputs[:110] == before.inputs[:110]
+    assert [bench.take.keys_at(tick) for tick in range(110, 120)] == [2] * 10
+    assert [bench.take.keys_at(k) for k in range(120, 200)] == [before.keys_at(k) for k in range(120, 200)]
+    assert screen.session.undo()
+    assert bench.take == before
+    at.press("o")
+    at.frames()
+    assert bench.chosen == 0
+
+
+def test_the_rest_of_another_run_from_the_nearest_place(at: BenchDriver) -> None:
+    bench = at.bench
+    mine = bench.take
+    screen = at.screen
+    screen.level.others.open([at.session.recording(mine.replaced(60, 60, [0] * 7), "later")])
+    bench.go(120)
+    here, there = at.session.timeline.positions[120], bench.others[0].positions
+    nearest = int(np.argmin(np.hypot(*(there - here).T)))
+    at.chord("p", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT)
+    theirs = bench.others[0].take
+    assert bench.take.inputs[:121] == mine.inputs[:121]
+    assert [bench.take.keys_at(121 + k) for k in range(300)] == [theirs.keys_at(nearest + 1 + k) for k in range(300)]
+    assert len(bench.take) == 121 + len(theirs) - nearest - 1
+    assert f"from its tick {nearest} on" in at.app.notice
+
+
+def test_a_run_of_another_level_is_refused(at: BenchDriver) -> None:
+    screen = at.screen
+    elsewhere = PACK / "certificates" / "00-0-first-steps.exit.replay.txt"
+    with pytest.raises(ReplayError, match="another level"):
+        screen.level.others.open(load_replays(elsewhere))
+    with pytest.raises(ReplayError, match="no run of"):
+        runs_beside(elsewhere, screen.session.about)
+    assert len(runs_beside(RUN, screen.session.about)) == 1
+
+
+def test_the_list_of_other_runs_has_those_of_the_level(at: BenchDriver) -> None:
+    screen = at.screen
+    at.chord("o", pygame.KMOD_LCTRL)
+    at.frames()
+    listed = at.top()
+    assert isinstance(listed, OtherRunScreen)
+    assert listed.rows
+    assert all("the works" in row.text.lower() for row in listed.rows)
+    at.press("return")
+    at.frames()
+    assert at.top() is screen
+    assert len(screen.bench.others) == 1
