@@ -365,7 +365,7 @@ def test_rows_know_what_is_simulated_and_where_the_run_ends(at: BenchDriver) -> 
     assert [row.tick for row in rows if row.beyond] == list(range(count, len(timeline)))
     row = rows[end - 5]
     assert row.values is not None
-    assert row.values.vx == float(timeline.column("x")[end - 5] - timeline.column("x")[end - 6])
+    assert row.values.vx == float(timeline.column("x")[end - 5] - timeline.column("prev_x")[end - 5])
     timeline.valid = 30
     rows = row_facts(at.bench, 25, 35)
     assert [row.values is None for row in rows] == [False] * 5 + [True] * 5

@@ -29,7 +29,7 @@ class ScrollBar:
             roles = (("gold-taken", "gold"), ("exit-opened", "exit"))
             self._marks = [
                 *((tick, role) for tick, names in timeline.event_ticks for name, role in roles if name in names),
-                *((tick, "bar_full") for tick, _ in take.markers),
+                *((tick, "ghost") for tick, _ in take.markers),
                 *([(end, "good" if outcome == "exit" else "bad")] if end >= 0 else []),
             ]
         return self._marks

@@ -45,7 +45,7 @@ class RollMouse:
             if self._doing and not any(event.buttons):
                 self.stop()
             self._go_on()
-            self._tell(x, y)
+        self._tell(x, y)
         return True
 
     def stop(self) -> None:
@@ -127,6 +127,8 @@ class RollMouse:
         if self._doing == "select" and tick != self._bench.cursor:
             self._bench.go(tick, select=True)
             self._roll.stay()
+        elif self._doing == "paint" and not self._bench.session.history.in_stroke:
+            self.stop()
         elif self._doing == "paint":
             first, last = min(tick, self._tick), max(tick, self._tick) + 1
             if not self._down:
@@ -140,7 +142,9 @@ class RollMouse:
         layout = self._roll.layout
         column = layout.column_at(x)
         if layout.heads.collidepoint(x, y):
-            self._bench.hint = column.meaning or "Click here to choose columns"
+            self._bench.hint = f"{column.meaning or column.head}; click: choose columns"
+        elif x >= layout.bar.left:
+            self._bench.hint = f"tick {self._roll.bar.tick_at(y, layout)}"
         elif layout.body.collidepoint(x, y) and layout.row_at(y) + self._roll.top <= self._bench.last_tick:
             tick = self._tick_at(y)
             rest = column.name in ("state", "jump_timer", "contacts", "gold", "exit")

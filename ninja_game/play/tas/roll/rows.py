@@ -66,17 +66,17 @@ class RowSheet:
                 fill(known, (left, y, place.width, layout.row))
                 self._key(row, place, left, y, line)
             elif place.column.name == "tick":
-                tint = palette.bar_full if row.name else known
+                tint = palette.ghost if row.name else known
                 fill(tint, (left, y, place.width, layout.row))
-                dark = palette.outline if row.name else ink
-                self._blits += self._digits.blits(str(row.tick), left + place.width - 3, y + self._lift, dark)
+                number = palette.panel if row.name else ink
+                self._blits += self._digits.blits(str(row.tick), left + place.width - 3, y + self._lift, number)
             elif place.column.name == "events":
                 self._events(row, left, place.width, y, ink)
             elif row.values:
                 self._value(row.values, place, left, y, ink)
             fill(line, (left, y, 1, layout.row))
-        if row.tick % 10 == 0:
-            fill(line, (0, y, layout.body.width, 1))
+        if row.name or row.tick % 10 == 0:
+            fill(palette.ghost if row.name else line, (0, y, layout.body.width, 1))
         if row.changed:
             fill(palette.ember, (0, y, self.theme.canvas.px(2), layout.row))
         if row.cursor:
@@ -135,10 +135,10 @@ class RowSheet:
         x, right = left + gap + 1, left + width
         if row.name:
             room = (width if not row.events else width // 2) / self.theme.canvas.scale - 4
-            text = self.theme.fit(row.name, room, SIZE)
-            name = self.theme.lettering.rendered(text, SIZE, palette.outline)
+            text = self.theme.fit(row.name, room, SIZE, bold=True)
+            name = self.theme.lettering.rendered(text, SIZE, palette.panel, bold=True)
             right -= name.get_width() + 2 * gap
-            self._picture.fill(palette.bar_full, (right, y, left + width - right, self.layout.row))
+            self._picture.fill(palette.ghost, (right, y, left + width - right, self.layout.row))
             self._blits.append((name, (right + gap, y + self._lift)))
         for event in sorted(map(EVENTS.__getitem__, row.events.split())) if row.events else ():
             chip = pygame.Color(getattr(palette, event.chip)) if event.chip else None
