@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
-from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, MINE
-from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
+from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, LAUNCHER, MINE, TURRET
+from ninja_game.sim.states import LAUNCHER_FLIGHT, OUTCOME_DEAD, OUTCOME_EXIT
 
 NAMES = {
     "x": 0, "y": 0, "vx": 0, "vy": 0, "speed": 0, "tick": 0, "gold": 0, "state": 0, "jump_timer": 0,
@@ -47,17 +47,35 @@ def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
         "won": lambda: (batch.outcomes == OUTCOME_EXIT).astype(float),
         "in_air": lambda: ninja["in_air"].astype(float), "near_wall": lambda: ninja["near_wall"].astype(float),
         "distance": lambda x, y: np.hypot(place[:, 0] - x, place[:, 1] - y),
-        "object_x": lambda number: _object(batch, number)["x"], "object_y": lambda number: _object(batch, number)["y"],
+        "object_x": lambda number: _place(batch, number, "x"), "object_y": lambda number: _place(batch, number, "y"),
         "taken": flag("taken"), "opened": flag("opened"),
     }  # fmt: skip
 
 
+def id_of(number: Any) -> float:
+    """The id in the brackets of a formula. Raises ArgumentError for one that is not the same in all worlds."""
+    if np.ndim(number):
+        raise ArgumentError("the id of an object is a plain number, such as 3")
+    return float(number)
+
+
 def _object(batch: Batch, number: Any) -> Any:
     """An object of all worlds, by its id."""
-    id_ = float(number)
-    if id_ != int(id_) or not 0 <= id_ < int(batch.records["id_count"][0]):
+    id_ = id_of(number)
+    if not 0 <= id_ < int(batch.records["id_count"][0]) or id_ != int(id_):
         raise ArgumentError(f"there is no object {id_:g}; ids are those that `ninja-game splits` shows")
     return batch.objects[:, int(id_) + 1]
+
+
+def _place(batch: Batch, number: Any, axis: str) -> Any:
+    """Where an object is in all worlds, px, as traces have it (``place_of``)."""
+    found = _object(batch, number)
+    kind = int(found["kind"][0])
+    if kind == TURRET:
+        return found[f"aim_{axis}"]
+    if kind == LAUNCHER:
+        return np.where(found["routine"] == LAUNCHER_FLIGHT, found[axis], found[f"base_{axis}"])
+    return found[axis]
 
 
 FLAGS = {"taken": {GOLD: "taken", MINE: "exploded"}, "opened": {EXIT: "is_open", DOOR: "switched"}}

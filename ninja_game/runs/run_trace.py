@@ -106,6 +106,11 @@ def object_rows(record: TraceRecord, count: int) -> NDArray[np.void]:
     return rows
 
 
+def switched_doors(record: TraceRecord, count: int) -> NDArray[np.uint8]:
+    """Whether each object is a door that is not as it began: an automatic or locked one open, a trap closed."""
+    return np.frombuffer(record.switched, np.uint8).reshape(len(record.numbers) // len(TRACED_NUMBERS), count)
+
+
 def event_names(record: TraceRecord) -> tuple[str, ...]:
     """The names of each tick's events, with blanks between."""
     ticks = np.frombuffer(record.events, np.uint8).reshape(-1, MAX_EVENTS)

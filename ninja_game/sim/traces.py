@@ -25,6 +25,13 @@ def place_of(w: World, slot: int) -> tuple[float, float]:
 
 
 @fast
+def is_switched(w: World, slot: int) -> int:
+    """1 for a door that is not as it began, else 0: the status of an automatic one that has closed again tells less."""
+    o = w.objects[slot]
+    return o.switched if o.kind == kinds.DOOR else 0
+
+
+@fast
 def status_of(w: World, slot: int) -> int:
     """What an object is doing, as one number (the table is in docs/replay-format.md)."""
     o = w.objects[slot]

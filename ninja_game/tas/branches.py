@@ -6,9 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ninja_game.formats.replay.input_runs import Marker
+from ninja_game.errors import ArgumentError, NinjaGameError
+from ninja_game.formats.replay.input_runs import Marker, is_marker_name
 from ninja_game.sim.inputs import check_inputs
+from ninja_game.sim.states import OUTCOME_NAMES
 from ninja_game.tas.take import Take
+
+DAMAGED = (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError, NinjaGameError)
+"""What reading JSON raises that is not as it was written."""
 
 
 @dataclass(frozen=True)
@@ -43,12 +48,17 @@ class Branches:
         return self.current
 
     def rename(self, number: int, name: str) -> None:
-        """Give a branch another name."""
-        self.all[number] = replace(self.all[number], name=name)
+        """Give a branch another name. Raises ArgumentError for one that there is not."""
+        self.all[self.checked(number)] = replace(self.all[number], name=name)
+
+    def go_on_from(self, number: int) -> Take:
+        """Make a branch the current one; its take. Raises ArgumentError for one that there is not."""
+        self.current = self.checked(number)
+        return self.all[number].take
 
     def drop(self, number: int) -> None:
-        """Forget a branch; what was made from it hangs on its parent."""
-        parent = self.all[number].parent
+        """Forget a branch; what was made from it hangs on its parent. Raises ArgumentError without such a one."""
+        parent = self.all[self.checked(number)].parent
 
         def moved(other: int | None) -> int | None:
             other = parent if other == number else other
@@ -57,34 +67,52 @@ class Branches:
         self.current = moved(self.current)
         self.all = [replace(each, parent=moved(each.parent)) for at, each in enumerate(self.all) if at != number]
 
+    def checked(self, number: int) -> int:
+        """The number of a branch. Raises ArgumentError for one that there is not."""
+        if not 0 <= number < len(self.all):
+            raise ArgumentError(f"there is no branch {number}")
+        return number
+
     def in_tree(self) -> Iterator[tuple[int, int]]:
         """The branches as a tree is read, children under their parent: number and depth."""
-
-        def under(parent: int | None, depth: int) -> Iterator[tuple[int, int]]:
-            for number, branch in enumerate(self.all):
-                if branch.parent == parent:
-                    yield number, depth
-                    yield from under(number, depth + 1)
-
-        return under(None, 0)
+        children: dict[int | None, list[int]] = {}
+        for number, branch in enumerate(self.all):
+            children.setdefault(branch.parent, []).append(number)
+        waiting = [(number, 0) for number in reversed(children.get(None, []))]
+        while waiting:
+            number, depth = waiting.pop()
+            yield number, depth
+            waiting += [(child, depth + 1) for child in reversed(children.get(number, []))]
 
     def as_json(self) -> dict[str, Any]:
         """All of it as JSON can say it."""
         return {"branches": [branch_as_json(branch) for branch in self.all], "current": self.current}
 
+    def do(self, change: dict[str, Any]) -> None:
+        """A change as a journal tells it: ``keep``, ``drop``, ``rename``, ``go_on`` or all of it. Raises DAMAGED."""
+        if "branches" in change:
+            whole = branches_of_json(change)
+            self.all, self.current = whole.all, whole.current
+        elif "keep" in change:
+            self.keep(branch_of_json(change["keep"]))
+        elif "rename" in change:
+            self.rename(int(change["rename"]), str(change["name"]))
+        elif "go_on" in change:
+            self.go_on_from(int(change["go_on"]))
+        else:
+            self.drop(int(change["drop"]))
+
 
 def branches_of_json(kept: dict[str, Any]) -> Branches:
-    """What ``as_json`` gave. Raises ValueError, KeyError, TypeError or DemoError for anything else."""
+    """What ``as_json`` gave. Raises one of DAMAGED for anything else."""
     found = Branches()
     for number, each in enumerate(kept["branches"]):
         branch = branch_of_json(each)
         if branch.parent is not None and not 0 <= branch.parent < number:
             raise ValueError("a branch that hangs on a later one")
         found.all.append(branch)
-    current = kept["current"]
-    if current is not None and not 0 <= int(current) < len(found.all):
-        raise ValueError("no such branch")
-    found.current = current
+    if kept["current"] is not None:
+        found.go_on_from(int(kept["current"]))
     return found
 
 
@@ -97,21 +125,38 @@ def branch_as_json(branch: Branch) -> dict[str, Any]:
 
 
 def branch_of_json(kept: dict[str, Any]) -> Branch:
-    """What ``branch_as_json`` gave. Raises ValueError, KeyError, TypeError or DemoError for anything else."""
+    """What ``branch_as_json`` gave. Raises one of DAMAGED for anything else."""
     parent = kept["parent"]
-    end, gold = int(kept["end"]), int(kept["gold"])
-    return Branch(
-        str(kept["name"]), take_of_json(kept), None if parent is None else int(parent), end, str(kept["outcome"]), gold
-    )
+    end, gold, outcome = int(kept["end"]), int(kept["gold"]), str(kept["outcome"])
+    if outcome not in OUTCOME_NAMES:
+        raise ValueError(f"the outcome {outcome[:40]!r}")
+    return Branch(str(kept["name"]), take_of_json(kept), None if parent is None else int(parent), end, outcome, gold)
 
 
 def take_as_json(take: Take) -> dict[str, Any]:
     """A take as JSON can say it: its inputs a hexadecimal digit a tick."""
-    return {"inputs": "".join(f"{keys:x}" for keys in take.inputs), "markers": [list(each) for each in take.markers]}
+    return {"inputs": take.inputs.hex()[1::2], "markers": [list(each) for each in take.markers]}
 
 
 def take_of_json(kept: dict[str, Any]) -> Take:
-    """What ``take_as_json`` gave. Raises ValueError, KeyError, TypeError or DemoError for anything else."""
-    inputs = bytes(int(digit, 16) for digit in kept["inputs"])
+    """What ``take_as_json`` gave. Raises one of DAMAGED for anything else."""
+    return checked_take(inputs_of_json(kept["inputs"]), markers_of_json(kept["markers"]))
+
+
+def inputs_of_json(digits: str) -> bytes:
+    """Inputs, a hexadecimal digit a tick. Raises one of DAMAGED for anything else."""
+    return bytes.fromhex("0" + "0".join(digits)) if digits else b""
+
+
+def markers_of_json(kept: list[Any]) -> tuple[Marker, ...]:
+    """Names of ticks. Raises one of DAMAGED for anything else."""
+    return tuple(Marker(int(tick), str(name)) for tick, name in kept)
+
+
+def checked_take(inputs: bytes, markers: tuple[Marker, ...]) -> Take:
+    """A take that a replay text can hold. Raises ValueError or DemoError for another."""
     check_inputs(inputs)
-    return Take(inputs, tuple(Marker(int(tick), str(name)) for tick, name in kept["markers"]))
+    names = {name for tick, name in markers if 0 <= tick <= len(inputs) and is_marker_name(name)}
+    if len(names) < len(markers):
+        raise ValueError("names of ticks that there cannot be")
+    return Take(inputs, markers)

@@ -12,6 +12,7 @@ from pathlib import Path
 from ninja_game.editor.files import OccupiedError
 from ninja_game.errors import NinjaGameError, ReplayError
 from ninja_game.files.reading import read_bytes, read_utf8
+from ninja_game.files.resources import data_folder
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.links.fragment import is_link
@@ -24,7 +25,7 @@ from ninja_game.formats.tas_lines import in_our_notation, is_tas_text
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.inputs import Demo
 from ninja_game.sim.level import Level
-from ninja_game.tas.branches import Branches, branches_of_json
+from ninja_game.tas.branches import DAMAGED, Branches, branches_of_json
 from ninja_game.tas.take import Take
 
 SUFFIX = ".replay.txt"
@@ -32,10 +33,15 @@ SUFFIX = ".replay.txt"
 
 @dataclass(frozen=True)
 class RunFile:
-    """Where a run is at home. ``path``: None without a file that may be replaced; ``digest``: of that file's bytes."""
+    """Where a run is at home. ``path``: None without a file that may be replaced.
+
+    ``digest``: of that file's bytes; ``beside``: of those of its branches; ``take``: what the file holds.
+    """
 
     path: Path | None = None
     digest: str = ""
+    beside: str = ""
+    take: Take | None = None
 
 
 @dataclass(frozen=True)
@@ -52,7 +58,8 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
     """The recording number ``record`` of a file or link; None: its only one.
 
     Only replay texts that ``save_run`` could have written are replaced by it: those with comments, blocks or other
-    files in them stay. Raises ReplayError, DemoError, LevelError; OSError for a file that cannot be opened.
+    files in them stay, and so do those of the game. Raises ReplayError, DemoError, LevelError; OSError for a file that
+    cannot be opened.
     """
     recordings = load_replays(path, level=level)
     if record is None and len(recordings) > 1:
@@ -60,13 +67,19 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
     recording = next((each for each in recordings if each.record == (record or 0)), None)
     if recording is None:
         raise ReplayError(f"there is no record {record}", str(path), expected=f"0 to {len(recordings) - 1}")
-    file = RunFile()
-    if not is_link(path) and recording.replay is not None:
-        data = read_bytes(path)
-        if _written_by_us(data):
-            file = RunFile(path, sha256(data).hexdigest())
-    branches = read_branches(path) if file.path else Branches()
-    return OpenedRun(recording, take_of(recording), file, branches)
+    take = take_of(recording)
+    if is_link(path) or recording.replay is None or path.resolve().is_relative_to(data_folder("levels").resolve()):
+        return OpenedRun(recording, take, RunFile(), Branches())
+    data = read_bytes(path)
+    if not _written_by_us(data):
+        return OpenedRun(recording, take, RunFile(), Branches())
+    file = RunFile(path, sha256(data).hexdigest(), _digest(branches_path(path)), take)
+    return OpenedRun(recording, take, file, read_branches(path))
+
+
+def _digest(path: Path) -> str:
+    """The digest of a file's bytes; '' where there is none."""
+    return sha256(read_bytes(path)).hexdigest() if path.exists() else ""
 
 
 def runs_beside(path: Path, about: Recording) -> list[Recording]:
@@ -139,18 +152,18 @@ def loose_replay(about: Recording, take: Take) -> Replay:
 
 
 def replay_of_take(about: Recording, take: Take) -> Replay:
-    """A take as a replay of ours: with claims, or without where keys are pressed behind its end, which stay.
+    """A take as a replay of ours: with claims, or without where keys or names behind its end have to stay.
 
     Raises ArgumentError for a run without ticks.
     """
     loose = loose_replay(about, take)
     run = record_replay(about.level, take.inputs, body=about.body, name=about.name, author=about.author)
-    if any(take.inputs[run.ticks :]):
+    if any(take.inputs[run.ticks :]) or any(each.tick > run.ticks for each in take.markers):
         return loose
-    markers = tuple(each for each in take.markers if each.tick <= run.ticks)
     return replace(
-        run, markers=markers, practice=loose.practice, level_name=loose.level_name, level_author=loose.level_author
-    )
+        run, markers=take.markers, practice=loose.practice,
+        level_name=loose.level_name, level_author=loose.level_author,
+    )  # fmt: skip
 
 
 def save_run(
@@ -161,23 +174,34 @@ def save_run(
     Raises OccupiedError where that would replace another file, or one that was changed since it was read, unless
     ``replacing``; FileError, OSError for what cannot be written.
     """
-    there = sha256(read_bytes(path)).hexdigest() if path.exists() else ""
-    if there and not replacing:
-        if path != file.path:
-            raise OccupiedError(f"there is a file {path.name} already")
-        if there != file.digest:
-            raise OccupiedError(f"{path.name} was changed by another program")
-    data = write_replay(replay_of_take(about, take)).encode("utf-8", "replace")
-    write_atomically(path, data)
-    if len(branches) or branches_path(path).exists():
-        write_atomically(branches_path(path), json.dumps(branches.as_json(), indent=1))
-    return RunFile(path, sha256(data).hexdigest())
+    own, beside = path == file.path, branches_path(path)
+    for each, known in ((path, file.digest), (beside, file.beside)):
+        there = _digest(each)
+        if there and not replacing and not (own and there == known):
+            what = f"{each.name} was changed by another program" if own else f"there is a file {each.name} already"
+            raise OccupiedError(what)
+    if not own or take != file.take or _digest(path) != file.digest:
+        replay = replay_of_take(about, take)
+        write_atomically(path, write_replay(_with_old_path(replay, about) if own else replay))
+    if len(branches) or beside.exists():
+        write_atomically(beside, json.dumps(branches.as_json(), indent=1))
+    return RunFile(path, _digest(path), _digest(beside), take)
+
+
+def _with_old_path(replay: Replay, about: Recording) -> Replay:
+    """A replay that names its level's file, as the one that it replaces does."""
+    old = about.replay
+    if old is None or old.level is not None or not old.level_path:
+        return replay
+    return replace(
+        replay, level=None, level_name="", level_author="", level_digest=level_digest(about.level),
+        level_path=old.level_path, level_record=old.level_record,
+    )  # fmt: skip
 
 
 def branches_path(path: Path) -> Path:
     """The file of a run's branches, beside it."""
-    stem = path.name.removesuffix(".txt").removesuffix(".replay")
-    return path.with_name(f"{stem}.branches.json")
+    return path.with_name(f"{path.name}.branches.json")
 
 
 def read_branches(path: Path) -> Branches:
@@ -190,7 +214,7 @@ def read_branches(path: Path) -> Branches:
         return Branches()
     try:
         return branches_of_json(json.loads(read_utf8(beside)))
-    except (ValueError, KeyError, TypeError, NinjaGameError) as error:
+    except DAMAGED as error:
         hint = "move it away, and the run opens without branches"
         raise ReplayError("not the branches of a run", str(beside), found=str(error)[:60], hint=hint) from None
 

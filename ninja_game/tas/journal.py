@@ -1,7 +1,7 @@
 """Every edit on the disk as soon as it is made: a program that is killed loses at most the last one.
 
 A journal is a text of JSON lines in the player's folder: first what was opened, then each edit as the ticks that it
-replaces, and the branches whenever they change. It goes when the run is saved or left.
+replaces, and each change of the branches. It goes when the run is saved or left.
 """
 
 from __future__ import annotations
@@ -14,14 +14,22 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from zlib import crc32
 
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import FileError, NinjaGameError
 from ninja_game.files.locking import hold
-from ninja_game.files.reading import read_utf8
+from ninja_game.files.reading import open_regular
 from ninja_game.files.writing import write_atomically
-from ninja_game.formats.recording import Recording, parse_replays
-from ninja_game.formats.replay.input_runs import Marker
-from ninja_game.tas.branches import Branches, branches_of_json
+from ninja_game.formats.recording import parse_replays
+from ninja_game.tas.branches import (
+    DAMAGED,
+    Branches,
+    branches_of_json,
+    checked_take,
+    inputs_of_json,
+    markers_of_json,
+)
+from ninja_game.tas.files import OpenedRun, RunFile, take_of
 from ninja_game.tas.take import Take
 
 FOLDER = "tas"
@@ -31,33 +39,43 @@ _LOCK = ".lock"
 
 
 def edit_as_json(old: Take, new: Take) -> dict[str, Any]:
-    """What turns one take into another: the ticks from ``at`` to ``to`` - 1 are replaced by ``keys``."""
+    """What turns one take into another: the ticks from ``at`` to ``to`` - 1 are replaced by ``keys``.
+
+    ``sum``: of the new take, so that a damaged edit is noticed.
+    """
     at = old.first_difference(new)
-    tail = first_difference_from_the_end(old.inputs[at:], new.inputs[at:])
+    tail = _same_at_the_end(old.inputs[at:], new.inputs[at:])
     keys = new.inputs[at : len(new) - tail]
-    change: dict[str, Any] = {"at": at, "to": len(old) - tail, "keys": "".join(f"{key:x}" for key in keys)}
+    change: dict[str, Any] = {"at": at, "to": len(old) - tail, "keys": keys.hex()[1::2], "sum": _sum(new)}
     return change if old.markers == new.markers else change | {"markers": [list(each) for each in new.markers]}
 
 
-def first_difference_from_the_end(ours: bytes, theirs: bytes) -> int:
+def _same_at_the_end(ours: bytes, theirs: bytes) -> int:
     """How many bytes at the end are the same."""
     return Take(ours[::-1]).first_difference(Take(theirs[::-1]))
 
 
+def _sum(take: Take) -> int:
+    return crc32(repr(take.markers).encode("utf-8", "replace"), crc32(take.inputs))
+
+
 def edited(take: Take, change: dict[str, Any]) -> Take:
-    """A take after an edit of a journal. Raises ValueError, KeyError, TypeError for what is none."""
+    """A take after an edit of a journal. Raises one of DAMAGED for what is none."""
     at, to = int(change["at"]), int(change["to"])
     if not 0 <= at <= to <= len(take):
         raise ValueError("an edit of ticks that there are not")
-    keys = bytes(int(digit, 16) for digit in change["keys"])
-    markers = take.markers
-    if "markers" in change:
-        markers = tuple(Marker(int(tick), str(name)) for tick, name in change["markers"])
-    return Take(take.inputs[:at] + keys + take.inputs[to:], markers)
+    markers = markers_of_json(change["markers"]) if "markers" in change else take.markers
+    new = checked_take(take.inputs[:at] + inputs_of_json(change["keys"]) + take.inputs[to:], markers)
+    if _sum(new) != change["sum"]:
+        raise ValueError("an edit of another take")
+    return new
 
 
 class Journal:
-    """Writes the journal of one run, from its first edit on. ``problem``: why it cannot, or ''."""
+    """Writes the journal of one run, from its first edit on. ``problem``: why it cannot, or ''.
+
+    ``file``: the journal of a session that has died, to go on with. Raises FileError where another program does so.
+    """
 
     def __init__(self, folder: Path, opened: dict[str, Any], file: Path | None = None) -> None:
         self.problem = ""
@@ -66,32 +84,31 @@ class Journal:
         self._file = file or self._folder / f"{secrets.token_hex(6)}.jsonl"
         self._lock: int | None = None
         self._handle: int | None = None
+        if file is not None:
+            self._lock = hold(file.with_suffix(_LOCK))
+            if self._lock is None:
+                raise FileError("another window goes on with this run already", str(file))
 
-    def edit(self, old: Take, new: Take) -> None:
-        """Note an edit."""
-        self._write(edit_as_json(old, new))
-
-    def branches(self, branches: Branches) -> None:
-        """Note all branches."""
-        self._write(branches.as_json())
-
-    def _write(self, line: dict[str, Any]) -> None:
+    def note(self, line: dict[str, Any]) -> bool:
+        """Write a line; whether that was possible."""
         try:
             if self._handle is None:
-                self._open()
-            assert self._handle is not None  # noqa: S101 - made by _open
-            os.write(self._handle, (json.dumps(line, separators=(",", ":")) + "\n").encode())
-            self.problem = ""
+                self._handle = self._open()
+            # A line that was cut, by a full disk or a kill, ends where the next one begins.
+            data = b"\n" + json.dumps(line, separators=(",", ":")).encode()
+            done = os.write(self._handle, data) == len(data)
+            self.problem = "" if done else "What you edit cannot be kept safe: the disk is full"
         except (OSError, NinjaGameError) as error:
             self.problem = f"What you edit cannot be kept safe: {getattr(error, 'strerror', '') or error}"
+        return not self.problem
 
-    def _open(self) -> None:
+    def _open(self) -> int:
         self._folder.mkdir(parents=True, exist_ok=True)
         if self._lock is None:
             self._lock = hold(self._file.with_suffix(_LOCK))
         if not self._file.exists():
-            write_atomically(self._file, json.dumps(self.opened, separators=(",", ":")) + "\n")
-        self._handle = os.open(self._file, os.O_WRONLY | os.O_APPEND)
+            write_atomically(self._file, json.dumps(self.opened, separators=(",", ":")))
+        return os.open(self._file, os.O_WRONLY | os.O_APPEND)
 
     def begin_anew(self, opened: dict[str, Any]) -> None:
         """The run was saved: what was noted so far is no longer needed."""
@@ -117,12 +134,15 @@ def forget(file: Path) -> None:
 
 @dataclass(frozen=True)
 class Recovered:
-    """What a session that has died was editing: takes, first to last, branches, and what was opened."""
+    """What a session that has died was editing. ``opened``: as it began; ``takes``: after each edit.
 
-    recording: Recording
+    ``branches``: as they were last; ``said``: the first line of the journal ``file``.
+    """
+
+    opened: OpenedRun
     takes: tuple[Take, ...]
     branches: Branches
-    opened: dict[str, Any]
+    said: dict[str, Any]
     file: Path
 
 
@@ -135,29 +155,33 @@ def recovered(folder: Path) -> Iterator[Recovered]:
             if handle is None:
                 continue
             try:
-                yield read_journal(file)
-            except (ValueError, KeyError, TypeError, AttributeError, NinjaGameError):
+                found = read_journal(file)
+            except DAMAGED:
                 continue
             finally:
                 os.close(handle)
+            yield found
 
 
 def read_journal(file: Path) -> Recovered:
-    """What a journal tells; a line that was cut, and what follows it, is left out.
+    """What a journal tells; a line that is damaged is passed by.
 
-    Raises ValueError, KeyError, TypeError, AttributeError or NinjaGameError for one that is damaged at its begin.
+    Raises one of DAMAGED for one whose first line is damaged, OSError.
     """
-    lines = read_utf8(file).splitlines()
-    opened = json.loads(lines[0])
-    (recording,) = parse_replays(opened["replay"])
-    replay = recording.replay
-    takes = [Take(recording.playback(recording.ticks), replay.markers if replay else ())]
-    branches = branches_of_json(opened["branches"])
-    with suppress(ValueError, KeyError, TypeError, AttributeError, NinjaGameError):
-        for line in lines[1:]:
-            change = json.loads(line)
-            if "branches" in change:
-                branches = branches_of_json(change)
-            else:
-                takes.append(edited(takes[-1], change))
-    return Recovered(recording, tuple(takes), branches, opened, file)
+    with open_regular(file) as lines:
+        said = json.loads(lines.readline())
+        (recording,) = parse_replays(said["replay"])
+        home = RunFile(Path(str(said["path"])), str(said["digest"]), str(said["beside"])) if said["path"] else RunFile()
+        takes = [take_of(recording)]
+        branches = branches_of_json(said["branches"])
+        for line in lines:
+            with suppress(*DAMAGED):
+                change = json.loads(line)
+                if "at" not in change:
+                    branches.do(change)
+                elif change.get("goes_on"):
+                    takes[-1] = edited(takes[-1], change)
+                else:
+                    takes.append(edited(takes[-1], change))
+    opened = OpenedRun(recording, takes[0], home, branches_of_json(said["branches"]))
+    return Recovered(opened, tuple(takes[1:]), branches, said, file)

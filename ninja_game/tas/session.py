@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from ninja_game.editor.history import History
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
-from ninja_game.tas.branches import Branch, Branches
+from ninja_game.tas.branches import Branch, Branches, branch_as_json
 from ninja_game.tas.course import NOWHERE, Course
 from ninja_game.tas.files import OpenedRun, RunFile, loose_replay, recording_of, save_run
-from ninja_game.tas.journal import Journal, Recovered
+from ninja_game.tas.journal import Journal, Recovered, edit_as_json
 from ninja_game.tas.take import Take
 from ninja_game.tas.timeline import Timeline
 
@@ -37,6 +38,8 @@ class Session:
         self.timeline = Timeline(self.about.level, opened.take.inputs, body=self.about.body, memory=memory)
         self.before: Course = NOWHERE
         self._noted = opened.take
+        self._stroke_noted = False
+        self._branches_noted = True
         self.journal = Journal(folder, self._opened())
         self.timeline.work(self.soon)
 
@@ -44,7 +47,8 @@ class Session:
         """What the journal says first."""
         text = write_replay(loose_replay(self.about, self.take))
         path = str(self.file.path.absolute()) if self.file.path else ""
-        return {"path": path, "digest": self.file.digest, "replay": text, "branches": self.branches.as_json()}
+        file = {"path": path, "digest": self.file.digest, "beside": self.file.beside}
+        return {**file, "replay": text, "branches": self.branches.as_json()}
 
     @property
     def take(self) -> Take:
@@ -84,7 +88,8 @@ class Session:
     def end(self) -> None:
         """The stroke ends."""
         self.history.end()
-        self.note()
+        self._note()
+        self._stroke_noted = False
 
     def undo(self) -> bool:
         """Take the last edit back; whether there was one."""
@@ -95,6 +100,7 @@ class Session:
         return self._step(self.history.redo)
 
     def _step(self, step: Callable[[], bool]) -> bool:
+        self.end()
         before = self.timeline.course()
         if not step():
             return False
@@ -103,17 +109,19 @@ class Session:
         return True
 
     def _follow(self, ticks: int | None = None) -> None:
-        """Show what the take leads to, and note it once it is no part of a stroke."""
+        """Show what the take leads to, and note it."""
         self.timeline.show(self.take.inputs)
         self.timeline.work(self.soon if ticks is None else ticks)
-        if not self.history.in_stroke:
-            self.note()
+        self._note()
 
-    def note(self) -> None:
-        """Have the journal know what has changed, also while a stroke goes on."""
-        if self.take != self._noted:
-            self.journal.edit(self._noted, self.take)
+    def _note(self) -> None:
+        """Put what has changed into the journal. What could not be written is a part of the next edit's line."""
+        if self.take == self._noted:
+            return
+        change = edit_as_json(self._noted, self.take)
+        if self.journal.note(change | {"goes_on": True} if self._stroke_noted else change):
             self._noted = self.take
+            self._stroke_noted = self.history.in_stroke
 
     # --- branches ---
 
@@ -123,25 +131,30 @@ class Session:
         end, outcome = self.timeline.end
         gold = self.timeline.column("gold")
         reached = int(gold[end]) if len(gold) else 0
-        number = self.branches.keep(Branch(name, self.take, None, end, outcome, reached))
-        self.journal.branches(self.branches)
+        branch = Branch(name, self.take, None, end, outcome, reached)
+        number = self.branches.keep(branch)
+        self._note_branches({"keep": branch_as_json(branch)})
         return number
 
     def take_branch(self, number: int) -> None:
-        """Go on from a branch; undo brings back what was there before."""
-        self.branches.current = number
-        self.change(self.branches.all[number].take)
-        self.journal.branches(self.branches)
+        """Go on from a branch; undo brings back what was there before. Raises ArgumentError without such a one."""
+        self.end()
+        take = self.branches.go_on_from(number)
+        self._note_branches({"go_on": number})
+        self.change(take)
 
     def drop_branch(self, number: int) -> None:
-        """Forget a branch."""
+        """Forget a branch. Raises ArgumentError without such a one."""
         self.branches.drop(number)
-        self.journal.branches(self.branches)
+        self._note_branches({"drop": number})
 
     def rename_branch(self, number: int, name: str) -> None:
-        """Give a branch another name."""
+        """Give a branch another name. Raises ArgumentError without such a one."""
         self.branches.rename(number, name)
-        self.journal.branches(self.branches)
+        self._note_branches({"rename": number, "name": name})
+
+    def _note_branches(self, change: dict[str, Any]) -> None:
+        self._branches_noted = self.journal.note(change if self._branches_noted else self.branches.as_json())
 
     def recording(self, take: Take | None = None, name: str = "") -> Recording:
         """A take (None: the present one) as a recording, for what compares and searches runs."""
@@ -162,13 +175,15 @@ class Session:
         self.journal.close(keep=keep and not self.is_saved)
 
     def recover(self, found: Recovered) -> None:
-        """Go on where a session that has died was; its edits can be undone."""
-        for take in found.takes[1:]:
+        """Go on where a session that has died was, which had opened the same run; its edits can be undone.
+
+        Raises FileError where another window does so already.
+        """
+        journal = Journal(found.file.parent.parent, found.said, found.file)
+        self.journal.close()
+        self.journal = journal
+        for take in found.takes:
             self.history.change(take)
         self.branches = found.branches
         self._noted = self.take
-        self.journal.close()
-        self.journal = Journal(found.file.parent.parent, found.opened, found.file)
-        self.saved = Take(b"") if self.take != found.takes[0] else self.saved
-        self.timeline.show(self.take.inputs)
-        self.timeline.work(self.soon)
+        self._follow()

@@ -9,6 +9,7 @@ import numpy as np
 
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.replay.input_runs import Marker
+from ninja_game.formats.replay.input_text import marker_name
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, MAX_TICKS, pressed
 
 
@@ -38,9 +39,9 @@ class Take:
         """
         if not 0 <= first <= last:
             raise ArgumentError(f"ticks {first} to {last} are no span")
-        before = self.inputs[:first].ljust(first, b"\0")
         if first + len(keys) + max(0, len(self.inputs) - last) > MAX_TICKS:
             raise ArgumentError(f"a run has at most {MAX_TICKS} ticks")
+        before = self.inputs[:first].ljust(first, b"\0")
         held = before[-1] & JUMP_HELD if before else 0
         made = bytearray()
         for key in keys:
@@ -68,13 +69,24 @@ class Take:
 
     def with_key(self, first: int, last: int, key: int, *, down: bool) -> Take:
         """A key down, or up, in the ticks ``first`` … ``last`` - 1. The run grows if it ends before them."""
+        if last > MAX_TICKS:
+            raise ArgumentError(f"a run has at most {MAX_TICKS} ticks")
         keys = [self.keys_at(tick) | key if down else self.keys_at(tick) & ~key for tick in range(first, last)]
         return self.replaced(first, last, keys)
 
     def named(self, tick: int, name: str) -> Take:
-        """With another name for a tick; '': without one."""
+        """With another name for a tick, blanks as '-'; '': without one. The run grows if it ends before the tick.
+
+        Raises ReplayError for a name that replay texts cannot hold, ArgumentError for a tick that there cannot be.
+        """
+        name = name.strip().replace(" ", "-")
+        name = name and marker_name(name)
+        if not 0 <= tick <= MAX_TICKS:
+            raise ArgumentError(f"a run has at most {MAX_TICKS} ticks")
         others = [marker for marker in self.markers if marker.tick != tick and marker.name != name]
-        return Take(self.inputs, tuple(sorted([*others, Marker(tick, name)] if name else others)))
+        if not name:
+            return Take(self.inputs, tuple(others))
+        return Take(self.inputs.ljust(tick, b"\0"), tuple(sorted([*others, Marker(tick, name)])))
 
     def first_difference(self, other: Take) -> int:
         """The first tick whose input differs; the length of the shorter one if none does."""

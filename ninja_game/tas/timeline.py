@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from ninja_game.compile_cache import open_memory
 from ninja_game.errors import ArgumentError
-from ninja_game.runs.run_trace import OBJECT_RECORD, event_names, ninja_columns, object_rows
+from ninja_game.runs.run_trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
 from ninja_game.runs.save_states import SaveStates
-from ninja_game.sim.inputs import first_ticks
+from ninja_game.sim.inputs import MAX_TICKS, first_ticks
 from ninja_game.sim.kinds import EXIT, KIND_OF
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES
@@ -25,6 +25,7 @@ AFTERMATH = 40
 """Ticks that are run behind the last input, without a key: what it leads to."""
 _GROWTH = 4096
 """Rows by which the table grows at least."""
+_WATCHED_RECORD = np.dtype([*OBJECT_RECORD.descr, ("switched", "u1")])
 
 
 class Timeline:
@@ -45,7 +46,7 @@ class Timeline:
             **{name: np.zeros(0) for name in TRACED_PLACES},
             **{name: np.zeros(0, np.int32) for name in TRACED_NUMBERS},
         }
-        self._objects = np.zeros((0, 0), OBJECT_RECORD)
+        self._objects = np.zeros((0, 0), _WATCHED_RECORD)
         self._events: list[str] = []
         self.inputs = b""
         self.valid = 0
@@ -82,7 +83,7 @@ class Timeline:
         wanted = tuple(sorted(set(ids)))
         if wanted != self.watched:
             self.watched = wanted
-            self._objects = np.zeros((len(self._objects), len(wanted)), OBJECT_RECORD)
+            self._objects = np.zeros((len(self._objects), len(wanted)), _WATCHED_RECORD)
             self._forget(0)
 
     def _forget(self, tick: int) -> None:
@@ -117,7 +118,10 @@ class Timeline:
         record = self._memory.trace(inputs, [id_ + 1 for id_ in self.watched], events=True)
         for name, values in ninja_columns(record).items():
             self._columns[name][first:last] = values
-        self._objects[first:last] = object_rows(record, len(self.watched))
+        watched, objects = self._objects[first:last], object_rows(record, len(self.watched))
+        for name in ("x", "y", "s"):
+            watched[name] = objects[name]
+        watched["switched"] = switched_doors(record, len(self.watched))
         self._events[first:] = event_names(record)
         self.valid = last
 
@@ -128,7 +132,7 @@ class Timeline:
         more = max(rows - len(self._objects), _GROWTH)
         for name, column in self._columns.items():
             self._columns[name] = np.concatenate([column, np.zeros(more, column.dtype)])
-        self._objects = np.concatenate([self._objects, np.zeros((more, len(self.watched)), OBJECT_RECORD)])
+        self._objects = np.concatenate([self._objects, np.zeros((more, len(self.watched)), _WATCHED_RECORD)])
 
     # --- looking ---
 
@@ -137,7 +141,7 @@ class Timeline:
         return self._columns[name][: self.valid]
 
     def object_column(self, id_: int, name: str) -> NDArray[Any]:
-        """x, y (px) or s (status number) of a watched object after each simulated tick: (valid,)."""
+        """x, y (px), s (status) or switched (0, 1) of a watched object after each simulated tick: (valid,)."""
         return self._objects[: self.valid, self.watched.index(id_)][name]
 
     def events(self, tick: int) -> str:
@@ -157,7 +161,7 @@ class Timeline:
 
     def first_look(self, id_: float) -> tuple[int, float, float, int]:
         """Kind, x, y (px) and status of an object at the start. Raises ArgumentError for one that there is not."""
-        if id_ != int(id_) or not 0 <= id_ < len(self._seen) or not KIND_OF[self._seen[int(id_)][0]].traced:
+        if not 0 <= id_ < len(self._seen) or id_ != int(id_) or not KIND_OF[self._seen[int(id_)][0]].traced:
             raise ArgumentError(f"there is no object {id_:g}; ids are those that `ninja-game splits` shows")
         return self._seen[int(id_)]
 
@@ -184,5 +188,5 @@ class Timeline:
 
     def save_state(self, tick: int) -> SaveState:
         """The nearest moment that is kept at or before the one after so many ticks, for ``Simulation.restore``."""
-        at, state = self._states.nearest(min(tick, self.valid))
+        at, state = self._states.nearest(min(tick, self.valid, MAX_TICKS))
         return SaveState(self.level, self.body, self.memory, first_ticks(self.inputs[:at], at), state)

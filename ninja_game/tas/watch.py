@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from ninja_game.directed.expressions import parse_number, parse_truth
 from ninja_game.directed.formula import Formula, Numbers
-from ninja_game.directed.view import FACTS, FLAGS, NAMES
+from ninja_game.directed.view import FACTS, FLAGS, NAMES, id_of
 from ninja_game.errors import ArgumentError, FormatError
-from ninja_game.sim.kinds import GOLD, KIND_NAMES, MINE
+from ninja_game.sim.kinds import DOOR, KIND_NAMES
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT
 from ninja_game.tas.timeline import Timeline
@@ -83,7 +83,7 @@ def timeline_view(timeline: Timeline) -> dict[str, Callable[..., NDArray[np.floa
         return moved
 
     def of_object(name: str) -> Callable[..., Numbers]:
-        return lambda number: _object_column(timeline, float(number), name)
+        return lambda number: _object_column(timeline, id_of(number), name)
 
     return {
         "x": lambda: column("x"), "y": lambda: column("y"), "vx": lambda: velocity("x"), "vy": lambda: velocity("y"),
@@ -94,8 +94,8 @@ def timeline_view(timeline: Timeline) -> dict[str, Callable[..., NDArray[np.floa
         "in_air": lambda: column("in_air"), "near_wall": lambda: column("near_wall"),
         "distance": lambda x, y: np.hypot(column("x") - x, column("y") - y),
         "object_x": of_object("x"), "object_y": of_object("y"), "status": of_object("s"),
-        "taken": lambda number: _flag(timeline, float(number), "taken"),
-        "opened": lambda number: _flag(timeline, float(number), "opened"),
+        "taken": lambda number: _flag(timeline, id_of(number), "taken"),
+        "opened": lambda number: _flag(timeline, id_of(number), "opened"),
         "exit_distance": lambda: exit_distance(timeline),
     }  # fmt: skip
 
@@ -113,5 +113,6 @@ def _flag(timeline: Timeline, id_: float, what: str) -> Numbers:
     if kind not in FLAGS[what]:
         kinds = " and ".join(KIND_NAMES[each] for each in FLAGS[what])
         raise ArgumentError(f"object {id_:g} is of kind {KIND_NAMES[kind]}; '{what}' is for {kinds}")
-    now = _object_column(timeline, id_, "s")
-    return np.where(now == 0.0 if kind in (GOLD, MINE) else now != status, 1.0, 0.0)
+    if kind == DOOR:
+        return _object_column(timeline, id_, "switched")
+    return np.where(_object_column(timeline, id_, "s") != status, 1.0, 0.0)

@@ -6,11 +6,13 @@ from hypothesis import strategies as st
 
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import NAN, parse_number
+from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.formats.replay.text import OUTCOMES, Replay
 from ninja_game.sim.inputs import Demo
 from ninja_game.sim.kinds import VALUE_COUNTS
 from ninja_game.sim.level import TILES, Level, ObjectSpec
 from ninja_game.sim.memory.interface import BODIES
+from ninja_game.tas.take import Take
 
 # Decimals of at most 15 digits, as they stand in levels, read by the game's rule.
 decimal_texts = st.one_of(
@@ -103,3 +105,17 @@ def mutations_of(draw: st.DrawFn, seeds: tuple[str, ...]) -> str:
         )
         text = text[:start] + filling + text[end:]
     return text
+
+
+names_of_ticks = st.text("abc-_.1", min_size=1, max_size=3)
+
+
+odd_inputs = st.lists(st.integers(0, 15), max_size=30).map(bytes)
+
+
+@st.composite
+def takes(draw: st.DrawFn, inputs: st.SearchStrategy[bytes] = odd_inputs) -> Take:
+    """Runs under edit, with names of ticks."""
+    keys = draw(inputs)
+    markers = draw(st.dictionaries(names_of_ticks, st.integers(0, len(keys)), max_size=4))
+    return Take(keys, tuple(sorted(Marker(tick, name) for name, tick in markers.items())))

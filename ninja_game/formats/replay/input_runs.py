@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from itertools import groupby, pairwise
 from typing import NamedTuple
@@ -19,6 +20,14 @@ class Marker(NamedTuple):
 
     tick: int
     name: str
+
+
+_MARKER_NAME = re.compile(r"[\w.-]{1,100}")
+
+
+def is_marker_name(name: str) -> bool:
+    """Whether a marker can have this name."""
+    return _MARKER_NAME.fullmatch(name) is not None
 
 
 def write_inputs(inputs: bytes, markers: Sequence[Marker] = ()) -> list[str]:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from ninja_game.errors import ReplayError
 from ninja_game.formats.lines import Line, numbered_lines
-from ninja_game.formats.replay.input_runs import KEY_NAMES, Marker
+from ninja_game.formats.replay.input_runs import KEY_NAMES, Marker, is_marker_name
 from ninja_game.formats.tas_lines import in_our_notation, is_tas_text
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, MAX_TICKS, pressed
 
@@ -22,7 +22,6 @@ DEEPEST = 8
 _WORD = re.compile(r";.*|\(|\)[^ \t();]*|[^ \t();]+")
 _RUN = re.compile(r"(\.|L?R?J?)([!-]?)(?:\*([1-9][0-9]{0,6}))?")
 _BLOCK_END = re.compile(r"\)(?:\*([1-9][0-9]{0,6}))?")
-_NAME = re.compile(r"[\w.-]{1,100}")
 _INCLUDE = re.compile(r"[ \t]*include[ \t]+([^;]*)(?:;.*)?")
 
 _KEY_BITS = {text: keys for keys, text in enumerate(KEY_NAMES)}
@@ -53,7 +52,7 @@ def read_inputs(lines: Iterable[Line], *, file: str = "", include: Include | Non
 
 def marker_name(name: str, file: str = "", line: int = 0, column: int = 0) -> str:
     """The name, if it is one for a marker. Raises ReplayError."""
-    if _NAME.fullmatch(name):
+    if is_marker_name(name):
         return name
     expected = "a name of letters, digits, '-', '_' and '.', such as #first-jump"
     raise ReplayError("not a marker", file, line, column, repr(f"#{name}"[:30]), expected)

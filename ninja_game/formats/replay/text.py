@@ -14,7 +14,7 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.numbers import format_number
 from ninja_game.formats.replay.headers import COUNT_LIMIT, Headers
 from ninja_game.formats.replay.includes import included_beside
-from ninja_game.formats.replay.input_runs import Marker, write_inputs
+from ninja_game.formats.replay.input_runs import Marker, is_marker_name, write_inputs
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.formats.replay.sections import Waypoint, read_level, read_waypoints
 from ninja_game.sim.inputs import MAX_TICKS, Demo, first_ticks
@@ -171,6 +171,11 @@ def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
             return key, ReplayError(f"an unknown {key}", found=repr(word), expected=" or ".join(words))
     if replay.loose and (replay.gold or replay.digest or replay.waypoints):
         return "inputs", ReplayError("claims without an outcome", expected=" or ".join(OUTCOMES))
+    names = [marker.name for marker in replay.markers]
+    if len(set(names)) < len(names) or not all(map(is_marker_name, names)):
+        return "inputs", ReplayError("names of ticks that cannot be written", found=repr(names)[:60])
+    if not all(0 <= marker.tick <= len(replay.inputs) for marker in replay.markers):
+        return "inputs", ReplayError("a marker of a tick without an input", expected=f"0 to {len(replay.inputs)}")
     if replay.ticks > MAX_TICKS:
         return "final-tick", ReplayError("the replay is too long", expected=f"at most {MAX_TICKS} ticks")
     if len(replay.inputs) > (replay.ticks if replay.demo_length is None else replay.final_tick):

@@ -110,8 +110,8 @@ class CompiledMemory:
         """Run all of ``inputs`` and record everything."""
         keys, columns = np.frombuffer(inputs, np.uint8), np.array(slots, np.int64)
         ticks, width = len(keys), MAX_EVENTS if events else 0
-        widths = (len(TRACED_PLACES), len(TRACED_NUMBERS), 2 * len(columns), len(columns), width)
-        kinds = (np.float64, np.int32, np.float64, np.int32, np.uint8)
+        widths = (len(TRACED_PLACES), len(TRACED_NUMBERS), 2 * len(columns), len(columns), len(columns), width)
+        kinds = (np.float64, np.int32, np.float64, np.int32, np.uint8, np.uint8)
         record = TraceRecord(*(np.zeros(ticks * wide, kind) for wide, kind in zip(widths, kinds, strict=True)))
         kernel = self._compiled(trace_world)
         for first, last in self._slices(ticks):

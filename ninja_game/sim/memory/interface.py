@@ -27,12 +27,16 @@ TRACED_NUMBERS = ("state", "gold", "jump_timer", "in_air", "near_wall", "floor_c
 
 
 class TraceRecord(NamedTuple):
-    """What a trace recorded, in flat buffers as ``trace_world`` has them: float64, int32, float64, int32, uint8."""
+    """What a trace recorded, in flat buffers as ``trace_world`` has them.
+
+    ``ninja``, ``places``: float64; ``numbers``, ``statuses``: int32; ``switched``, ``events``: uint8.
+    """
 
     ninja: Any
     numbers: Any
     places: Any
     statuses: Any
+    switched: Any
     events: Any
 
 

@@ -15,7 +15,7 @@ from ninja_game.sim.death import kill
 from ninja_game.sim.loader import populate
 from ninja_game.sim.memory.declare import entry_point
 from ninja_game.sim.memory.schema import MAX_EVENTS, TileMap, World
-from ninja_game.sim.traces import place_of, status_of
+from ninja_game.sim.traces import is_switched, place_of, status_of
 from ninja_game.sim.world import step
 
 
@@ -99,13 +99,14 @@ def trace_world(
     numbers: Any,
     places: Any,
     statuses: Any,
+    switched: Any,
     events: Any,
 ) -> None:
     """Run all of ``inputs``, whatever happens, and record everything after each tick.
 
     ``ninja``: TRACED_PLACES of each tick in turn; ``numbers``: TRACED_NUMBERS. ``places``: x, y of each object in
-    ``slots``; ``statuses``: one of each. ``events``: MAX_EVENTS numbers a tick, each event's plus 1, 0 behind the last;
-    nothing is recorded in an empty array.
+    ``slots``; ``statuses``: one of each; ``switched``: 1 for a door that is not as it began. ``events``:
+    MAX_EVENTS numbers a tick, each event's plus 1, 0 behind the last; nothing is recorded in an empty array.
     """
     level = levels[index]
     w = worlds[index]
@@ -133,6 +134,7 @@ def trace_world(
             places[2 * row] = canonical(x)
             places[2 * row + 1] = canonical(y)
             statuses[row] = status_of(w, slots[k])
+            switched[row] = is_switched(w, slots[k])
         if len(events):
             for k in range(w.event_count):
                 events[MAX_EVENTS * tick + k] = w.events[k].kind + 1

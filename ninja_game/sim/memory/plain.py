@@ -130,7 +130,7 @@ class PlainMemory:
         ticks, rows = len(inputs), len(inputs) * len(slots)
         happened = bytearray(MAX_EVENTS * ticks if events else 0)
         ninja, numbers = _zeros("d", len(TRACED_PLACES) * ticks), _zeros("i", len(TRACED_NUMBERS) * ticks)
-        record = TraceRecord(ninja, numbers, _zeros("d", 2 * rows), _zeros("i", rows), happened)
+        record = TraceRecord(ninja, numbers, _zeros("d", 2 * rows), _zeros("i", rows), bytearray(rows), happened)
         trace_world([self.tiles], [self._world], 0, inputs, slots, *record)
         return record
 

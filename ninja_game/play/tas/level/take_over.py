@@ -18,8 +18,6 @@ _BY_KEY = {"escape": "take_over"} | {
     for key in command.keys
 }
 """The commands of a run that is taken over."""
-_KEPT_EVERY = 40
-"""Ticks after which what was played is noted in the journal."""
 
 
 class TakeOver:
@@ -100,8 +98,6 @@ class TakeOver:
             if not bench.attempt(lambda: session.change(bench.take.replaced(tick, tick + 1, [keys]), ticks=0)):
                 self.end()
                 return
-            if tick % _KEPT_EVERY == 0:
-                session.note()
         session.timeline.need(tick)
         self._go(tick, audible=True)
         if self._ended(tick, AFTERMATH) or tick >= bench.last_tick:

@@ -7,7 +7,7 @@ from functools import partial
 
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.formats.replay.input_runs import Marker, write_inputs
-from ninja_game.formats.replay.input_text import Inputs, marker_name
+from ninja_game.formats.replay.input_text import Inputs
 from ninja_game.play.clipboard import copy_text, pasted_text
 from ninja_game.play.editor.panels import Form
 from ninja_game.play.tas.bench import Bench, Span
@@ -181,7 +181,7 @@ class RollCommands:
         def named(take: Take) -> Take:
             if words and tick > len(take):
                 raise ArgumentError(f"the run has {len(take)} ticks: give this one a key first")
-            return take.named(tick, marker_name(words) if words else "")
+            return take.named(tick, words)
 
         self._bench.edit(named)
 

@@ -1,0 +1,264 @@
+"""Branches and journals: trees, JSON, and what is left of a session that was killed at any byte."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from random import Random
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ninja_game.errors import FileError
+from ninja_game.formats.load import load_replays
+from ninja_game.sim.inputs import press_jumps
+from ninja_game.tas.branches import DAMAGED, Branch, Branches, branches_of_json
+from ninja_game.tas.files import open_run
+from ninja_game.tas.journal import FOLDER, Journal, read_journal, recovered
+from ninja_game.tas.session import Session
+from ninja_game.tas.take import Take
+from tests.support.samples import replay_of_walk
+from tests.support.strategies import takes
+
+branches_of_any_sort = st.builds(Branch, st.text(max_size=5), takes(), st.none(), st.integers(-1, 99), st.just("dead"))
+
+
+@given(
+    st.lists(st.tuples(st.sampled_from(["keep", "keep", "drop", "go_on", "rename"]), branches_of_any_sort)), st.data()
+)
+def test_branches_are_a_tree_whatever_is_done(steps: list[tuple[str, Branch]], data: st.DataObject) -> None:
+    branches = Branches()
+    told = Branches()
+    for what, branch in steps:
+        number = data.draw(st.integers(0, max(0, len(branches) - 1)))
+        if what == "keep":
+            kept = branches.keep(branch)
+            assert (branches.current, branches.all[kept].take) == (kept, branch.take)
+            told.do({"keep": json.loads(json.dumps(branches.as_json()["branches"][kept]))})
+        elif not branches.all:
+            continue
+        elif what == "drop":
+            parents = [each.parent for each in branches.all]
+            names = {at: id(each.take) for at, each in enumerate(branches.all)}
+            branches.drop(number)
+            told.do({"drop": number})
+            for at, each in enumerate(branches.all):
+                parent = parents[at + (at >= number)]
+                parent = parents[number] if parent == number else parent
+                assert (each.parent is None) == (parent is None)
+                if parent is not None and each.parent is not None:
+                    assert id(branches.all[each.parent].take) == names[parent]
+        elif what == "go_on":
+            assert branches.go_on_from(number) == branches.all[number].take
+            told.do({"go_on": number})
+        else:
+            branches.rename(number, branch.name)
+            told.do({"rename": number, "name": branch.name})
+    seen = list(branches.in_tree())
+    assert sorted(number for number, _ in seen) == list(range(len(branches)))
+    depths = dict(seen)
+    for number, branch in enumerate(branches.all):
+        assert depths[number] == (0 if branch.parent is None else depths[branch.parent] + 1)
+    again = branches_of_json(json.loads(json.dumps(branches.as_json())))
+    assert (again.all, again.current) == (branches.all, branches.current) == (told.all, told.current)
+
+
+def test_a_long_line_of_branches_is_shown() -> None:
+    branches = Branches()
+    for _ in range(3000):
+        branches.keep(Branch("a", Take(b"")))
+    assert list(branches.in_tree())[-1] == (2999, 2999)
+
+
+def damaged(text: str, chance: Random) -> str:
+    """A text with a few characters changed, or cut."""
+    for _ in range(chance.choice((1, 1, 3))):
+        at = chance.randrange(len(text) + 1)
+        new = chance.choice(
+            ("", "}", '"', ",", "1e999", "null", "[" * 3000, "-1", "9" * 5000, "\ud800", "x", "\n", "{}")
+        )
+        text = text[:at] + new + text[at + chance.choice((0, 1, 5, 200)) :]
+    return text
+
+
+def test_damaged_branches_are_told() -> None:
+    branches = Branches()
+    branches.keep(Branch("one", Take(b"\1\2").named(1, "a")))
+    branches.keep(Branch("two", Take(b"\1\2\3")))
+    text = json.dumps(branches.as_json())
+    chance = Random(2)
+    for _ in range(4000):
+        try:
+            found = branches_of_json(json.loads(damaged(text, chance)))
+        except DAMAGED:
+            continue
+        list(found.in_tree())
+        json.dumps(found.as_json())
+
+
+@pytest.fixture(name="session")
+def session_of_a_file(tmp_path: Path) -> Session:
+    path = tmp_path / "walk.replay.txt"
+    path.write_text(replay_of_walk(), "utf-8")
+    return Session(open_run(path), tmp_path, memory="plain")
+
+
+def journal_of(folder: Path) -> Path:
+    (file,) = (folder / FOLDER).glob("*.jsonl")
+    return file
+
+
+def edit_at_random(session: Session, chance: Random) -> None:
+    """Any edit that the bench can make."""
+    take, many = session.take, range(chance.randrange(6))
+    first = chance.randrange(len(take) + 2)
+    keys = [chance.randrange(8) for _ in many]
+    what = chance.randrange(9)
+    if what == 0 and len(session.branches) < 6:
+        session.keep_branch("bé"[chance.randrange(2) :])
+    elif what == 1 and len(session.branches):
+        session.take_branch(chance.randrange(len(session.branches)))
+    elif what == 2 and len(session.branches):
+        (session.drop_branch if chance.random() < 0.5 else lambda n: session.rename_branch(n, "new"))(0)
+    elif what == 3:
+        session.undo()
+    elif what == 4:
+        session.redo()
+    elif what == 5:
+        session.change(take.named(first, f"n{chance.randrange(4)}"))
+    else:
+        session.change(take.replaced(first, first + chance.randrange(4), keys))
+
+
+def test_a_kill_at_any_byte_loses_at_most_the_last_edit(session: Session, tmp_path: Path) -> None:
+    chance = Random(3)
+    states = [(session.take, list(session.branches.all))]
+    sizes = []
+    session.change(session.take.replaced(0, 0, [1]))
+    file = journal_of(tmp_path)
+    for _ in range(60):
+        states.append((session.take, list(session.branches.all)))
+        sizes.append(file.stat().st_size)
+        edit_at_random(session, chance)
+    whole = file.read_bytes()
+    session.close(keep=True)
+    begun = whole.index(b"\n")
+    for size in range(begun, sizes[-1] + 1):
+        file.write_bytes(whole[:size])
+        found = read_journal(file)
+        done = sum(each <= size for each in sizes)
+        takes = (found.opened.take, *found.takes)
+        assert (takes[-1], found.branches.all) == states[done], size
+        # What is written afterwards is read again, whatever was cut.
+        journal = Journal(tmp_path, found.said, file)
+        assert journal.note({"drop": 99})
+        journal.close(keep=True)
+        assert read_journal(file).takes == found.takes
+
+
+def test_damaged_journals_give_only_takes_that_there_were(session: Session, tmp_path: Path) -> None:
+    chance = Random(4)
+    there = {session.take}
+    for _ in range(25):
+        edit_at_random(session, chance)
+        there.add(session.take)
+    session.close(keep=True)
+    file = journal_of(tmp_path)
+    whole = file.read_bytes().decode()
+    for _ in range(1500):
+        file.write_bytes(damaged(whole, chance).encode("utf-8", "surrogatepass"))
+        begin = file.read_bytes().split(b"\n")[0] == whole.encode().split(b"\n")[0]
+        for found in recovered(tmp_path):
+            if begin:
+                assert {found.opened.take, *found.takes} <= there
+            Session(found.opened, tmp_path, memory="plain").close()
+
+
+def test_a_run_goes_on_where_a_killed_session_was(session: Session, tmp_path: Path) -> None:
+    session.change(session.take.replaced(2, 3, [5]))
+    session.keep_branch("one")
+    session.begin()
+    for tick in range(5):
+        session.change(session.take.replaced(tick, tick + 1, [4]))
+    assert list(recovered(tmp_path)) == [], "it is running"
+    stroke = session.take
+    session.journal.close(keep=True)
+    (found,) = recovered(tmp_path)
+    assert found.takes[-1] == stroke, "also in the middle of a stroke"
+    assert len(found.takes) == 2
+    again = Session(found.opened, tmp_path, memory="plain")
+    again.recover(found)
+    assert again.file.path == tmp_path / "walk.replay.txt"
+    assert (again.take, [each.name for each in again.branches.all]) == (stroke, ["one"])
+    assert not again.is_saved
+    assert list(recovered(tmp_path)) == [], "it is gone on with"
+    with pytest.raises(FileError, match="another window"):
+        Session(found.opened, tmp_path, memory="plain").recover(found)
+    again.change(again.take.replaced(9, 10, [7]))
+    last = again.take
+    again.journal.close(keep=True)
+    (found,) = recovered(tmp_path)
+    assert found.takes[-1] == last
+    third = Session(found.opened, tmp_path, memory="plain")
+    third.recover(found)
+    assert third.undo()
+    assert third.take == stroke
+    third.save(tmp_path / "walk.replay.txt")
+    assert load_replays(tmp_path / "walk.replay.txt")[0].playback(9)[:5] == press_jumps([4] * 5)
+    assert list((tmp_path / FOLDER).iterdir()) == []
+
+
+def test_what_cannot_be_written_is_told_and_comes_later(
+    session: Session, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session.change(session.take.replaced(0, 1, [1]))
+    write = os.write
+    monkeypatch.setattr(os, "write", lambda handle, data: write(handle, data[: len(data) // 2]))
+    session.keep_branch("lost?")
+    session.change(session.take.replaced(1, 2, [1]))
+    assert "the disk is full" in session.journal.problem
+    monkeypatch.setattr(os, "write", write)
+    session.rename_branch(0, "kept")
+    session.change(session.take.replaced(2, 3, [1]))
+    assert session.journal.problem == ""
+    session.journal.close(keep=True)
+    (found,) = recovered(tmp_path)
+    assert found.takes[-1] == session.take
+    assert found.branches.all == session.branches.all
+
+
+def test_a_place_without_files_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "walk.replay.txt"
+    path.write_text(replay_of_walk(), "utf-8")
+    (tmp_path / FOLDER).write_text("in the way")
+    session = Session(open_run(path), tmp_path, memory="plain")
+    session.change(session.take.replaced(0, 1, [1]))
+    assert "cannot be kept safe" in session.journal.problem
+
+
+@settings(max_examples=30)
+@given(st.integers(0, 10**6))
+def test_undo_and_redo_bring_back_every_take(seed: int) -> None:
+    from tempfile import TemporaryDirectory
+
+    chance = Random(seed)
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "walk.replay.txt"
+        path.write_text(replay_of_walk(), "utf-8")
+        session = Session(open_run(path), Path(folder), memory="plain")
+        takes = [session.take]
+        for _ in range(20):
+            session.change(session.take.replaced(chance.randrange(30), 30, [chance.randrange(8)]))
+            if session.take != takes[-1]:
+                takes.append(session.take)
+        last = takes[-1]
+        while session.undo():
+            takes.pop()
+            assert session.take == takes[-1]
+        assert len(takes) == 1
+        while session.redo():
+            pass
+        assert session.take == last
+        session.close()

@@ -1,0 +1,225 @@
+"""Files of runs: nothing that a person wrote is replaced, authors stay, what is saved opens again as it was."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from random import Random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ninja_game.editor.files import OccupiedError
+from ninja_game.errors import ArgumentError, NinjaGameError, ReplayError
+from ninja_game.formats.load import load_replays
+from ninja_game.formats.n14.level_string import level_digest, parse_level_string
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import parse_replay, write_replay
+from ninja_game.runs.verify import Verdict
+from ninja_game.sim.inputs import Demo
+from ninja_game.tas.branches import Branches
+from ninja_game.tas.files import OpenedRun, RunFile, branches_path, open_run, save_run, take_of
+from ninja_game.tas.session import Session
+from ninja_game.tas.take import Take
+from ninja_game.verification.verify_many import verify_all
+from tests.support.own_pack import PACK, instead_of_ours
+from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records
+from tests.support.strategies import takes
+
+LEVEL = parse_level_string(WALK)
+
+
+def saved_take(opened: OpenedRun, take: Take, path: Path) -> OpenedRun:
+    """Save a take, and open it again."""
+    save_run(opened.recording, take, Branches(), path, opened.file)
+    return open_run(path)
+
+
+@given(takes(), st.sampled_from(["circle", "box"]))
+def test_what_is_saved_opens_again_as_it_was(take: Take, body: str) -> None:
+    from tempfile import TemporaryDirectory
+
+    recording = Recording("Töm\n", '"us"', "", LEVEL, Demo(b"", 0.0), "a.txt")
+    recording = replace(recording, replay=replace(parse_replay(replay_of_walk()), body=body, level_author="somebody"))  # type: ignore[arg-type]
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "a.replay.txt"
+        if not take.inputs:
+            with pytest.raises(ArgumentError, match="one tick"):
+                save_run(recording, take, Branches(), path, RunFile())
+            return
+        again = saved_take(OpenedRun(recording, take, RunFile(), Branches()), take, path)
+    assert (again.recording.name, again.recording.author, again.recording.body) == ("Töm\n", '"us"', body)
+    replay = again.recording.replay
+    assert replay is not None
+    assert replay.level_author == "somebody"
+    # Ticks without a key behind the end may go; nothing else.
+    assert again.take.inputs == take.inputs[: len(again.take)]
+    assert not any(take.inputs[len(again.take) :])
+    assert again.take.markers == take.markers
+    assert again.file.path == path
+
+
+def test_keys_behind_the_end_are_kept_without_claims(tmp_path: Path) -> None:
+    path = tmp_path / "walk.replay.txt"
+    path.write_text(replay_of_walk(), "utf-8")
+    opened = open_run(path)
+    with_claims = saved_take(opened, opened.take.replaced(40, 60, [0] * 20), path)
+    assert (with_claims.recording.ticks, with_claims.recording.replay.loose) == (WALK_END + 1, False)  # type: ignore[union-attr]
+    for take in (opened.take.replaced(40, 41, [4]), opened.take.named(40, "later")):
+        loose = saved_take(open_run(path), take, path)
+        assert loose.take == take
+        assert loose.recording.replay.loose  # type: ignore[union-attr]
+
+
+def test_a_demo_of_n_opens_and_is_saved_as_a_new_replay(tmp_path: Path) -> None:
+    source = write_records(tmp_path / "demos.txt", ("a", WALK, running(WALK_END)), ("b", WALK, running(9)))
+    data = source.read_bytes()
+    with pytest.raises(ReplayError, match="2 recordings"):
+        open_run(source)
+    with pytest.raises(ReplayError, match="no record 7"):
+        open_run(source, record=7)
+    opened = open_run(source, record=0)
+    assert opened.file == RunFile()
+    again = saved_take(opened, opened.take, tmp_path / "new.replay.txt")
+    assert (again.take, again.recording.author) == (opened.take, "me")
+    (verdict,) = verify_all([tmp_path / "new.replay.txt"], memory="plain", jobs=1, processes=False)
+    assert isinstance(verdict, Verdict)
+    assert (verdict.outcome, verdict.problems) == ("exit", ())
+    assert source.read_bytes() == data
+
+
+def test_other_files_are_never_replaced_unasked(tmp_path: Path) -> None:
+    path, other = tmp_path / "walk.replay.txt", tmp_path / "other.replay.txt"
+    path.write_text(replay_of_walk(), "utf-8")
+    other.write_text("somebody's", "utf-8")
+    session = Session(open_run(path), tmp_path, memory="plain")
+    session.change(session.take.replaced(3, 4, [5]))
+    with pytest.raises(OccupiedError, match=r"there is a file other\.replay\.txt already"):
+        session.save(other)
+    path.write_text(replay_of_walk(gold=0), "utf-8")
+    with pytest.raises(OccupiedError, match="changed by another program"):
+        session.save(path)
+    session.save(path, replacing=True)
+    assert session.is_saved
+    session.change(session.take.replaced(3, 4, [2]))
+    session.save(path)
+    session.keep_branch("one")
+    branches_path(path).write_text("somebody's", "utf-8")
+    with pytest.raises(OccupiedError, match=r"walk\.replay\.txt\.branches\.json was changed"):
+        session.save(path)
+    assert other.read_text("utf-8") == branches_path(path).read_text("utf-8") == "somebody's"
+    session.close()
+
+
+def test_saving_what_was_not_changed_writes_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "walk.replay.txt"
+    path.write_text(replay_of_walk().replace("replay 3", "replay 2").replace("\nend\n", "\n"), "utf-8", newline="\r\n")
+    data = path.read_bytes()
+    session = Session(open_run(path), tmp_path, memory="plain")
+    session.save(path)
+    assert path.read_bytes() == data
+    session.keep_branch("one")
+    session.save(path)
+    assert path.read_bytes() == data
+    assert [each.name for each in open_run(path).branches.all] == ["one"]
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda text: text.replace("inputs:", "; mine\ninputs:"),
+        lambda text: text.replace("R*24", "(R*6)*4"),
+        lambda text: text.replace("R*24", "R*20 R*4"),
+        lambda text: text.replace("R*24", "R*24 ; to the exit"),
+        lambda text: text.replace("  R*24", "  include rest.inputs.txt"),
+        lambda text: text.replace("name: walk\n", "").replace("body:", "name: walk\nbody:"),
+    ],
+)
+def test_texts_that_a_person_wrote_are_not_replaced(tmp_path: Path, change: object) -> None:
+    path = tmp_path / "walk.replay.txt"
+    (tmp_path / "rest.inputs.txt").write_text("R*24", "utf-8")
+    text = change(replay_of_walk())  # type: ignore[operator]
+    assert text != replay_of_walk()
+    path.write_text(text, "utf-8")
+    opened = open_run(path)
+    assert opened.file == RunFile()
+    assert opened.take == Take(bytes([2] * 24))
+    with pytest.raises(OccupiedError):
+        save_run(opened.recording, opened.take, Branches(), path, opened.file)
+
+
+def test_certificates_of_the_game_are_not_replaced(tmp_path: Path) -> None:
+    with instead_of_ours():
+        file = PACK / "certificates" / "00-0-first-steps.exit.replay.txt"
+        assert open_run(file).file == RunFile()
+    copy = tmp_path / "copy.replay.txt"
+    copy.write_bytes(file.read_bytes())
+    assert open_run(copy).file.path == copy
+
+
+def test_a_replay_goes_on_naming_the_file_of_its_level(tmp_path: Path) -> None:
+    (tmp_path / "level").write_text(WALK, "utf-8")
+    path = tmp_path / "walk.replay.txt"
+    path.write_text(replay_of_walk(level=None, level_path="level"), "utf-8")
+    opened = open_run(path)
+    again = saved_take(opened, opened.take.replaced(0, 0, [0]), path)
+    replay = again.recording.replay
+    assert replay is not None
+    assert (replay.level_path, replay.level, replay.level_digest) == ("level", None, level_digest(LEVEL))
+    elsewhere = saved_take(opened, opened.take, tmp_path / "b.replay.txt")
+    assert elsewhere.recording.replay.level is not None  # type: ignore[union-attr]
+
+
+def test_branches_travel_beside_their_run(tmp_path: Path) -> None:
+    path = tmp_path / "walk.replay.txt"
+    path.write_text(replay_of_walk(), "utf-8")
+    session = Session(open_run(path), tmp_path, memory="plain")
+    session.keep_branch("as it was")
+    session.change(session.take.replaced(5, 9, [0] * 4))
+    session.keep_branch("slower")
+    assert not session.is_saved
+    session.save(path)
+    again = Session(open_run(path), tmp_path, memory="plain")
+    assert again.branches.all == session.branches.all
+    assert [(each.outcome, each.end, each.gold) for each in again.branches.all] == [("exit", 23, 1), ("exit", 29, 1)]
+    again.take_branch(0)
+    assert again.take == Take(bytes([2] * 24))
+    for text in ("{", "[]", '{"branches": [{}], "current": null}', "[" * 100_000, '{"branches": [], "current": 1e999}'):
+        branches_path(path).write_text(text, "utf-8")
+        with pytest.raises(ReplayError, match="not the branches of a run"):
+            open_run(path)
+
+
+def test_markers_that_no_text_can_hold_are_not_written() -> None:
+    replay = parse_replay(replay_of_walk())
+    for markers in (((1, "a b"),), ((1, "a"), (2, "a")), ((-1, "a"),), ((99, "a"),)):
+        take = Take(replay.inputs).named(1, "x")
+        bad = tuple(take.markers[0]._replace(tick=tick, name=name) for tick, name in markers)
+        with pytest.raises(ReplayError):
+            write_replay(replace(replay, markers=bad))
+
+
+def test_mutated_replays_open_or_are_refused(tmp_path: Path) -> None:
+    chance = Random(5)
+    path = tmp_path / "walk.replay.txt"
+    whole = replay_of_walk().replace("R*24", "#a R*10 ; c\n  (R RJ)*3 #b R*8")
+    for _ in range(300):
+        at = chance.randrange(len(whole))
+        path.write_text(
+            whole[:at] + chance.choice(["", "9", "(", ")*9", "#a", "\0", "é", "\n"]) + whole[at + 1 :], "utf-8"
+        )
+        try:
+            opened = open_run(path)
+        except NinjaGameError:
+            continue
+        assert opened.take == take_of(opened.recording)
+        if opened.file.path:
+            assert saved_take(opened, opened.take.replaced(0, 0, [1]), path).take.inputs[0] == 1
+
+
+def test_names_come_from_load_replays(tmp_path: Path) -> None:
+    path = tmp_path / "walk.replay.txt"
+    path.write_text(replay_of_walk(name=""), "utf-8")
+    opened = open_run(path)
+    assert opened.recording.name == load_replays(path)[0].name
