@@ -15,8 +15,9 @@ class SpanSearch:
     """A search in a thread of its own, on ``jobs`` threads (one a core), for ``seconds`` (0: until it is cancelled).
 
     ``method``, ``every``, ``seed`` and ``memory`` are those of ``search_span``. ``found``: the best results so far,
-    best first, each with the whole run; a better list takes the place of an old one. ``ticks_run``: ticks simulated;
-    ``problem``: why the search could not go on, "" if it could.
+    best first, each with the whole run; a better list takes the place of an old one. ``own``: what the run's own keys
+    bring, None where they do not reach the goal. ``ticks_run``: ticks simulated; ``problem``: why the search could not
+    go on, "" if it could.
 
     Compiled code runs without the interpreter's lock, so that a window stays alive. Raises FormulaError for a broken
     formula, ArgumentError for an unknown method, NinjaGameError in a page, which has no threads.
@@ -32,6 +33,7 @@ class SpanSearch:
         task.formulas()
         self.task = task
         self.found: tuple[Found, ...] = ()
+        self.own: Found | None = None
         self.ticks_run = 0
         self.problem = ""
         self._options = {"method": method, "every": every, "seed": seed, "memory": memory, "threads": jobs}
@@ -73,7 +75,9 @@ class SpanSearch:
             self._ended = monotonic()
 
     def _report(self, ticks: int, found: tuple[Found, ...]) -> bool:
-        self._began = self._began or monotonic()
+        if not self._began:
+            # The run's own keys are tried first.
+            self._began, self.own = monotonic(), found[0] if found else None
         self.ticks_run, self.found = ticks, found
         late = self._limit and self.seconds >= self._limit
         return not (late or self._cancelled.is_set())

@@ -87,6 +87,16 @@ class Found:
     inputs: bytes = field(compare=False, repr=False, default=b"")
 
 
+def score_in_words(task: SpanTask, found: Found) -> str:
+    """What keys bring."""
+    last = task.first + found.ticks - 1
+    if task.rest:
+        return f"exit in tick {found.score - 1:.0f}"
+    if task.measure:
+        return f"{task.measure} is {found.score if task.least else -found.score:.6g} after tick {last}"
+    return f"goal after tick {last}"
+
+
 @dataclass
 class Trials:
     """What came of many keys: of each its score (infinite: no goal), its ticks to it, its best margin on the way."""

@@ -63,7 +63,7 @@ def command(
       ninja-game search run.replay.txt --from 90 --to 102 --maximise speed --method exhaustive --every 2
     """
     from ninja_game.directed.methods import search_span
-    from ninja_game.directed.span import SpanTask
+    from ninja_game.directed.span import SpanTask, score_in_words
     from ninja_game.formats.load import load_replays
 
     if maximise and minimise:
@@ -81,7 +81,7 @@ def command(
             if output and best and (not saved or best[0] < saved[-1]):
                 saved.append(best[0])
                 _save(output, recording, task, best[0])
-            standing = _score(task, best[0]) if best else "nothing yet"
+            standing = score_in_words(task, best[0]) if best else "nothing yet"
             nonlocal start
             start = start or time.monotonic()
             spent = time.monotonic() - start
@@ -90,25 +90,12 @@ def command(
 
         found = search_span(task, report, method=method, every=every, seed=seed, threads=options.default_threads(jobs))
     for each in found:
-        click.echo(f"{_score(task, each)}: {_keys(each)}")
+        click.echo(f"{score_in_words(task, each)}: {_keys(each)}")
     if not found:
         click.echo("the goal was not reached; more time, a longer span or another --method may reach it")
     elif output:
         click.echo(f"{output}: the first of them")
     ctx.exit(0 if found else options.NOT_FOUND)
-
-
-def _score(task: SpanTask, found: Found) -> str:
-    """What keys bring, in words."""
-    if task.rest:
-        return f"exit in tick {found.score - 1:.0f}"
-    if task.measure:
-        return f"{task.measure} is {found.score if task.least else -found.score:.6g} after tick {_last(task, found)}"
-    return f"goal after tick {_last(task, found)}"
-
-
-def _last(task: SpanTask, found: Found) -> int:
-    return task.first + found.ticks - 1
 
 
 def _keys(found: Found) -> str:

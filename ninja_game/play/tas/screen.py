@@ -173,7 +173,7 @@ class TasScreen(MenuScreen):
             self._dragging = part
         elif raw.type == pygame.MOUSEBUTTONUP and raw.button <= pygame.BUTTON_RIGHT:
             self._dragging = None
-        if part is not None and part is not self.tab:
+        if part not in (None, self.tab) and raw.type != pygame.MOUSEMOTION:
             self.focus = None
         if part is None or not part.mouse(raw, x, y):
             focus = self.focus

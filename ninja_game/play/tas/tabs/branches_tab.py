@@ -110,7 +110,8 @@ class BranchesTab(Tab):
     def look(self) -> tuple[object, ...]:
         """Branches, the run and its end."""
         session = self.bench.session
-        return tuple(self.branches.all), self.branches.current, session.take, session.timeline.end
+        tree = tuple(self.branches.all), self.branches.current
+        return tree, session.take, session.timeline.end, self.list.over
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """The names of the columns; the list is a widget."""

@@ -1,15 +1,218 @@
-"""Search."""
+"""Searches in the selected ticks for keys that reach a goal, or bring more of something."""
 
 from __future__ import annotations
 
-from ninja_game.play.tas.tabs.tab import Tab
+from collections.abc import Callable
+from functools import partial
+
+import pygame
+
+from ninja_game.directed.expressions import FormulaError
+from ninja_game.directed.methods import ACTIONS, MOST_ENDS
+from ninja_game.directed.span import Found, SpanTask
+from ninja_game.errors import NinjaGameError
+from ninja_game.play.editor.panels import Menu
+from ninja_game.play.tas.bench import Bench, Span
+from ninja_game.play.tas.part import Commands
+from ninja_game.play.tas.tabs.span_results import AS_IT_IS, SpanResults
+from ninja_game.play.tas.tabs.tab import SMALL, Field, Rows, Tab, what_is_wrong
+from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.widgets import Button, Choice
+from ninja_game.sim.rules import TICKS_PER_SECOND
+from ninja_game.tas.goals import PRESETS, SearchedSpan, Wanted
+
+LONGEST = 300
+"""Characters of a formula that one can type."""
+
+EARLIEST, GREATEST, SMALLEST = "earliest", "greatest", "smallest"
+_METHODS = (
+    ("both methods", "auto"),
+    ("beam", "beam"),
+    ("small changes", "local"),
+    ("all keys there are", "exhaustive"),
+)
 
 
 class SearchTab(Tab):
-    """Search."""
+    """Span, goal, measure and method; below them the results."""
 
     name = "Search"
 
+    def __init__(self, bench: Bench) -> None:
+        super().__init__(bench)
+        self.span: Span = (0, 0)
+        self.order: object = EARLIEST
+        self.rest: object = False
+        self.method: object = "auto"
+        self.results: SpanResults | None = None
+        self.found: tuple[Found, ...] = ()
+        self.goal = Field((46, 398, 380, 18), "x > 400, taken(12), distance(300, 200) < 6 ...", "", self.start,
+                          longest=LONGEST)  # fmt: skip
+        self.measure = Field((132, 419, 144, 18), "speed; vx, y, gold ...", "", self.start, longest=LONGEST)
+        orders = [("the earliest", EARLIEST), ("the greatest", GREATEST), ("the smallest", SMALLEST)]
+        rests = [("end at the goal", False), ("then the rest", True)]
+        self._button = Button((164, 440, 58, 18), "Start", self._start_or_stop, size=SMALL)
+        self.list = Rows((10, 462, 416, 112), self._draw_row, self._put, keeps=False)
+        self.widgets = [
+            Button((248, 377, 96, 18), "Take the selection", self.take_selection, size=SMALL),
+            Button((348, 377, 78, 18), "What for ...", self.propose, size=SMALL),
+            self.goal,
+            Choice((10, 419, 118, 18), "", orders, lambda: self.order, self._put_order),
+            self.measure,
+            Choice((280, 419, 146, 18), "", rests, lambda: self.rest, self._put_rest),
+            Choice((10, 440, 150, 18), "", _METHODS, lambda: self.method, partial(setattr, self, "method")),
+            self._button,
+            self.list,
+        ]
+
+    def commands(self) -> Commands:
+        """Searching."""
+        return {"search": self.ask}
+
+    # --- what is wanted ---
+
+    def ask(self) -> None:
+        """Show this tab for the selected ticks, with the focus on the goal."""
+        self.take_selection()
+        self.bench.tab = self.name
+        self.wants = self.goal
+
+    def take_selection(self) -> None:
+        """Search the selected ticks; where only one is, a second from there on."""
+        first, last = self.bench.selection
+        self.span = (
+            first,
+            last if last > first + 1 else min(first + TICKS_PER_SECOND, max(len(self.bench.take), last)),
+        )
+
+    def propose(self) -> None:
+        """A menu of what people want; it fills the fields."""
+        rows = [(name, partial(self._fill, make), hint) for name, hint, make in PRESETS]
+        self.bench.app.push(Menu(self.bench.app, "What for?", rows))
+
+    def _fill(self, make: Callable[[SearchedSpan], Wanted]) -> None:
+        try:
+            wanted = make(SearchedSpan(self.bench.session, *self.span))
+        except NinjaGameError as error:
+            self.bench.app.notify(str(error))
+            return
+        self.goal.show(wanted.goal)
+        self.measure.show(wanted.measure)
+        self.order = EARLIEST if not wanted.measure else SMALLEST if wanted.least else GREATEST
+        self.rest = wanted.rest
+        self.wants = self.goal
+
+    def _put_order(self, order: object) -> None:
+        self.order = order
+        self.rest = bool(self.rest) and order == EARLIEST
+
+    def _put_rest(self, rest: object) -> None:
+        self.rest = rest
+        self.order = EARLIEST if rest else self.order
+
+    @property
+    def task(self) -> SpanTask:
+        """What is wanted as a task. Raises FormulaError, ArgumentError."""
+        session, (first, last) = self.bench.session, self.span
+        measure = "" if self.order == EARLIEST else self.measure.text.strip() or "speed"
+        return SpanTask(
+            session.about.level, session.take.inputs, first, last, self.goal.text.strip(), measure,
+            least=self.order == SMALLEST, rest=bool(self.rest), body=session.about.body,
+        )  # fmt: skip
+
+    # --- the search ---
+
+    def start(self) -> None:
+        """Search; a search that is going on ends. What is wrong is told."""
+        self.close()
+        self.list.over = -1
+        try:
+            task = self.task
+            every = fewest_ticks(task.length) if self.method == "exhaustive" else 1
+            self.results = SpanResults(self.bench, task, str(self.method), every)
+        except FormulaError as error:
+            self.bench.app.notify(what_is_wrong(error))
+        except NinjaGameError as error:
+            self.bench.app.notify(str(error))
+
+    def _start_or_stop(self) -> None:
+        if self.results is not None and self.results.running:
+            self.results.stop()
+        else:
+            self.start()
+
+    def close(self) -> None:
+        """End the search."""
+        if self.results is not None:
+            self.results.close()
+        self.results, self.found, self.bench.preview = None, (), None
+
+    def update(self, real_ms: int) -> None:
+        """Take what was found; where the run has changed, the search ends."""
+        if not self.span[1]:
+            self.take_selection()
+        results = self.results
+        if results is None:
+            return
+        if results.behind is None and results.running:
+            results.stop()
+        if results.search.found is not self.found:
+            self.found = results.search.found
+        self.list.fill(self.found)
+        over = self.list.over if results.behind is not None and self.bench.tab == self.name else -1
+        self.bench.preview = results.preview(self.found[over]) if 0 <= over < len(self.found) else None
+
+    def _put(self, index: int) -> None:
+        if self.results is not None and index < len(self.found):
+            self.results.put(self.found[index])
+
+    # --- picture ---
+
     def look(self) -> tuple[object, ...]:
-        """Nothing but its background."""
-        return ()
+        """Span, what is wanted, how the search stands, its results."""
+        results = self.results
+        state = (
+            (results.status, results.running, results.behind, self.bench.take, *map(id, self.found)) if results else ()
+        )
+        return self.span, self.bench.selection, self.order, self.rest, self.goal.text, self.list.over, state
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        """Span and state; all else is widgets."""
+        super().paint(surface, theme)
+        palette, results = theme.palette, self.results
+        first, last = self.span
+        theme.text(surface, f"Ticks {first} to {last - 1}", 12, 381, size=11, bold=True, width=120)
+        if self.span != self.bench.selection and self.bench.anchor is not None:
+            theme.text(surface, "not the selection", 138, 382, size=SMALL, colour=palette.faint, width=106)
+        theme.text(surface, "Goal", 12, 402, size=11)
+        self._button.text = "Stop" if results is not None and results.running else "Start"
+        status, colour = "Enter in the goal starts, too", palette.faint
+        if results is not None:
+            status, colour = results.status, palette.bad if results.search.problem else palette.text
+            if results.behind is None:
+                status, colour = "the run was changed: search again", palette.bad
+        theme.text(surface, status, 228, 445, size=SMALL, colour=colour, width=198)
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
+        """A sign if it is in the run, what a result brings; those that do not fit are faint."""
+        if self.results is None or index >= len(self.found):
+            return
+        x, y, w, _h = area
+        palette, fits = theme.palette, self.results.behind is not None
+        words, gain = self.results.words(self.found[index])
+        better = fits and gain != AS_IT_IS
+        if self.results.is_in(self.found[index]):
+            theme.canvas.polygon(surface, palette.accent, [(x + 4, y + 4), (x + 4, y + 12), (x + 9, y + 8)])
+        theme.text(surface, words, x + 14, y + 3, size=SMALL, colour=palette.text if fits else palette.faint,
+                   width=w - 130)  # fmt: skip
+        theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, bold=better, align="right", width=110,
+                   colour=palette.good if better else palette.faint)  # fmt: skip
+
+
+def fewest_ticks(length: int) -> int:
+    """How many ticks each choice of keys must hold so that all ways through a span can be tried.
+
+    >>> fewest_ticks(8), fewest_ticks(40)
+    (1, 5)
+    """
+    return next(each for each in range(1, length + 1) if len(ACTIONS) ** -(-length // each) <= MOST_ENDS)

@@ -40,6 +40,21 @@ class Tab(Part):
         """Its background."""
         theme.panel(surface, *self.area)
 
+    def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
+        """All is up to the widgets; those lists that the mouse is not over are told so."""
+        if event.type == pygame.MOUSEMOTION:
+            self._leave_lists(x, y)
+        return False
+
+    def mouse_left(self) -> None:
+        """No row is under the mouse."""
+        self._leave_lists(-1, -1)
+
+    def _leave_lists(self, x: float, y: float) -> None:
+        for widget in self.widgets:
+            if isinstance(widget, Rows) and not widget.contains(x, y):
+                widget.over = -1
+
     def close(self) -> None:
         """The bench is left: what goes on ends."""
 
@@ -57,14 +72,18 @@ class TabName(Button):
 
 
 class Rows(ListView):
-    """A list in a tab: only a click chooses, the mouse over it does not. ``over``: the row under the mouse, or -1."""
+    """A list in a tab: only a click chooses, the mouse over it does not. ``over``: the row under the mouse, or -1.
+
+    ``keeps``: the row that was chosen last is shown as such.
+    """
 
     def __init__(
         self, area: Area, draw_row: Callable[[pygame.Surface, Theme, int, Area, bool], None],
-        choose: Callable[[int], object], *, empty: str = "",
+        choose: Callable[[int], object], *, empty: str = "", keeps: bool = True,
     ) -> None:  # fmt: skip
         super().__init__(area, ROW, self._draw_row, choose, empty=empty)
         self.over = -1
+        self._keeps = keeps
         self._draw = draw_row
 
     def hover(self, x: float, y: float) -> bool:
@@ -74,7 +93,9 @@ class Rows(ListView):
         return self.over != before
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
-        if index == self.index:
+        if index == self.over:
+            theme.canvas.fill_rect(surface, theme.palette.background, *area, 2)
+        if index == self.index and (self._keeps or focused):
             theme.canvas.fill_rect(surface, theme.palette.background, *area, 2)
             theme.canvas.frame_rect(surface, theme.palette.accent, *area, 1.5 if focused else 0.75, 2)
         self._draw(surface, theme, index, area, index == self.index)

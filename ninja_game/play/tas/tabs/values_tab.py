@@ -134,7 +134,7 @@ class ValuesTab(Tab):
         bench = self.bench
         plotted = tuple((each, each.plotted) for each in self.watched)
         shown = self.window.first, self.window.last
-        return bench.take, bench.session.timeline.valid, bench.cursor, bench.selection, plotted, shown
+        return bench.take, bench.session.timeline.valid, bench.cursor, bench.selection, plotted, shown, self.list.over
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """The plots; the list is a widget."""
@@ -202,7 +202,7 @@ class ValuesTab(Tab):
                 self._grabbed = x
             return True
         if not inside:
-            return False
+            return super().mouse(event, x, y)
         if event.type == pygame.MOUSEWHEEL:
             self.window.zoom(x, event.y)
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:

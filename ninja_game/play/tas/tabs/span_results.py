@@ -1,0 +1,121 @@
+"""A search of a span of the run on the bench, and what becomes of its results."""
+
+from __future__ import annotations
+
+from ninja_game.batch.thread_pool import cores
+from ninja_game.directed.background import SpanSearch
+from ninja_game.directed.span import Found, SpanTask, score_in_words
+from ninja_game.play.tas.bench import Bench, OtherRun
+from ninja_game.tas.take import Take
+from ninja_game.tas.timeline import Timeline
+
+CLOSING_SECONDS = 0.5
+"""How long a search that is cancelled is waited for when the bench is left."""
+
+
+AS_IT_IS = "no better"
+"""What is said of a result that brings what the run's own keys do."""
+
+
+class SpanResults:
+    """Runs a task beside the window, and puts results into the run, while nothing that they rely on has changed.
+
+    Raises what SpanSearch does.
+    """
+
+    def __init__(self, bench: Bench, task: SpanTask, method: str, every: int) -> None:
+        self.bench = bench
+        self.task = task
+        memory = bench.session.timeline.memory
+        self.search = SpanSearch(task, method, max(1, cores() - 1), every=every, memory=memory)
+        # The begins of runs that results fit to, and the first tick behind the span in each: the run that is searched
+        # and those that results were put into.
+        whole = len(task.inputs) if task.rest else task.last
+        self._fitting = [(task.inputs[:whole], task.last)]
+        self._preview: tuple[Found, OtherRun] | None = None
+        self.search.start()
+
+    @property
+    def running(self) -> bool:
+        """Whether it still searches."""
+        return not self.search.done
+
+    def stop(self) -> None:
+        """End the search; results stay."""
+        self.search.cancel()
+
+    def close(self) -> None:
+        """End the search and wait for it."""
+        self.search.cancel()
+        self.search.finish(CLOSING_SECONDS)
+
+    @property
+    def behind(self) -> int | None:
+        """The first tick behind the span in the run as it is now; None: it was changed, and no result fits to it."""
+        inputs = self.bench.take.inputs
+        for begin, behind in reversed(self._fitting):
+            if inputs == begin if self.task.rest else inputs.startswith(begin):
+                return behind
+        return None
+
+    def put(self, found: Found) -> bool:
+        """Put a result into the run, as one edit, and select it; whether that was possible."""
+        behind = self.behind
+        if behind is None:
+            self.bench.app.notify("The run was changed: search again")
+            return False
+        made = self._made(self.bench.take, found, behind)
+        if not self.bench.edit(lambda _: made):
+            return False
+        end = self.task.first + found.ticks
+        self._fitting.append((made.inputs if self.task.rest else made.inputs[:end], end))
+        self.bench.select(self.task.first, end)
+        return True
+
+    def is_in(self, found: Found) -> bool:
+        """Whether the run has these keys now."""
+        end = self.task.first + found.ticks
+        return self.bench.take.inputs[:end] == found.inputs[:end]
+
+    def _made(self, take: Take, found: Found, behind: int) -> Take:
+        """The run with a result in it; with ``rest`` it is the run that reached the exit in the search."""
+        first, keys = self.task.first, found.keys[: found.ticks].tolist()
+        if not self.task.rest:
+            return take.replaced(first, behind, keys)
+        rest = len(found.inputs) - first - found.ticks
+        made = take.replaced(first, len(take) - rest, keys)
+        return Take(take.inputs[:first] + found.inputs[first:], made.markers)
+
+    def preview(self, found: Found) -> OtherRun:
+        """The run that a result makes, to be looked at."""
+        if self._preview is None or self._preview[0] is not found:
+            task = self.task
+            timeline = Timeline(task.level, found.inputs, body=task.body, memory=self.bench.session.timeline.memory)
+            timeline.work(len(found.inputs))
+            self._preview = found, OtherRun("result", Take(found.inputs), timeline.course())
+        return self._preview[1]
+
+    # --- in words ---
+
+    def words(self, found: Found) -> tuple[str, str]:
+        """What a result brings, and how much more that is than what the run's own keys bring."""
+        own = self.search.own
+        gain = own.score - found.score if own else 0.0
+        if gain <= 0:
+            return score_in_words(self.task, found), AS_IT_IS if own else "new"
+        if self.task.measure:
+            return score_in_words(self.task, found), f"better by {gain:.4g}"
+        return score_in_words(self.task, found), f"{gain:.0f} {'tick' if gain == 1 else 'ticks'} sooner"
+
+    @property
+    def status(self) -> str:
+        """How it stands."""
+        search = self.search
+        if search.problem:
+            return search.problem
+        if self.running and not search.ticks_run:
+            return "getting ready ..."
+        spent = f"{search.ticks_run / 1e6:.1f} million ticks, {search.seconds:.0f} s"
+        if self.running:
+            return f"searching: {spent}"
+        return f"ended: {spent}" if search.found else f"nothing found: {spent}"

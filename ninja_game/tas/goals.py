@@ -1,0 +1,127 @@
+"""What people want of the ticks of a span, as the goal and the measure of a search."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from ninja_game.errors import ArgumentError
+from ninja_game.runs.splits import run_splits
+from ninja_game.sim.kinds import GOLD
+from ninja_game.tas.session import Session
+
+NEAR = 6.0
+"""How near to a place counts as there, px."""
+SAME_PLACE, SAME_VELOCITY = 0.5, 0.05
+"""How far an end that is the same may be from the run's own, px and px/tick."""
+
+
+class Wanted(NamedTuple):
+    """Goal and measure as formulas, ``least`` and ``rest`` as in a SpanTask."""
+
+    goal: str = ""
+    measure: str = ""
+    least: bool = False
+    rest: bool = False
+
+
+@dataclass(frozen=True)
+class SearchedSpan:
+    """The ticks ``first`` … ``last`` - 1 of a run under edit."""
+
+    session: Session
+    first: int
+    last: int
+
+    @cached_property
+    def start(self) -> dict[str, float]:
+        """The ninja in front of the span."""
+        return self._ninja(max(0, self.first - 1))
+
+    @cached_property
+    def end(self) -> dict[str, float]:
+        """The ninja at its end. Raises ArgumentError for a span that ends behind the run."""
+        return self._ninja(self.last - 1)
+
+    def _ninja(self, tick: int) -> dict[str, float]:
+        timeline = self.session.timeline
+        timeline.need(tick)
+        if tick >= timeline.valid:
+            raise ArgumentError(f"the span ends in tick {tick}, the run in tick {len(self.session.take) - 1}")
+        found = {name: float(timeline.column(name)[tick]) for name in ("x", "y", "prev_x", "prev_y", "state", "gold")}
+        return {**found, "vx": found["x"] - found["prev_x"], "vy": found["y"] - found["prev_y"]}
+
+
+def be_there(span: SearchedSpan) -> Wanted:
+    """Be where the run is at the end of the span, earlier."""
+    end = span.end
+    return Wanted(f"distance({end['x']:.6g}, {end['y']:.6g}) < {NEAR:g}")
+
+
+def go_beyond(span: SearchedSpan) -> Wanted:
+    """Pass, earlier, the upright line at the end of the span."""
+    start, end = span.start, span.end
+    sign = ">" if end["x"] >= start["x"] else "<"
+    return Wanted(f"x {sign} {end['x']:.6g}")
+
+
+def be_fast(span: SearchedSpan) -> Wanted:
+    """End the span with the greatest speed."""
+    return Wanted(_alive(span.last), "speed")
+
+
+def stay_alive(span: SearchedSpan) -> Wanted:
+    """Do not die in the span."""
+    return Wanted(_alive(span.last))
+
+
+def collect(span: SearchedSpan) -> Wanted:
+    """Take the piece of gold nearest to the span's end that the run has not taken by then.
+
+    Raises ArgumentError where there is none.
+    """
+    end = span.end
+    splits = run_splits(span.session.recording(), ("gold-taken",)).splits
+    taken = {split.object_id for split in splits if split.tick < span.last}
+    pieces = [each for each in span.session.timeline.objects if each[1] == GOLD and each[0] not in taken]
+    if not pieces:
+        raise ArgumentError("no gold is left at the end of the span")
+    id_ = min(pieces, key=lambda each: float(np.hypot(each[2] - end["x"], each[3] - end["y"])))[0]
+    return Wanted(f"taken({id_})")
+
+
+def same_end(span: SearchedSpan) -> Wanted:
+    """Be as at the end of the span, place, velocity and state, earlier; the rest of the run follows as it is."""
+    end = span.end
+    parts = [
+        f"distance({end['x']:.6g}, {end['y']:.6g}) < {SAME_PLACE:g}",
+        *(f"abs({_less(name, end[name])}) < {SAME_VELOCITY:g}" for name in ("vx", "vy")),
+        f"state == {end['state']:.0f}",
+        *([f"gold >= {end['gold']:.0f}"] if end["gold"] else []),
+    ]
+    tick, outcome = span.session.timeline.end
+    return Wanted(" and ".join(parts), rest=outcome == "exit" and tick >= span.last)
+
+
+PRESETS: tuple[tuple[str, str, Callable[[SearchedSpan], Wanted]], ...] = (
+    ("Same end, sooner", "As at the end of the span, in fewer ticks; the rest of the run follows", same_end),
+    ("Be there sooner", "Where the run is at the end of the span", be_there),
+    ("Go beyond sooner", "Past the upright line at the end of the span", go_beyond),
+    ("Greatest speed", "At the end of the span", be_fast),
+    ("Collect a piece", "The nearest gold that is left at the end of the span", collect),
+    ("Stay alive", "Through the whole span", stay_alive),
+)
+"""Name, explanation, and what makes goal and measure of a run and its span."""
+
+
+def _alive(last: int) -> str:
+    return f"tick >= {last} and not dead"
+
+
+def _less(name: str, value: float) -> str:
+    """A name less a number."""
+    return f"{name} {'-' if value >= 0 else '+'} {abs(value):.4g}"

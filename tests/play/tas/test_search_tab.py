@@ -1,0 +1,186 @@
+"""The tab of searches: what is wanted, results put into the run, what ends a search."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+
+import numpy as np
+import pygame
+import pytest
+
+from ninja_game.play.input.scancodes import SCANCODES
+from ninja_game.play.tas.tabs.search_tab import SearchTab, fewest_ticks
+from ninja_game.play.tas.tabs.span_results import AS_IT_IS, SpanResults
+from ninja_game.sim.inputs import Input
+from tests.support.bench_driver import BenchDriver
+
+
+@pytest.fixture(name="tab")
+def search_tab(at: BenchDriver) -> Iterator[SearchTab]:
+    at.bench.select(100, 130)
+    at.press("f")
+    tab = at.screen.tab
+    assert isinstance(tab, SearchTab)
+    yield tab
+    tab.close()
+
+
+def wish(at: BenchDriver, name: str) -> None:
+    at.choose("What for ...")
+    at.choose(name)
+
+
+def results_of(tab: SearchTab) -> SpanResults:
+    assert tab.results is not None
+    return tab.results
+
+
+def searched(at: BenchDriver, tab: SearchTab) -> SpanResults:
+    """Search until there is something better than the run, then stop."""
+    at.press("return")
+    results = results_of(tab)
+    at.wait(lambda: tab.found and results.words(tab.found[0])[1] != AS_IT_IS, "something better")
+    at.choose("Stop")
+    at.wait(lambda: not results.running, "the end")
+    return results
+
+
+def row(at: BenchDriver, tab: SearchTab, index: int, *, click: bool = True) -> None:
+    x, y, _, h = tab.list.row_area(index)
+    at.mouse(x + 60, y + h / 2, click=click)
+
+
+def speed(at: BenchDriver, tick: int) -> float:
+    column = at.session.timeline.column
+    return float(np.hypot(column("x")[tick] - column("prev_x")[tick], column("y")[tick] - column("prev_y")[tick]))
+
+
+def test_the_key_takes_the_selection_and_is_not_typed_into_the_goal(at: BenchDriver, tab: SearchTab) -> None:
+    assert tab.span == (100, 130)
+    at.screen.focus = None
+    pygame.event.post(pygame.Event(pygame.KEYDOWN, key=0, scancode=SCANCODES["f"], mod=0, unicode="f"))
+    at.write("f")
+    at.write("x > 1")
+    assert tab.goal.text == "x > 1"
+    at.bench.go(50)
+    at.choose("Take the selection")
+    assert tab.span == (50, 90), "a second, where only one tick is selected"
+
+
+def test_a_better_end_is_found_and_put_in_as_one_edit(at: BenchDriver, tab: SearchTab) -> None:
+    before, slow = at.bench.take, speed(at, 129)
+    wish(at, "Greatest speed")
+    results = searched(at, tab)
+    best = tab.found[0]
+    row(at, tab, 0)
+    assert at.bench.take != before
+    assert speed(at, 129) == pytest.approx(-best.score)
+    assert speed(at, 129) > slow
+    assert results.is_in(best)
+    assert at.bench.selection == (100, 130)
+    assert at.bench.take.inputs[130:] == before.inputs[130:]
+    row(at, tab, 1)
+    assert results.is_in(tab.found[1]), "another one takes its place"
+    at.session.undo()
+    at.session.undo()
+    assert at.bench.take == before
+
+
+def test_the_result_under_the_mouse_is_looked_at(at: BenchDriver, tab: SearchTab) -> None:
+    wish(at, "Greatest speed")
+    searched(at, tab)
+    row(at, tab, 0, click=False)
+    at.frames()
+    preview = at.bench.preview
+    assert preview is not None
+    assert preview.take.inputs == tab.found[0].inputs
+    assert len(preview.positions) >= 130
+    at.mouse(300, 100, click=False)
+    at.frames()
+    assert at.bench.preview is None
+
+
+def test_results_that_do_not_fit_any_more_are_refused(at: BenchDriver, tab: SearchTab) -> None:
+    wish(at, "Greatest speed")
+    results = searched(at, tab)
+    down = not at.bench.take.keys_at(50) & Input.LEFT
+    at.bench.edit(lambda take: take.with_key(50, 51, Input.LEFT, down=down))
+    changed = at.bench.take
+    row(at, tab, 0)
+    assert at.bench.take == changed
+    assert "search again" in at.app.notice
+    at.session.undo()
+    assert results.behind == 130
+    at.bench.edit(lambda take: take.with_key(200, 210, Input.LEFT, down=True))
+    row(at, tab, 0)
+    assert results.is_in(tab.found[0]), "what is behind the span does not matter"
+
+
+def test_an_edit_in_front_ends_the_search(at: BenchDriver, tab: SearchTab) -> None:
+    wish(at, "Stay alive")
+    at.press("return")
+    results = results_of(tab)
+    at.wait(lambda: results.search.ticks_run, "a search")
+    at.bench.edit(lambda take: take.replaced(0, 0, [0]))
+    at.wait(lambda: not results.running, "the end", seconds=5)
+
+
+def test_the_same_end_is_found_sooner_and_the_rest_follows(at: BenchDriver, tab: SearchTab) -> None:
+    end = at.session.timeline.end[0]
+    at.bench.edit(lambda take: take.replaced(0, 0, [0] * 3))
+    assert at.session.timeline.end == (end + 3, "exit")
+    at.bench.select(0, 24)
+    at.choose("Take the selection")
+    wish(at, "Same end, sooner")
+    assert tab.rest
+    results = searched(at, tab)
+    assert results.words(tab.found[0])[0] == f"exit in tick {tab.found[0].score - 1:.0f}"
+    row(at, tab, 0)
+    assert at.session.timeline.end == (int(tab.found[0].score) - 1, "exit")
+    assert at.session.timeline.end[0] < end + 3
+
+
+def test_a_search_is_cancelled_soon_by_hand_and_when_the_bench_is_left(at: BenchDriver, tab: SearchTab) -> None:
+    wish(at, "Greatest speed")
+    at.press("return")
+    first = results_of(tab)
+    at.wait(lambda: first.search.ticks_run, "a search")
+    at.press("return")
+    second = results_of(tab)
+    assert first is not second
+    assert not first.running, "a new search ends the one before"
+    at.wait(lambda: second.search.ticks_run, "a search")
+    start = time.monotonic()
+    at.app.pop()
+    assert not second.running
+    assert time.monotonic() - start < 0.6
+
+
+def test_what_is_wrong_is_told(at: BenchDriver, tab: SearchTab) -> None:
+    at.write("x > colour")
+    at.press("return")
+    assert at.app.notice.startswith("Column 5")
+    assert tab.results is None
+    tab.goal.show("taken(9999)")
+    at.press("return")
+    at.wait(lambda: not results_of(tab).running, "the end")
+    assert "no object 9999" in results_of(tab).status
+    at.bench.select(len(at.bench.take) + 20, len(at.bench.take) + 30)
+    at.choose("Take the selection")
+    at.choose("Start")
+    assert "the run ends" in at.app.notice
+
+
+def test_the_rest_of_the_run_and_a_measure_exclude_each_other(at: BenchDriver, tab: SearchTab) -> None:
+    tab._put_order("smallest")
+    tab._put_rest(True)
+    assert (tab.order, tab.task.measure) == ("earliest", "")
+    tab._put_order("greatest")
+    assert not tab.rest
+    assert tab.task.measure == "speed"
+
+
+def test_all_keys_are_tried_where_there_are_few_ways() -> None:
+    assert fewest_ticks(8) == 1
+    assert 6 ** -(-130 // fewest_ticks(130)) <= 2_000_000

@@ -1,0 +1,53 @@
+"""What people want of a span: formulas that the run itself fulfils at the span's end."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from ninja_game.directed.span import SpanTask
+from ninja_game.errors import ArgumentError
+from ninja_game.formats.load import load_replays
+from ninja_game.runs.splits import run_splits
+from ninja_game.tas.files import open_run
+from ninja_game.tas.goals import PRESETS, SearchedSpan, collect, same_end
+from ninja_game.tas.session import Session
+from ninja_game.tas.watch import parse_watch
+from tests.support.own_pack import PACK
+
+RUN = PACK / "certificates" / "00-4-locksmith.exit.replay.txt"
+
+
+@pytest.fixture(name="session")
+def session_of_a_run(tmp_path: Path) -> Session:
+    return Session(open_run(RUN), tmp_path)
+
+
+@pytest.mark.parametrize("make", [make for *_, make in PRESETS if make is not collect])
+@pytest.mark.parametrize("span", [(0, 40), (100, 150), (300, 333)])
+def test_the_run_itself_is_there_at_the_end_of_the_span(session: Session, make: object, span: tuple[int, int]) -> None:
+    wanted = make(SearchedSpan(session, *span))  # type: ignore[operator]
+    about = session.about
+    SpanTask(about.level, session.take.inputs, *span, *wanted).formulas()
+    values = parse_watch(wanted.goal).values(session.timeline)
+    # On its way beyond a line the run is at it one tick later.
+    assert values[span[1] - 1] or values[span[1]]
+
+
+def test_gold_that_is_left_is_collected(session: Session) -> None:
+    taken = [split for split in run_splits(load_replays(RUN)[0]).splits if split.event == "gold-taken"]
+    for piece in taken:
+        goal = collect(SearchedSpan(session, max(0, piece.tick - 20), piece.tick + 1)).goal
+        assert goal != f"taken({piece.object_id})"
+
+
+def test_the_rest_follows_where_the_run_reaches_the_exit(session: Session) -> None:
+    assert same_end(SearchedSpan(session, 0, 40)).rest
+    session.change(session.take.replaced(100, len(session.take), []))
+    assert not same_end(SearchedSpan(session, 0, 40)).rest
+
+
+def test_a_span_behind_the_run_is_refused(session: Session) -> None:
+    with pytest.raises(ArgumentError, match="the span ends in tick"):
+        same_end(SearchedSpan(session, 0, len(session.take) + 500))
