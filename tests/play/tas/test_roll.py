@@ -127,6 +127,9 @@ def test_what_is_under_the_mouse_is_told_in_full(at: BenchDriver) -> None:
     at.mouse(*at.cell(20, "x"), click=False)
     x = float(at.session.timeline.column("x")[20])
     assert f"x {x!r}" in at.bench.hint
+    at.bench.edit(lambda take: take.replaced(0, 20, bytes(20)))
+    at.frames()
+    assert f"x {float(at.session.timeline.column('x')[20])!r}" in at.bench.hint, "an edit changes it"
     at.mouse(*at.cell(20, "state"), click=False)
     assert "gold" in at.bench.hint
     at.mouse(100, 100, click=False)
@@ -137,8 +140,8 @@ def test_columns_are_hidden_from_their_heads(at: BenchDriver) -> None:
     wide = at.cell(0, "events")[0]
     at.mouse(*at.cell(-1, "vx"))
     assert isinstance(at.top(), Menu)
-    at.choose("+ Jump timer, ticks")
-    at.choose("+ Speed downwards, px a tick")
+    at.choose("Jump timer, ticks: shown")
+    at.choose("Speed downwards, px a tick: shown")
     at.choose("Done")
     assert at.screen.roll.hidden == {"jump_timer", "vy"}
     assert at.cell(0, "events")[0] < wide

@@ -18,7 +18,10 @@ HEAD, ROW, BAR = 16.0, 11.0, 12.0
 
 
 class Column(NamedTuple):
-    """``width``: logical px; 0: what is left. ``decimals``: of a number. ``key``: the key that it shows."""
+    """``width``: logical px; 0: what is left. ``decimals``: of a number. ``key``: that it shows.
+
+    Those with a ``meaning`` may be hidden.
+    """
 
     name: str
     head: str
@@ -44,8 +47,7 @@ COLUMNS = (
     Column("exit", "exit", 27, 1, meaning="Px to the exit's disc"),
     Column("events", "events", 0, meaning="Events and markers"),
 )
-CHOSEN = tuple(column.name for column in COLUMNS if column.meaning)
-"""Those that may be hidden."""
+"""From left to right."""
 
 
 class Place(NamedTuple):

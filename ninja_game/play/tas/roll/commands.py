@@ -200,4 +200,4 @@ def _first_change(before: Take, after: Take) -> int:
     """The first tick whose keys or name differ."""
     if before.inputs != after.inputs:
         return before.first_difference(after)
-    return min(tick for tick, _ in set(before.markers) ^ set(after.markers))
+    return min((tick for tick, _ in set(before.markers) ^ set(after.markers)), default=0)

@@ -31,6 +31,7 @@ class RollMouse:
         self._at = (0, 0)
         self._waited = 0
         self._clicked = (-1, -DOUBLE_MS)
+        self._told = ""
 
     def take(self, event: pygame.Event, x: int, y: int) -> bool:
         """A mouse event at a px; whether it was used."""
@@ -55,7 +56,9 @@ class RollMouse:
         self._doing = ""
 
     def update(self, real_ms: int) -> None:
-        """Scroll on while the pointer is beyond the upper or lower edge."""
+        """Scroll on while the pointer is beyond the upper or lower edge; what is told of a row stays true."""
+        if self._told and self._bench.hint == self._told:
+            self._tell(*self._at)
         if self._doing not in ("paint", "select"):
             return
         layout = self._roll.layout
@@ -104,7 +107,7 @@ class RollMouse:
         self._down = not lift and not self._bench.take.keys_at(tick) & column.key
         self._doing, self._tick = "paint", tick
         self._bench.session.begin()
-        self._go_on()
+        self._stroke(tick)
 
     def _select(self, column: Column, tick: int) -> None:
         """Begin to select; a second click names a tick."""
@@ -129,13 +132,17 @@ class RollMouse:
             self._roll.stay()
         elif self._doing == "paint" and not self._bench.session.history.in_stroke:
             self.stop()
-        elif self._doing == "paint":
-            first, last = min(tick, self._tick), max(tick, self._tick) + 1
-            if not self._down:
-                last = min(last, len(self._bench.take))
-            if first < last:
-                self._bench.edit(lambda take: take.with_key(first, last, self._key, down=self._down))
-            self._tick = tick
+        elif self._doing == "paint" and tick != self._tick:
+            self._stroke(tick)
+
+    def _stroke(self, tick: int) -> None:
+        """Paint from where the stroke is up to a tick."""
+        first, last = min(tick, self._tick), max(tick, self._tick) + 1
+        if not self._down:
+            last = min(last, len(self._bench.take))
+        if first < last:
+            self._bench.edit(lambda take: take.with_key(first, last, self._key, down=self._down))
+        self._tick = tick
 
     def _tell(self, x: int, y: int) -> None:
         """Say in the line below what is under the pointer, in full."""
@@ -149,3 +156,4 @@ class RollMouse:
             tick = self._tick_at(y)
             rest = column.name in ("state", "jump_timer", "contacts", "gold", "exit")
             self._bench.hint = in_words(row_facts(self._bench, tick, tick + 1)[0], numbers=not rest)
+        self._told = self._bench.hint

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import pygame
 
 from ninja_game.play.editor.panels import Menu
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.part import Commands, Part
 from ninja_game.play.tas.roll.bar import ScrollBar
-from ninja_game.play.tas.roll.columns import AREA, CHOSEN, COLUMNS, Layout, layout_of
+from ninja_game.play.tas.roll.columns import AREA, COLUMNS, Layout, layout_of
 from ninja_game.play.tas.roll.commands import RollCommands
 from ninja_game.play.tas.roll.facts import row_facts
 from ninja_game.play.tas.roll.mouse import RollMouse
@@ -66,13 +68,9 @@ class Roll(Part):
             self.choose_columns()
 
         rows = [
-            (
-                f"{'+' if column.name not in self.hidden else '   '} {column.meaning}",
-                lambda n=column.name: switch(n),
-                "",
-            )
-            for column in COLUMNS
-            if column.name in CHOSEN
+            (f"{each.meaning}: {'hidden' if each.name in self.hidden else 'shown'}", partial(switch, each.name), "")
+            for each in COLUMNS
+            if each.meaning
         ]
         self.bench.app.push(Menu(self.bench.app, "Columns", [*rows, ("Done", lambda: None, "")]))
 

@@ -78,7 +78,7 @@ class RowSheet:
         if row.name or row.tick % 10 == 0:
             fill(palette.ghost if row.name else line, (0, y, layout.body.width, 1))
         if row.changed:
-            fill(palette.ember, (0, y, self.theme.canvas.px(2), layout.row))
+            fill(palette.ember, (0, y, self.theme.canvas.px(2.5), layout.row))
         if row.cursor:
             frame = (0, y, layout.body.width, layout.row)
             pygame.draw.rect(self._picture, palette.accent, frame, max(1, layout.row // 11))
