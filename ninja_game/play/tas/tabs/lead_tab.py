@@ -1,15 +1,175 @@
-"""Lead."""
+"""The lead of the run over another one: a branch, the run as it was, or a run that was opened beside it."""
 
 from __future__ import annotations
 
-from ninja_game.play.tas.tabs.tab import Tab
+import pygame
+
+from ninja_game.editor.background import NewestJob
+from ninja_game.errors import NinjaGameError
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.input_runs import Marker
+from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.tabs.tab import SMALL, Rows, Tab
+from ninja_game.play.ui.text_layout import counted
+from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.widgets import Choice
+from ninja_game.tas.leads import LeadTable, lead_table
+from ninja_game.tas.take import Take
+
+PAUSE_MS = 300
+"""How long a run must stay as it is before it is compared."""
+
+_COLUMNS = (190, 260, 330)
+"""Where the ticks and the lead stand, px from the left of a row."""
+
+Pair = tuple[Take, Take]
+Job = tuple[Pair, Recording, Recording, tuple[Marker, ...]]
+
+
+def compared(job: Job) -> tuple[Pair, LeadTable | str]:
+    """The table, or why there is none."""
+    pair, ours, theirs, markers = job
+    try:
+        return pair, lead_table(ours, theirs, markers)
+    except NinjaGameError as error:
+        return pair, str(error)
 
 
 class LeadTab(Tab):
-    """Lead."""
+    """Which run is the other one, and the table."""
 
     name = "Lead"
 
+    def __init__(self, bench: Bench) -> None:
+        super().__init__(bench)
+        self._opened = bench.take
+        self._asked: Pair | None = None
+        self._still_ms = 0
+        self._job: NewestJob[Job, tuple[Pair, LeadTable | str]] = NewestJob(compared)
+        self._choice = Choice((62, 377, 364, 18), "", self._options(), self._against, self._put)
+        self.list = Rows((10, 426, 416, 148), self._draw_row, self._go, keeps=False)
+        self.widgets = [self._choice, self.list]
+
+    # --- which runs ---
+
+    def _options(self) -> list[tuple[str, object]]:
+        """The other runs, each once."""
+        session, found = self.bench.session, [("the run as it was opened", self._opened)]
+        if len(session.saved):
+            found.append(("the run as it was saved", session.saved))
+        found += [(f"branch: {branch.name}", branch.take) for branch in session.branches.all]
+        found += [(other.name, other.take) for other in self.bench.others]
+        names: dict[Take, str] = {}
+        for name, take in found:
+            names.setdefault(take, name)
+        return [(name, take) for take, name in names.items()]
+
+    def _against(self) -> Take:
+        return self._opened if self.bench.against is None else self.bench.against
+
+    def _put(self, take: object) -> None:
+        self.bench.against = take if isinstance(take, Take) else None
+
+    @property
+    def _pair(self) -> Pair:
+        return self.bench.take, self._against()
+
+    def update(self, real_ms: int) -> None:
+        """While it is shown: compare the runs once they stay as they are."""
+        if self.bench.tab != self.name:
+            return
+        self._choice.options = self._options()
+        if self._against() not in {take for _, take in self._choice.options}:
+            self.bench.against = None
+        pair = self._pair
+        if pair != self._asked:
+            self._asked, self._still_ms = pair, 0
+        elif self._still_ms < PAUSE_MS:
+            self._still_ms += real_ms
+            if self._still_ms >= PAUSE_MS:
+                session = self.bench.session
+                ours, theirs = session.recording(pair[0], "this run"), session.recording(pair[1], "the other run")
+                self._job.ask((pair, ours, theirs, pair[0].markers))
+        self.list.fill(self.table.rows if self.table else ())
+
+    def close(self) -> None:
+        """Wait for a comparison that is going on."""
+        self._job.finish()
+
+    @property
+    def table(self) -> LeadTable | None:
+        """The table that was made last."""
+        result = self._job.result
+        return result[1] if result is not None and isinstance(result[1], LeadTable) else None
+
+    @property
+    def is_current(self) -> bool:
+        """Whether it is of the runs as they are now."""
+        return self._job.result is not None and self._job.result[0] == self._pair
+
+    def _go(self, index: int) -> None:
+        if self.table is not None:
+            self.bench.go(self.table.rows[index].tick)
+
+    # --- picture ---
+
+    @property
+    def summary(self) -> str:
+        """What the table comes to."""
+        if not self.is_current or self._job.result is None:
+            return "comparing ..."
+        table = self._job.result[1]
+        if isinstance(table, str):
+            return table
+        keys, place = table.comparison.first_keys, table.comparison.first_place
+        if keys is None:
+            return "the same keys"
+        parts = [
+            f"other keys from tick {keys} on",
+            f"elsewhere from tick {place} on" if place is not None else "the same way",
+        ]
+        last = next((row for row in reversed(table.rows) if row.counts), None)
+        if last is not None:
+            parts.append(f"{lead_in_words(last.ahead)} at {last.name}")
+        return "; ".join(parts)
+
     def look(self) -> tuple[object, ...]:
-        """Nothing but its background."""
-        return ()
+        """Runs, the table, the cursor."""
+        return self._choice.options, self._against(), self.summary, id(self.table), self.bench.cursor, self.list.over
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        """What it comes to, and the names of the columns."""
+        super().paint(surface, theme)
+        faint = theme.palette.faint
+        theme.text(surface, "Against", 12, 381, size=11)
+        theme.text(surface, self.summary, 12, 399, size=SMALL, width=408)
+        x, y, _, _ = self.list.area
+        heads = ("Place", "Tick here", "Tick there", "Ahead + or behind -")
+        for at, text in zip((8, *_COLUMNS), heads, strict=True):
+            theme.text(surface, text, x + at, y - 12, size=8, colour=faint)
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
+        """Place, ticks, lead."""
+        if self.table is None or index >= len(self.table.rows):
+            return
+        row, palette = self.table.rows[index], theme.palette
+        x, y = area[0], area[1] + 3
+        current = self.is_current
+        colour = palette.text if row.counts and current else palette.faint
+        theme.text(surface, row.name, x + 8, y, size=SMALL, colour=colour, bold=row.counts, width=_COLUMNS[0] - 14)
+        for at, tick in zip(_COLUMNS, (row.tick, row.other), strict=False):
+            theme.text(surface, str(tick), x + at, y, size=SMALL, colour=colour)
+        if current and row.ahead:
+            colour = palette.good if row.ahead > 0 else palette.bad
+        theme.text(surface, f"{row.ahead:+d}" if row.ahead else "0", x + _COLUMNS[2], y, size=SMALL, bold=True,
+                   colour=colour)  # fmt: skip
+
+
+def lead_in_words(ahead: int) -> str:
+    """A lead in words.
+
+    >>> lead_in_words(1), lead_in_words(-12), lead_in_words(0)
+    ('1 tick ahead', '12 ticks behind', 'as early')
+    """
+    ticks = counted(abs(ahead), "tick", "ticks")
+    return f"{ticks} {'ahead' if ahead > 0 else 'behind'}" if ahead else "as early"
