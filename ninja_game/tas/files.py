@@ -82,6 +82,17 @@ def _digest(path: Path) -> str:
     return sha256(read_bytes(path)).hexdigest() if path.exists() else ""
 
 
+def open_recording(recording: Recording) -> OpenedRun:
+    """The same of a recording that was loaded already; without a file where that is another one by now."""
+    with suppress(NinjaGameError, OSError):
+        path = Path(recording.file)
+        if path.is_file():
+            opened = open_run(path, record=recording.record, level=recording.level)
+            if take_of(recording) == opened.take and same_level(recording, opened.recording):
+                return opened
+    return OpenedRun(recording, take_of(recording), RunFile(), Branches())
+
+
 def runs_beside(path: Path, about: Recording) -> list[Recording]:
     """The recordings of a file or link that can be shown beside a run: all those of its level, with its body.
 
@@ -158,12 +169,17 @@ def replay_of_take(about: Recording, take: Take) -> Replay:
     """
     loose = loose_replay(about, take)
     run = record_replay(about.level, take.inputs, body=about.body, name=about.name, author=about.author)
-    if any(take.inputs[run.ticks :]) or any(each.tick > run.ticks for each in take.markers):
+    if has_tail(take, run.ticks):
         return loose
     return replace(
         run, markers=take.markers, practice=loose.practice,
         level_name=loose.level_name, level_author=loose.level_author,
     )  # fmt: skip
+
+
+def has_tail(take: Take, ticks: int) -> bool:
+    """Whether a take has keys, or names of ticks, behind the first ``ticks`` ticks."""
+    return any(take.inputs[ticks:]) or any(each.tick > ticks for each in take.markers)
 
 
 def save_run(

@@ -11,7 +11,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.tas.branches import Branch, Branches, branch_as_json
 from ninja_game.tas.course import NOWHERE, Course
-from ninja_game.tas.files import OpenedRun, RunFile, loose_replay, recording_of, save_run
+from ninja_game.tas.files import OpenedRun, RunFile, has_tail, loose_replay, recording_of, save_run
 from ninja_game.tas.journal import Journal, Recovered, edit_as_json
 from ninja_game.tas.take import Take
 from ninja_game.tas.timeline import Timeline
@@ -59,6 +59,13 @@ class Session:
     def is_saved(self) -> bool:
         """Whether the file holds what is here."""
         return self.take == self.saved and self.branches.all == self._saved_branches
+
+    @property
+    def has_tail(self) -> bool:
+        """Whether keys or names of ticks behind its end keep the run from being a replay with claims."""
+        self.timeline.work(len(self.timeline))
+        end, _ = self.timeline.end
+        return end >= 0 and has_tail(self.take, end + 1)
 
     @property
     def soon(self) -> int:

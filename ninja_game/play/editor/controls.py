@@ -76,9 +76,13 @@ _FAMILY_OF_KEY = {family.key: family for family in FAMILIES}
 
 
 def keys_of(name: str) -> str:
-    """What to press for a command, for people."""
-    keys = next(command.keys for command in COMMANDS if command.name == name)
-    return "+".join(map(key_label_of, keys[0].split("+"))) if keys else ""
+    """What to press for a command of the editor, for people."""
+    return key_text(next(command for command in COMMANDS if command.name == name))
+
+
+def key_text(command: Command) -> str:
+    """What to press for a command, for people; '' for nothing."""
+    return "+".join(map(key_label_of, command.keys[0].split("+"))) if command.keys else ""
 
 
 def key_label_of(name: str) -> str:

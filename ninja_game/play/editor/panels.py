@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.editor.controls import COMMANDS, keys_of
+from ninja_game.play.editor.controls import Command, key_text
 from ninja_game.play.input.gamepad import pad_label
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.menu_screen import MenuScreen
@@ -82,6 +82,9 @@ class Form(Menu):
         return take
 
 
+STAY: Row = ("Stay", lambda: None, "")
+
+
 class LevelChoice(Browser):
     """The browser of levels, to choose one for the editor."""
 
@@ -113,28 +116,34 @@ W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift 
 
 
 class HelpPage(MenuScreen):
-    """All that the editor can do, on one page."""
+    """All that can be done, on one page: ``words``, then the table of ``commands``."""
 
-    title = "The editor"
     foot = "Esc goes back"
+
+    def __init__(self, app: App, title: str, words: str, commands: Sequence[Command]) -> None:
+        super().__init__(app)
+        self.title = title
+        self._words = words
+        self._commands = [command for command in commands if command.keys or command.pad]
 
     def build(self) -> Sequence[Widget]:
         """One way back."""
         return [Button((640, 536, 112, 24), "Back", self.back, size=10)]
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """The words, then the table of commands in three columns."""
+        """The words, then the table in two columns."""
         super().draw_frame(surface)
         theme = self.app.theme
-        lines = [line for text in HELP.split("\n") for line in wrapped(theme, text, WIDTH - 80, 10)]
+        lines = [line for text in self._words.split("\n") for line in wrapped(theme, text, WIDTH - 80, 10)]
         for number, line in enumerate(lines):
             theme.text(surface, line, 40, 60 + 15 * number, size=10)
-        shown = [command for command in COMMANDS if command.keys or command.pad]
-        rows = -(-len(shown) // 2)
-        for number, command in enumerate(shown):
+        rows = -(-len(self._commands) // 2)
+        top = 70 + 15 * len(lines)
+        keys, pads = (84, 86) if any(command.pad for command in self._commands) else (104, 0)
+        for number, command in enumerate(self._commands):
             column, row = divmod(number, rows)
-            x, y = 40 + 362 * column, 70 + 15 * len(lines) + 19 * row
-            theme.text(surface, keys_of(command.name), x, y, size=10, bold=True, width=84)
-            theme.text(surface, pad_label(command.pad) if command.pad else "", x + 86, y, size=9, width=86,
+            x, y = 40 + 362 * column, top + min(19.0, (530 - top) / rows) * row
+            theme.text(surface, key_text(command), x, y, size=10, bold=True, width=keys)
+            theme.text(surface, pad_label(command.pad) if command.pad else "", x + keys + 2, y, size=9, width=pads,
                        colour=theme.palette.faint)  # fmt: skip
-            theme.text(surface, command.label, x + 174, y, size=10, width=186)
+            theme.text(surface, command.label, x + keys + pads + 4, y, size=10, width=356 - keys - pads)

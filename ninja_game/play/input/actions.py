@@ -44,6 +44,7 @@ ACTIONS: dict[str, Action] = {
     "frame_back": Action("Replay: a tick back", ("comma",)),
     "frame_forward": Action("Replay: a tick on", ("period",)),
     "export": Action("Replay: export", ("e",)),
+    "edit": Action("Replay: edit", ("t",)),
     "link": Action("Copy a link", ("c",)),
     "screenshot": Action("Save a picture", ("f12",)),
     "fullscreen": Action("Full screen", ("f11",)),

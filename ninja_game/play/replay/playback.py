@@ -13,13 +13,14 @@ from ninja_game.simulation import Body, Simulation
 
 @dataclass(frozen=True)
 class RecordedRun:
-    """Inputs (one byte a tick) on a level; ``replay``: the replay that they are from, if any."""
+    """Inputs (one byte a tick) on a level; ``replay``, ``recording``: what they are from, if anything."""
 
     title: str
     level: Level
     inputs: bytes
     body: Body = "circle"
     replay: Replay | None = field(default=None, repr=False, compare=False)
+    recording: Recording | None = field(default=None, repr=False, compare=False)
 
 
 def recorded_run(recording: Recording) -> RecordedRun:
@@ -27,7 +28,8 @@ def recorded_run(recording: Recording) -> RecordedRun:
     title = recording.name or "replay"
     if recording.author:
         title += f" - {recording.author}"
-    return RecordedRun(title, recording.level, recording.playback(recording.ticks), recording.body, recording.replay)
+    inputs = recording.playback(recording.ticks)
+    return RecordedRun(title, recording.level, inputs, recording.body, recording.replay, recording)
 
 
 def replay_of(run: RecordedRun) -> Replay:

@@ -14,6 +14,7 @@ from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.level.run_clock import RunClock
+from ninja_game.play.replay.edit import edit_run
 from ninja_game.play.replay.film_job import FilmJob
 from ninja_game.play.replay.playback import Playback, RecordedRun, recorded_run, replay_of
 from ninja_game.play.replay.seek_bar import ReplayBar
@@ -21,6 +22,7 @@ from ninja_game.play.screen import Screen
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays
 from ninja_game.player.level_context import GhostRun
+from ninja_game.runtime import IN_PAGE
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 
@@ -41,11 +43,12 @@ class ReplayScreen(Screen):
     """Shows a recording. Others on the same level run along as ghosts. Raises LevelError for one that cannot be played.
 
     ``end``: the tick of the exit contact or death, or the last one of the recording; ``outcome``: what it brought.
-    ``length``: ticks to show.
+    ``length``: ticks to show. ``editable``: whether the bench can be opened from here.
     """
 
-    def __init__(self, app: App, runs: Sequence[RecordedRun | Recording]) -> None:
+    def __init__(self, app: App, runs: Sequence[RecordedRun | Recording], *, editable: bool = not IN_PAGE) -> None:
         super().__init__(app)
+        self.editable = editable
         self.runs = [run if isinstance(run, RecordedRun) else recorded_run(run) for run in runs]
         self.clock = RunClock()
         self.overlays = Overlays()
@@ -155,7 +158,7 @@ class ReplayScreen(Screen):
             "frame_back": lambda: self.step(-1), "frame_forward": lambda: self.step(1),
             "faster": lambda: self._change_speed(1), "slower": lambda: self._change_speed(-1),
             "retry": lambda: self.show(self.index), "jump": lambda: self.show(self.index + 1),
-            "export": self.start_export, "link": self.copy_link, "ghost": self._toggle_ghosts,
+            "export": self.start_export, "link": self.copy_link, "ghost": self._toggle_ghosts, "edit": self.edit,
             "back": self.app.pop, "quit": self.app.pop,
         }.get(action)  # fmt: skip
         if deed is not None:
@@ -196,6 +199,12 @@ class ReplayScreen(Screen):
         """This run as a link, in the clipboard."""
         copy_link(self.app, lambda: replay_link([replay_of(self.run)]), title=self.run.title)
 
+    def edit(self) -> None:
+        """Open the bench on this run, at this tick, with the others beside it."""
+        if self.editable:
+            others = [run for run in self.runs if run is not self.run]
+            edit_run(self.app, self.run, others, max(0, self.tick - 1))
+
     # --- picture ---
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
@@ -223,5 +232,6 @@ class ReplayScreen(Screen):
         return (
             f"{key('frame_back')} {key('frame_forward')}: tick by tick    {key('left')} {key('right')}: a second    "
             f"{key('slower')} {key('faster')}: speed    {key('export')}: film    "
-            f"{key('link')}: link    {key('back')}: leave"
+            + f"{key('edit')}: edit    " * self.editable
+            + f"{key('link')}: link    {key('back')}: leave"
         )

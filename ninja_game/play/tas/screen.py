@@ -28,6 +28,7 @@ from ninja_game.tas.session import Session
 if TYPE_CHECKING:
     from ninja_game.play.app import App
     from ninja_game.tas.files import OpenedRun
+    from ninja_game.tas.journal import Recovered
 
 _MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL)
 
@@ -35,21 +36,26 @@ _MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pyga
 class TasScreen(MenuScreen):
     """A run is edited here. ``bench``: what is seen and selected; ``session``: the run.
 
-    ``beside``: other runs of its level. Raises LevelError for a run on a level that cannot be played, ReplayError for
-    one beside that is of another level or has another body.
+    ``beside``: other runs of its level; ``found``: what was not saved of the run last time. Raises LevelError for a run
+    on a level that cannot be played, ReplayError for one beside that is of another level or has another body, FileError
+    for what another window goes on with.
     """
 
-    def __init__(self, app: App, opened: OpenedRun, beside: Sequence[Recording] = ()) -> None:
+    def __init__(
+        self, app: App, opened: OpenedRun, beside: Sequence[Recording] = (), found: Recovered | None = None
+    ) -> None:
         super().__init__(app)
         self.session = Session(opened, app.player.folder)
+        if found is not None:
+            self.session.recover(found)
         self.bench = Bench(app, self.session)
         self.level, self.roll = LevelPart(self.bench), Roll(self.bench)
         self.tabs = all_tabs(self.bench)
         self.tab: Tab = self.tabs[0]
         self.head, self.foot_line = Head(self.bench), Foot(self.bench)
-        self.files = FileCommands(app, self.bench)
+        self.files = FileCommands(app, self.bench, lambda name: self.commands()[name]())
         self.level.others.open(beside)
-        self._entered = False
+        self._entered = found is not None
         self._widgets_stale = True
         self._dragging: Part | None = None
         self._held_command, self._held_key, self._again_in = "", 0, 0
@@ -84,7 +90,7 @@ class TasScreen(MenuScreen):
         self._widgets_stale = True
         if not self._entered:
             self._entered = True
-            self.files.offer_recovered()
+            self.files.offer_recovered(lambda found: self.app.replace(TasScreen(self.app, found.opened, found=found)))
 
     def leave(self) -> None:
         """Covered or closed: what is going on ends."""
@@ -95,6 +101,8 @@ class TasScreen(MenuScreen):
         if self not in self.app.stack:
             for tab in self.tabs:
                 tab.close()
+            # What is not saved is offered again.
+            self.session.close(keep=True)
 
     def chime(self, name: str) -> None:
         """Editing is silent."""

@@ -17,7 +17,7 @@ from ninja_game.play.screen import Screen
 if TYPE_CHECKING:
     from ninja_game.play.menus.settings.rebinding import BindingTable
 
-IN_REPLAYS_ONLY = frozenset({"faster", "slower", "frame_back", "frame_forward"})
+IN_REPLAYS_ONLY = frozenset({"faster", "slower", "frame_back", "frame_forward", "edit"})
 IN_LEVELS_ONLY = frozenset(
     {"suicide", "replay", "skip", "quick_save", "quick_load", "rewind", "slow", "step"}
 )  # fmt: skip

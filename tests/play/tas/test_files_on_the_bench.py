@@ -1,0 +1,195 @@
+"""Files on the bench: saved, asked about, kept, offered again after a kill; Edit in the replay viewer."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pygame
+
+from ninja_game.formats.load import load_replays
+from ninja_game.play.editor.panels import Form, HelpPage, Menu
+from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.play.tas.controls import COMMANDS
+from ninja_game.play.tas.screen import TasScreen
+from ninja_game.sim.inputs import KEY_LEFT
+from ninja_game.tas.journal import FOLDER, recovered
+from tests.play.tas.conftest import RUN
+from tests.support.bench_driver import BenchDriver
+from tests.support.own_pack import PACK
+from tests.support.samples import WALK, running, write_records
+from tests.support.scripted import frames, press, scripted_app
+
+CTRL, SHIFT = pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT
+
+
+def change(at: BenchDriver, tick: int = 20) -> None:
+    """Press another key in a tick."""
+    at.bench.edit(lambda take: take.with_key(tick, tick + 1, KEY_LEFT, down=not take.keys_at(tick) & KEY_LEFT))
+
+
+def journals(at: BenchDriver) -> list[Path]:
+    return list((at.app.player.folder / FOLDER).glob("*"))
+
+
+def test_every_command_of_the_table_is_offered_by_some_part(at: BenchDriver) -> None:
+    assert set(at.screen.commands()) <= {command.name for command in COMMANDS}
+
+
+def test_a_run_is_saved_into_its_file(at: BenchDriver) -> None:
+    path = at.session.file.path
+    assert path is not None
+    change(at)
+    at.chord("s", CTRL)
+    assert at.app.notice == f"Saved: {path}"
+    assert at.session.is_saved
+    assert load_replays(path)[0].playback(30) == at.bench.take.inputs[:30]
+    assert journals(at) == []
+
+
+def test_a_run_of_n_is_saved_among_the_players_replays(tmp_path: Path) -> None:
+    file = write_records(tmp_path / "demos.txt", ("a run", WALK, running(30)))
+    at = BenchDriver(tmp_path / "player", file)
+    at.chord("s", CTRL)
+    first = tmp_path / "player" / "replays" / "a-run.replay.txt"
+    assert load_replays(first)[0].author == "me"
+    assert "without claims: Ctrl+E takes out what is behind the end" in at.app.notice
+    at.press("escape")
+    at.choose("Keep as a replay")
+    assert "behind the end" in at.app.notice
+    at.chord("e", CTRL)
+    at.chord("s", CTRL)
+    assert at.app.notice == f"Saved: {first}"
+    assert load_replays(first)[0].replay.outcome == "exit"  # type: ignore[union-attr]
+    at.press("escape")
+    at.choose("Keep as a replay")
+    assert "saved" in at.app.notice
+    assert len(at.player.records.replays()) == 1
+    at.close()
+
+
+def test_it_is_saved_under_another_name_and_asks_before_it_replaces(at: BenchDriver) -> None:
+    path = at.session.file.path
+    assert path is not None
+    taken = path.with_name("taken.replay.txt")
+    taken.write_text("somebody's", "utf-8")
+    change(at)
+    at.chord("s", CTRL, SHIFT)
+    form = at.top()
+    assert isinstance(form, Form)
+    form.texts[0] = "taken"
+    at.choose("Save")
+    assert at.top().title == "There is a file taken.replay.txt already"  # type: ignore[attr-defined]
+    at.choose("Stay")
+    assert taken.read_text("utf-8") == "somebody's"
+    path.write_text(path.read_text("utf-8") + "\n", "utf-8")
+    at.chord("s", CTRL)
+    assert "changed by another program" in at.top().title  # type: ignore[attr-defined]
+    at.choose("Save under another name")
+    form = at.top()
+    assert isinstance(form, Form)
+    form.texts[0] = "a/b"
+    at.choose("Save")
+    assert at.session.file.path == path.with_name("a-b.replay.txt")
+    at.chord("s", CTRL)
+    assert isinstance(at.top(), TasScreen)
+
+
+def test_leaving_asks_if_the_run_is_not_saved(at: BenchDriver) -> None:
+    change(at)
+    at.press("escape")
+    at.choose("Leave")
+    assert isinstance(at.top(), Menu)
+    at.choose("Stay")
+    assert isinstance(at.top(), TasScreen)
+    at.press("escape")
+    at.choose("Leave")
+    at.choose("Leave it unsaved")
+    assert not at.app.running
+    assert journals(at) == []
+
+
+def test_a_closed_window_keeps_what_is_not_saved_and_it_is_offered(at: BenchDriver, tmp_path: Path) -> None:
+    change(at)
+    at.session.keep_branch("one")
+    wanted = at.bench.take
+    at.app.stack.clear()
+    (found,) = recovered(at.app.player.folder)
+    assert found.takes[-1] == wanted
+    again = BenchDriver(tmp_path / "player", RUN)
+    assert again.top().title == "Not saved last time: run.replay.txt"  # type: ignore[attr-defined]
+    again.choose("Later")
+    assert again.bench.take != wanted
+    again.app.stack.clear()
+    again = BenchDriver(tmp_path / "player", RUN)
+    again.choose("Go on with it")
+    screen = again.top()
+    assert isinstance(screen, TasScreen)
+    assert (screen.bench.take, len(screen.session.branches)) == (wanted, 1)
+    assert screen.session.file.path == tmp_path / "run.replay.txt"
+    again.chord("z", CTRL)
+    again.chord("s", CTRL)
+    assert screen.bench.take.inputs == load_replays(RUN)[0].playback(10**4)[: len(screen.bench.take)]
+    screen.bench.edit(lambda take: take.replaced(0, 0, [1]))
+    again.app.stack.clear()
+    last = BenchDriver(tmp_path / "player", RUN)
+    last.choose("Forget it")
+    assert list(recovered(tmp_path / "player")) == []
+    last.close()
+
+
+def test_a_closed_window_of_a_saved_run_leaves_nothing(at: BenchDriver) -> None:
+    change(at)
+    at.chord("z", CTRL)
+    at.app.stack.clear()
+    assert journals(at) == []
+
+
+def test_help_page_and_viewer_come_from_the_menu(at: BenchDriver) -> None:
+    at.press("f1")
+    assert isinstance(at.top(), HelpPage)
+    at.frames(2)
+    at.press("escape")
+    at.press("escape")
+    at.choose("Watch")
+    viewer = at.top()
+    assert isinstance(viewer, ReplayScreen)
+    assert viewer.run.inputs == at.bench.take.inputs
+    at.press("t")
+    assert at.top() is viewer
+    at.press("escape")
+    at.press("escape")
+    at.choose("Copy a link")
+    assert at.top() is at.screen
+
+
+def test_edit_in_the_viewer_opens_the_bench(tmp_path: Path) -> None:
+    runs = load_replays(write_records(tmp_path / "demos.txt", ("a", WALK, running(23)), ("b", WALK, running(9))))
+    other = load_replays(PACK / "certificates" / "00-0-first-steps.exit.replay.txt")
+    with scripted_app() as (app, _):
+        viewer = ReplayScreen(app, [*runs, *other])
+        app.push(viewer)
+        viewer.seek(5)
+        press("edit")
+        frames(app, 2)
+        screen = app.top
+        assert isinstance(screen, TasScreen)
+        assert (screen.bench.cursor, screen.session.file.path) == (4, None)
+        assert screen.bench.take.inputs[:23] == bytes([2] * 23)
+        assert [len(each.take) for each in screen.bench.others] == [10]
+        screen.files.leave()
+        assert app.top is viewer
+
+
+def test_edit_of_a_file_goes_back_into_it(tmp_path: Path) -> None:
+    path = tmp_path / "run.replay.txt"
+    path.write_bytes(RUN.read_bytes())
+    for changed in (False, True):
+        with scripted_app() as (app, _):
+            app.push(ReplayScreen(app, load_replays(path)))
+            if changed:
+                path.write_text(path.read_text("utf-8").replace("name:", "; mine\nname:"), "utf-8")
+            press("edit")
+            frames(app, 2)
+            screen = app.top
+            assert isinstance(screen, TasScreen)
+            assert screen.session.file.path == (None if changed else path)
