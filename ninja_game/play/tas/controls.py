@@ -58,12 +58,13 @@ COMMANDS = (
 )
 """Everything that a key does, unless the run is taken over: then the keys of the game play."""
 
-FIRST_REPEAT_MS, REPEAT_MS = 300, 25
-"""A command whose key is held is repeated: when first, and then how often. 25 ms: as the run goes."""
-
-_MOVES = ("up", "down", "page_up", "page_down")
-REPEATING = frozenset((*_MOVES, *(f"select_{move}" for move in _MOVES), "undo", "redo", "step", "step_back"))
-"""The commands that are repeated."""
+FIRST_REPEAT_MS = 300
+"""A command whose key is held is repeated after so long."""
+REPEATING = {
+    **dict.fromkeys(("up", "down", "select_up", "select_down", "step", "step_back"), 25),
+    **dict.fromkeys(("page_up", "page_down", "select_page_up", "select_page_down", "undo", "redo"), 100),
+}
+"""The commands that are repeated, and then how often, ms. 25: as the run goes."""
 
 _BY_KEY = {key: command.name for command in COMMANDS for key in command.keys}
 

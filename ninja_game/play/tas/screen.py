@@ -13,7 +13,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.menus.menu_screen import LONGEST_STEP_MS, MenuScreen
 from ninja_game.play.tas.bench import Bench
-from ninja_game.play.tas.controls import FIRST_REPEAT_MS, REPEAT_MS, REPEATING
+from ninja_game.play.tas.controls import FIRST_REPEAT_MS, REPEATING
 from ninja_game.play.tas.file_commands import FileCommands
 from ninja_game.play.tas.head import Foot, Head
 from ninja_game.play.tas.level.part import LevelPart
@@ -135,6 +135,8 @@ class TasScreen(MenuScreen):
 
     def capture(self, event: InputEvent) -> bool:
         """Typed text goes into the field with the focus, keys of the game to the ninja that was taken over."""
+        if event.raw.type == pygame.KEYUP and event.raw.scancode == self._held_key:
+            self._held_command = ""
         if self.level.capture(event):
             return True
         if (
@@ -150,9 +152,7 @@ class TasScreen(MenuScreen):
     def handle(self, event: InputEvent) -> None:
         """Commands, then the mouse, then the widgets of the tab."""
         command = self.level.meaning(event)
-        if event.raw.type == pygame.KEYDOWN or (
-            event.raw.type == pygame.KEYUP and event.raw.scancode == self._held_key
-        ):
+        if event.raw.type == pygame.KEYDOWN:
             self._held_command = ""
         typing = self.focus is not None and event.menu in ("confirm", "up", "down", "left", "right", "first", "last")
         if event.raw.type in _MOUSE:
@@ -211,7 +211,7 @@ class TasScreen(MenuScreen):
         """A command whose key is held is done again and again."""
         self._again_in -= real_ms
         while self._held_command and self._again_in <= 0:
-            self._again_in += REPEAT_MS
+            self._again_in += REPEATING[self._held_command]
             self.commands()[self._held_command]()
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:

@@ -18,7 +18,7 @@ from ninja_game.play.tas.roll.rows import RowSheet
 from ninja_game.play.ui.theme import Theme
 
 MARGIN = 4
-"""Rows that are seen above and below the cursor, where there are any."""
+"""The rows scroll with a cursor that moves in the first or the last of so many parts of the roll."""
 
 
 class Roll(Part):
@@ -46,14 +46,18 @@ class Roll(Part):
         self.top = max(0, min(top, self.bench.last_tick + 1 - self.layout.rows))
 
     def follow(self) -> None:
-        """Scroll to the cursor if it has moved out of sight."""
+        """Scroll with the cursor where it comes near the edge, and to it where it is out of sight."""
         cursor, rows = self.bench.cursor, self.layout.rows
-        if cursor != self._followed:
-            self._followed = cursor
-            if not self.top - rows < cursor < self.top + 2 * rows:
-                self.top = cursor - rows // 2
-            margin = min(MARGIN, rows // 3)
-            self.top = min(max(self.top, cursor + margin + 1 - rows), cursor - margin)
+        moved, self._followed = cursor - self._followed, cursor
+        # With the cursor there, ``lowest`` to ``highest`` are the first ticks that leave room above and below it.
+        lowest, highest = cursor + 1 + rows // MARGIN - rows, cursor - rows // MARGIN
+        if moved and not self.top <= cursor < self.top + rows:
+            near = abs(moved) <= rows
+            self.top = min(max(self.top, lowest), highest) if near else cursor - rows // 2
+        elif moved > 0:
+            self.top = max(self.top, min(lowest, self.top + moved))
+        elif moved < 0:
+            self.top = min(self.top, max(highest, self.top + moved))
         self.scroll(self.top)
 
     def stay(self) -> None:
