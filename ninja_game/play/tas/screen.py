@@ -87,6 +87,7 @@ class TasScreen(MenuScreen):
         """Nothing has the focus: keys edit."""
         super().enter()
         self.focus = None
+        self.await_text()
         self._widgets_stale = True
         if not self._entered:
             self._entered = True
@@ -117,6 +118,19 @@ class TasScreen(MenuScreen):
         """The next tab."""
         self.show_tab(self.tabs[(self.tabs.index(self.tab) + 1) % len(self.tabs)])
 
+    def _show_asked(self) -> None:
+        """Show the tab that the bench says, and give the focus to what wants it."""
+        asked = next(tab for tab in self.tabs if tab.name == self.bench.tab)
+        if asked is not self.tab or asked.wants is not None:
+            self.show_tab(asked)
+
+    def await_text(self) -> None:
+        """Only while a field has the focus: the letter of a command's key is not typed into what the key opens."""
+        if isinstance(self.focus, TextEntry):
+            pygame.key.start_text_input()
+        else:
+            pygame.key.stop_text_input()
+
     def rebuild(self) -> None:
         """Take the widgets of the tab that is shown now."""
         self.widgets = list(self.build())
@@ -144,7 +158,8 @@ class TasScreen(MenuScreen):
             and event.menu in ("confirm", "back")
             and event.source == ("keys", "escape")
         ):
-            self.focus = None
+            self.focus, self._widgets_stale = None, True
+            self.await_text()
             return True
         with self._widgets_only():
             return super().capture(event)
@@ -159,11 +174,14 @@ class TasScreen(MenuScreen):
             self._give_mouse(event.raw)
         elif command and not typing:
             self.commands()[command]()
+            self._show_asked()
             if command in REPEATING:
                 self._held_command, self._held_key, self._again_in = command, event.raw.scancode, FIRST_REPEAT_MS
         else:
             with self._widgets_only():
                 super().handle(event)
+        if self.app.top is self:
+            self.await_text()
 
     def back(self) -> None:
         """Escape is a command."""
@@ -182,7 +200,7 @@ class TasScreen(MenuScreen):
         elif raw.type == pygame.MOUSEBUTTONUP and raw.button <= pygame.BUTTON_RIGHT:
             self._dragging = None
         if part not in (None, self.tab) and raw.type != pygame.MOUSEMOTION:
-            self.focus = None
+            self.focus, self._widgets_stale = None, self._widgets_stale or self.focus is not None
         if part is None or not part.mouse(raw, x, y):
             focus = self.focus
             with self._widgets_only():
@@ -202,10 +220,7 @@ class TasScreen(MenuScreen):
             self.session.timeline.work(self.session.soon)
         for part in (self.level, self.roll, *self.tabs):
             part.update(real_ms)
-        # What a command wants to show comes now: the letter of its key is not typed into a field.
-        asked = next(tab for tab in self.tabs if tab.name == self.bench.tab)
-        if asked is not self.tab or asked.wants is not None:
-            self.show_tab(asked)
+        self._show_asked()
 
     def _repeat_command(self, real_ms: int) -> None:
         """A command whose key is held is done again and again."""
