@@ -45,6 +45,10 @@ class BenchDriver(MenuDriver):
             self.event(pygame.MOUSEMOTION, *place, buttons=(button == 1, button == 2, button == 3))
         self.event(pygame.MOUSEBUTTONUP, *places[-1], button=button)
 
+    def keys_down(self, first: int, last: int) -> list[int]:
+        """The keys of the ticks ``first`` … ``last`` - 1."""
+        return [self.bench.take.keys_at(tick) for tick in range(first, last)]
+
     def cell(self, tick: int, column: str) -> tuple[float, float]:
         """The middle of a cell of the roll, which may be beyond its edges; a logical point."""
         roll = self.screen.roll

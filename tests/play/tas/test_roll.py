@@ -22,10 +22,6 @@ def clipboard_of_the_tests(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return texts
 
 
-def keys(at: BenchDriver, first: int, last: int) -> list[int]:
-    return [at.bench.take.keys_at(tick) for tick in range(first, last)]
-
-
 def test_keys_move_and_select(at: BenchDriver) -> None:
     rows, bench = at.screen.roll.layout.rows, at.bench
     at.press("down", "down", "up")
@@ -84,13 +80,13 @@ def test_keys_of_the_game_go_down_and_up_in_the_selected_ticks(at: BenchDriver) 
     at.bench.edit(lambda take: take.replaced(10, 20, bytes([0, 1] * 5)))
     at.bench.select(10, 20)
     at.press("left")
-    assert keys(at, 10, 20) == [1] * 10
+    assert at.keys_down(10, 20) == [1] * 10
     at.press("z")
-    assert keys(at, 10, 20) == [5] * 10
+    assert at.keys_down(10, 20) == [5] * 10
     at.press("left")
-    assert keys(at, 10, 20) == [4] * 10
+    assert at.keys_down(10, 20) == [4] * 10
     at.press("delete")
-    assert keys(at, 10, 20) == [0] * 10
+    assert at.keys_down(10, 20) == [0] * 10
     assert at.bench.selection == (10, 20)
 
 
@@ -99,7 +95,7 @@ def test_ticks_are_put_in_and_taken_out(at: BenchDriver) -> None:
     at.bench.select(10, 13)
     at.press("insert")
     assert len(at.bench.take) == len(before) + 3
-    assert keys(at, 10, 13) == [0, 0, 0]
+    assert at.keys_down(10, 13) == [0, 0, 0]
     at.press("backspace")
     assert at.bench.take == before
     assert at.bench.selection == (10, 11)
@@ -157,7 +153,7 @@ def test_ticks_travel_as_text(at: BenchDriver, clipboard: list[str]) -> None:
     at.bench.go(30)
     at.chord("v", CTRL)
     assert len(at.bench.take) == len(before)
-    assert keys(at, 30, 36) == [2, 2, 2, 6, 6, 0]
+    assert at.keys_down(30, 36) == [2, 2, 2, 6, 6, 0]
     assert at.bench.selection == (30, 36)
     assert at.bench.take.markers == before.markers, "a name stays where it is"
 
@@ -170,7 +166,7 @@ def test_text_from_elsewhere_is_pasted(at: BenchDriver, clipboard: list[str], te
     clipboard[0] = text
     at.bench.go(5)
     at.chord("v", CTRL, SHIFT)
-    assert keys(at, 5, 5 + len(made)) == made
+    assert at.keys_down(5, 5 + len(made)) == made
 
 
 def test_a_whole_replay_is_pasted(at: BenchDriver, clipboard: list[str]) -> None:

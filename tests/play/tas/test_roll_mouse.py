@@ -15,10 +15,6 @@ from tests.support.bench_driver import BenchDriver
 CTRL, SHIFT = pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT
 
 
-def keys(at: BenchDriver, first: int, last: int) -> list[int]:
-    return [at.bench.take.keys_at(tick) for tick in range(first, last)]
-
-
 def wheel(at: BenchDriver, notches: int) -> None:
     pygame.event.post(pygame.Event(pygame.MOUSEWHEEL, x=0, y=notches, flipped=False))
     at.frames()
@@ -29,7 +25,7 @@ def test_a_drag_paints_a_key_and_is_undone_as_one(at: BenchDriver) -> None:
     at.bench.edit(lambda take: take.replaced(10, 30, bytes(20)))
     empty = at.bench.take
     at.drag(at.cell(12, "left"), at.cell(15, "left"), at.cell(20, "left"))
-    assert keys(at, 10, 30) == [0] * 2 + [KEY_LEFT] * 9 + [0] * 9
+    assert at.keys_down(10, 30) == [0] * 2 + [KEY_LEFT] * 9 + [0] * 9
     assert at.bench.cursor == 0, "the level goes on showing the same tick"
     at.chord("z", CTRL)
     assert at.bench.take == empty
@@ -43,7 +39,7 @@ def test_a_drag_from_a_key_that_is_down_lifts_it_and_so_does_the_right_button(at
     at.drag(at.cell(10, "jump"), at.cell(12, "jump"))
     at.drag(at.cell(15, "right"), at.cell(13, "right"), button=3)
     lifted = [7 & ~JUMP_HELD] * 3 + [7 & ~KEY_RIGHT] * 3 + [7] * 4
-    assert keys(at, 10, 20) == lifted
+    assert at.keys_down(10, 20) == lifted
     at.drag(at.cell(len(at.bench.take) + 5, "left"), button=3)
     assert len(at.bench.take) == len(at.session.saved), "lifting keys behind the end makes no ticks"
 
@@ -58,7 +54,7 @@ def test_painting_beyond_the_lower_edge_scrolls_on_and_makes_the_run_longer(at: 
     at.event(pygame.MOUSEBUTTONUP, x, where, button=1)
     length = len(at.bench.take)
     assert length > 100
-    assert keys(at, 0, length) == [0] * 30 + [KEY_RIGHT] * (length - 30)
+    assert at.keys_down(0, length) == [0] * 30 + [KEY_RIGHT] * (length - 30)
     at.frames(40)
     assert len(at.bench.take) == length, "it ends with the button"
     at.chord("z", CTRL)

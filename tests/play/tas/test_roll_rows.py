@@ -19,10 +19,6 @@ from tests.support.bench_driver import BenchDriver
 CTRL, SHIFT = pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT
 
 
-def keys(at: BenchDriver, first: int, last: int) -> list[int]:
-    return [at.bench.take.keys_at(tick) for tick in range(first, last)]
-
-
 def test_runs_of_no_tick_and_of_one(at: BenchDriver) -> None:
     at.bench.edit(lambda take: Take(b""))
     at.press("end", "end", "down", "home", "delete", "backspace", "m", "escape", "n")
