@@ -8,10 +8,10 @@ import pygame
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.replay.paths import COLOURS
 from ninja_game.play.replay.screen import SPEEDS
-from ninja_game.play.tas.bench import Bench, OtherRun
+from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.controls import command_of
 from ninja_game.play.tas.level.other_runs import OtherRuns
-from ninja_game.play.tas.level.paths import LevelPaths, Positions, first_other_place
+from ninja_game.play.tas.level.paths import FAINT, NEAR, LevelPaths, Positions, Way, first_other_place
 from ninja_game.play.tas.level.picture import LevelPicture
 from ninja_game.play.tas.level.playing import Playing
 from ninja_game.play.tas.level.run_ghost import RunGhost
@@ -111,6 +111,7 @@ class LevelPart(Part):
         if dragged:
             far += np.minimum(np.abs(np.arange(len(far)) - self.bench.cursor), _FAR)
         self.hover = int(np.argmin(far))
+        self.bench.hint = f"Click: go to tick {self.hover}; drag: along the run"
         if dragged or (event.type == pygame.MOUSEBUTTONDOWN and event.button == 1):
             self.playing.stop()
             self.bench.go(self.hover, select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
@@ -128,7 +129,7 @@ class LevelPart(Part):
         moving = playing.on or self.take_over.on
         return (
             bench.take, bench.cursor, bench.selection, timeline.valid, bench.session.before, bench.ghosts,
-            tuple(bench.others), bench.chosen, self.hover, bench.app.settings, playing.on, playing.speed,
+            tuple(bench.others), bench.preview, self.hover, bench.app.settings, playing.on, playing.speed,
             self.take_over.on, self.take_over.still, self.take_over.waiting, moving and playing.clock.remainder,
         )  # fmt: skip
 
@@ -140,7 +141,7 @@ class LevelPart(Part):
         if whole or self._paths is None:
             self._paths = LevelPaths(picture.context.theme)
         positions = self._present()
-        self._follow_others(positions)
+        ways = self._follow_others(positions)
         picture.show(bench.cursor)
         running = self.playing.on or (self.take_over.on and not (self.take_over.still or self.take_over.waiting))
         fraction = self.playing.clock.fraction if running else 1.0
@@ -148,8 +149,7 @@ class LevelPart(Part):
         surface.blit(picture.surface, rect)
         inner = surface.subsurface(rect.clip(surface.get_rect()))
         paths = self._paths
-        if bench.ghosts:
-            paths.draw_beside(inner, positions, bench.session.before, self._shown_others())
+        paths.draw_beside(inner, ways)
         if len(positions):
             paths.draw_present(inner, positions, bench.cursor, bench.selection)
             paths.draw_flags(inner, positions, bench.take.markers)
@@ -168,21 +168,27 @@ class LevelPart(Part):
             self._known, self._positions = known, timeline.positions
         return self._positions
 
-    def _shown_others(self) -> list[tuple[OtherRun, pygame.Color]]:
-        return [(run, COLOURS[number % len(COLOURS)]) for number, run in enumerate(self.bench.others)]
-
-    def _follow_others(self, positions: Positions) -> None:
-        """Have the ghosts of the runs beside, and of the run before the last edit where it was elsewhere."""
+    def _follow_others(self, positions: Positions) -> list[Way]:
+        """The ways of other runs, and of the run before the last edit where it was elsewhere; their ghosts go along."""
         bench = self.bench
         kept, self._ghosts = self._ghosts, {}
-        if bench.ghosts:
-            before = bench.session.before
-            at = first_other_place(positions, before.positions)
-            if at <= min(bench.cursor, len(before) - 1, len(positions) - 1):
-                self._ghosts[before] = kept.get(before) or RunGhost(before)
-            for run, colour in self._shown_others():
-                self._ghosts[run.course] = kept.get(run.course) or RunGhost(run.course, run.name, colour)
+        if not bench.ghosts:
+            self.picture.follow([])
+            return []
+        palette = self.picture.context.theme.palette
+        runs = [(run, COLOURS[number % len(COLOURS)]) for number, run in enumerate(bench.others)]
+        if bench.preview is not None:
+            runs.append((bench.preview, palette.exit))
+        before = bench.session.before
+        at = first_other_place(positions, before.positions)
+        if at <= min(bench.cursor, len(before) - 1, len(positions) - 1):
+            self._ghosts[before] = kept.get(before) or RunGhost(before)
+        for run, colour in runs:
+            self._ghosts[run.course] = kept.get(run.course) or RunGhost(run.course, run.name, colour)
         self.picture.follow(self.ghosts)
+        # Not at each tick of a run that is taken over is the other one shorter.
+        at = max(0, at - at % NEAR - 1)
+        return [Way(before, palette.ghost, FAINT, at), *(Way(run.course, colour) for run, colour in runs)]
 
     def _write(self, surface: pygame.Surface, theme: Theme) -> None:
         """What goes on, in the level's frame."""

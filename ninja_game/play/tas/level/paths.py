@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 import pygame
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.play.replay.paths import draw_path
-from ninja_game.play.tas.bench import OtherRun, Span
+from ninja_game.play.tas.bench import Span
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas, Point
 from ninja_game.play.ui.theme import Theme
 from ninja_game.tas.course import Course
@@ -21,7 +22,7 @@ NEAR = 40
 """Ticks before and after the cursor whose way is bright."""
 _DOT_EVERY = 10
 """Ticks between two dots on the bright way."""
-_FAINT, _CLEAR = 110, 190
+FAINT, CLEAR = 110, 190
 """Of 255: how solid ways are."""
 _LETTERS = 16
 """Size of names and numbers in the level, px of the level."""
@@ -30,6 +31,15 @@ _LETTERS = 16
 def shaded(colour: pygame.Color, alpha: int) -> pygame.Color:
     """A colour that lets shine through what is below."""
     return pygame.Color(colour.r, colour.g, colour.b, alpha)
+
+
+class Way(NamedTuple):
+    """The way of another run from a tick on; ``alpha``: of 255, how solid."""
+
+    course: Course
+    colour: pygame.Color
+    alpha: int = CLEAR
+    first: int = 0
 
 
 class WayLayer:
@@ -56,27 +66,19 @@ class LevelPaths:
 
     def __init__(self, theme: Theme) -> None:
         self.theme = theme
-        self._present = WayLayer(theme.canvas, shaded(theme.palette.accent, _FAINT))
+        self._present = WayLayer(theme.canvas, shaded(theme.palette.accent, FAINT))
         self._under = pygame.Surface(theme.canvas.size, pygame.SRCALPHA)
-        self._beside: tuple[object, ...] = ()
+        self._beside: tuple[Way, ...] = ()
 
-    def draw_beside(
-        self,
-        surface: pygame.Surface,
-        present: Positions,
-        before: Course,
-        others: Sequence[tuple[OtherRun, pygame.Color]],
-    ) -> None:
-        """The other runs, and the one before the last edit from where it goes another way."""
-        at = first_other_place(present, before.positions)
-        beside = before, at - at % _DOT_EVERY, tuple(run for run, _ in others)
-        if beside != self._beside:
-            self._beside = beside
+    def draw_beside(self, surface: pygame.Surface, ways: Sequence[Way]) -> None:
+        """The other runs."""
+        if tuple(ways) != self._beside:
+            self._beside = tuple(ways)
             self._under.fill((0, 0, 0, 0))
-            for run, colour in others:
-                draw_path(self._under, self.theme.canvas, run.positions, shaded(colour, _CLEAR))
-            way = before.positions[max(0, at - 1) :]
-            draw_path(self._under, self.theme.canvas, way, shaded(self.theme.palette.ghost, _FAINT))
+            for way in ways:
+                draw_path(
+                    self._under, self.theme.canvas, way.course.positions[way.first :], shaded(way.colour, way.alpha)
+                )
         surface.blit(self._under, (0, 0))
 
     def draw_present(self, surface: pygame.Surface, positions: Positions, cursor: int, span: Span) -> None:

@@ -8,6 +8,7 @@ from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.level.run_ghost import RunGhost
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.view.level_view import LevelView
+from ninja_game.play.view.ninja.ragdoll import Ragdoll
 from ninja_game.play.view.render_context import OffscreenContext
 from ninja_game.sim.inputs import first_ticks
 from ninja_game.sim.memory.schema import World
@@ -17,6 +18,10 @@ _WARM = 6
 """Ticks that are run with their animations before the one that is sought, so that it looks as if played."""
 _NEAR = 6
 """Ticks that are played on to, rather than sought."""
+
+
+_FALL = 40
+"""Ticks after which a corpse lies still."""
 
 
 class _Seen(Simulation):
@@ -108,17 +113,32 @@ class LevelPicture:
 
     def _seek(self, moment: int, inputs: bytes) -> None:
         """Some ticks before the moment after so many ticks."""
-        timeline = self.bench.session.timeline
         start = max(0, moment - _WARM)
-        end, outcome = timeline.end
-        if outcome == "dead" and start > end:
-            # A corpse lies where it fell: its fall is run again.
-            start = end
-        self.run.restore(timeline.save_state(start))
-        while self.run.tick < start:
+        end, outcome = self.bench.session.timeline.end
+        corpse = self._corpse(end, inputs, min(start - end, _FALL)) if outcome == "dead" and start > end else None
+        self._go(start, inputs)
+        if self._view is not None and corpse is not None:
+            self._view.doll = corpse
+
+    def _go(self, moment: int, inputs: bytes) -> None:
+        """Be at the moment after so many ticks, as if nothing had been seen before."""
+        self.run.restore(self.bench.session.timeline.save_state(moment))
+        while self.run.tick < moment:
             self.run.step_keys(inputs[self.run.tick])
         if self._view is not None:
             self._view.on_seek()
+
+    def _corpse(self, end: int, inputs: bytes, ticks: int) -> Ragdoll | None:
+        """What lies there so many ticks after the death: it falls again, in the world as it was then."""
+        if self._view is None:
+            return None
+        self._go(end, inputs)
+        self._play(inputs[: end + 1])
+        corpse, world = self._view.doll, self.run.world
+        for _ in range(ticks - 1):
+            if corpse is not None:
+                corpse.step(self.run.tiles, world)
+        return corpse
 
     def _play(self, inputs: bytes) -> None:
         """All ticks that are missing."""
