@@ -47,7 +47,8 @@ def draw_path(
 ) -> None:
     """A path as a line, ``width`` logical px wide, over a picture of its level."""
     if len(positions) > 1:
-        points = [canvas.exact(x, y) for x, y in positions.tolist()]
+        x, y = (positions * canvas.scale + canvas.origin).T.tolist()
+        points = list(zip(x, y, strict=True))
         pygame.draw.lines(surface, colour, False, points, max(1, canvas.px(width)))
 
 
