@@ -78,13 +78,15 @@ class Found:
     """Keys that reach the goal; the smaller, the better.
 
     ``score``: minus the measure (or the measure, for ``least``), or the ticks to the goal or to the exit; ``ticks``: of
-    the span, up to the goal; ``inputs``: the whole run with them, up to the goal or to its end.
+    the span, up to the goal; ``inputs``: the whole run with them, up to the goal or to its end; ``gold``: pieces that
+    it has in the end.
     """
 
     score: float
     ticks: int
     keys: Keys = field(compare=False, repr=False)
     inputs: bytes = field(compare=False, repr=False, default=b"")
+    gold: int = field(compare=False, default=0)
 
 
 def score_in_words(task: SpanTask, found: Found) -> str:
@@ -147,7 +149,7 @@ class SpanWorlds:
         ticks = int(trials.ticks[index])
         rest = self.rest.tolist() if self.task.rest else []
         run = press_jumps([*self.task.inputs[: self.task.first], *keys[:ticks].tolist(), *rest])
-        return Found(float(trials.scores[index]), ticks, keys.copy(), run)
+        return Found(float(trials.scores[index]), ticks, keys.copy(), run, int(self.batch.gold[index]))
 
     def try_all(self, keys: Keys) -> Trials:
         """Play keys, (ticks of the span, worlds), from the start of the span."""

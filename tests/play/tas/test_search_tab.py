@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pygame
@@ -156,6 +157,11 @@ def test_the_same_end_is_found_sooner_and_the_rest_follows(at: BenchDriver, tab:
     row(at, tab, 0)
     assert at.session.timeline.end == (int(tab.found[0].score) - 1, "exit")
     assert at.session.timeline.end[0] < end + 3
+    assert tab.found[0].gold == at.session.timeline.column("gold")[at.session.timeline.end[0]]
+    own = results.search.own
+    assert own is not None
+    fewer = replace(tab.found[0], gold=own.gold - 2)
+    assert results.words(fewer)[0].endswith(", 2 gold fewer")
 
 
 def test_a_search_is_cancelled_soon_by_hand_and_when_the_bench_is_left(at: BenchDriver, tab: SearchTab) -> None:

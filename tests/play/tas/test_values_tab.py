@@ -103,6 +103,15 @@ def test_a_click_in_the_plot_puts_the_cursor_there_and_a_drag_moves(at: BenchDri
     assert window.is_whole
 
 
+def test_what_is_under_the_mouse_is_told(at: BenchDriver, tab: ValuesTab) -> None:
+    at.mouse(tab.window.x(60), 450, click=False)
+    assert at.bench.hint.startswith(f"tick 60  speed: {shown_value(tab.watched[0], 60)}")
+    at.mouse(*at.button("Objects").centre, click=False)
+    assert at.bench.hint == "The objects of the level with their ids"
+    at.mouse(200, 565, click=False)
+    assert not at.bench.hint
+
+
 def test_the_window_follows_the_cursor_and_the_length() -> None:
     window = Window(0, 100)
     window.fit(1000)

@@ -30,8 +30,13 @@ class BranchesTab(Tab):
         super().__init__(bench)
         self.tree: list[tuple[int, int]] = []
         self.list = Rows((10, 393, 416, 160), self._draw_row, lambda _: None, empty="B keeps the run as a branch")
-        actions = [("Keep", 46, self.keep), ("Go to it", 58, self.take), ("Compare", 58, self.compare),
-                   ("Rename", 56, self.rename), ("Drop", 46, self.drop)]  # fmt: skip
+        actions = [
+            ("Keep", 46, self.keep, "B: keep the run as it is now, as a child of the marked branch"),
+            ("Go to it", 58, self.take, "The run becomes the chosen branch; undo brings back what was there"),
+            ("Compare", 58, self.compare, "The lead of the run over the chosen branch"),
+            ("Rename", 56, self.rename, "Another name for the chosen branch"),
+            ("Drop", 46, self.drop, "Forget the chosen branch; what was made from it stays"),
+        ]
         keep, *self._for_one = buttons_in_a_row(10, 556, actions)
         self.widgets: list[Rows | Button] = [self.list, keep, *self._for_one]
 

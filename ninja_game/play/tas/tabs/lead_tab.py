@@ -46,8 +46,10 @@ class LeadTab(Tab):
         self._asked: Pair | None = None
         self._still_ms = 0
         self._job: NewestJob[Job, tuple[Pair, LeadTable | str]] = NewestJob(compared)
-        self._choice = Choice((62, 377, 364, 18), "", self._options(), self._against, self._put)
-        self.list = Rows((10, 426, 416, 148), self._draw_row, self._go, keeps=False)
+        self._choice = Choice((62, 377, 364, 18), "", self._options(), self._against, self._put,
+                              hint="The run that this one is compared to")  # fmt: skip
+        self.list = Rows((10, 426, 416, 148), self._draw_row, self._go, keeps=False,
+                         hint="A click puts the cursor there")  # fmt: skip
         self.widgets = [self._choice, self.list]
 
     # --- which runs ---

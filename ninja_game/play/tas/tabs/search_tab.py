@@ -31,6 +31,9 @@ _METHODS = (
     ("small changes", "local"),
     ("all keys there are", "exhaustive"),
 )
+_ORDERS = (("the earliest", EARLIEST), ("the greatest", GREATEST), ("the smallest", SMALLEST))
+_RESTS = (("end at the goal", False), ("then the rest", True))
+_NAMES = "x y vx vy speed tick gold state dead won in_air distance(x, y) taken(id) opened(id) and or not < > abs(a)"
 
 
 class SearchTab(Tab):
@@ -46,24 +49,26 @@ class SearchTab(Tab):
         self.method: object = "auto"
         self.results: SpanResults | None = None
         self.found: tuple[Found, ...] = ()
-        self.goal = Field((46, 398, 380, 18), "x > 400, taken(12), distance(300, 200) < 6 ...", "", self.start,
-                          longest=LONGEST)  # fmt: skip
-        self.measure = Field((132, 419, 144, 18), "speed; vx, y, gold ...", "", self.start, longest=LONGEST)
-        orders = [("the earliest", EARLIEST), ("the greatest", GREATEST), ("the smallest", SMALLEST)]
-        rests = [("end at the goal", False), ("then the rest", True)]
+        self.goal = Field((46, 398, 380, 18), "x > 400, taken(12), distance(300, 200) < 6 ...", self.start,
+                          longest=LONGEST, hint=_NAMES)  # fmt: skip
+        self.measure = Field((132, 419, 144, 18), "speed; vx, y, gold ...", self.start, longest=LONGEST, hint=_NAMES)
         self._button = Button((164, 440, 58, 18), "Start", self._start_or_stop, size=SMALL)
-        self.list = Rows((10, 462, 416, 112), self._draw_row, self._put, keeps=False)
+        self.list = Rows((10, 462, 416, 112), self._draw_row, self._put, keeps=False,
+                         hint="Under the mouse: its way in the level; a click puts it into the run")  # fmt: skip
         self.widgets = [
             Button((248, 377, 96, 18), "Take the selection", self.take_selection, size=SMALL),
-            Button((348, 377, 78, 18), "What for ...", self.propose, size=SMALL),
+            Button((348, 377, 78, 18), "What for ...", self.propose, size=SMALL, hint="What people want, as goals"),
             self.goal,
-            Choice((10, 419, 118, 18), "", orders, lambda: self.order, self._put_order),
+            Choice((10, 419, 118, 18), "", _ORDERS, lambda: self.order, self._put_order,
+                   hint="Best is what reaches the goal first, or has the most or least of the value beside this"),
             self.measure,
-            Choice((280, 419, 146, 18), "", rests, lambda: self.rest, self._put_rest),
-            Choice((10, 440, 150, 18), "", _METHODS, lambda: self.method, partial(setattr, self, "method")),
+            Choice((280, 419, 146, 18), "", _RESTS, lambda: self.rest, self._put_rest,
+                   hint="What follows the goal in the run is played, too, and must still reach the exit"),
+            Choice((10, 440, 150, 18), "", _METHODS, lambda: self.method, partial(setattr, self, "method"),
+                   hint="Beam: many states at once; small changes: of the keys there; all keys: short spans only"),
             self._button,
             self.list,
-        ]
+        ]  # fmt: skip
 
     def commands(self) -> Commands:
         """Searching."""

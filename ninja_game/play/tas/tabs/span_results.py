@@ -6,6 +6,7 @@ from ninja_game.batch.thread_pool import cores
 from ninja_game.directed.background import SpanSearch
 from ninja_game.directed.span import Found, SpanTask, score_in_words
 from ninja_game.play.tas.bench import Bench, OtherRun
+from ninja_game.play.ui.text_layout import counted
 from ninja_game.tas.take import Take
 from ninja_game.tas.timeline import Timeline
 
@@ -99,13 +100,15 @@ class SpanResults:
 
     def words(self, found: Found) -> tuple[str, str]:
         """What a result brings, and how much more that is than what the run's own keys bring."""
-        own = self.search.own
-        gain = own.score - found.score if own else 0.0
+        own, words = self.search.own, score_in_words(self.task, found)
+        if own is None:
+            return words, "new"
+        if self.task.rest and found.gold < own.gold:
+            words += f", {own.gold - found.gold} gold fewer"
+        gain = own.score - found.score
         if gain <= 0:
-            return score_in_words(self.task, found), AS_IT_IS if own else "new"
-        if self.task.measure:
-            return score_in_words(self.task, found), f"better by {gain:.4g}"
-        return score_in_words(self.task, found), f"{gain:.0f} {'tick' if gain == 1 else 'ticks'} sooner"
+            return words, AS_IT_IS
+        return words, f"better by {gain:.4g}" if self.task.measure else f"{counted(int(gain), 'tick', 'ticks')} sooner"
 
     @property
     def status(self) -> str:

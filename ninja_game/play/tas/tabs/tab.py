@@ -41,9 +41,10 @@ class Tab(Part):
         theme.panel(surface, *self.area)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """All is up to the widgets; those lists that the mouse is not over are told so."""
+        """What the mouse is over is told in the line below; all else is up to the widgets."""
         if event.type == pygame.MOUSEMOTION:
             self._leave_lists(x, y)
+            self.bench.hint = next((each.hint for each in self.widgets if each.contains(x, y)), "")
         return False
 
     def mouse_left(self) -> None:
@@ -79,9 +80,9 @@ class Rows(ListView):
 
     def __init__(
         self, area: Area, draw_row: Callable[[pygame.Surface, Theme, int, Area, bool], None],
-        choose: Callable[[int], object], *, empty: str = "", keeps: bool = True,
+        choose: Callable[[int], object], *, empty: str = "", hint: str = "", keeps: bool = True,
     ) -> None:  # fmt: skip
-        super().__init__(area, ROW, self._draw_row, choose, empty=empty)
+        super().__init__(area, ROW, self._draw_row, choose, empty=empty, hint=hint)
         self.over = -1
         self._keeps = keeps
         self._draw = draw_row
@@ -104,8 +105,10 @@ class Rows(ListView):
 class Field(TextEntry):
     """A text field in which Enter does something."""
 
-    def __init__(self, area: Area, prompt: str, text: str, enter: Callable[[], object], *, longest: int) -> None:
-        super().__init__(area, prompt, text, lambda _: None, longest=longest)
+    def __init__(
+        self, area: Area, prompt: str, enter: Callable[[], object], *, longest: int, hint: str = ""
+    ) -> None:  # fmt: skip
+        super().__init__(area, prompt, "", lambda _: None, longest=longest, hint=hint)
         self._enter = enter
 
     def show(self, text: str) -> None:
@@ -118,11 +121,13 @@ class Field(TextEntry):
         return True
 
 
-def buttons_in_a_row(x: float, y: float, rows: Sequence[tuple[str, float, Callable[[], object]]]) -> list[Button]:
-    """Buttons side by side: text, width, action."""
+def buttons_in_a_row(
+    x: float, y: float, rows: Sequence[tuple[str, float, Callable[[], object], str]]
+) -> list[Button]:  # fmt: skip
+    """Buttons side by side: text, width, action, hint."""
     made = []
-    for text, width, action in rows:
-        made.append(Button((x, y, width, 17), text, action, size=SMALL))
+    for text, width, action, hint in rows:
+        made.append(Button((x, y, width, 17), text, action, hint=hint, size=SMALL))
         x += width + 4
     return made
 

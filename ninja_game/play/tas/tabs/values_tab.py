@@ -49,10 +49,14 @@ class ValuesTab(Tab):
         self.watched = [Watched(parse_watch(text), number) for number, text in enumerate(("speed", "vx", "vy"))]
         self.window = Window(_PLOT[0], _PLOT[2])
         self.events: list[tuple[int, str]] = []
-        self.list = Rows((10, 378, 168, 176), self._draw_row, self._toggle, empty="V watches a value")
-        buttons = buttons_in_a_row(
-            10, 555, [("Watch", 48, self.ask), ("Objects", 54, self.show_objects), ("Remove", 54, self.remove)]
-        )
+        self.list = Rows((10, 378, 168, 176), self._draw_row, self._toggle, empty="V watches a value",
+                         hint="Values at the cursor; a click shows or hides the course")  # fmt: skip
+        actions = [
+            ("Watch", 48, self.ask, "V: watch another value, such as object_x(12) or x > 400"),
+            ("Objects", 54, self.show_objects, "The objects of the level with their ids"),
+            ("Remove", 54, self.remove, "Watch the chosen value no more"),
+        ]
+        buttons = buttons_in_a_row(10, 555, actions)
         self.widgets = [self.list, *buttons]
         self._made: tuple[object, ...] = ()
         self._cursor = 0
@@ -203,6 +207,9 @@ class ValuesTab(Tab):
             return True
         if not inside:
             return super().mouse(event, x, y)
+        if event.type == pygame.MOUSEMOTION:
+            super().mouse(event, x, y)
+            self._tell(round(self.window.tick(x)))
         if event.type == pygame.MOUSEWHEEL:
             self.window.zoom(x, event.y)
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
@@ -210,6 +217,12 @@ class ValuesTab(Tab):
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 3:
             self.window.show_all()
         return True
+
+    def _tell(self, tick: int) -> None:
+        """What is plotted at a tick, and what can be done."""
+        tick = min(max(0, tick), self.bench.last_tick)
+        values = "  ".join(f"{each.watch.text}: {shown_value(each, tick)}" for each in self.watched if each.plotted)
+        self.bench.hint = f"tick {tick}  {values}   (wheel: zoom, drag: move, right: all)"
 
 
 def shown_value(each: Watched, tick: int) -> str:
