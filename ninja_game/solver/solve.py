@@ -21,12 +21,15 @@ from ninja_game.solver.search_memory import Resolution, open_start
 from ninja_game.solver.search_run import Search
 from ninja_game.solver.spans.run_shortener import RunShortener
 from ninja_game.solver.task import (
+    FOUND_BOUND,
+    GIVEN_BOUND,
     LEGS_TICKS,
     SEARCH_COST,
     SLICE,
     SWEEP_TICKS,
     VARY,
     VARY_TICKS,
+    VARY_TURNS,
     Progress,
     Report,
     SearchState,
@@ -51,7 +54,7 @@ class _Job:
         self.start = open_start(task.level, box=task.body == "box")
         self.heuristics = Heuristics(self.start.levels, self.start.worlds)
         self._sweeper: Shortener | None = None
-        self._turn = 2 * number
+        self._turn = self._varied = 2 * number
         self.shortener = RunShortener(
             self.start, self.heuristics, gold=task.gold_wanted, seed=self.seed, submit=state.submit, over=self._spend
         )
@@ -62,19 +65,26 @@ class _Job:
         if not state.runs:
             self._find()
         while not self._over and state.runs:
+            self._turn += 1
             if state.task.gold_wanted:
                 self._sweep()
-            elif self.work < shares.vary_until * state.task.work_planned and not state.task.first:
+            elif self._wants_to_vary:
                 self._vary()
             else:
                 # The best run most of the time; now and then another one that may have more in it.
-                self._turn += 1
                 rank = (0, 1, 0, 2, 0)[self._turn % 5] if not state.task.first else 0
                 with state.lock:
                     inputs = state.runs[min(rank, len(state.runs) - 1)]
                 if self.work or not state.task.first:
                     inputs = self.shortener.search_spans(inputs, shares.spans)
                 self.shortener.climb(inputs, shares.climb)
+
+    @property
+    def _wants_to_vary(self) -> bool:
+        """Whether other routes are looked for: at first; from a run that was given, now and then."""
+        if self.state.task.first:
+            return self.work > 0 and self._turn % VARY_TURNS == 2
+        return self.work < self.shares.vary_until * self.state.task.work_planned
 
     def _spend(self, played: int, cost: float) -> bool:
         """Count ticks of shortening; whether the job is over."""
@@ -125,7 +135,8 @@ class _Job:
             found = self._sweeper.sweep(over)
             if found:
                 self.state.submit(found)
-        self.shortener.climb(self.state.runs[0], self.shares.first_climb)
+        best = self.shortener.climb(self.state.runs[0], self.shares.climb)
+        self.shortener.search_spans(best, self.shares.spans_with_gold)
 
     def _follow(self, route: Route, ticks: float) -> None:
         """Search a run in legs, for so many ticks; one that is found is submitted."""
@@ -147,16 +158,21 @@ class _Job:
             self.state.submit(found)
 
     def _vary(self) -> None:
-        turn = self._turn
-        self._turn += 1
+        """Search a run from the start, maybe by another route than that of the best; shorten what is found."""
+        turn, self._varied = self._varied, self._varied + 1
         resolution = VARY[turn % len(VARY)]
         guided = resolution.slack > 0.0
         with self.state.lock:
             shortest = len(self.state.runs[0])
         resolution = resolution._replace(slack=resolution.slack * shortest)
-        bound = shortest + max(4, shortest // 20)
+        given = bool(self.state.task.first)
+        bound = shortest + max(4, int(shortest * (GIVEN_BOUND if given else FOUND_BOUND)))
         found = self._search_once(resolution, VARY_TICKS, seed=100 + turn, bound=bound, guided=guided)
-        self.shortener.climb(found or self.state.runs[0], self.shares.first_climb)
+        if given and not found:
+            return
+        run = self.shortener.climb(found or self.state.runs[0], self.shares.climb)
+        if given and len(run) < shortest * (1.0 + FOUND_BOUND):
+            self.shortener.search_spans(run, self.shares.spans)
 
     def _search_once(
         self, resolution: Resolution, ticks: int, *, seed: int, bound: int, guided: bool = False,

@@ -150,6 +150,10 @@ VARY = (
 )
 """Searches for other routes. Those with ``slack`` (part of the best run's ticks) are guided by the search before."""
 VARY_TICKS = 12_000_000
+FOUND_BOUND, GIVEN_BOUND = 0.05, 0.15
+"""By what share a run of theirs may be longer than the best: one that was found here, or one that was given."""
+VARY_TURNS = 4
+"""With a run that was given, one of them is made every so many turns."""
 
 SWEEP_TICKS = 12_000_000
 """Ticks that a run with gold is swept before it gets a local search."""
@@ -168,8 +172,8 @@ class Shares:
 
     vary_until: float = 0.4
     spans: int = 20_000_000
-    first_climb: int = 8_000_000
-    climb: int = 15_000_000
+    spans_with_gold: int = 6_000_000
+    climb: int = 8_000_000
 
 
 def find_order(job: int) -> Iterator[tuple[Resolution, int, int]]:

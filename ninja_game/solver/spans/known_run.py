@@ -21,9 +21,7 @@ from ninja_game.solver.search_memory import Start
 
 NEVER = 1.0e9
 """Ticks to the exit where nothing of the known run is like this."""
-FAR = 64.0
-"""Px; what is farther from the known run's place, across or down, is not like it."""
-LATER, EARLIER = 96, 24
+LATER, EARLIER = 128, 24
 """By how many ticks a moment may be ahead of the known run, or behind it."""
 SLOW = 0.5
 """Px/tick; a known run that is slower counts as that fast."""
@@ -33,8 +31,8 @@ class KnownRun(NamedTuple):
     """A run of n ticks to the exit. Row k is what is so after k ticks; row 0 is the start.
 
     ``span``: the first tick, and the tick behind the last, in which a search may fall behind the run; ``behind``: by
-    how many ticks; ``place_price``: of a difference of place, in ticks a tick of the run's way; ``speed_price``: ticks
-    a px/tick.
+    how many ticks; ``far``: px, across or down, by which a moment may differ; ``place_price``: of a difference of
+    place, in ticks a tick of the run's way; ``speed_price``: ticks a px/tick.
     """
 
     moves: NDArray[np.float64]  #: x, y (px), velocity (px/tick); (n + 1, 4)
@@ -43,6 +41,7 @@ class KnownRun(NamedTuple):
     gold: NDArray[np.int64]  #: pieces that whoever is as far must have collected
     span: tuple[int, int]
     behind: float
+    far: float
     place_price: float
     speed_price: float
 
@@ -100,7 +99,7 @@ def nearest(run: KnownRun, w: World, mask: int) -> tuple[int, float]:
         row = run.moves[k]
         dx = abs(n.x - row[0])
         dy = abs(n.y - row[1])
-        if dx > FAR or dy > FAR or ticks - k >= least or run.masks[k] != mask or run.gold[k] > w.gold:
+        if dx > run.far or dy > run.far or ticks - k >= least or run.masks[k] != mask or run.gold[k] > w.gold:
             continue
         way = sqrt(row[2] * row[2] + row[3] * row[3])
         price = sqrt(dx * dx + dy * dy) * run.place_price / max(way, SLOW)

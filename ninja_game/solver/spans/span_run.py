@@ -11,7 +11,7 @@ from ninja_game.compile_cache import compiled
 from ninja_game.sim.inputs import KEYS_DOWN, press_jumps
 from ninja_game.solver.heuristics import Heuristics
 from ninja_game.solver.macro_actions import action_inputs
-from ninja_game.solver.search import MORE, add_root
+from ninja_game.solver.search import EXHAUSTED, MORE, add_root
 from ninja_game.solver.search_memory import Resolution, Start, clear, new_memory
 from ninja_game.solver.spans.known_run import KnownRun, play_known
 from ninja_game.solver.spans.span_search import FOLLOWED, expand_along
@@ -23,10 +23,18 @@ PART = 500_000
 
 
 CELLS, SPEEDS, MACROS, JITTERS = (3.0, 4.0, 6.0, 8.0), (0.2, 0.35, 0.5), (1, 2, 3, 4), (3, 5, 8)
-BEHIND, PLACE_PRICES, SPEED_PRICES = (4.0, 8.0, 16.0, 30.0), (0.6, 0.9, 1.2), (0.5, 1.0, 2.0, 4.0)
-LENGTHS = (40, 60, 90)
+BEHIND, FAR, PLACE_PRICES, SPEED_PRICES = (
+    (4.0, 8.0, 16.0, 30.0),
+    (48.0, 64.0, 96.0, 160.0),
+    (0.6, 0.9, 1.2),
+    (0.5, 1.0, 2.0, 4.0),
+)
+ENEMY_CELLS = (0.0, 24.0)
+LENGTHS = (40, 60, 90, 150)
 """What is drawn for each search: see Resolution and KnownRun; ticks of a span."""
-SPAN_TICKS = 2_000_000
+LEAST_REACH, MOST_REACH = 0.5, 6.0
+"""By how much ``behind`` is multiplied: more while searches come to an end of their own, less while they do not."""
+SPAN_TICKS = 4_000_000
 EACH_COSTS = 10_000
 """Ticks that it takes to prepare a search."""
 
@@ -36,6 +44,7 @@ class Fineness(NamedTuple):
 
     resolution: Resolution
     behind: float
+    far: float
     place_price: float
     speed_price: float
 
@@ -44,10 +53,10 @@ def draw_fineness(random: np.random.Generator) -> Fineness:
     """Draw how finely to search."""
     resolution = Resolution(
         cell=float(random.choice(CELLS)), speed=float(random.choice(SPEEDS)), macro=int(random.choice(MACROS)),
-        jitter=int(random.choice(JITTERS)),
+        jitter=int(random.choice(JITTERS)), enemy_cell=float(random.choice(ENEMY_CELLS)),
     )  # fmt: skip
-    behind, place_price, speed_price = (float(random.choice(part)) for part in (BEHIND, PLACE_PRICES, SPEED_PRICES))
-    return Fineness(resolution, behind, place_price, speed_price)
+    drawn = (float(random.choice(part)) for part in (BEHIND, FAR, PLACE_PRICES, SPEED_PRICES))
+    return Fineness(resolution, *drawn)
 
 
 class SpanSearches:
@@ -64,6 +73,7 @@ class SpanSearches:
         )  # fmt: skip
         self.run = self._noted(b"")
         self._inputs = b""
+        self._reach = 1.0
 
     def know(self, inputs: bytes) -> None:
         """Take a run to the exit as the known one."""
@@ -74,7 +84,7 @@ class SpanSearches:
         ticks = len(inputs)
         keys = np.array(list(inputs), np.uint8) & np.uint8(KEYS_DOWN)
         masks, gold = np.zeros((2, ticks + 1), np.int64)
-        run = KnownRun(np.zeros((ticks + 1, 4)), keys, masks, gold, (0, ticks), 0.0, 1.0, 1.0)
+        run = KnownRun(np.zeros((ticks + 1, 4)), keys, masks, gold, (0, ticks), 0.0, 64.0, 1.0, 1.0)
         compiled(play_known)(self.start, run, self.goals.switch_slots, ticks, 1)
         if not self.gold:
             gold[:] = 0
@@ -89,6 +99,7 @@ class SpanSearches:
             length = int(random.choice(LENGTHS))
             first = max(0, int(random.integers(-length // 2, max(len(inputs) - 5, 1))))
             fineness = draw_fineness(random)
+            fineness = fineness._replace(behind=fineness.behind * self._reach)
             chosen = int(random.integers(1 << 30))
             found = self.search(first, first + length, fineness, seed=chosen, ticks=SPAN_TICKS, over=over)
             if found:
@@ -103,7 +114,7 @@ class SpanSearches:
         ``over`` is told the ticks of each part, and may end it.
         """
         run = self.run._replace(
-            span=(first, last), behind=fineness.behind, place_price=fineness.place_price,
+            span=(first, last), behind=fineness.behind, far=fineness.far, place_price=fineness.place_price,
             speed_price=fineness.speed_price,
         )  # fmt: skip
         clear(self.memory)
@@ -119,13 +130,17 @@ class SpanSearches:
         counters.best_ticks = len(self._inputs)
         compiled(play_known)(self.start, run, self.goals.switch_slots, first, 0)
         compiled(add_root)(self.start, self.memory, self.goals, resolution)
-        while int(counters.ticks) < ticks:
+        ended = MORE
+        while ended == MORE and int(counters.ticks) < ticks:
             before = int(counters.ticks)
             ended = compiled(expand_along)(
                 self.start, self.memory, self.goals, run, resolution, min(PART, ticks - before)
             )
-            if over(int(counters.ticks) - before) or ended != MORE:
+            if over(int(counters.ticks) - before):
                 break
+        exhausted = ended == EXHAUSTED and int(counters.ticks) < ticks // 4
+        change = 1.15 if exhausted else 0.8 if ended == MORE else 1.0
+        self._reach = min(max(self._reach * change, LEAST_REACH), MOST_REACH)
         if counters.best_node < 0:
             return None
         # A press is there where the key goes down; joined parts need it anew.
