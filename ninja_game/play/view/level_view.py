@@ -219,11 +219,20 @@ class LevelView:
         if self.app.settings.show_ghost:
             for ghost in self.ghosts:
                 draw_ghost(target, ghost.ninja_animation, ghost.place(fraction), fraction, ghost.colour(target.palette))
-        if self.doll is not None:
-            draw_ragdoll(target, self.doll, fraction, self.colour)
-        else:
-            draw_ninja(target, self.ninja_animation, self.object_animation.ninja_place(fraction), fraction, self.colour)
+        self._draw_ninja(fraction)
         Particles.draw(self.particles.front, target, now)
+
+    def _draw_ninja(self, fraction: float) -> None:
+        if self.doll is not None:
+            draw_ragdoll(self.target, self.doll, fraction, self.colour)
+        else:
+            at = self.object_animation.ninja_place(fraction)
+            draw_ninja(self.target, self.ninja_animation, at, fraction, self.colour)
+
+    def draw_ninja_over(self, surface: pygame.Surface, fraction: float) -> None:
+        """Draw the ninja once more, on a copy of the picture over which something else was drawn."""
+        self.target.begin(surface)
+        self._draw_ninja(fraction)
 
     def _cover_by_tiles(self, surface: pygame.Surface) -> None:
         """Tiles are in front of everything that moves."""

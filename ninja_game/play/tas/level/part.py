@@ -6,7 +6,6 @@ import numpy as np
 import pygame
 
 from ninja_game.play.input.events import InputEvent
-from ninja_game.play.replay.paths import COLOURS
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.controls import command_of
@@ -17,6 +16,7 @@ from ninja_game.play.tas.level.playing import Playing
 from ninja_game.play.tas.level.run_ghost import RunGhost
 from ninja_game.play.tas.level.take_over import TakeOver
 from ninja_game.play.tas.part import Commands, Part
+from ninja_game.play.tas.tabs.plot import colour_of
 from ninja_game.play.ui.theme import Theme
 
 _FAR = 40.0
@@ -153,6 +153,7 @@ class LevelPart(Part):
         if len(positions):
             paths.draw_present(inner, positions, bench.cursor, bench.selection)
             paths.draw_flags(inner, positions, bench.take.markers)
+        picture.draw_ninja_over(inner, fraction)
         for ghost in self.ghosts:
             if ghost.label:
                 paths.draw_name(inner, ghost.label, ghost.place(fraction), ghost.colour(picture.context.theme.palette))
@@ -176,7 +177,7 @@ class LevelPart(Part):
             self.picture.follow([])
             return []
         palette = self.picture.context.theme.palette
-        runs = [(run, COLOURS[number % len(COLOURS)]) for number, run in enumerate(bench.others)]
+        runs = [(run, colour_of(number, palette)) for number, run in enumerate(bench.others)]
         if bench.preview is not None:
             runs.append((bench.preview, palette.exit))
         before = bench.session.before

@@ -26,6 +26,8 @@ FAINT, CLEAR = 110, 190
 """Of 255: how solid ways are."""
 _LETTERS = 16
 """Size of names and numbers in the level, px of the level."""
+_LONGEST_NAME = 180
+"""px of the level."""
 
 
 def shaded(colour: pygame.Color, alpha: int) -> pygame.Color:
@@ -112,7 +114,8 @@ class LevelPaths:
 
     def draw_name(self, surface: pygame.Surface, name: str, at: Point, colour: pygame.Color) -> None:
         """The name of a ghost, above it."""
-        self._label(surface, name, at[0] - 8, at[1] - 32, colour)
+        name = self.theme.fit(name, _LONGEST_NAME, _LETTERS)
+        self._label(surface, name, at[0] - 8, at[1] - 34, colour)
 
     def _label(self, surface: pygame.Surface, text: str, x: float, y: float, colour: pygame.Color) -> None:
         """A small text on a plate, inside of the picture."""

@@ -151,3 +151,8 @@ class LevelPicture:
         """Draw it, ``fraction`` of a tick after the last but one."""
         if self._view is not None:
             self._view.draw(self.surface, fraction, whole=whole)
+
+    def draw_ninja_over(self, surface: pygame.Surface, fraction: float) -> None:
+        """Draw the ninja once more, on a copy of the picture over which something else was drawn."""
+        if self._view is not None:
+            self._view.draw_ninja_over(surface, fraction)
