@@ -108,7 +108,7 @@ def same_end(span: SearchedSpan) -> Wanted:
 
 
 PRESETS: tuple[tuple[str, str, Callable[[SearchedSpan], Wanted]], ...] = (
-    ("Same end, sooner", "As at the end of the span, in fewer ticks; the rest of the run follows", same_end),
+    ("Same end, sooner", "The same place, speed and state; the rest follows", same_end),
     ("Be there sooner", "Where the run is at the end of the span", be_there),
     ("Go beyond sooner", "Past the upright line at the end of the span", go_beyond),
     ("Greatest speed", "At the end of the span", be_fast),

@@ -12,7 +12,7 @@ import pytest
 
 from ninja_game.play.input.scancodes import SCANCODES
 from ninja_game.play.tas.tabs.search_tab import SearchTab, fewest_ticks
-from ninja_game.play.tas.tabs.span_results import AS_IT_IS, SpanResults
+from ninja_game.play.tas.tabs.span_results import AS_IT_IS, NOTHING, SpanResults
 from ninja_game.sim.inputs import Input
 from tests.support.bench_driver import BenchDriver
 
@@ -181,6 +181,8 @@ def test_a_search_is_cancelled_soon_by_hand_and_when_the_bench_is_left(at: Bench
 
 
 def test_what_is_wrong_is_told(at: BenchDriver, tab: SearchTab) -> None:
+    at.press("return")
+    assert at.app.notice.startswith("Say what for")
     at.write("x > colour")
     at.press("return")
     assert at.app.notice.startswith("Column 5")
@@ -188,11 +190,21 @@ def test_what_is_wrong_is_told(at: BenchDriver, tab: SearchTab) -> None:
     tab.goal.show("taken(9999)")
     at.press("return")
     at.wait(lambda: not results_of(tab).running, "the end")
-    assert "no object 9999" in results_of(tab).status
+    assert "no object 9999" in results_of(tab).note
     at.bench.select(len(at.bench.take) + 20, len(at.bench.take) + 30)
     at.choose("Take the selection")
     at.choose("Start")
     assert "the run ends" in at.app.notice
+
+
+def test_a_goal_out_of_reach_is_not_reached(at: BenchDriver, tab: SearchTab) -> None:
+    at.write("x > 10000")
+    at.press("return")
+    at.wait(lambda: results_of(tab).search.ticks_run, "a search")
+    assert results_of(tab).note == "nothing yet"
+    at.choose("Stop")
+    at.wait(lambda: not results_of(tab).running, "the end")
+    assert results_of(tab).note == NOTHING
 
 
 def test_the_rest_of_the_run_and_a_measure_exclude_each_other(at: BenchDriver, tab: SearchTab) -> None:

@@ -10,12 +10,13 @@ import pygame
 from ninja_game.directed.expressions import FormulaError
 from ninja_game.directed.methods import ACTIONS, MOST_ENDS
 from ninja_game.directed.span import Found, SpanTask
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.play.editor.panels import Menu
 from ninja_game.play.tas.bench import Bench, Span
 from ninja_game.play.tas.part import Commands
 from ninja_game.play.tas.tabs.span_results import AS_IT_IS, SpanResults
 from ninja_game.play.tas.tabs.tab import SMALL, Field, Rows, Tab, what_is_wrong
+from ninja_game.play.ui.text_layout import wrapped
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button, Choice
 from ninja_game.sim.rules import TICKS_PER_SECOND
@@ -34,6 +35,10 @@ _METHODS = (
 _ORDERS = (("the earliest", EARLIEST), ("the greatest", GREATEST), ("the smallest", SMALLEST))
 _RESTS = (("end at the goal", False), ("then the rest", True))
 _NAMES = "x y vx vy speed tick gold state dead won in_air distance(x, y) taken(id) opened(id) and or not < > abs(a)"
+_EXPLAINED = (
+    "Say what for: a goal that is true after one of these ticks, as early as possible, or a value that is to be "
+    "the greatest or smallest then. Other keys for these ticks are searched; a click puts a result into the run."
+)
 
 
 class SearchTab(Tab):
@@ -133,6 +138,8 @@ class SearchTab(Tab):
         self.list.over = -1
         try:
             task = self.task
+            if not (task.goal or task.measure or task.rest):
+                raise ArgumentError("Say what for: a goal, or a value that is to be the greatest or smallest")
             every = fewest_ticks(task.length) if self.method == "exhaustive" else 1
             self.results = SpanResults(self.bench, task, str(self.method), every)
         except FormulaError as error:
@@ -197,6 +204,8 @@ class SearchTab(Tab):
             if results.behind is None:
                 status, colour = "the run was changed: search again", palette.bad
         theme.text(surface, status, 228, 445, size=SMALL, colour=colour, width=198)
+        for k, line in enumerate(wrapped(theme, results.note if results else _EXPLAINED, 396, 10)):
+            theme.text(surface, line, 16, 470 + 15 * k, size=10, colour=palette.faint)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
         """A sign if it is in the run, what a result brings; those that do not fit are faint."""

@@ -18,6 +18,9 @@ AS_IT_IS = "no better"
 """What is said of a result that brings what the run's own keys do."""
 
 
+NOTHING = "The goal was not reached. More time, a longer span or another method may reach it."
+
+
 class SpanResults:
     """Runs a task beside the window, and puts results into the run, while nothing that they rely on has changed.
 
@@ -112,13 +115,18 @@ class SpanResults:
 
     @property
     def status(self) -> str:
-        """How it stands."""
+        """How it stands, in a few words."""
         search = self.search
         if search.problem:
-            return search.problem
+            return "cannot be searched"
         if self.running and not search.ticks_run:
             return "getting ready ..."
-        spent = f"{search.ticks_run / 1e6:.1f} million ticks, {search.seconds:.0f} s"
-        if self.running:
-            return f"searching: {spent}"
-        return f"ended: {spent}" if search.found else f"nothing found: {spent}"
+        doing = "searching" if self.running else "ended"
+        return f"{doing}: {search.ticks_run / 1e6:.1f} million ticks, {search.seconds:.0f} s"
+
+    @property
+    def note(self) -> str:
+        """What is to be said where there is no result."""
+        if self.search.problem or self.search.found:
+            return self.search.problem
+        return "nothing yet" if self.running else NOTHING
