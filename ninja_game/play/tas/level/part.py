@@ -37,6 +37,7 @@ class LevelPart(Part):
         self.take_over = TakeOver(self.playing)
         self.others = OtherRuns(bench)
         self.hover: int | None = None
+        self._hovered_run = bench.take
         self._paths: LevelPaths | None = None
         self._ghosts: dict[object, RunGhost] = {}
         self._known: tuple[object, ...] = ()
@@ -76,6 +77,8 @@ class LevelPart(Part):
         """Play on."""
         self.playing.update(real_ms)
         self.take_over.update(real_ms)
+        if self._hovered_run is not self.bench.take:
+            self.hover = None
 
     def stop(self) -> None:
         """End playing and taking over."""
@@ -110,7 +113,7 @@ class LevelPart(Part):
         dragged = event.type == pygame.MOUSEMOTION and event.buttons[0]
         if dragged:
             far += np.minimum(np.abs(np.arange(len(far)) - self.bench.cursor), _FAR)
-        self.hover = int(np.argmin(far))
+        self.hover, self._hovered_run = int(np.argmin(far)), self.bench.take
         self.bench.hint = f"Click: go to tick {self.hover}; drag: along the run"
         if dragged or (event.type == pygame.MOUSEBUTTONDOWN and event.button == 1):
             self.playing.stop()
@@ -195,14 +198,9 @@ class LevelPart(Part):
         """What goes on, in the level's frame."""
         take_over = self.take_over
         if take_over.on:
-            now = (
-                "begins with your first key"
-                if take_over.waiting
-                else "tick by tick"
-                if take_over.still
-                else "your keys"
-            )
-            text = f"Taken over: {now}.   Enter: end   Space: pause   . ,: a tick on, back"
+            now = "press a key to begin" if take_over.waiting else "tick by tick" if take_over.still else "your keys"
+            go_on = "go on" if take_over.still else "pause"
+            text = f"Taken over: {now}.   Enter: end   Space: {go_on}   . ,: a tick on, back"
         elif self.playing.on:
             text = "Playing.   Space: stop"
         else:
