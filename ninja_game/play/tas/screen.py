@@ -130,6 +130,8 @@ class TasScreen(MenuScreen):
 
     def await_text(self) -> None:
         """Only while a field has the focus: the letter of a command's key is not typed into what the key opens."""
+        if self.app.top is not self:
+            return
         if isinstance(self.focus, TextEntry):
             pygame.key.start_text_input()
         else:
@@ -184,8 +186,7 @@ class TasScreen(MenuScreen):
         else:
             with self._widgets_only():
                 super().handle(event)
-        if self.app.top is self:
-            self.await_text()
+        self.await_text()
 
     def back(self) -> None:
         """Escape is a command."""

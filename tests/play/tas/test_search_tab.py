@@ -12,7 +12,7 @@ import pytest
 
 from ninja_game.play.input.scancodes import SCANCODES
 from ninja_game.play.tas.tabs.search_tab import SearchTab, fewest_ticks
-from ninja_game.play.tas.tabs.span_results import AS_IT_IS, NOTHING, SpanResults
+from ninja_game.play.tas.tabs.span_results import AS_IT_IS, NOTHING, NOTHING_YET, SpanResults
 from ninja_game.sim.inputs import Input
 from tests.support.bench_driver import BenchDriver
 
@@ -72,6 +72,14 @@ def test_the_key_takes_the_selection_and_the_next_ones_are_typed(at: BenchDriver
     assert tab.span == (50, 90), "a second, where only one tick is selected"
 
 
+def test_a_click_into_a_field_starts_nothing(at: BenchDriver, tab: SearchTab) -> None:
+    at.write("x > 1")
+    at.mouse(*tab.measure.centre)
+    at.mouse(*tab.goal.centre)
+    assert at.screen.focus is tab.goal
+    assert tab.results is None
+
+
 def test_letters_are_typed_only_while_a_field_has_the_focus(at: BenchDriver, monkeypatch: pytest.MonkeyPatch) -> None:
     on: list[bool] = []
     monkeypatch.setattr(pygame.key, "start_text_input", lambda: on.append(True))
@@ -84,6 +92,8 @@ def test_letters_are_typed_only_while_a_field_has_the_focus(at: BenchDriver, mon
     assert on.pop(), "a click into the goal"
     at.mouse(*at.cell(3, "left"))
     assert not on.pop(), "a click into the roll"
+    at.press("b")
+    assert on.pop(), "a form, and another tab behind it"
 
 
 def test_a_better_end_is_found_and_put_in_as_one_edit(at: BenchDriver, tab: SearchTab) -> None:
@@ -201,7 +211,7 @@ def test_a_goal_out_of_reach_is_not_reached(at: BenchDriver, tab: SearchTab) -> 
     at.write("x > 10000")
     at.press("return")
     at.wait(lambda: results_of(tab).search.ticks_run, "a search")
-    assert results_of(tab).note == "nothing yet"
+    assert results_of(tab).note == NOTHING_YET
     at.choose("Stop")
     at.wait(lambda: not results_of(tab).running, "the end")
     assert results_of(tab).note == NOTHING

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from time import monotonic
+
 from ninja_game.batch.thread_pool import cores
 from ninja_game.directed.background import SpanSearch
 from ninja_game.directed.span import Found, SpanTask, score_in_words
@@ -18,6 +20,8 @@ AS_IT_IS = "no better"
 """What is said of a result that brings what the run's own keys do."""
 
 
+COMPILING = "The rules are made ready. On a machine that has never searched this takes a minute or two."
+NOTHING_YET = "Nothing yet."
 NOTHING = "The goal was not reached. More time, a longer span or another method may reach it."
 
 
@@ -38,6 +42,7 @@ class SpanResults:
         self._fitting = [(task.inputs[:whole], task.last)]
         self._preview: tuple[Found, OtherRun] | None = None
         self.search.start()
+        self._started = monotonic()
 
     @property
     def running(self) -> bool:
@@ -120,7 +125,7 @@ class SpanResults:
         if search.problem:
             return "cannot be searched"
         if self.running and not search.ticks_run:
-            return "getting ready ..."
+            return f"getting ready: {monotonic() - self._started:.0f} s"
         doing = "searching" if self.running else "ended"
         return f"{doing}: {search.ticks_run / 1e6:.1f} million ticks, {search.seconds:.0f} s"
 
@@ -129,4 +134,4 @@ class SpanResults:
         """What is to be said where there is no result."""
         if self.search.problem or self.search.found:
             return self.search.problem
-        return "nothing yet" if self.running else NOTHING
+        return NOTHING if not self.running else NOTHING_YET if self.search.ticks_run else COMPILING

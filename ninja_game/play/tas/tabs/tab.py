@@ -120,6 +120,10 @@ class Field(TextEntry):
         self._enter()
         return True
 
+    def click(self, x: float, y: float) -> bool:
+        """Only the focus."""
+        return True
+
 
 def buttons_in_a_row(
     x: float, y: float, rows: Sequence[tuple[str, float, Callable[[], object], str]]
