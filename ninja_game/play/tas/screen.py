@@ -130,12 +130,9 @@ class TasScreen(MenuScreen):
 
     def await_text(self) -> None:
         """Only while a field has the focus: the letter of a command's key is not typed into what the key opens."""
-        if self.app.top is not self:
-            return
-        if isinstance(self.focus, TextEntry):
-            pygame.key.start_text_input()
-        else:
-            pygame.key.stop_text_input()
+        if self.app.top is self:
+            typing = isinstance(self.focus, TextEntry)
+            (pygame.key.start_text_input if typing else pygame.key.stop_text_input)()
 
     def rebuild(self) -> None:
         """Take the widgets of the tab that is shown now."""

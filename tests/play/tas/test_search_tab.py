@@ -12,7 +12,7 @@ import pytest
 
 from ninja_game.play.input.scancodes import SCANCODES
 from ninja_game.play.tas.tabs.search_tab import SearchTab, fewest_ticks
-from ninja_game.play.tas.tabs.span_results import AS_IT_IS, NOTHING, NOTHING_YET, SpanResults
+from ninja_game.play.tas.tabs.span_results import NOTHING, NOTHING_YET, SpanResults
 from ninja_game.sim.inputs import Input
 from tests.support.bench_driver import BenchDriver
 
@@ -41,7 +41,7 @@ def searched(at: BenchDriver, tab: SearchTab) -> SpanResults:
     """Search until there is something better than the run, then stop."""
     at.press("return")
     results = results_of(tab)
-    at.wait(lambda: tab.found and results.words(tab.found[0])[1] != AS_IT_IS, "something better")
+    at.wait(lambda: len(tab.found) > 1, "something better")
     at.choose("Stop")
     at.wait(lambda: not results.running, "the end")
     return results
@@ -163,7 +163,9 @@ def test_the_same_end_is_found_sooner_and_the_rest_follows(at: BenchDriver, tab:
     wish(at, "Same end, sooner")
     assert tab.rest
     results = searched(at, tab)
-    assert results.words(tab.found[0])[0] == f"exit in tick {tab.found[0].score - 1:.0f}"
+    words, gain = results.words(tab.found[0])
+    assert words.startswith(f"exit in tick {tab.found[0].score - 1:.0f}; other keys from tick ")
+    assert gain in ("1 tick sooner", "2 ticks sooner", "3 ticks sooner")
     row(at, tab, 0)
     assert at.session.timeline.end == (int(tab.found[0].score) - 1, "exit")
     assert at.session.timeline.end[0] < end + 3
@@ -171,7 +173,7 @@ def test_the_same_end_is_found_sooner_and_the_rest_follows(at: BenchDriver, tab:
     own = results.search.own
     assert own is not None
     fewer = replace(tab.found[0], gold=own.gold - 2)
-    assert results.words(fewer)[0].endswith(", 2 gold fewer")
+    assert ", 2 gold fewer;" in results.words(fewer)[0]
 
 
 def test_a_search_is_cancelled_soon_by_hand_and_when_the_bench_is_left(at: BenchDriver, tab: SearchTab) -> None:
@@ -205,6 +207,17 @@ def test_what_is_wrong_is_told(at: BenchDriver, tab: SearchTab) -> None:
     at.choose("Take the selection")
     at.choose("Start")
     assert "the run ends" in at.app.notice
+
+
+def test_what_is_no_better_than_the_run_is_not_listed(at: BenchDriver, tab: SearchTab) -> None:
+    at.write("tick >= 110")
+    at.press("return")
+    results = results_of(tab)
+    at.wait(lambda: len(results.search.found) > 1, "results")
+    at.choose("Stop")
+    at.wait(lambda: not results.running, "the end")
+    assert not tab.found
+    assert results.note == "Nothing better than the run's own keys: goal after tick 109."
 
 
 def test_a_goal_out_of_reach_is_not_reached(at: BenchDriver, tab: SearchTab) -> None:

@@ -14,7 +14,7 @@ from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.play.editor.panels import Menu
 from ninja_game.play.tas.bench import Bench, Span
 from ninja_game.play.tas.part import Commands
-from ninja_game.play.tas.tabs.span_results import AS_IT_IS, SpanResults
+from ninja_game.play.tas.tabs.span_results import SpanResults
 from ninja_game.play.tas.tabs.tab import SMALL, Field, Rows, Tab, what_is_wrong
 from ninja_game.play.ui.text_layout import wrapped
 from ninja_game.play.ui.theme import Area, Theme
@@ -168,8 +168,7 @@ class SearchTab(Tab):
             return
         if results.behind is None and results.running:
             results.stop()
-        if results.search.found is not self.found:
-            self.found = results.search.found
+        self.found = results.better
         self.list.fill(self.found)
         over = self.list.over if results.behind is not None and self.bench.tab == self.name else -1
         self.bench.preview = results.preview(self.found[over]) if 0 <= over < len(self.found) else None
@@ -214,13 +213,12 @@ class SearchTab(Tab):
         x, y, w, _h = area
         palette, fits = theme.palette, self.results.behind is not None
         words, gain = self.results.words(self.found[index])
-        better = fits and gain != AS_IT_IS
         if self.results.is_in(self.found[index]):
             theme.canvas.polygon(surface, palette.accent, [(x + 4, y + 4), (x + 4, y + 12), (x + 9, y + 8)])
         theme.text(surface, words, x + 14, y + 3, size=SMALL, colour=palette.text if fits else palette.faint,
                    width=w - 130)  # fmt: skip
-        theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, bold=better, align="right", width=110,
-                   colour=palette.good if better else palette.faint)  # fmt: skip
+        theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, bold=fits, align="right", width=110,
+                   colour=palette.good if fits else palette.faint)  # fmt: skip
 
 
 def fewest_ticks(length: int) -> int:

@@ -9,15 +9,11 @@ from ninja_game.directed.background import SpanSearch
 from ninja_game.directed.span import Found, SpanTask, score_in_words
 from ninja_game.play.tas.bench import Bench, OtherRun
 from ninja_game.play.ui.text_layout import counted
-from ninja_game.tas.take import Take
+from ninja_game.tas.take import Take, first_difference
 from ninja_game.tas.timeline import Timeline
 
 CLOSING_SECONDS = 0.5
 """How long a search that is cancelled is waited for when the bench is left."""
-
-
-AS_IT_IS = "no better"
-"""What is said of a result that brings what the run's own keys do."""
 
 
 COMPILING = "The rules are made ready. On a machine that has never searched this takes a minute or two."
@@ -106,16 +102,21 @@ class SpanResults:
 
     # --- in words ---
 
+    @property
+    def better(self) -> tuple[Found, ...]:
+        """The results that bring more than the run's own keys, best first."""
+        own = self.search.own
+        return tuple(found for found in self.search.found if own is None or found.score < own.score)
+
     def words(self, found: Found) -> tuple[str, str]:
-        """What a result brings, and how much more that is than what the run's own keys bring."""
+        """What a better result brings and from where on it is another one; how much more than the run's own keys."""
         own, words = self.search.own, score_in_words(self.task, found)
+        if own is not None and self.task.rest and found.gold < own.gold:
+            words += f", {own.gold - found.gold} gold fewer"
+        words += f"; other keys from tick {first_difference(found.inputs, self.task.inputs)}"
         if own is None:
             return words, "new"
-        if self.task.rest and found.gold < own.gold:
-            words += f", {own.gold - found.gold} gold fewer"
         gain = own.score - found.score
-        if gain <= 0:
-            return words, AS_IT_IS
         return words, f"better by {gain:.4g}" if self.task.measure else f"{counted(int(gain), 'tick', 'ticks')} sooner"
 
     @property
@@ -132,6 +133,10 @@ class SpanResults:
     @property
     def note(self) -> str:
         """What is to be said where there is no result."""
-        if self.search.problem or self.search.found:
-            return self.search.problem
-        return NOTHING if not self.running else NOTHING_YET if self.search.ticks_run else COMPILING
+        search = self.search
+        if search.problem or self.better:
+            return search.problem
+        if search.own is not None:
+            yet = "yet " if self.running else ""
+            return f"Nothing better {yet}than the run's own keys: {score_in_words(self.task, search.own)}."
+        return NOTHING if not self.running else NOTHING_YET if search.ticks_run else COMPILING

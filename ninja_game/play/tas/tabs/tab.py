@@ -7,7 +7,8 @@ from typing import ClassVar
 
 import pygame
 
-from ninja_game.errors import FormatError, NinjaGameError
+from ninja_game.directed.expressions import FormulaError
+from ninja_game.errors import NinjaGameError
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.part import Part
 from ninja_game.play.ui.list_view import ListView
@@ -19,6 +20,8 @@ SMALL = 9.0
 """Size of the text in lists and buttons, px."""
 ROW = 16
 """Height of a row of a list, px."""
+_SHORT = 60
+"""Longer lists of what is expected are left out of a line."""
 
 
 class Tab(Part):
@@ -137,6 +140,8 @@ def buttons_in_a_row(
 
 
 def what_is_wrong(error: NinjaGameError) -> str:
-    """What to tell of an error; of a formula's in which column it is."""
-    text = str(error)
-    return f"Column {text}" if isinstance(error, FormatError) and error.column and not error.file else text
+    """What to tell of an error in a line; of a formula's in which column it is."""
+    if isinstance(error, FormulaError) and error.column:
+        told = f"Column {error.column}: {error.what}, {error.found}"
+        return f"{told}; expected {error.expected}" if len(error.expected) < _SHORT else told
+    return str(error)
