@@ -96,6 +96,21 @@ def test_a_dawdling_run_is_improved() -> None:
     assert run.end_tick == WALK_TICKS
 
 
+TWO_WAYS = parse_level_string(OPEN + "5^400,566!11^760,564,730,564!11^340,564,370,564")
+"""An exit far to the right, and one near by to the left."""
+
+
+def test_a_run_that_is_given_need_not_keep_its_way() -> None:
+    run = replayed(TWO_WAYS, solve(Task(TWO_WAYS, first=bytes([2] * 150), work=30_000_000)))
+    assert run.end_tick == WALK_TICKS
+
+
+def test_one_job_and_one_seed_improve_a_run_in_one_way() -> None:
+    hesitant = bytes([0] * 10 + [2] * 30 + [0] * 30 + [2] * 100)
+    first, again = (solve(Task(TWO_WAYS, first=hesitant, seed=3, work=14_000_000)) for _ in range(2))
+    assert replayed(TWO_WAYS, first).inputs == replayed(TWO_WAYS, again).inputs
+
+
 def test_every_better_run_is_reported_verified_and_shorter_than_the_last() -> None:
     runs: list[VerifiedRun] = []
     progress: list[Progress] = []

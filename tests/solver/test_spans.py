@@ -72,6 +72,17 @@ def test_a_span_gets_shorter_and_the_rest_is_joined_to_it() -> None:
     assert after.inputs == found
 
 
+def test_a_run_of_ten_minutes_is_searched_too() -> None:
+    """Longer than there are rows in an action, and than there are buckets."""
+    long = bytes([0] * 33_000) + STANDING
+    known = searches(long)
+    for first in (32_990, 33_010):
+        found = known.search(first, first + 50, FINENESS, seed=1, ticks=1_000_000, over=never)
+        assert found is not None
+        assert found[:first] == long[:first]
+        assert verified_run(LEVEL, found).end_tick < verified_run(LEVEL, long).end_tick - 10
+
+
 def test_nothing_is_found_in_a_span_that_cannot_be_better() -> None:
     assert searches(bytes([2] * 300)).search(100, 140, FINENESS, seed=1, ticks=300_000, over=never) is None
 

@@ -14,7 +14,7 @@ from ninja_game.sim.world import step
 from ninja_game.solver.macro_actions import action_code, play_macro
 from ninja_game.solver.open_list import drop_highest, keep_state, pop_lowest, push
 from ninja_game.solver.search import CHOICES, EXHAUSTED, MORE, NO_ROOM, add_node, macro_of, take_state
-from ninja_game.solver.search_memory import Resolution, SearchMemory, Start, random_below
+from ninja_game.solver.search_memory import BUCKETS, Resolution, SearchMemory, Start, random_below
 from ninja_game.solver.spans.known_run import KnownRun, mask_of, nearest
 from ninja_game.solver.state_abstraction import Goals, find, is_news, key_of
 
@@ -22,6 +22,8 @@ FOLLOWED = 3
 """Mode of an action that plays on as the known run did, from the row in its bits 16 and up."""
 FOLLOW_CHOICES = 3
 """From the row most like the present moment, from the one before, from the next one."""
+MOST_ROWS = 1 << 15
+"""An action has no room for a row from here on."""
 LEAST_GAIN = 0.5
 """Ticks by which what is behind the span must promise to be shorter than the best run."""
 
@@ -71,7 +73,7 @@ def expand_along(
                 action = action_code(direction, mode, held, played)
             else:
                 first = row + (choice - CHOICES + 1) % FOLLOW_CHOICES - 1
-                if row < 0 or first < 0:
+                if row < 0 or not 0 <= first < MOST_ROWS:
                     continue
                 for k in range(len(start.node_words)):
                     start.work_words[k] = start.node_words[k]
@@ -118,4 +120,5 @@ def keep_ahead(
     child.ahead = ahead
     while not keep_state(start.work_words, start.base, child, memory) and counters.waiting > 0:
         drop_highest(memory)
-    push(index, 2.0 * promise, memory)
+    # Two buckets a tick; the known run's own moments wait in the middle one.
+    push(index, 0.5 * BUCKETS + 2.0 * (promise - len(run.keys)), memory)
