@@ -17,6 +17,8 @@ from ninja_game.sim.states import JUMPING
 
 SIZE = 8.0
 """Of the letters, logical px."""
+SHORTEST = 20.0
+"""Room in which a name is worth beginning, logical px."""
 _LETTERS = {KEY_LEFT: "L", KEY_RIGHT: "R", JUMP_HELD: "J"}
 
 
@@ -130,26 +132,27 @@ class RowSheet:
             fill(ink, (x + width - thick, y + 1, thick, height - 1))
 
     def _events(self, row: RowFacts, left: int, width: int, y: int, ink: pygame.Color) -> None:
-        """The marker's name at the right, what happened at the left, as far as there is room, what matters first."""
-        palette, gap = self.theme.palette, self.theme.canvas.px(2)
+        """What happened, what matters first, as far as there is room; the marker's name, with one event at most."""
+        palette, gap, height = self.theme.palette, self.theme.canvas.px(2), self.layout.row
         x, right = left + gap + 1, left + width
-        if row.name:
-            room = (width if not row.events else width // 2) / self.theme.canvas.scale - 4
+        events = sorted(map(EVENTS.__getitem__, row.events.split())) if row.events else []
+        for event in events[:1] if row.name else events:
+            dark = getattr(palette, event.ink) if event.chip else ink
+            word = self.theme.lettering.rendered(event.word, SIZE, dark, bold=bool(event.chip))
+            if x + word.get_width() > right:
+                break
+            if event.chip:
+                box = (x - gap, y + 1, word.get_width() + 2 * gap, height - 1)
+                self._picture.fill(getattr(palette, event.chip), box)
+            self._blits.append((word, (x, y + self._lift)))
+            x += word.get_width() + 2 * gap
+        room = (right - x - 2 * gap) / self.theme.canvas.scale
+        if row.name and room >= SHORTEST:
             text = self.theme.fit(row.name, room, SIZE, bold=True)
             name = self.theme.lettering.rendered(text, SIZE, palette.panel, bold=True)
             right -= name.get_width() + 2 * gap
-            self._picture.fill(palette.ghost, (right, y, left + width - right, self.layout.row))
+            self._picture.fill(palette.ghost, (right, y, left + width - right, height))
             self._blits.append((name, (right + gap, y + self._lift)))
-        for event in sorted(map(EVENTS.__getitem__, row.events.split())) if row.events else ():
-            chip = pygame.Color(getattr(palette, event.chip)) if event.chip else None
-            dark = ink if chip is None else getattr(palette, event.ink)
-            word = self.theme.lettering.rendered(event.word, SIZE, dark, bold=chip is not None)
-            if x + word.get_width() > right:
-                break
-            if chip is not None:
-                self._picture.fill(chip, (x - gap, y + 1, word.get_width() + 2 * gap, self.layout.row - 1))
-            self._blits.append((word, (x, y + self._lift)))
-            x += word.get_width() + 2 * gap
 
 
 def _inks(palette: Palette, row: RowFacts) -> tuple[pygame.Color, pygame.Color]:
