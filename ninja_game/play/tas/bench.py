@@ -42,7 +42,7 @@ class Bench:
     opened beside this one; ``chosen``: the number of the one that parts are taken from, where there are any.
     ``preview``: a result of a search that is looked at. ``tab``: the name of the tab that is to be shown.
     ``against``: the run that the lead is told over; None: the run as it was opened.
-    ``hint``: of what is under the mouse, for the line below.
+    ``hint``: of what is under the mouse, for the line below. ``ask_to_watch``: proposes a formula to be watched.
     """
 
     def __init__(self, app: App, session: Session) -> None:
@@ -57,6 +57,7 @@ class Bench:
         self.tab = "Values"
         self.against: Take | None = None
         self.hint = ""
+        self.ask_to_watch: Callable[[str], object] = lambda _: None
 
     @property
     def take(self) -> Take:

@@ -14,8 +14,10 @@ import pytest
 
 from ninja_game.errors import ReplayError
 from ninja_game.formats.load import load_replays
+from ninja_game.play.editor.panels import Form
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.tas.level.other_runs import OtherRunScreen
+from ninja_game.play.tas.tabs.values_tab import ValuesTab
 from ninja_game.tas.files import runs_beside
 from tests.support.bench_driver import BenchDriver
 from tests.support.own_pack import PACK
@@ -188,3 +190,25 @@ def test_the_list_of_other_runs_has_those_of_the_level(at: BenchDriver) -> None:
     at.frames()
     assert at.top() is screen
     assert len(screen.bench.others) == 1
+
+
+def test_an_object_under_the_mouse_is_named_and_can_be_watched(at: BenchDriver) -> None:
+    level = at.screen.level
+    gold = next(each for each in level.picture.run.objects if each.kind == "gold")
+    left, top, *_ = level.area
+    factor = level.picture.canvas.scale / at.app.canvas.scale
+    place = left + gold.x * factor, top + gold.y * factor
+    at.mouse(*place, click=False)
+    assert level.pointed == gold
+    assert f"gold {gold.id};" in at.bench.hint
+    cursor = at.bench.cursor
+    at.event(pygame.MOUSEBUTTONDOWN, *place, button=3)
+    at.event(pygame.MOUSEBUTTONUP, *place, button=3)
+    assert isinstance(at.top(), Form)
+    at.press("return")
+    assert at.screen.tab.name == "Values"
+    tab = next(tab for tab in at.screen.tabs if isinstance(tab, ValuesTab))
+    assert tab.watched[-1].watch.text == f"taken({gold.id})"
+    assert at.bench.cursor == cursor
+    at.mouse(700, 300, click=False)
+    assert level.pointed is None

@@ -13,20 +13,22 @@ from ninja_game.play.tas.level.other_runs import OtherRuns
 from ninja_game.play.tas.level.paths import FAINT, NEAR, LevelPaths, Positions, Way, first_other_place
 from ninja_game.play.tas.level.picture import LevelPicture
 from ninja_game.play.tas.level.playing import Playing
+from ninja_game.play.tas.level.pointing import nearest_tick, object_at
 from ninja_game.play.tas.level.run_ghost import RunGhost
 from ninja_game.play.tas.level.take_over import TakeOver
 from ninja_game.play.tas.part import Commands, Part
+from ninja_game.play.tas.tabs.object_list import proposal
 from ninja_game.play.tas.tabs.plot import colour_of
 from ninja_game.play.ui.theme import Theme
+from ninja_game.sim.kinds import KIND_NAMES
+from ninja_game.simulation import ObjectView
 
-_FAR = 40.0
-"""px of the level: a drag does not leap to a part of the run that is nearer by less, but so many ticks away."""
 _LETTERS = 17
 """Size of what is written into the level's frame, px of the level."""
 
 
 class LevelPart(Part):
-    """The level, smaller than in the game. ``hover``: the tick that a click would go to."""
+    """The level, smaller than in the game. ``hover``: the tick to which a click goes; ``pointed``: the object there."""
 
     area = (6, 28, 424, 322)
 
@@ -37,6 +39,7 @@ class LevelPart(Part):
         self.take_over = TakeOver(self.playing)
         self.others = OtherRuns(bench)
         self.hover: int | None = None
+        self.pointed: ObjectView | None = None
         self._hovered_run = bench.take
         self._paths: LevelPaths | None = None
         self._ghosts: dict[object, RunGhost] = {}
@@ -78,7 +81,7 @@ class LevelPart(Part):
         self.playing.update(real_ms)
         self.take_over.update(real_ms)
         if self._hovered_run is not self.bench.take:
-            self.hover = None
+            self.mouse_left()
 
     def stop(self) -> None:
         """End playing and taking over."""
@@ -109,20 +112,24 @@ class LevelPart(Part):
         if self.take_over.on or not len(positions):
             return False
         factor = self.bench.app.canvas.scale / self.picture.canvas.scale
-        far = np.hypot(positions[:, 0] - (x - self.area[0]) * factor, positions[:, 1] - (y - self.area[1]) * factor)
+        at = (x - self.area[0]) * factor, (y - self.area[1]) * factor
         dragged = event.type == pygame.MOUSEMOTION and event.buttons[0]
-        if dragged:
-            far += np.minimum(np.abs(np.arange(len(far)) - self.bench.cursor), _FAR)
-        self.hover, self._hovered_run = int(np.argmin(far)), self.bench.take
-        self.bench.hint = f"Click: go to tick {self.hover}; drag: along the run"
-        if dragged or (event.type == pygame.MOUSEBUTTONDOWN and event.button == 1):
+        pressed = event.button if event.type == pygame.MOUSEBUTTONDOWN else 0
+        self.hover = nearest_tick(positions, *at, near=self.bench.cursor if dragged else None)
+        self._hovered_run = self.bench.take
+        self.pointed = None if dragged else object_at(self.picture.run, *at)
+        words = f"{self.pointed.kind} {self.pointed.id}; right button: watch it   " if self.pointed else ""
+        self.bench.hint = f"{words}Click: to tick {self.hover}"
+        if dragged or pressed == pygame.BUTTON_LEFT:
             self.playing.stop()
             self.bench.go(self.hover, select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
+        elif pressed == pygame.BUTTON_RIGHT and self.pointed:
+            self.bench.ask_to_watch(proposal(self.pointed.id, KIND_NAMES.index(self.pointed.kind)))
         return True
 
     def mouse_left(self) -> None:
-        """No tick is pointed at."""
-        self.hover = None
+        """Nothing is pointed at."""
+        self.hover = self.pointed = None
 
     # --- picture ---
 
@@ -132,7 +139,7 @@ class LevelPart(Part):
         moving = playing.on or self.take_over.on
         return (
             bench.take, bench.cursor, bench.selection, timeline.valid, bench.session.before, bench.ghosts,
-            tuple(bench.others), bench.preview, self.hover, bench.app.settings, playing.on, playing.speed,
+            tuple(bench.others), bench.preview, self.hover, self.pointed, bench.app.settings, playing.on, playing.speed,
             self.take_over.on, self.take_over.still, self.take_over.waiting, moving and playing.clock.remainder,
         )  # fmt: skip
 
@@ -162,6 +169,8 @@ class LevelPart(Part):
                 paths.draw_name(inner, ghost.label, ghost.place(fraction), ghost.colour(picture.context.theme.palette))
         if self.hover is not None and self.hover < len(positions):
             paths.draw_hover(inner, positions, self.hover)
+        if self.pointed is not None:
+            paths.draw_object(inner, self.pointed)
         self._write(inner, picture.context.theme)
 
     def _present(self) -> Positions:

@@ -14,6 +14,7 @@ from ninja_game.play.replay.paths import draw_path
 from ninja_game.play.tas.bench import Span
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas, Point
 from ninja_game.play.ui.theme import Theme
+from ninja_game.simulation import ObjectView
 from ninja_game.tas.course import Course
 
 Positions = NDArray[np.float64]
@@ -111,6 +112,10 @@ class LevelPaths:
         x, y = _point(positions, tick)
         self.theme.canvas.circle(surface, self.theme.palette.text, (x, y), 9, 2)
         self._label(surface, str(tick), x + 13, y + 4, self.theme.palette.text)
+
+    def draw_object(self, surface: pygame.Surface, seen: ObjectView) -> None:
+        """What an object is and its id, above it."""
+        self._label(surface, f"{seen.kind} {seen.id}", seen.x + 10, seen.y - 26, self.theme.palette.text)
 
     def draw_name(self, surface: pygame.Surface, name: str, at: Point, colour: pygame.Color) -> None:
         """The name of a ghost, above it."""

@@ -58,6 +58,7 @@ class ValuesTab(Tab):
         ]
         buttons = buttons_in_a_row(10, 555, actions)
         self.widgets = [self.list, *buttons]
+        bench.ask_to_watch = self.ask
         self._made: tuple[object, ...] = ()
         self._cursor = 0
         self._grabbed: float | None = None
