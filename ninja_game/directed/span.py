@@ -69,7 +69,7 @@ class SpanTask:
 
     def formulas(self) -> tuple[Formula, Formula | None]:
         """Goal and measure. Raises FormulaError."""
-        goal = parse_truth(self.goal or f"tick >= {self.last}", NAMES, FACTS)
+        goal = parse_truth(self.goal or f"tick >= {self.last - 1}", NAMES, FACTS)
         return goal, parse_number(self.measure, NAMES, FACTS) if self.measure else None
 
 
@@ -79,7 +79,7 @@ class Found:
 
     ``score``: minus the measure (or the measure, for ``least``), or the ticks to the goal or to the exit; ``ticks``: of
     the span, up to the goal; ``inputs``: the whole run with them, up to the goal or to its end; ``gold``: pieces that
-    it has in the end.
+    it has in the end; ``end``: x, y (px), vx, vy (px/tick) at the goal.
     """
 
     score: float
@@ -87,6 +87,7 @@ class Found:
     keys: Keys = field(compare=False, repr=False)
     inputs: bytes = field(compare=False, repr=False, default=b"")
     gold: int = field(compare=False, default=0)
+    end: tuple[float, ...] = field(compare=False, default=(0.0,) * 4)
 
 
 def score_in_words(task: SpanTask, found: Found) -> str:
@@ -101,11 +102,15 @@ def score_in_words(task: SpanTask, found: Found) -> str:
 
 @dataclass
 class Trials:
-    """What came of many keys: of each its score (infinite: no goal), its ticks to it, its best margin on the way."""
+    """What came of many keys: of each its score (infinite: no goal), its ticks to it, its best margin on the way.
+
+    ``ends``: x, y (px), vx, vy (px/tick) at the goal.
+    """
 
     scores: Numbers
     ticks: NDArray[np.int64]
     margins: Numbers
+    ends: Numbers
 
     @property
     def order(self) -> NDArray[np.intp]:
@@ -148,8 +153,9 @@ class SpanWorlds:
         """One of the trials, with its keys."""
         ticks = int(trials.ticks[index])
         rest = self.rest.tolist() if self.task.rest else []
+        gold = int(self.batch.gold[index])
         run = press_jumps([*self.task.inputs[: self.task.first], *keys[:ticks].tolist(), *rest])
-        return Found(float(trials.scores[index]), ticks, keys.copy(), run, int(self.batch.gold[index]))
+        return Found(float(trials.scores[index]), ticks, keys.copy(), run, gold, tuple(trials.ends[index].tolist()))
 
     def try_all(self, keys: Keys) -> Trials:
         """Play keys, (ticks of the span, worlds), from the start of the span."""
@@ -162,7 +168,9 @@ class SpanWorlds:
         """What comes of keys in the span itself."""
         batch, count = self.batch, self.batch.count
         batch.restore(self.start)
-        trials = Trials(np.full(count, np.inf), np.zeros(count, np.int64), np.full(count, -np.inf))
+        trials = Trials(
+            np.full(count, np.inf), np.zeros(count, np.int64), np.full(count, -np.inf), np.zeros((count, 4))
+        )
         for tick in range(self.task.length):
             batch.run(keys[np.newaxis, tick], stop=True, press=True)
             at_goal, margin, score = self.measured()
@@ -170,6 +178,8 @@ class SpanWorlds:
             better = at_goal & (score < trials.scores)
             trials.scores[better] = score[better]
             trials.ticks[better] = tick + 1
+            if better.any():
+                trials.ends[better] = np.column_stack([batch.positions[better], batch.velocities()[better]])
             if self.measure is None and (trials.ticks > 0).all():
                 break
         self.ticks_run += self.task.length * count

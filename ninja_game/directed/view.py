@@ -41,7 +41,7 @@ def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
     return {
         "x": lambda: place[:, 0], "y": lambda: place[:, 1], "vx": lambda: velocity(0), "vy": lambda: velocity(1),
         "speed": lambda: np.hypot(velocity(0), velocity(1)),
-        "tick": lambda: batch.ticks.astype(float), "gold": lambda: batch.gold.astype(float),
+        "tick": lambda: (batch.ticks - 1).astype(float), "gold": lambda: batch.gold.astype(float),
         "state": lambda: batch.states.astype(float), "jump_timer": lambda: ninja["jump_timer"].astype(float),
         "dead": lambda: (batch.outcomes == OUTCOME_DEAD).astype(float),
         "won": lambda: (batch.outcomes == OUTCOME_EXIT).astype(float),

@@ -119,7 +119,7 @@ PRESETS: tuple[tuple[str, str, Callable[[SearchedSpan], Wanted]], ...] = (
 
 
 def _alive(last: int) -> str:
-    return f"tick >= {last} and not dead"
+    return f"tick >= {last - 1} and not dead"
 
 
 def _less(name: str, value: float) -> str:

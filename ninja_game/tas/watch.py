@@ -88,7 +88,7 @@ def timeline_view(timeline: Timeline) -> dict[str, Callable[..., NDArray[np.floa
     return {
         "x": lambda: column("x"), "y": lambda: column("y"), "vx": lambda: velocity("x"), "vy": lambda: velocity("y"),
         "speed": lambda: np.hypot(velocity("x"), velocity("y")),
-        "tick": lambda: np.arange(1.0, timeline.valid + 1), "gold": lambda: column("gold"),
+        "tick": lambda: np.arange(0.0, timeline.valid), "gold": lambda: column("gold"),
         "state": lambda: column("state"), "jump_timer": lambda: column("jump_timer"),
         "dead": lambda: column("outcome") == OUTCOME_DEAD, "won": lambda: column("outcome") == OUTCOME_EXIT,
         "in_air": lambda: column("in_air"), "near_wall": lambda: column("near_wall"),

@@ -84,7 +84,7 @@ def test_names_mean_what_a_simulation_shows() -> None:
     assert float(view["x"]()[2]) == run.ninja.x
     assert float(view["vx"]()[2]) == run.ninja.vx
     assert float(view["distance"](100.0, 566.0)[2]) == run.ninja.x - 100
-    assert view["tick"]().tolist() == [10, 10, 10]
+    assert view["tick"]().tolist() == [9, 9, 9]
     batch.run([[0, 0, 2]] * 60, stop=True)
     for text, expected in {"taken(2)": [0, 0, 1], "opened(1)": [0, 0, 1], "won": [0, 0, 1], "dead": [0, 0, 0]}.items():
         assert parse_truth(text, NAMES, FACTS).value(view).tolist() == expected, text

@@ -35,6 +35,8 @@ _METHODS = (
 _ORDERS = (("the earliest", EARLIEST), ("the greatest", GREATEST), ("the smallest", SMALLEST))
 _RESTS = (("end at the goal", False), ("then the rest", True))
 _NAMES = "x y vx vy speed tick gold state dead won in_air distance(x, y) taken(id) opened(id) and or not < > abs(a)"
+_COLUMNS, _WIDTHS = (14, 172, 222, 282), (154, 46, 58, 30)
+"""Of the cells of a result, px from the left of a row, and their widths."""
 _EXPLAINED = (
     "Say what for: a goal that is true after one of these ticks, as early as possible, or a value that is to be "
     "the greatest or smallest then. Other keys for these ticks are searched; a click puts a result into the run."
@@ -58,7 +60,7 @@ class SearchTab(Tab):
                           longest=LONGEST, hint=_NAMES)  # fmt: skip
         self.measure = Field((132, 419, 144, 18), "speed; vx, y, gold ...", self.start, longest=LONGEST, hint=_NAMES)
         self._button = Button((164, 440, 58, 18), "Start", self._start_or_stop, size=SMALL)
-        self.list = Rows((10, 462, 416, 112), self._draw_row, self._put, keeps=False,
+        self.list = Rows((10, 472, 416, 102), self._draw_row, self._put, keeps=False,
                          hint="Under the mouse: its way in the level; a click puts it into the run")  # fmt: skip
         self.widgets = [
             Button((248, 377, 96, 18), "Take the selection", self.take_selection, size=SMALL),
@@ -203,6 +205,9 @@ class SearchTab(Tab):
             if results.behind is None:
                 status, colour = "the run was changed: search again", palette.bad
         theme.text(surface, status, 228, 445, size=SMALL, colour=colour, width=198)
+        if self.found:
+            for at, head in zip(_COLUMNS, ("Result", "Other from", "Ends at x, y", "Speed"), strict=True):
+                theme.text(surface, head, 10 + at, 461, size=8, colour=palette.faint)
         for k, line in enumerate(wrapped(theme, results.note if results else _EXPLAINED, 396, 10)):
             theme.text(surface, line, 16, 470 + 15 * k, size=10, colour=palette.faint)
 
@@ -212,12 +217,11 @@ class SearchTab(Tab):
             return
         x, y, w, _h = area
         palette, fits = theme.palette, self.results.behind is not None
-        words, gain = self.results.words(self.found[index])
-        if self.results.is_in(self.found[index]):
-            theme.canvas.polygon(surface, palette.accent, [(x + 4, y + 4), (x + 4, y + 12), (x + 9, y + 8)])
-        theme.text(surface, words, x + 14, y + 3, size=SMALL, colour=palette.text if fits else palette.faint,
-                   width=w - 130)  # fmt: skip
-        theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, bold=fits, align="right", width=110,
+        *cells, gain = self.results.words(self.found[index])
+        for at, cell, width in zip(_COLUMNS, cells, _WIDTHS, strict=True):
+            theme.text(surface, cell, x + at, y + 3, size=SMALL, width=width,
+                       colour=palette.text if fits else palette.faint)  # fmt: skip
+        theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, bold=fits, align="right", width=96,
                    colour=palette.good if fits else palette.faint)  # fmt: skip
 
 

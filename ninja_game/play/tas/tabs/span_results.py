@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import hypot
 from time import monotonic
 
 from ninja_game.batch.thread_pool import cores
@@ -108,16 +109,18 @@ class SpanResults:
         own = self.search.own
         return tuple(found for found in self.search.found if own is None or found.score < own.score)
 
-    def words(self, found: Found) -> tuple[str, str]:
-        """What a better result brings and from where on it is another one; how much more than the run's own keys."""
+    def words(self, found: Found) -> tuple[str, ...]:
+        """What a better result brings; from where on it has other keys; place and speed at the goal; what it gains."""
         own, words = self.search.own, score_in_words(self.task, found)
         if own is not None and self.task.rest and found.gold < own.gold:
             words += f", {own.gold - found.gold} gold fewer"
-        words += f"; other keys from tick {first_difference(found.inputs, self.task.inputs)}"
-        if own is None:
-            return words, "new"
-        gain = own.score - found.score
-        return words, f"better by {gain:.4g}" if self.task.measure else f"{counted(int(gain), 'tick', 'ticks')} sooner"
+        gain = "new"
+        if own is not None:
+            more = own.score - found.score
+            gain = f"better by {more:.4g}" if self.task.measure else f"{counted(int(more), 'tick', 'ticks')} sooner"
+        x, y, vx, vy = found.end
+        other = first_difference(found.inputs, self.task.inputs)
+        return words, str(other), f"{x:.1f}, {y:.1f}", f"{hypot(vx, vy):.3f}", gain
 
     @property
     def status(self) -> str:
