@@ -16,6 +16,7 @@ from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.n14.level_file import MARKER, LevelRecord, read_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, tidy_level_string
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
+from ninja_game.formats.tas_lines import is_tas_text
 from ninja_game.sim.level import TILES, Level
 
 # What the object half of an in-game string is made of, numbers that no object can have included.
@@ -78,7 +79,10 @@ def _named(record: LevelRecord, file: str) -> NamedLevel:
 
 def is_level_file(text: str) -> bool:
     """Whether a text is a level file or replay text of N."""
-    return MARKER in text or ("#" in text and ("$" in text or text.lstrip().startswith("#")))
+    if MARKER in text or ("#" in text and "$" in text):
+        return True
+    # Labels and comments of CelesteTAS begin with # too; N's own texts have | in them.
+    return text.lstrip().startswith("#") and ("|" in text or not is_tas_text(text))
 
 
 def _level_strings(text: str, file: str) -> Iterator[tuple[int, str]]:

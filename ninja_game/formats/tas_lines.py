@@ -16,7 +16,7 @@ KEYSYMS = {"ff51": "L", "ff53": "R", "ffe1": "J", "ffe2": "J", "7a": "J", "20": 
 
 _FRAMES = re.compile(r"\s*([1-9][0-9]{0,6})((?:,[A-Za-z0-9.]+)*),?\s*")
 _REPEAT = re.compile(r"\s*repeat[ ,]+([1-9][0-9]{0,6})\s*", re.IGNORECASE)
-_READ = re.compile(r"\s*read[ ,]+([^,]+?)\s*", re.IGNORECASE)
+_READ = re.compile(r"\s*read[ ,]+([^,]+)", re.IGNORECASE)
 _SKIPPED = re.compile(r"\s*(#\s.*|#|#{2,}.*|\*\*\*.*)?")
 
 
@@ -45,7 +45,7 @@ def in_our_notation(text: str, file: str = "") -> Iterator[Line]:
         elif line.strip().lower() == "endrepeat":
             yield number, f")*{counts.pop()}" if counts else ")"
         elif found := _READ.fullmatch(line):
-            yield number, f"include {found[1]}"
+            yield number, f"include {found[1].rstrip()}"
         elif line.lstrip().startswith("#"):
             yield number, "" if _SKIPPED.fullmatch(line) else line.strip().replace(" ", "-")
         elif not _SKIPPED.fullmatch(line):

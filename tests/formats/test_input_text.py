@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,8 +12,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ninja_game import ReplayError, parse_level, parse_replay, write_replay
+from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import parse_demo, write_demo
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.named_level import is_level_file
 from ninja_game.formats.recording import parse_replays, record_of
 from ninja_game.formats.replay.input_runs import Marker, write_inputs
 from ninja_game.formats.replay.input_text import MOST_INCLUDES, read_inputs
@@ -246,3 +250,22 @@ def test_inputs_of_other_tools_need_a_level() -> None:
         parse_replays(text, file="a.tas")
     (recording,) = parse_replays(text, file="a.tas", level=LEVEL)
     assert recording.playback(31) == bytes([2] * 30 + [0])
+
+
+def test_celeste_lines_that_begin_with_a_label_are_no_record_of_n() -> None:
+    level = parse_level_string(WALK)
+    for text in ("#start\n  30,R,J\n", "# a comment\n#start\n\n  30,R\n#end\n   1,J", "##\n30\n"):
+        (recording,) = parse_replays(text, level=level)
+        assert len(recording.demo.inputs) >= 30
+    for demo in ("##3:801#", "##902:35791394|\n35791394#"):
+        assert is_level_file(demo)
+
+
+def test_a_long_line_takes_no_time() -> None:
+    began = time.process_time()
+    for line in ("Read,part" + " " * 100_000 + ",x", "include" + " " * 100_000, " " * 100_000 + "x"):
+        with pytest.raises(ReplayError):
+            read_inputs(in_our_notation(line))
+        with pytest.raises(ReplayError):
+            read_inputs(numbered_lines(line + "\nx"))
+    assert time.process_time() - began < 5.0

@@ -30,6 +30,12 @@ class BenchDriver(MenuDriver):
         self.app.push(self.screen)
         self.frames(2)
 
+    def adopt(self) -> None:
+        """Go on at the bench on top: it has taken the first one's place."""
+        assert isinstance(self.app.top, TasScreen)
+        self.screen = self.app.top
+        self.bench, self.session = self.screen.bench, self.screen.session
+
     def event(self, kind: int, x: float = 0, y: float = 0, **more: object) -> None:
         """A mouse event at a logical point, and a picture."""
         px = self.app.canvas.point(x, y)

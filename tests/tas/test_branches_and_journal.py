@@ -19,6 +19,7 @@ from ninja_game.tas.files import open_run
 from ninja_game.tas.journal import FOLDER, Journal, read_journal, recovered
 from ninja_game.tas.session import Session
 from ninja_game.tas.take import Take
+from tests.support.bench_edits import edit_at_random
 from tests.support.samples import replay_of_walk
 from tests.support.strategies import takes
 
@@ -110,28 +111,6 @@ def journal_of(folder: Path) -> Path:
     return file
 
 
-def edit_at_random(session: Session, chance: Random) -> None:
-    """Any edit that the bench can make."""
-    take, many = session.take, range(chance.randrange(6))
-    first = chance.randrange(len(take) + 2)
-    keys = [chance.randrange(8) for _ in many]
-    what = chance.randrange(9)
-    if what == 0 and len(session.branches) < 6:
-        session.keep_branch("bé"[chance.randrange(2) :])
-    elif what == 1 and len(session.branches):
-        session.take_branch(chance.randrange(len(session.branches)))
-    elif what == 2 and len(session.branches):
-        (session.drop_branch if chance.random() < 0.5 else lambda n: session.rename_branch(n, "new"))(0)
-    elif what == 3:
-        session.undo()
-    elif what == 4:
-        session.redo()
-    elif what == 5:
-        session.change(take.named(first, f"n{chance.randrange(4)}"))
-    else:
-        session.change(take.replaced(first, first + chance.randrange(4), keys))
-
-
 def test_a_kill_at_any_byte_loses_at_most_the_last_edit(session: Session, tmp_path: Path) -> None:
     chance = Random(3)
     states = [(session.take, list(session.branches.all))]
@@ -141,11 +120,12 @@ def test_a_kill_at_any_byte_loses_at_most_the_last_edit(session: Session, tmp_pa
     for _ in range(60):
         states.append((session.take, list(session.branches.all)))
         sizes.append(file.stat().st_size)
-        edit_at_random(session, chance)
+        edit_at_random(session, chance, strokes=False)
     whole = file.read_bytes()
     session.close(keep=True)
     begun = whole.index(b"\n")
-    for size in range(begun, sizes[-1] + 1):
+    ends = [size + by for size in sizes for by in (-1, 0, 1)]
+    for size in sorted({*range(begun, sizes[-1], 17), *ends}):
         file.write_bytes(whole[:size])
         found = read_journal(file)
         done = sum(each <= size for each in sizes)
@@ -162,12 +142,12 @@ def test_damaged_journals_give_only_takes_that_there_were(session: Session, tmp_
     chance = Random(4)
     there = {session.take}
     for _ in range(25):
-        edit_at_random(session, chance)
+        edit_at_random(session, chance, strokes=False)
         there.add(session.take)
     session.close(keep=True)
     file = journal_of(tmp_path)
     whole = file.read_bytes().decode()
-    for _ in range(1500):
+    for _ in range(500):
         file.write_bytes(damaged(whole, chance).encode("utf-8", "surrogatepass"))
         begin = file.read_bytes().split(b"\n")[0] == whole.encode().split(b"\n")[0]
         for found in recovered(tmp_path):

@@ -13,7 +13,7 @@ from collections.abc import Callable
 from ninja_game.errors import NinjaGameError
 
 SLOW_S = 2.0
-"""Seconds of processor time, so that a busy machine does not count."""
+"""Seconds of processor time, as those of all limits here, so that a busy machine does not count."""
 
 JUNK = [
     *"#$|^!,:*;&-A ",
@@ -113,9 +113,13 @@ def mutated(text: str, rng: random.Random) -> str:
 
 
 class Trial:
-    """Tries readers and counts what they do; ``wrong``: foreign errors and slow readings, each is printed."""
+    """Tries readers and counts what they do; ``wrong``: foreign errors and slow readings, each is printed.
 
-    def __init__(self) -> None:
+    ``slow``: seconds after which a reading is slow.
+    """
+
+    def __init__(self, slow: float = SLOW_S) -> None:
+        self._slow = slow
         self.outcomes: Counter[str] = Counter()
         self.wrong = 0
         self.started = time.perf_counter()
@@ -133,7 +137,7 @@ class Trial:
             self._tell(f"{name}: a foreign error, {case}\n{traceback.format_exc()}")
         taken = time.process_time() - started
         self.slowest = max(self.slowest, (taken, f"{name}, {case}"))
-        if taken > SLOW_S:
+        if taken > self._slow:
             self._tell(f"{name}: {taken:.1f} s, {case}")
 
     def _tell(self, text: str) -> None:

@@ -1,0 +1,140 @@
+"""Kill the bench at random moments of editing and saving: at most the last edit may be lost, and never a file.
+
+    python3 tools/dev.py tool soak.bench_kills --kills 100
+    python3 tools/dev.py tool soak.bench_kills --kills 100 --what window
+
+A child process opens a run in the player's folder, goes on with what the last one left, edits, saves now and then, and
+says after each edit what the run is. It is killed (SIGKILL) after a random time, also in the middle of a stroke. Then
+the folder must offer the run as it was said last, or later, and the file must be as it was saved last.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tempfile
+from hashlib import sha256
+from multiprocessing.connection import Connection
+from pathlib import Path
+from random import Random
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.tas.files import open_run
+from ninja_game.tas.journal import recovered
+from ninja_game.tas.session import Session
+from ninja_game.tas.take import Take
+from tests.support.bench_edits import edit_at_random, use_at_random
+from tests.support.samples import replay_of_walk
+from tools.soak.kills import life
+
+LONGEST_LIFE = 0.15
+"""Seconds after its first word at which a child is killed at the latest."""
+
+RUN = "walk.replay.txt"
+
+
+def digest(take: Take) -> str:
+    """Of keys and names; ticks without a key at the end do not count: a saved file may leave them out."""
+    return sha256(take.inputs.rstrip(b"\0") + repr(take.markers).encode()).hexdigest()
+
+
+def opened(folder: Path) -> Session:
+    """The run, or what was not saved of it."""
+    found = next(recovered(folder), None)
+    session = Session(found.opened if found else open_run(folder / RUN), folder, memory="plain")
+    if found:
+        session.recover(found)
+    return session
+
+
+def say_and_save(session: Session, chance: Random, pipe: Connection) -> None:
+    """Say what the run is; now and then save it."""
+    pipe.send(("edited", digest(session.take), 0))
+    if chance.random() < 0.05:
+        pipe.send(("about", digest(session.take), 0))
+        session.save(session.file.path or Path(), replacing=True)
+        pipe.send(("saved", digest(session.take), 0))
+
+
+def edit(folder: str, seed: int, pipe: Connection) -> None:
+    """Edit for ever, without a window: far more edits a second."""
+    chance = Random(seed)
+    session = opened(Path(folder))
+    while True:
+        edit_at_random(session, chance)
+        say_and_save(session, chance, pipe)
+
+
+def edit_in_window(folder: str, seed: int, pipe: Connection) -> None:
+    """The whole program: the bench with its own keys and mouse."""
+    from tests.support.bench_driver import BenchDriver
+
+    chance = Random(seed)
+    at = BenchDriver(Path(folder), Path(folder) / RUN)
+    if at.top() is not at.screen:
+        at.choose("Go on with it")
+        at.adopt()
+    while True:
+        use_at_random(at, chance)
+        say_and_save(at.session, chance, pipe)
+
+
+PLAYERS = {"session": edit, "window": edit_in_window}
+
+
+def kill_test(
+    kills: int, seed: int, folder: Path, *, what: str = "session", report: bool = False
+) -> tuple[int, list[str]]:
+    """Kill so many benches; how many edits they had told of, and everything that is wrong."""
+    chance = Random(seed)
+    told, last, saved = 0, "", {""}
+    wrong: list[str] = []
+    for number in range(kills):
+        home = folder / str(number // 10)
+        if number % 10 == 0:
+            home.mkdir(parents=True)
+            (home / RUN).write_text(replay_of_walk(), "utf-8")
+            last = digest(open_run(home / RUN).take)
+            saved = {last}
+        facts = life(PLAYERS[what], home, chance.randrange(2**31), chance.random() * LONGEST_LIFE, settled=True)
+        said = [last, *(each for kind, each, _ in facts if kind == "edited")]
+        for kind, each, _ in facts:
+            saved = {each} if kind == "saved" else saved | {each} if kind == "about" else saved
+        told += len(said) - 1
+        try:
+            session = opened(home)
+            last = digest(session.take)
+            session.close(keep=True)
+            lost = said[::-1].index(last) if last in said else 0
+            in_file = digest(open_run(home / RUN).take)
+        except (NinjaGameError, OSError) as error:
+            wrong.append(f"kill {number + 1}: {error}")
+            continue
+        if lost > 1:
+            wrong.append(f"kill {number + 1}: {lost} edits lost")
+        if in_file not in saved:
+            wrong.append(f"kill {number + 1}: the file is not as it was saved")
+        if len(said) == 1:
+            wrong.append(f"kill {number + 1}: the bench did not start")
+        if report and (number + 1) % 10 == 0:
+            print(*wrong, f"{number + 1} kills, {told} edits, {len(wrong)} things wrong", sep="\n", flush=True)
+    return told, wrong
+
+
+def main() -> int:
+    """Exit code 1 if more than the last edit, or a file, was lost."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", maxsplit=1)[0])
+    parser.add_argument("--kills", type=int, default=100)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--what", choices=PLAYERS, default="session")
+    options = parser.parse_args()
+    os.environ |= {"PYGAME_HIDE_SUPPORT_PROMPT": "1", "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
+    with tempfile.TemporaryDirectory() as folder:
+        told, wrong = kill_test(options.kills, options.seed, Path(folder), what=options.what, report=True)
+    print(*wrong, f"{options.kills} kills, {told} edits, {len(wrong)} things wrong", sep="\n")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
