@@ -73,11 +73,11 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
     data = read_bytes(path)
     if not _written_by_us(data):
         return OpenedRun(recording, take, RunFile(), Branches())
-    file = RunFile(path, sha256(data).hexdigest(), _digest(branches_path(path)), take)
+    file = RunFile(path, sha256(data).hexdigest(), digest_of(branches_path(path)), take)
     return OpenedRun(recording, take, file, read_branches(path))
 
 
-def _digest(path: Path) -> str:
+def digest_of(path: Path) -> str:
     """The digest of a file's bytes; '' where there is none."""
     return sha256(read_bytes(path)).hexdigest() if path.exists() else ""
 
@@ -192,16 +192,16 @@ def save_run(
     """
     own, beside = path == file.path, branches_path(path)
     for each, known in ((path, file.digest), (beside, file.beside)):
-        there = _digest(each)
+        there = digest_of(each)
         if there and not replacing and not (own and there == known):
             what = f"{each.name} was changed by another program" if own else f"there is a file {each.name} already"
             raise OccupiedError(what)
-    if not own or take != file.take or _digest(path) != file.digest:
+    if not own or take != file.take or digest_of(path) != file.digest:
         replay = replay_of_take(about, take)
         write_atomically(path, write_replay(_with_old_path(replay, about) if own else replay))
     if len(branches) or beside.exists():
         write_atomically(beside, json.dumps(branches.as_json(), indent=1))
-    return RunFile(path, _digest(path), _digest(beside), take)
+    return RunFile(path, digest_of(path), digest_of(beside), take)
 
 
 def _with_old_path(replay: Replay, about: Recording) -> Replay:

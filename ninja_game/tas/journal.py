@@ -28,8 +28,9 @@ from ninja_game.tas.branches import (
     checked_take,
     inputs_of_json,
     markers_of_json,
+    take_of_json,
 )
-from ninja_game.tas.files import OpenedRun, RunFile, take_of
+from ninja_game.tas.files import OpenedRun, RunFile
 from ninja_game.tas.take import Take
 
 FOLDER = "tas"
@@ -172,7 +173,7 @@ def read_journal(file: Path) -> Recovered:
         said = json.loads(lines.readline())
         (recording,) = parse_replays(said["replay"])
         home = RunFile(Path(str(said["path"])), str(said["digest"]), str(said["beside"])) if said["path"] else RunFile()
-        takes = [take_of(recording)]
+        takes = [take_of_json(said["take"])]
         branches = branches_of_json(said["branches"])
         for line in lines:
             with suppress(*DAMAGED):

@@ -9,9 +9,9 @@ from typing import Any
 from ninja_game.editor.history import History
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
-from ninja_game.tas.branches import Branch, Branches, branch_as_json
+from ninja_game.tas.branches import Branch, Branches, branch_as_json, take_as_json
 from ninja_game.tas.course import NOWHERE, Course
-from ninja_game.tas.files import OpenedRun, RunFile, has_tail, loose_replay, recording_of, save_run
+from ninja_game.tas.files import OpenedRun, RunFile, digest_of, has_tail, loose_replay, recording_of, save_run
 from ninja_game.tas.journal import Journal, Recovered, edit_as_json
 from ninja_game.tas.take import Take
 from ninja_game.tas.timeline import Timeline
@@ -38,6 +38,7 @@ class Session:
         self.timeline = Timeline(self.about.level, opened.take.inputs, body=self.about.body, memory=memory)
         self.before: Course = NOWHERE
         self._noted = opened.take
+        self._file_differs = False
         self._stroke_noted = False
         self._branches_noted = True
         self.journal = Journal(folder, self._opened())
@@ -48,7 +49,7 @@ class Session:
         text = write_replay(loose_replay(self.about, self.take))
         path = str(self.file.path.absolute()) if self.file.path else ""
         file = {"path": path, "digest": self.file.digest, "beside": self.file.beside}
-        return {**file, "replay": text, "branches": self.branches.as_json()}
+        return {**file, "replay": text, "take": take_as_json(self.take), "branches": self.branches.as_json()}
 
     @property
     def take(self) -> Take:
@@ -58,7 +59,7 @@ class Session:
     @property
     def is_saved(self) -> bool:
         """Whether the file holds what is here."""
-        return self.take == self.saved and self.branches.all == self._saved_branches
+        return not self._file_differs and self.take == self.saved and self.branches.all == self._saved_branches
 
     @property
     def has_tail(self) -> bool:
@@ -174,6 +175,7 @@ class Session:
         self.end()
         self.file = save_run(self.about, self.take, self.branches, path, self.file, replacing=replacing)
         self.saved, self._saved_branches = self.take, list(self.branches.all)
+        self._file_differs = False
         self.journal.begin_anew(self._opened())
 
     def close(self, *, keep: bool = False) -> None:
@@ -192,5 +194,7 @@ class Session:
         for take in found.takes:
             self.history.change(take)
         self.branches = found.branches
+        # The program may have died when the file was written, and the journal not yet begun anew.
+        self._file_differs = self.file.path is not None and digest_of(self.file.path) != self.file.digest
         self._noted = self.take
         self._follow()

@@ -15,7 +15,7 @@ from ninja_game.errors import FileError
 from ninja_game.formats.load import load_replays
 from ninja_game.sim.inputs import press_jumps
 from ninja_game.tas.branches import DAMAGED, Branch, Branches, branches_of_json
-from ninja_game.tas.files import open_run
+from ninja_game.tas.files import open_run, save_run
 from ninja_game.tas.journal import FOLDER, Journal, read_journal, recovered
 from ninja_game.tas.session import Session
 from ninja_game.tas.take import Take
@@ -242,3 +242,31 @@ def test_undo_and_redo_bring_back_every_take(seed: int) -> None:
             pass
         assert session.take == last
         session.close()
+
+
+def test_a_kill_between_the_file_and_its_journal_loses_nothing(session: Session, tmp_path: Path) -> None:
+    first = session.take
+    session.change(session.take.replaced(0, 24, []))
+    session.change(Take(b"\1"))
+    path = session.file.path
+    assert path is not None
+    session.journal.close(keep=True)
+    save_run(session.about, session.take, session.branches, path, session.file)
+    (found,) = recovered(tmp_path)
+    again = Session(found.opened, tmp_path, memory="plain")
+    again.recover(found)
+    again.undo()
+    again.undo()
+    assert (again.take, again.is_saved) == (first, False)
+    again.save(path, replacing=True)
+    assert again.is_saved
+    assert open_run(path).take == first
+
+
+def test_edits_of_an_empty_run_are_found_again(session: Session, tmp_path: Path) -> None:
+    session.change(Take(b""))
+    session.journal.begin_anew(session._opened())
+    session.change(Take(b"\1"))
+    session.journal.close(keep=True)
+    (found,) = recovered(tmp_path)
+    assert (found.opened.take, found.takes) == (Take(b""), (Take(b"\1"),))
