@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from ninja_game.cli.run_options import level_given, level_option
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
 
 
 @click.command()
@@ -18,13 +22,14 @@ from ninja_game.cli.run_options import level_given, level_option
     "--beside", multiple=True, type=click.Path(exists=True, dir_okay=False, path_type=Path),
     help="Another file with runs of the same level, to be shown beside; may be given several times.",
 )  # fmt: skip
+@click.option("--tick", type=click.IntRange(0, 10**6), default=0, help="Put the cursor on this tick.")
 @click.option("--size", metavar="WIDTHxHEIGHT", help="Size of the window in px, e.g. 1584x1200.")
 @click.option("--frames", type=click.IntRange(1, 10**9), help="End after so many pictures.")
 @click.option("--screenshot", type=click.Path(dir_okay=False), help="Write the last picture to this PNG file.")
 @click.pass_context
 def command(
     ctx: click.Context, file: Path, record: int | None, level_path: Path | None, beside: tuple[Path, ...],
-    size: str | None, frames: int | None, screenshot: str | None,
+    tick: int, size: str | None, frames: int | None, screenshot: str | None,
 ) -> None:  # fmt: skip
     """Edit a run tick by tick, in a window.
 
@@ -48,4 +53,9 @@ def command(
     from ninja_game.play.main import run_app
     from ninja_game.play.tas.screen import TasScreen
 
-    ctx.exit(run_app(lambda app: TasScreen(app, opened, others), size=window, frames=frames, screenshot=screenshot))
+    def bench(app: App) -> TasScreen:
+        screen = TasScreen(app, opened, others)
+        screen.bench.go(tick)
+        return screen
+
+    ctx.exit(run_app(bench, size=window, frames=frames, screenshot=screenshot))

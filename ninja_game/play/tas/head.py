@@ -30,7 +30,8 @@ class Head(Part):
             surface, f"{session.about.name}{author}", 8, 6, size=13, bold=True, colour=palette.on_tile, width=330
         )
         x = title.right / theme.canvas.scale + 12
-        state = session.journal.problem or f"{file}  {'saved' if session.is_saved else 'not saved'}"
+        saved = "" if not session.file.path and session.is_saved else "  saved" if session.is_saved else "  not saved"
+        state = session.journal.problem or file + saved
         theme.text(surface, state, x, 9, size=9.5, colour=palette.on_tile, width=560 - x)
         words = {"exit": f"exit in tick {end}", "dead": f"dead in tick {end}"}.get(outcome, "no exit yet")
         seconds = f"  {(end + 1) / TICKS_PER_SECOND:.3f} s" if end >= 0 else ""

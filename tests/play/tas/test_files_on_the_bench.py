@@ -7,6 +7,7 @@ from pathlib import Path
 import pygame
 
 from ninja_game.formats.load import load_replays
+from ninja_game.play.editor.controls import key_label_of
 from ninja_game.play.editor.panels import Form, HelpPage, Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.tas.controls import COMMANDS
@@ -32,7 +33,15 @@ def journals(at: BenchDriver) -> list[Path]:
 
 
 def test_every_command_of_the_table_is_offered_by_some_part(at: BenchDriver) -> None:
-    assert set(at.screen.commands()) <= {command.name for command in COMMANDS}
+    assert set(at.screen.commands()) == {command.name for command in COMMANDS}
+
+
+def test_the_document_has_the_keys_of_the_table(root: Path) -> None:
+    document = (root / "docs" / "bench.md").read_text("utf-8").partition("## Keys")[2]
+    for command in COMMANDS:
+        keys = " or ".join("+".join(map(key_label_of, key.split("+"))) for key in command.keys)
+        assert f"| {keys} | {command.label} |\n" in document + "\n"
+    assert document.count("\n| ") == len(COMMANDS) + 1
 
 
 def test_a_run_is_saved_into_its_file(at: BenchDriver) -> None:
