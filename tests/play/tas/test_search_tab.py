@@ -118,6 +118,13 @@ def test_a_better_end_is_found_and_put_in_as_one_edit(at: BenchDriver, tab: Sear
     assert at.bench.take == before
 
 
+def test_results_that_end_alike_are_one(at: BenchDriver, tab: SearchTab) -> None:
+    wish(at, "Greatest speed")
+    searched(at, tab)
+    assert len({(each.gold, *np.round(each.end, 2)) for each in tab.found}) == len(tab.found)
+    assert list(tab.found) == sorted(tab.found)
+
+
 def test_the_result_under_the_mouse_is_looked_at(at: BenchDriver, tab: SearchTab) -> None:
     wish(at, "Greatest speed")
     searched(at, tab)

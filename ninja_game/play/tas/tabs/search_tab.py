@@ -170,6 +170,7 @@ class SearchTab(Tab):
             return
         if results.behind is None and results.running:
             results.stop()
+        results.refresh()
         self.found = results.better
         self.list.fill(self.found)
         over = self.list.over if results.behind is not None and self.bench.tab == self.name else -1

@@ -5,8 +5,11 @@ from __future__ import annotations
 from math import hypot
 from time import monotonic
 
+import numpy as np
+
 from ninja_game.batch.thread_pool import cores
 from ninja_game.directed.background import SpanSearch
+from ninja_game.directed.methods import KEPT
 from ninja_game.directed.span import Found, SpanTask, score_in_words
 from ninja_game.play.tas.bench import Bench, OtherRun
 from ninja_game.play.ui.text_layout import counted
@@ -25,6 +28,7 @@ NOTHING = "The goal was not reached. More time, a longer span or another method 
 class SpanResults:
     """Runs a task beside the window, and puts results into the run, while nothing that they rely on has changed.
 
+    ``better``: the results that bring more than the run's own keys, best first; of those that end alike the best one.
     Raises what SpanSearch does.
     """
 
@@ -37,6 +41,8 @@ class SpanResults:
         # and those that results were put into.
         whole = len(task.inputs) if task.rest else task.last
         self._fitting = [(task.inputs[:whole], task.last)]
+        self.better: tuple[Found, ...] = ()
+        self._seen: tuple[Found, ...] = ()
         self._preview: tuple[Found, OtherRun] | None = None
         self.search.start()
         self._started = monotonic()
@@ -103,11 +109,17 @@ class SpanResults:
 
     # --- in words ---
 
-    @property
-    def better(self) -> tuple[Found, ...]:
-        """The results that bring more than the run's own keys, best first."""
-        own = self.search.own
-        return tuple(found for found in self.search.found if own is None or found.score < own.score)
+    def refresh(self) -> None:
+        """Take what was found since."""
+        found = self.search.found
+        if found is self._seen:
+            return
+        self._seen, own = found, self.search.own
+        different: dict[object, Found] = {}
+        for each in sorted([*self.better, *found]):
+            if own is None or each.score < own.score:
+                different.setdefault((each.gold, *np.round(each.end, 2)), each)
+        self.better = tuple(different.values())[:KEPT]
 
     def words(self, found: Found) -> tuple[str, ...]:
         """What a better result brings; from where on it has other keys; place and speed at the goal; what it gains."""
