@@ -172,7 +172,9 @@ class ValuesTab(Tab):
         canvas.fill_rect(surface, palette.accent, window.x(self.bench.cursor) - 0.5, y, 1, h)
         surface.set_clip(before)
         for tick in window.axis():
-            theme.text(surface, str(tick), window.x(tick), y + h + 7, size=8, colour=palette.faint, align="centre")
+            half = theme.width(str(tick), 8) / 2
+            at = min(window.x(tick), x + w - half)
+            theme.text(surface, str(tick), at, y + h + 7, size=8, colour=palette.faint, align="centre")
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
         """A sign of its colour, the formula, the value at the cursor."""
