@@ -17,7 +17,7 @@ from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.menus.boss import BossScreen
 from ninja_game.play.screen import Screen, ScreenStack
-from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
+from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.palette import PALETTES, palette_named
 from ninja_game.play.ui.theme import Theme
 from ninja_game.play.window import Window, save_picture
@@ -198,10 +198,9 @@ class App:
         """Draw the screens that are seen and show what changed."""
         changed = self.stack.draw(self.surface)
         if self.notice and not isinstance(self.top, BossScreen):
-            # In the border below the stage.
-            rect = self.canvas.fill_rect(self.surface, self.theme.palette.panel, 0, HEIGHT - 24, WIDTH, 24)
-            at = WIDTH / 2, HEIGHT - 17
-            self.theme.text(self.surface, self.notice, *at, size=9.5, align="centre", width=WIDTH - 40)
+            x, y, w, h = self.top.notice_area
+            rect = self.canvas.fill_rect(self.surface, self.theme.palette.panel, x, y, w, h)
+            self.theme.text(self.surface, self.notice, x + w / 2, y + 7, size=9.5, align="centre", width=w - 40)
             changed = None if changed is None else [*changed, rect]
         if changed is None:
             pygame.display.flip()

@@ -19,14 +19,14 @@ if TYPE_CHECKING:
     from ninja_game.play.app import App
 
 
-def copy_text(app: App, text: str, *, title: str, suffix: str) -> None:
-    """Put a text into the clipboard, and say so; else into a file called ``title`` + ``suffix``."""
+def copy_text(app: App, text: str, *, title: str, suffix: str, told: str = "") -> None:
+    """Put a text into the clipboard, and say so (``told``); else into a file called ``title`` + ``suffix``."""
     try:
         pygame.scrap.put_text(text)
     except pygame.error:
         write_export(app, title, suffix, text + "\n")
     else:
-        app.notify(f"In the clipboard: {len(text):,} characters")
+        app.notify(told or f"In the clipboard: {len(text):,} characters")
 
 
 def pasted_text() -> str:

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.play.input.events import InputEvent
+from ninja_game.play.ui.canvas import HEIGHT, WIDTH
+from ninja_game.play.ui.theme import Area
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
@@ -16,11 +18,13 @@ class Screen:
     """One thing that fills the window: a menu, a level being played, a panel over it. Subclasses say what it does.
 
     ``see_through``: the screen below is drawn first. ``below_runs``: the screen below is updated too. ``redraw``: the
-    app sets it when the whole window must be drawn again (resized, uncovered, another palette).
+    app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``notice_area``: where
+    notices are shown, logical px.
     """
 
     see_through = False
     below_runs = False
+    notice_area: Area = (0, HEIGHT - 24, WIDTH, 24)
 
     def __init__(self, app: App) -> None:
         self.app = app

@@ -45,7 +45,10 @@ class Menu(Panel):
 
 
 class Form(Menu):
-    """Fields to fill in above two buttons. ``fields``: prompt, text, how many characters fit in."""
+    """Fields to fill in above two buttons. ``fields``: prompt, text, how many characters fit in.
+
+    The text of a single field is a proposal.
+    """
 
     def __init__(
         self, app: App, title: str, fields: Sequence[tuple[str, str, int]], yes: str,
@@ -53,7 +56,7 @@ class Form(Menu):
     ) -> None:  # fmt: skip
         self.texts = [text for _, text, _ in fields]
         self._fields = fields
-        super().__init__(app, title, [(yes, lambda: action(self.texts), ""), ("Stay", lambda: None, "")])
+        super().__init__(app, title, [(yes, lambda: action(self.texts), ""), ("Cancel", lambda: None, "")])
 
     def rows(self) -> list[Row]:
         """The buttons, below as many empty rows as there are fields."""
@@ -62,8 +65,10 @@ class Form(Menu):
     def build(self) -> Sequence[Widget]:
         """The fields, then the buttons."""
         x, y, w, _ = self._box
+        alone = len(self._fields) == 1
+        places = [(x + 30, y + 48 + ROW * k, w - 60, 30) for k in range(len(self._fields))]
         entries = [
-            TextEntry((x + 30, y + 48 + ROW * k, w - 60, 30), prompt, text, self._taker(k), longest=longest)
+            TextEntry(places[k], prompt, text, self._taker(k), longest=longest, proposed=alone)
             for k, (prompt, text, longest) in enumerate(self._fields)
         ]
         return [*entries, *list(super().build())[len(entries) :]]

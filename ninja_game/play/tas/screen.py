@@ -42,6 +42,8 @@ class TasScreen(MenuScreen):
     for what another window goes on with.
     """
 
+    notice_area = (236, 579, 556, 21)
+
     def __init__(
         self, app: App, opened: OpenedRun, beside: Sequence[Recording] = (), found: Recovered | None = None
     ) -> None:

@@ -18,6 +18,7 @@ class TextEntry(Widget):
     """A text field. With the focus it takes what is typed; left, right, Home, End, Backspace and Delete edit.
 
     ``prompt``: shown while it is empty. ``put`` is called at every change. ``longest``: how many characters fit in.
+    ``proposed``: what is typed first replaces the text.
     """
 
     def __init__(
@@ -29,8 +30,10 @@ class TextEntry(Widget):
         *,
         longest: int = LONGEST,
         hint: str = "",
+        proposed: bool = False,
     ) -> None:
         super().__init__(area, hint=hint)
+        self.proposed = proposed
         self.longest = longest
         self.prompt = prompt
         self.text = text
@@ -45,6 +48,11 @@ class TextEntry(Widget):
         if event.type != pygame.KEYDOWN:
             return False
         name = key_name(scancode_of(event))
+        if self.proposed and name in ("backspace", "delete"):
+            self._drop_proposal()
+            return True
+        if name in ("left", "right", "home", "end"):
+            self.proposed = False
         if name == "backspace" and self.text:
             self._replace(self.cursor - 1, self.cursor)
         elif name == "delete":
@@ -57,7 +65,19 @@ class TextEntry(Widget):
         # What types a character comes again as TEXTINPUT; as a key it must not move the focus.
         return True
 
+    def click(self, x: float, y: float) -> bool:
+        """What was proposed is kept, to be changed."""
+        self.proposed = False
+        return super().click(x, y)
+
+    def _drop_proposal(self) -> None:
+        self.proposed = False
+        self.text, self.cursor = "", 0
+        self.put("")
+
     def _insert(self, typed: str) -> None:
+        if self.proposed:
+            self._drop_proposal()
         typed = "".join(char for char in typed if char.isprintable())[: max(0, self.longest - len(self.text))]
         self.text = self.text[: self.cursor] + typed + self.text[self.cursor :]
         self.cursor += len(typed)
@@ -78,6 +98,9 @@ class TextEntry(Widget):
         shown = self.text
         while shown and theme.width(shown, TEXT) > w - 2 * PAD - 4:
             shown = shown[1:]
+        if shown and self.proposed and focused:
+            marked = x + PAD - 2, top - 3, theme.width(shown, TEXT) + 4, TEXT + 6
+            theme.canvas.fill_rect(surface, theme.palette.bar_full, *marked)
         if shown:
             theme.text(surface, shown, x + PAD, top, size=TEXT)
         else:

@@ -102,6 +102,7 @@ def test_ticks_are_put_in_and_taken_out(at: BenchDriver) -> None:
     at.bench.go(len(before) + 3)
     at.press("backspace")
     assert at.bench.take == before, "there is nothing to take out behind the end"
+    assert "no keys here" in at.app.notice
 
 
 def test_what_is_behind_the_end_is_cut(at: BenchDriver) -> None:
@@ -146,6 +147,7 @@ def test_ticks_travel_as_text(at: BenchDriver, clipboard: list[str]) -> None:
     at.bench.select(10, 16)
     at.chord("c", CTRL)
     assert clipboard == ["R*3\n#corner RJ*2 ."]
+    assert at.app.notice == "6 ticks copied"
     at.chord("x", CTRL)
     assert len(at.bench.take) == len(before) - 6
     at.chord("v", CTRL, SHIFT)

@@ -16,6 +16,9 @@ from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.files import inputs_of_text
 from ninja_game.tas.take import Take
 
+BEHIND = "The run has no keys here: it has ended before"
+"""Where nothing can be copied or taken out."""
+
 
 class RollCommands:
     """``page``: how many rows are seen."""
@@ -103,7 +106,9 @@ class RollCommands:
     def clear(self) -> None:
         """All keys up in the selected ticks."""
         first, last = self._filled()
-        if first < last:
+        if first >= last:
+            self._bench.app.notify(BEHIND)
+        else:
             self._bench.edit(lambda take: take.replaced(first, last, bytes(last - first)))
 
     def insert(self) -> None:
@@ -114,7 +119,9 @@ class RollCommands:
     def remove(self) -> None:
         """Take the selected ticks out."""
         first, last = self._filled()
-        if first < last and self._bench.edit(lambda take: take.replaced(first, last, b"")):
+        if first >= last:
+            self._bench.app.notify(BEHIND)
+        elif self._bench.edit(lambda take: take.replaced(first, last, b"")):
             self._bench.go(first)
 
     def cut_end(self) -> None:
@@ -124,7 +131,9 @@ class RollCommands:
         end = bench.session.timeline.end[0]
         if end < 0:
             bench.app.notify("The run neither reaches the exit nor dies: there is nothing behind its end")
-        elif end + 1 < len(bench.take):
+        elif end + 1 >= len(bench.take):
+            bench.app.notify("There are no keys behind the end")
+        else:
             bench.edit(lambda take: take.replaced(end + 1, len(take), b""))
 
     def _step(self, step: Callable[[], bool], refusal: str) -> None:
@@ -145,14 +154,18 @@ class RollCommands:
         markers = [Marker(tick - first, name) for tick, name in self._bench.take.markers if first <= tick < last]
         text = "\n".join(write_inputs(self._bench.take.inputs[first:last], markers))
         if text:
-            copy_text(self._bench.app, text, title=self._bench.session.about.name or "inputs", suffix=".inputs.txt")
+            told = f"{last - first} tick{'s' * (last - first > 1)} copied"
+            title = self._bench.session.about.name or "inputs"
+            copy_text(self._bench.app, text, title=title, suffix=".inputs.txt", told=told)
         else:
-            self._bench.app.notify("There are no keys behind the end of the run")
+            self._bench.app.notify(BEHIND)
 
     def cut(self) -> None:
         """Copy the selected ticks and take them out."""
         self.copy()
-        self.remove()
+        first, last = self._filled()
+        if first < last:
+            self.remove()
 
     def paste(self, *, between: bool = False) -> None:
         """The ticks of the clipboard's text over what is there, or ``between``; they are selected then."""
@@ -183,7 +196,8 @@ class RollCommands:
                 raise ArgumentError(f"the run has {len(take)} ticks: give this one a key first")
             return take.named(tick, words)
 
-        self._bench.edit(named)
+        if self._bench.edit(named) and words != text.strip():
+            self._bench.app.notify(f"It is called {words}: names have no blanks")
 
 
 def _with_pasted(take: Take, first: int, pasted: Inputs, *, between: bool) -> Take:
