@@ -17,12 +17,12 @@ class Digits:
     def __init__(self, theme: Theme, size: float) -> None:
         self.theme, self._size = theme, size
         self._pictures: dict[tuple[str, int], pygame.Surface] = {}
-        scale = theme.canvas.scale
-        pair = theme.width("00", size)
-        widths = {each: theme.width(f"0{each}0", size) - pair for each in "0123456789.-"}
+        # Widths of texts are whole px; of many characters the mean is exact.
+        widths = {each: (theme.width(each * 21, size) - theme.width(each, size)) / 20 for each in "0123456789.-"}
         # Digits below each other are of one width.
         widest = max(widths[each] for each in "0123456789")
-        self._advance = {each: round((widest if each.isdigit() else widths[each]) * scale) for each in widths}
+        scale = theme.canvas.scale
+        self._advance = {each: (widest if each.isdigit() else width) * scale for each, width in widths.items()}
 
     def picture(self, character: str, colour: pygame.Color) -> pygame.Surface:
         """A character in a colour."""
@@ -33,6 +33,7 @@ class Digits:
 
     def blits(self, text: str, right: int, y: int, colour: pygame.Color) -> Iterator[Blit]:
         """What draws a number whose last px is left of ``right``, px."""
+        x = float(right)
         for character in reversed(text):
-            right -= self._advance[character]
-            yield self.picture(character, colour), (right, y)
+            x -= self._advance[character]
+            yield self.picture(character, colour), (round(x), y)

@@ -31,6 +31,7 @@ class RowSheet:
         self._drawn: list[RowFacts | None] = [None] * layout.rows
         self._digits = Digits(theme, SIZE)
         self._blits: list[Blit] = []
+        self._margin = theme.canvas.px(2)
         self._lift = (layout.row - theme.lettering.rendered("0", SIZE, theme.palette.text).get_height() + 1) // 2
 
     def draw(self, surface: pygame.Surface, rows: Sequence[RowFacts]) -> int:
@@ -71,7 +72,9 @@ class RowSheet:
                 tint = palette.ghost if row.name else known
                 fill(tint, (left, y, place.width, layout.row))
                 number = palette.panel if row.name else ink
-                self._blits += self._digits.blits(str(row.tick), left + place.width - 3, y + self._lift, number)
+                self._blits += self._digits.blits(
+                    str(row.tick), left + place.width - self._margin, y + self._lift, number
+                )
             elif place.column.name == "events":
                 self._events(row, left, place.width, y, ink)
             elif row.values:
@@ -118,7 +121,7 @@ class RowSheet:
                 text, ink = "0", mixed(ink, theme.palette.panel, 0.5)
             else:
                 text = f"{value:.{place.column.decimals}f}" if abs(value) < 100_000 else "-"
-            self._blits += self._digits.blits(text, left + place.width - 3, y + self._lift, ink)
+            self._blits += self._digits.blits(text, left + place.width - self._margin, y + self._lift, ink)
 
     def _contacts(self, contacts: int, place: Place, left: int, y: int, ink: pygame.Color) -> None:
         """Bars at the sides that touch something."""
