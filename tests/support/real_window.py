@@ -42,9 +42,9 @@ def virtual_screen() -> Iterator[str]:
 
 
 class Player:
-    """Someone at the keyboard of a running game."""
+    """Someone at the keyboard of a running game. ``words``: how it is called, ``play`` without any."""
 
-    def __init__(self, display: str, home: Path, root: Path) -> None:
+    def __init__(self, display: str, home: Path, root: Path, *words: str) -> None:
         self.home = home
         self.environment = os.environ | {
             "DISPLAY": display, "SDL_VIDEODRIVER": "x11", "SDL_AUDIODRIVER": "dummy", "NINJA_GAME_HOME": str(home),
@@ -53,7 +53,9 @@ class Player:
         while not self.tool("getmouselocation"):
             time.sleep(0.05)
         self.game = subprocess.Popen(
-            [sys.executable, "-m", "ninja_game", "play", "--size", "792x600"], env=self.environment, cwd=home
+            [sys.executable, "-m", "ninja_game", *(words or ["play"]), "--size", "792x600"],
+            env=self.environment,
+            cwd=home,
         )
         self.wait_for(lambda: bool(self.tool("search", "--pid", str(self.game.pid))), "window")
         # A window is not yet an answer to keys.

@@ -14,19 +14,21 @@ import argparse
 import os
 import sys
 import tempfile
+import time
 from hashlib import sha256
 from multiprocessing.connection import Connection
 from pathlib import Path
 from random import Random
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.locking import hold
 from ninja_game.tas.files import open_run
-from ninja_game.tas.journal import recovered
+from ninja_game.tas.journal import FOLDER, recovered
 from ninja_game.tas.session import Session
 from ninja_game.tas.take import Take
 from tests.support.bench_edits import edit_at_random, use_at_random
 from tests.support.samples import replay_of_walk
-from tools.soak.kills import life
+from tools.soak.kills import PATIENCE, life
 
 LONGEST_LIFE = 0.15
 """Seconds after its first word at which a child is killed at the latest."""
@@ -46,6 +48,16 @@ def opened(folder: Path) -> Session:
     if found:
         session.recover(found)
     return session
+
+
+def await_locks(folder: Path) -> None:
+    """Wait until the system has freed the locks of a process that has died: on some systems that takes a moment."""
+    end = time.monotonic() + PATIENCE
+    for file in (folder / FOLDER).glob("*.jsonl"):
+        while (handle := hold(file.with_suffix(".lock"))) is None and time.monotonic() < end:
+            time.sleep(0.01)
+        if handle is not None:
+            os.close(handle)
 
 
 def say_and_save(session: Session, chance: Random, pipe: Connection) -> None:
@@ -102,6 +114,7 @@ def kill_test(
         for kind, each, _ in facts:
             saved = {each} if kind == "saved" else saved | {each} if kind == "about" else saved
         told += len(said) - 1
+        await_locks(home)
         try:
             session = opened(home)
             last = digest(session.take)
