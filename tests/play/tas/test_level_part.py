@@ -42,6 +42,8 @@ def test_any_tick_is_that_of_a_straight_run_after_any_edits(at: BenchDriver) -> 
             keys = [chance.randrange(8) for _ in range(chance.randrange(1, 30))]
             edited = bench.take.replaced(first, first + chance.randrange(9), keys)
             assert bench.attempt(partial(at.session.change, edited))
+            at.frames()
+            assert at.shown_digest() == at.straight_digest(bench.cursor), "the cursor stays, the run is another"
         bench.go(chance.choice([chance.randrange(bench.last_tick + 1), bench.cursor + chance.randrange(-3, 4)]))
         at.frames()
         assert at.screen.level.picture.tick == bench.cursor
