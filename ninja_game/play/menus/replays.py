@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import pygame
@@ -81,9 +82,13 @@ class ReplaysScreen(MenuScreen):
         """Whether a replay is shown."""
         return True
 
+    def places(self) -> list[tuple[str, Iterable[Path | LeftOut]]]:
+        """Where files are looked for, and what that is called."""
+        return [("Your folder", files_below(self.player.replay_folder)), ("Bundled", bundled_replays())]
+
     def _file_rows(self) -> list[ReplayRow]:
         rows: list[ReplayRow] = []
-        for when, files in (("Your folder", files_below(self.player.replay_folder)), ("Bundled", bundled_replays())):
+        for when, files in self.places():
             for file in files:
                 if isinstance(file, LeftOut):
                     self.problems.append(file.path.name)

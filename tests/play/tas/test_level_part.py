@@ -17,6 +17,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.play.editor.panels import Form
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.tas.level.other_runs import OtherRunScreen
+from ninja_game.play.tas.level.paths import shown_span
 from ninja_game.play.tas.tabs.values_tab import ValuesTab
 from ninja_game.tas.files import runs_beside
 from tests.support.bench_driver import BenchDriver
@@ -214,3 +215,37 @@ def test_an_object_under_the_mouse_is_named_and_can_be_watched(at: BenchDriver) 
     assert at.bench.cursor == cursor
     at.mouse(700, 300, click=False)
     assert level.pointed is None
+
+
+def test_other_runs_come_from_any_file(at: BenchDriver, tmp_path: Path) -> None:
+    copy(RUN, tmp_path / "other.replay.txt")
+    (tmp_path / "notes.txt").write_text("nothing of ours")
+    copy(PACK / "certificates" / "00-0-first-steps.exit.replay.txt", tmp_path / "elsewhere.replay.txt")
+    at.chord("o", pygame.KMOD_LCTRL)
+    listed = at.top()
+    assert isinstance(listed, OtherRunScreen)
+    assert [row.when for row in listed.rows].count("Same folder") == 1
+    files = set(tmp_path.rglob("*"))
+    at.press("e", "c", "delete")
+    assert at.top() is listed
+    assert set(tmp_path.rglob("*")) == files, "nothing is written here"
+    for name in ("no such file", "notes.txt", "elsewhere.replay.txt"):
+        listed.open_file(name)
+        assert at.top() is listed
+        assert at.app.notice
+    at.choose("From a file ...")
+    at.write("other.replay.txt")
+    at.press("return")
+    assert at.top() is at.screen
+    assert [run.name for run in at.bench.others] == ["other"]
+
+
+def test_of_a_long_run_the_way_near_the_cursor_is_shown(at: BenchDriver) -> None:
+    at.bench.edit(lambda take: take.replaced(len(take), len(take), [0] * 20_000))
+    at.frames(10)
+    at.bench.go(15_300)
+    at.frames()
+    assert shown_span(15_300) == (13_000, 19_000)
+    at.mouse(200, 200, click=False)
+    assert at.screen.level.hover is not None
+    assert 13_000 <= at.screen.level.hover < 19_000

@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ninja_game.errors import ReplayError
+from ninja_game.files.reading import LeftOut
+from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
-from ninja_game.play.menus.replays import ReplayRow, ReplaysScreen
+from ninja_game.play.editor.panels import Form
+from ninja_game.play.input.events import InputEvent
+from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen
 from ninja_game.play.tas.bench import Bench, OtherRun
 from ninja_game.play.tas.part import Commands
+from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.records import SavedReplay
 from ninja_game.sim.inputs import Demo
-from ninja_game.tas.files import same_level, take_of
+from ninja_game.tas.files import runs_beside, same_level, take_of
 from ninja_game.tas.timeline import Timeline
 
 if TYPE_CHECKING:
@@ -112,12 +118,44 @@ class OtherRunScreen(ReplaysScreen):
         self.others = others
         self._digest = level_digest(others.bench.session.about.level)
         super().__init__(app)
-        self.list.empty = "No other run of this level is known. From any file: ninja-game tas FILE --beside OTHER"
+        self.list.empty = "No other run of this level is known. There may be one in a file"
+
+    def build(self) -> Sequence[Widget]:
+        """The list, and a way to any file."""
+        return [*super().build(), Button((622, 14, 134, 26), "From a file ...", self._ask, hint="Any file with runs")]
+
+    def places(self) -> list[tuple[str, Iterable[Path | LeftOut]]]:
+        """Beside the file of the run, too."""
+        file = Path(self.others.bench.session.about.file)
+        beside = sorted(each for each in file.parent.glob("*.txt") if each.name != file.name) if file.is_file() else []
+        return [("Same folder", beside[:FILES_SHOWN]), *super().places()]
 
     def fits(self, row: ReplayRow) -> bool:
         """Whether it is of the same level."""
         source = row.source
         return (level_digest(source.level) if isinstance(source, Recording) else source.level) == self._digest
+
+    def handle(self, event: InputEvent) -> None:
+        """Nothing is written or removed here."""
+        MenuScreen.handle(self, event)
+
+    def act(self, action: str, *, held: bool = False) -> None:
+        """Nothing is removed here."""
+        MenuScreen.act(self, action, held=held)
+
+    def _ask(self) -> None:
+        fields = [("path of a file, or a link", "", 200)]
+        form = Form(self.app, "Runs from a file", fields, "Show them", lambda texts: self.open_file(texts[0]))
+        self.app.push(form)
+
+    def open_file(self, text: str) -> None:
+        """Show the runs of a file or a link; a file is looked for beside that of the run on the bench too."""
+        about = self.others.bench.session.about
+        path = Path(text) if is_link(text) else Path(text).expanduser()
+        beside = Path(about.file).parent / path
+        path = beside if not is_link(path) and not path.exists() and beside.exists() else path
+        if self.others.bench.attempt(lambda: self.others.open(runs_beside(path, about))):
+            self.app.pop()
 
     def choose(self, source: SavedReplay | Recording) -> None:
         """Show it, and go back to the bench."""

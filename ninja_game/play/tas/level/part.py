@@ -10,7 +10,7 @@ from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.controls import command_of
 from ninja_game.play.tas.level.other_runs import OtherRuns
-from ninja_game.play.tas.level.paths import FAINT, NEAR, LevelPaths, Positions, Way, first_other_place
+from ninja_game.play.tas.level.paths import FAINT, NEAR, LevelPaths, Positions, Way, first_other_place, shown_span
 from ninja_game.play.tas.level.picture import LevelPicture
 from ninja_game.play.tas.level.playing import Playing
 from ninja_game.play.tas.level.pointing import nearest_tick, object_at
@@ -115,7 +115,7 @@ class LevelPart(Part):
         at = (x - self.area[0]) * factor, (y - self.area[1]) * factor
         dragged = event.type == pygame.MOUSEMOTION and event.buttons[0]
         pressed = event.button if event.type == pygame.MOUSEBUTTONDOWN else 0
-        self.hover = nearest_tick(positions, *at, near=self.bench.cursor if dragged else None)
+        self.hover = nearest_tick(positions, *at, self.bench.cursor, dragged=dragged)
         self._hovered_run = self.bench.take
         self.pointed = None if dragged else object_at(self.picture.run, *at)
         words = f"{self.pointed.kind} {self.pointed.id}; right button: watch it   " if self.pointed else ""
@@ -161,7 +161,7 @@ class LevelPart(Part):
         paths = self._paths
         paths.draw_beside(inner, ways)
         if len(positions):
-            paths.draw_present(inner, positions, bench.cursor, bench.selection)
+            paths.draw_present(inner, positions, bench.cursor, bench.selection, shown_span(bench.cursor))
             paths.draw_flags(inner, positions, bench.take.markers)
         picture.draw_ninja_over(inner, fraction)
         for ghost in self.ghosts:
@@ -200,8 +200,9 @@ class LevelPart(Part):
             self._ghosts[run.course] = kept.get(run.course) or RunGhost(run.course, run.name, colour)
         self.picture.follow(self.ghosts)
         # Not at each tick of a run that is taken over is the other one shorter.
-        at = max(0, at - at % NEAR - 1)
-        return [Way(before, palette.ghost, FAINT, at), *(Way(run.course, colour) for run, colour in runs)]
+        first, last = shown_span(bench.cursor)
+        beside = [Way(run.course, colour, first, last) for run, colour in runs]
+        return [Way(before, palette.ghost, max(first, at - at % NEAR - 1), last, FAINT), *beside]
 
     def _write(self, surface: pygame.Surface, theme: Theme) -> None:
         """What goes on, in the level's frame."""

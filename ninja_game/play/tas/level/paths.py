@@ -25,6 +25,8 @@ _DOT_EVERY = 10
 """Ticks between two dots on the bright way."""
 FAINT, CLEAR = 110, 190
 """Of 255: how solid ways are."""
+_BLOCK = 1000
+"""Ticks by which the part of a long run moves whose way is shown."""
 _LETTERS = 16
 """Size of names and numbers in the level, px of the level."""
 _LONGEST_NAME = 180
@@ -36,13 +38,20 @@ def shaded(colour: pygame.Color, alpha: int) -> pygame.Color:
     return pygame.Color(colour.r, colour.g, colour.b, alpha)
 
 
+def shown_span(cursor: int) -> Span:
+    """The ticks whose ways are shown: more would be a tangle."""
+    middle = cursor - cursor % _BLOCK
+    return max(0, middle - 2 * _BLOCK), middle + 4 * _BLOCK
+
+
 class Way(NamedTuple):
-    """The way of another run from a tick on; ``alpha``: of 255, how solid."""
+    """The way of another run in the ticks ``first`` … ``last`` - 1; ``alpha``: of 255, how solid."""
 
     course: Course
     colour: pygame.Color
+    first: int
+    last: int
     alpha: int = CLEAR
-    first: int = 0
 
 
 class WayLayer:
@@ -79,17 +88,18 @@ class LevelPaths:
             self._beside = tuple(ways)
             self._under.fill((0, 0, 0, 0))
             for way in ways:
-                draw_path(
-                    self._under, self.theme.canvas, way.course.positions[way.first :], shaded(way.colour, way.alpha)
-                )
+                positions = way.course.positions[way.first : way.last]
+                draw_path(self._under, self.theme.canvas, positions, shaded(way.colour, way.alpha))
         surface.blit(self._under, (0, 0))
 
-    def draw_present(self, surface: pygame.Surface, positions: Positions, cursor: int, span: Span) -> None:
+    def draw_present(
+        self, surface: pygame.Surface, positions: Positions, cursor: int, selected: Span, shown: Span
+    ) -> None:
         """The run itself: faint, brighter near the cursor and dotted there; the selected ticks stand out."""
         canvas, palette = self.theme.canvas, self.theme.palette
-        self._present.show(positions)
+        self._present.show(positions[slice(*shown)])
         surface.blit(self._present.surface, (0, 0))
-        first, last = span
+        first, last = selected
         if last - first > 1:
             draw_path(surface, canvas, positions[max(0, first - 1) : last], palette.good, 5)
         low = max(0, cursor - NEAR)

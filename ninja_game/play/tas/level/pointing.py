@@ -6,7 +6,7 @@ from math import hypot
 
 import numpy as np
 
-from ninja_game.play.tas.level.paths import Positions
+from ninja_game.play.tas.level.paths import Positions, shown_span
 from ninja_game.simulation import ObjectView, Simulation
 
 _REACH = 16.0
@@ -15,12 +15,15 @@ _LEAP = 40.0
 """A drag goes to a nearer part of the run that is many ticks away only if it is nearer by more px than this."""
 
 
-def nearest_tick(positions: Positions, x: float, y: float, *, near: int | None = None) -> int:
-    """The tick after which the ninja was nearest to a place, px of the level; ``near``: rather one near this tick."""
-    far = np.hypot(positions[:, 0] - x, positions[:, 1] - y)
-    if near is not None:
-        far += np.minimum(np.abs(np.arange(len(far)) - near), _LEAP)
-    return int(np.argmin(far))
+def nearest_tick(positions: Positions, x: float, y: float, cursor: int, *, dragged: bool = False) -> int:
+    """The tick, of those whose way is shown, after which the ninja was nearest to a place, px of the level."""
+    first, last = shown_span(cursor)
+    shown = positions[first:last] if first < len(positions) else positions
+    first = first if first < len(positions) else 0
+    far = np.hypot(shown[:, 0] - x, shown[:, 1] - y)
+    if dragged:
+        far += np.minimum(np.abs(np.arange(len(far)) + first - cursor), _LEAP)
+    return first + int(np.argmin(far))
 
 
 def object_at(run: Simulation, x: float, y: float) -> ObjectView | None:
