@@ -17,7 +17,7 @@ from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.runs.verify import Verdict
-from ninja_game.sim.inputs import Demo
+from ninja_game.sim.inputs import Demo, first_ticks
 from ninja_game.tas.branches import Branches
 from ninja_game.tas.files import OpenedRun, RunFile, branches_path, open_run, save_run, take_of
 from ninja_game.tas.session import Session
@@ -53,11 +53,29 @@ def test_what_is_saved_opens_again_as_it_was(take: Take, body: str) -> None:
     replay = again.recording.replay
     assert replay is not None
     assert replay.level_author == "somebody"
-    # Ticks without a key behind the end may go; nothing else.
-    assert again.take.inputs == take.inputs[: len(again.take)]
+    # Ticks without a key behind the end may go, and those up to an end soon behind the keys come; nothing else.
+    assert again.take.inputs == first_ticks(take.inputs, len(again.take))
     assert not any(take.inputs[len(again.take) :])
     assert again.take.markers == take.markers
     assert again.file.path == path
+
+
+def test_an_exit_behind_the_last_key_is_saved(tmp_path: Path) -> None:
+    path = tmp_path / "walk.replay.txt"
+    path.write_text(replay_of_walk(), "utf-8")
+    opened = open_run(path)
+    short = opened.take.replaced(WALK_END - 2, len(opened.take), [])
+    again = saved_take(opened, short, path)
+    assert again.recording.replay.outcome == "exit"  # type: ignore[union-attr]
+    assert again.recording.ticks > len(short)
+    assert again.take.inputs == first_ticks(short.inputs, again.recording.ticks)
+
+
+def test_inputs_that_name_a_level_are_their_own_file(tmp_path: Path) -> None:
+    (tmp_path / "level.txt").write_text(WALK, "utf-8")
+    path = tmp_path / "idea.replay.txt"
+    path.write_text("ninja-game replay 3\nname: idea\nlevel: level.txt\ninputs:\n  R*20\n", "utf-8")
+    assert open_run(path).file.path == path
 
 
 def test_keys_behind_the_end_are_kept_without_claims(tmp_path: Path) -> None:

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
+from functools import partial
+from itertools import islice
 from pathlib import Path
+from time import localtime, strftime
 from typing import TYPE_CHECKING
 
 from ninja_game.editor.files import OccupiedError
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.resources import data_folder
 from ninja_game.files.shown_text import file_stem
 from ninja_game.files.user_folder import REPLAYS, free_path
 from ninja_game.formats.links.making import replay_link
@@ -15,9 +20,10 @@ from ninja_game.play.clipboard import copy_link
 from ninja_game.play.editor.panels import STAY, Form, HelpPage, Menu, Row
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.controls import COMMANDS
+from ninja_game.play.tas.level.other_runs import OtherRuns
 from ninja_game.play.tas.part import Commands
 from ninja_game.player.saving import keep_replay
-from ninja_game.tas.files import SUFFIX, replay_of_take
+from ninja_game.tas.files import SUFFIX, replay_of_take, runs_beside, same_level
 from ninja_game.tas.journal import Recovered, forget, recovered
 
 if TYPE_CHECKING:
@@ -31,10 +37,22 @@ Mark some ticks and press F to search for a better way through them; a click on 
 
 
 class FileCommands:
-    """The commands that concern files. ``run``: does a command of any part by its name."""
+    """The commands that concern files.
 
-    def __init__(self, app: App, bench: Bench, run: Callable[[str], object]) -> None:
+    ``run``: does a command of any part by its name; ``go_on``: opens what was not saved.
+    """
+
+    def __init__(
+        self,
+        app: App,
+        bench: Bench,
+        others: OtherRuns,
+        run: Callable[[str], object],
+        go_on: Callable[[Recovered], object],
+    ) -> None:
         self.app = app
+        self.others = others
+        self._go_on = go_on
         self.bench = bench
         self.session = bench.session
         self._run = run
@@ -52,6 +70,8 @@ class FileCommands:
         rows: list[Row] = [
             ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
             ("Open another run...", lambda: self._run("open_other"), "Beside this one: Ctrl+O"),
+            ("Open a file beside...", self.open_file, "A run of this level from any file"),
+            ("Not saved last time...", self.list_recovered, "Runs that were edited when the program ended"),
             ("Watch", self.watch, "In the replay viewer, which makes films too"),
             ("Keep as a replay", self.keep, "Among yours"), ("Copy a link", self.copy_link, "Opens the run"),
             ("Help", self.help, "F1"), ("Leave", self.leave, ""),
@@ -65,23 +85,37 @@ class FileCommands:
     # --- saving ---
 
     def save(self) -> None:
-        """Write the run into its file, or into a new one among the player's replays."""
-        self.save_to(self.session.file.path or free_path(self._folder, file_stem(self._name, "run"), SUFFIX))
+        """Write the run into its file; of one without a file ask for a name."""
+        if self.session.file.path:
+            self.save_to(self.session.file.path)
+        else:
+            self.save_as()
 
     @property
     def _folder(self) -> Path:
-        path = self.session.file.path
-        return path.parent if path else self.app.player.folder / REPLAYS
+        """Where the run is, or was opened from; else the player's replays, also for runs of the game."""
+        opened = self.session.file.path or Path(self.session.about.file)
+        with suppress(OSError):
+            if opened.is_file() and not opened.resolve().is_relative_to(data_folder("levels").resolve()):
+                return opened.parent
+        return self.app.player.folder / REPLAYS
 
     def save_as(self) -> None:
         """Ask for the name of the file, and write the run."""
-        path = self.session.file.path
-        name = path.name.removesuffix(SUFFIX) if path else file_stem(self._name, "run")
+        path, folder = self.session.file.path, self._folder
+        free = free_path(folder, file_stem(self._name, "run"), SUFFIX)
+        name = (path or free).name.removesuffix(SUFFIX)
 
         def take(texts: list[str]) -> None:
-            self.save_to(self._folder / f"{file_stem(texts[0], 'run')}{SUFFIX}")
+            path = folder / Path(texts[0].strip()).expanduser()
+            if path.parent.is_dir():
+                self.save_to(path.with_name(f"{file_stem(path.name.removesuffix(SUFFIX), 'run')}{SUFFIX}"))
+            else:
+                self.app.notify(f"Not saved: there is no folder {path.parent}")
 
-        self.app.push(Form(self.app, "Save as", [("Name of the file", name, 100)], "Save", take))
+        self.app.push(
+            Form(self.app, f"Save in {folder.absolute()}", [("Name or path of the file", name, 300)], "Save", take)
+        )
 
     def save_to(self, path: Path, *, replacing: bool = False) -> None:
         """Write the run; ask before anything is replaced."""
@@ -97,8 +131,22 @@ class FileCommands:
         except (NinjaGameError, OSError) as error:
             self.app.notify(f"Not saved: {getattr(error, 'strerror', '') or error}")
         else:
-            without = " without claims: Ctrl+E takes out what is behind the end" if self.session.has_tail else ""
-            self.app.notify(f"Saved{without}: {path}")
+            tail = ", with what is behind its end (Ctrl+E takes that out)" if self.session.has_tail else ""
+            self.app.notify(f"Saved{tail}: {path}")
+
+    def open_file(self) -> None:
+        """Ask for a file, and show its runs of this level beside this one."""
+
+        def take(texts: list[str]) -> None:
+            path = Path(texts[0].strip()).expanduser()
+            path = path if path.exists() else self._folder / path
+            self.bench.attempt(lambda: self.open_beside(path))
+
+        self.app.push(Form(self.app, f"A file, also in {self._folder.absolute()}", [("File", "", 300)], "Open", take))
+
+    def open_beside(self, path: Path) -> None:
+        """Show the runs of a file beside this one. Raises ReplayError and what else ``runs_beside`` does."""
+        self.others.open(runs_beside(path, self.session.about))
 
     def keep(self) -> None:
         """Put the run among the player's replays."""
@@ -121,19 +169,42 @@ class FileCommands:
 
     # --- what was not saved ---
 
-    def offer_recovered(self, open_found: Callable[[Recovered], object]) -> None:
-        """Ask what to do with a run that was being edited when the program died. ``open_found``: goes on with it."""
-        found = next(recovered(self.app.player.folder), None)
-        if found is None:
-            return
-        home = found.opened.file.path
-        name = home.name if home else found.opened.recording.name or "a run"
+    def offer_recovered(self) -> None:
+        """Ask what to do with this run, if it was being edited when the program died; tell of others."""
+        lost = list(recovered(self.app.player.folder))
+        own = next((found for found in lost if self._is_of_this_run(found)), None)
+        if own:
+            self._offer(own)
+        elif lost:
+            self.app.notify(f"Not saved last time: {_name_of(lost[0])}. Esc, Not saved last time")
+
+    def _is_of_this_run(self, found: Recovered) -> bool:
+        opened, session = found.opened, self.session
+        if opened.file.path or session.file.path:
+            return opened.file.path == (session.file.path and session.file.path.absolute())
+        return opened.take == session.take and same_level(opened.recording, session.about)
+
+    def list_recovered(self) -> None:
+        """All runs that were being edited when the program died, or was closed."""
         rows: list[Row] = [
-            ("Go on with it", lambda: self.bench.attempt(lambda: open_found(found)), "All but the last edit"),
-            ("Later", lambda: None, "It is offered again"),
-            ("Forget it", lambda: forget(found.file), "It is lost"),
+            (_name_of(found), partial(self._offer, found), _when(found))
+            for found in islice(recovered(self.app.player.folder), 8)
         ]  # fmt: skip
-        self.app.push(Menu(self.app, f"Not saved last time: {name}", rows))
+        if rows:
+            self.app.push(Menu(self.app, "Not saved last time", [*rows, ("Back", lambda: None, "")]))
+        else:
+            self.app.notify("All runs that were edited are saved")
+
+    def _offer(self, found: Recovered) -> None:
+        forgetting: list[Row] = [
+            ("Keep it", lambda: None, "It is offered again"), ("Forget it", lambda: forget(found.file), "It is lost")
+        ]  # fmt: skip
+        rows: list[Row] = [
+            ("Go on with it", lambda: self.bench.attempt(lambda: self._go_on(found)), f"{_when(found)}; all undoable"),
+            ("Later", lambda: None, "It is offered again"),
+            ("Forget it...", lambda: self.app.push(Menu(self.app, f"Forget {_when(found)}?", forgetting)), ""),
+        ]  # fmt: skip
+        self.app.push(Menu(self.app, f"Not saved last time: {_name_of(found)}", rows))
 
     def leave(self) -> None:
         """Back to where the bench was opened; ask first if the run is not saved."""
@@ -147,3 +218,15 @@ class FileCommands:
     def _go(self) -> None:
         self.session.close()
         self.app.pop()
+
+
+def _name_of(found: Recovered) -> str:
+    home = found.opened.file.path
+    return home.name if home else found.opened.recording.name or "a run"
+
+
+def _when(found: Recovered) -> str:
+    """How many edits, and when the last one was."""
+    count = len(found.takes) - 1
+    last = strftime("%Y-%m-%d %H:%M", localtime(found.file.stat().st_mtime)) if found.file.exists() else "gone"
+    return f"{count} edit{'s' * (count != 1)}, the last {last}"

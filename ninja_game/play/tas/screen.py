@@ -12,11 +12,11 @@ import pygame
 
 from ninja_game.formats.recording import Recording
 from ninja_game.play.input.events import InputEvent
-from ninja_game.play.menus.menu_screen import LONGEST_STEP_MS, MenuScreen
+from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.tas.bench import Bench
-from ninja_game.play.tas.controls import FIRST_REPEAT_MS, REPEATING
 from ninja_game.play.tas.file_commands import FileCommands
 from ninja_game.play.tas.head import Foot, Head
+from ninja_game.play.tas.held_command import HeldCommand
 from ninja_game.play.tas.level.part import LevelPart
 from ninja_game.play.tas.part import Commands, Part
 from ninja_game.play.tas.roll.part import Roll
@@ -56,12 +56,15 @@ class TasScreen(MenuScreen):
         self.tabs = all_tabs(self.bench)
         self.tab: Tab = self.tabs[0]
         self.head, self.foot_line = Head(self.bench), Foot(self.bench)
-        self.files = FileCommands(app, self.bench, lambda name: self.commands()[name]())
+        self.files = FileCommands(
+            app, self.bench, self.level.others, lambda name: self.commands()[name](),
+            lambda found: app.replace(TasScreen(app, found.opened, found=found)),
+        )  # fmt: skip
         self.level.others.open(beside)
         self._entered = found is not None
         self._widgets_stale = True
         self._dragging: Part | None = None
-        self._held_command, self._held_key, self._again_in = "", 0, 0
+        self._held = HeldCommand()
         self._pointed: Part | None = None
 
     @property
@@ -75,6 +78,12 @@ class TasScreen(MenuScreen):
         for part in (*self.parts, *self.tabs):
             own = {**own, **part.commands()}
         return own
+
+    def _run(self, name: str) -> None:
+        self.commands()[name]()
+
+    def _go_on(self, found: Recovered) -> None:
+        self.app.replace(TasScreen(self.app, found.opened, found=found))
 
     def build(self) -> Sequence[Widget]:
         """The names of the tabs, and what is in the present one."""
@@ -96,7 +105,7 @@ class TasScreen(MenuScreen):
         gc.freeze()
         if not self._entered:
             self._entered = True
-            self.files.offer_recovered(lambda found: self.app.replace(TasScreen(self.app, found.opened, found=found)))
+            self.files.offer_recovered()
 
     def leave(self) -> None:
         """Covered or closed: what is going on ends."""
@@ -104,7 +113,7 @@ class TasScreen(MenuScreen):
         gc.unfreeze()
         self.level.stop()
         self.session.end()
-        self._held_command = ""
+        self._held.end()
         if self not in self.app.stack:
             for tab in self.tabs:
                 tab.close()
@@ -154,15 +163,10 @@ class TasScreen(MenuScreen):
 
     def capture(self, event: InputEvent) -> bool:
         """Typed text goes into the field with the focus, keys of the game to the ninja that was taken over."""
-        if event.raw.type == pygame.KEYUP and event.raw.scancode == self._held_key:
-            self._held_command = ""
+        self._held.follow(event.raw)
         if self.level.capture(event):
             return True
-        if (
-            isinstance(self.focus, TextEntry)
-            and event.menu in ("confirm", "back")
-            and event.source == ("keys", "escape")
-        ):
+        if isinstance(self.focus, TextEntry) and event.source == ("keys", "escape"):
             self.focus, self._widgets_stale = None, True
             self.await_text()
             return True
@@ -173,15 +177,14 @@ class TasScreen(MenuScreen):
         """Commands, then the mouse, then the widgets of the tab."""
         command = self.level.meaning(event)
         if event.raw.type == pygame.KEYDOWN:
-            self._held_command = ""
+            self._held.end()
         typing = self.focus is not None and event.menu in ("confirm", "up", "down", "left", "right", "first", "last")
         if event.raw.type in _MOUSE:
             self._give_mouse(event.raw)
         elif command and not typing:
-            self.commands()[command]()
+            self._run(command)
             self._show_asked()
-            if command in REPEATING:
-                self._held_command, self._held_key, self._again_in = command, event.raw.scancode, FIRST_REPEAT_MS
+            self._held.begin(command, event.raw.scancode)
         else:
             with self._widgets_only():
                 super().handle(event)
@@ -219,19 +222,13 @@ class TasScreen(MenuScreen):
     def update(self, real_ms: int) -> None:
         """Simulate what is not simulated yet; parts go on."""
         super().update(real_ms)
-        self._repeat_command(min(real_ms, LONGEST_STEP_MS))
+        for command in self._held.due(real_ms):
+            self._run(command)
         if not self.level.take_over.on:
             self.session.timeline.work(self.session.soon)
         for part in (self.level, self.roll, *self.tabs):
             part.update(real_ms)
         self._show_asked()
-
-    def _repeat_command(self, real_ms: int) -> None:
-        """A command whose key is held is done again and again."""
-        self._again_in -= real_ms
-        while self._held_command and self._again_in <= 0:
-            self._again_in += REPEATING[self._held_command]
-            self.commands()[self._held_command]()
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
         """What has changed."""

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pygame
 
+from ninja_game.files.resources import data_folder
 from ninja_game.formats.load import load_replays
 from ninja_game.play.editor.controls import key_label_of
 from ninja_game.play.editor.panels import Form, HelpPage, Menu
@@ -55,13 +56,15 @@ def test_a_run_is_saved_into_its_file(at: BenchDriver) -> None:
     assert journals(at) == []
 
 
-def test_a_run_of_n_is_saved_among_the_players_replays(tmp_path: Path) -> None:
+def test_a_run_of_n_is_saved_beside_its_file_under_a_name_that_is_asked_for(tmp_path: Path) -> None:
     file = write_records(tmp_path / "demos.txt", ("a run", WALK, running(30)))
     at = BenchDriver(tmp_path / "player", file)
     at.chord("s", CTRL)
-    first = tmp_path / "player" / "replays" / "a-run.replay.txt"
+    assert at.top().title == f"Save in {tmp_path}"  # type: ignore[attr-defined]
+    at.choose("Save")
+    first = tmp_path / "a-run.replay.txt"
     assert load_replays(first)[0].author == "me"
-    assert "without claims: Ctrl+E takes out what is behind the end" in at.app.notice
+    assert "Saved, with what is behind its end (Ctrl+E takes that out)" in at.app.notice
     at.press("escape")
     at.choose("Keep as a replay")
     assert "behind the end" in at.app.notice
@@ -96,7 +99,13 @@ def test_it_is_saved_under_another_name_and_asks_before_it_replaces(at: BenchDri
     at.choose("Save under another name")
     form = at.top()
     assert isinstance(form, Form)
-    form.texts[0] = "a/b"
+    form.texts[0] = "nowhere/b"
+    at.choose("Save")
+    assert "there is no folder" in at.app.notice
+    at.chord("s", CTRL, SHIFT)
+    form = at.top()
+    assert isinstance(form, Form)
+    form.texts[0] = str(path.with_name("a:b.replay.txt"))
     at.choose("Save")
     assert at.session.file.path == path.with_name("a-b.replay.txt")
     at.chord("s", CTRL)
@@ -124,12 +133,12 @@ def test_a_closed_window_keeps_what_is_not_saved_and_it_is_offered(at: BenchDriv
     at.app.stack.clear()
     (found,) = recovered(at.app.player.folder)
     assert found.takes[-1] == wanted
-    again = BenchDriver(tmp_path / "player", RUN)
+    again = BenchDriver(tmp_path / "player", tmp_path / "run.replay.txt")
     assert again.top().title == "Not saved last time: run.replay.txt"  # type: ignore[attr-defined]
     again.choose("Later")
     assert again.bench.take != wanted
     again.app.stack.clear()
-    again = BenchDriver(tmp_path / "player", RUN)
+    again = BenchDriver(tmp_path / "player", tmp_path / "run.replay.txt")
     again.choose("Go on with it")
     screen = again.top()
     assert isinstance(screen, TasScreen)
@@ -140,10 +149,56 @@ def test_a_closed_window_keeps_what_is_not_saved_and_it_is_offered(at: BenchDriv
     assert screen.bench.take.inputs == load_replays(RUN)[0].playback(10**4)[: len(screen.bench.take)]
     screen.bench.edit(lambda take: take.replaced(0, 0, [1]))
     again.app.stack.clear()
-    last = BenchDriver(tmp_path / "player", RUN)
+    last = BenchDriver(tmp_path / "player", tmp_path / "run.replay.txt")
+    last.choose("Forget it...")
+    last.choose("Keep it")
+    assert len(list(recovered(tmp_path / "player"))) == 1
+    last.press("escape")
+    last.choose("Not saved last time...")
+    last.choose("run.replay.txt")
+    last.choose("Forget it...")
     last.choose("Forget it")
     assert list(recovered(tmp_path / "player")) == []
     last.close()
+
+
+def test_a_run_of_the_game_is_saved_among_the_players_replays(tmp_path: Path) -> None:
+    at = BenchDriver(tmp_path / "player", data_folder("levels") / "certificates" / RUN.name)
+    at.chord("s", CTRL)
+    at.choose("Save")
+    assert at.session.file.path is not None
+    assert at.session.file.path.parent == tmp_path / "player" / "replays"
+    at.close()
+
+
+def test_what_was_not_saved_of_another_run_is_told_and_opens_from_the_menu(at: BenchDriver, tmp_path: Path) -> None:
+    change(at)
+    wanted = at.bench.take
+    at.app.stack.clear()
+    other = write_records(tmp_path / "demos.txt", ("a run", WALK, running(30)))
+    again = BenchDriver(tmp_path / "player", other)
+    assert isinstance(again.top(), TasScreen)
+    assert "Not saved last time: run.replay.txt" in again.app.notice
+    again.press("escape")
+    again.choose("Not saved last time...")
+    again.choose("run.replay.txt")
+    again.choose("Go on with it")
+    screen = again.top()
+    assert isinstance(screen, TasScreen)
+    assert screen.bench.take == wanted
+    again.close()
+
+
+def test_a_file_is_opened_beside_by_its_name(at: BenchDriver, tmp_path: Path) -> None:
+    (tmp_path / "slower.replay.txt").write_bytes(RUN.read_bytes())
+    for name, count in (("nothing.txt", 0), ("slower.replay.txt", 1)):
+        at.press("escape")
+        at.choose("Open a file beside...")
+        form = at.top()
+        assert isinstance(form, Form)
+        form.texts[0] = name
+        at.choose("Open")
+        assert len(at.bench.others) == count
 
 
 def test_a_closed_window_of_a_saved_run_leaves_nothing(at: BenchDriver) -> None:
