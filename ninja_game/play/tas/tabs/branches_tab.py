@@ -69,7 +69,7 @@ class BranchesTab(Tab):
             self.list.index = [each for each, _ in self.tree].index(number)
 
         app = self.bench.app
-        app.push(Form(app, "Keep the run as a branch", [(name, "", LONGEST)], "Keep", kept))
+        app.push(Form(app, "Keep the run as a branch", [("its name", name, LONGEST)], "Keep", kept))
 
     def take(self) -> None:
         """Go on from the chosen branch."""
