@@ -75,8 +75,9 @@ class _Job:
                 rank = (0, 1, 0, 2, 0)[self._turn % 5] if not state.task.first else 0
                 with state.lock:
                     inputs = state.runs[min(rank, len(state.runs) - 1)]
-                if self.work or not state.task.first:
-                    inputs = self.shortener.search_spans(inputs, shares.spans)
+                if state.task.first and not self.work:
+                    inputs = self.shortener.climb(inputs, shares.first_climb)
+                inputs = self.shortener.search_spans(inputs, shares.spans)
                 self.shortener.climb(inputs, shares.climb)
 
     @property

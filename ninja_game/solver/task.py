@@ -173,6 +173,7 @@ class Shares:
     vary_until: float = 0.4
     spans: int = 20_000_000
     spans_with_gold: int = 6_000_000
+    first_climb: int = 20_000_000
     climb: int = 8_000_000
 
 

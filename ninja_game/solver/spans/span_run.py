@@ -34,7 +34,10 @@ LENGTHS = (40, 60, 90, 150)
 """What is drawn for each search: see Resolution and KnownRun; ticks of a span."""
 LEAST_REACH, MOST_REACH = 0.5, 6.0
 """By how much ``behind`` is multiplied: more while searches come to an end of their own, less while they do not."""
-SPAN_TICKS = 4_000_000
+FEW_TICKS, MANY_TICKS = 500_000, 2_000_000
+"""An end of its own before the first is an early one, after the second a late one."""
+SPAN_TICKS, DOUBLINGS = 1_000_000, 3
+"""Ticks of a search; half of them get twice as many, half of these twice as many again, and so on."""
 EACH_COSTS = 10_000
 """Ticks that it takes to prepare a search."""
 
@@ -101,7 +104,8 @@ class SpanSearches:
             fineness = draw_fineness(random)
             fineness = fineness._replace(behind=fineness.behind * self._reach)
             chosen = int(random.integers(1 << 30))
-            found = self.search(first, first + length, fineness, seed=chosen, ticks=SPAN_TICKS, over=over)
+            ticks = SPAN_TICKS << min(int(random.geometric(0.5)) - 1, DOUBLINGS)
+            found = self.search(first, first + length, fineness, seed=chosen, ticks=ticks, over=over)
             if found:
                 return found
         return None
@@ -138,9 +142,8 @@ class SpanSearches:
             )
             if over(int(counters.ticks) - before):
                 break
-        exhausted = ended == EXHAUSTED and int(counters.ticks) < ticks // 4
-        change = 1.15 if exhausted else 0.8 if ended == MORE else 1.0
-        self._reach = min(max(self._reach * change, LEAST_REACH), MOST_REACH)
+        early, late = ended == EXHAUSTED and int(counters.ticks) < FEW_TICKS, int(counters.ticks) >= MANY_TICKS
+        self._reach = min(max(self._reach * (1.15 if early else 0.8 if late else 1.0), LEAST_REACH), MOST_REACH)
         if counters.best_node < 0:
             return None
         # A press is there where the key goes down; joined parts need it anew.
