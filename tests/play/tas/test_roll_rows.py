@@ -10,7 +10,7 @@ import pytest
 
 from ninja_game.play.tas.roll.columns import AREA, COLUMNS, layout_of
 from ninja_game.play.tas.roll.facts import changed_ticks, in_words, row_facts
-from ninja_game.play.tas.roll.rows import RowSheet
+from ninja_game.play.tas.roll.rows import RowSheet, shortened
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.take import Take
@@ -51,6 +51,13 @@ def test_a_very_long_run_scrolls_by_drawing_new_rows_only(at: BenchDriver, monke
     assert drawn == [4, 4, 4, 2, 1]
     at.press("end", "end")
     assert roll.top == at.bench.last_tick + 1 - roll.layout.rows
+
+
+def test_numbers_fit_their_columns() -> None:
+    numbers = {(-0.5, 3): "-0.500", (-10.6743, 3): "-10.67", (791.999, 2): "792.00", (-123.456, 2): "-123.5"}
+    assert {each: shortened(*each) for each in numbers} == numbers
+    assert shortened(float("inf"), 1) == "-", "a level without an exit"
+    assert shortened(-1234567.0, 2) == "-"
 
 
 def test_rows_that_differ_from_the_saved_ones_are_marked(at: BenchDriver) -> None:

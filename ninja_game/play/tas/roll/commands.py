@@ -178,6 +178,7 @@ class RollCommands:
         first, count = bench.selection[0], len(pasted.keys)
         if bench.edit(lambda take: _with_pasted(take, first, pasted, between=between)):
             bench.select(first, first + count)
+            bench.app.notify(f"{count} tick{'s' * (count > 1)} pasted")
 
     # --- markers ---
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import pygame
 
 from ninja_game.play.ui.theme import Theme
@@ -16,7 +14,7 @@ class Digits:
 
     def __init__(self, theme: Theme, size: float) -> None:
         self.theme, self._size = theme, size
-        self._pictures: dict[tuple[str, int], pygame.Surface] = {}
+        self._pictures: dict[int, dict[str, tuple[pygame.Surface, float]]] = {}
         # Widths of texts are whole px; of many characters the mean is exact.
         widths = {each: (theme.width(each * 21, size) - theme.width(each, size)) / 20 for each in "0123456789.-"}
         # Digits below each other are of one width.
@@ -24,16 +22,19 @@ class Digits:
         scale = theme.canvas.scale
         self._advance = {each: (widest if each.isdigit() else width) * scale for each, width in widths.items()}
 
-    def picture(self, character: str, colour: pygame.Color) -> pygame.Surface:
-        """A character in a colour."""
-        key = character, int(colour)
-        if key not in self._pictures:
-            self._pictures[key] = self.theme.lettering.rendered(character, self._size, colour)
-        return self._pictures[key]
+    def _of(self, colour: pygame.Color) -> dict[str, tuple[pygame.Surface, float]]:
+        """Every character in a colour, and how wide it is."""
+        render = self.theme.lettering.rendered
+        return {each: (render(each, self._size, colour), wide) for each, wide in self._advance.items()}
 
-    def blits(self, text: str, right: int, y: int, colour: pygame.Color) -> Iterator[Blit]:
+    def blits(self, text: str, right: int, y: int, colour: pygame.Color) -> list[Blit]:
         """What draws a number whose last px is left of ``right``, px."""
-        x = float(right)
+        key = int(colour)
+        if key not in self._pictures:
+            self._pictures[key] = self._of(colour)
+        characters, x, made = self._pictures[key], right + 0.5, []
         for character in reversed(text):
-            x -= self._advance[character]
-            yield self.picture(character, colour), (round(x), y)
+            picture, wide = characters[character]
+            x -= wide
+            made.append((picture, (int(x), y)))
+        return made

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import isfinite
 
 import pygame
 
@@ -19,6 +20,8 @@ SIZE = 8.0
 """Of the letters, logical px."""
 SHORTEST = 20.0
 """Room in which a name is worth beginning, logical px."""
+LONGEST = 6
+"""Characters of a number."""
 _LETTERS = {KEY_LEFT: "L", KEY_RIGHT: "R", JUMP_HELD: "J"}
 
 
@@ -30,6 +33,7 @@ class RowSheet:
         self._picture = pygame.Surface(layout.body.size)
         self._drawn: list[RowFacts | None] = [None] * layout.rows
         self._digits = Digits(theme, SIZE)
+        self._grounds: dict[tuple[bool, ...], tuple[pygame.Surface, pygame.Color, pygame.Color]] = {}
         self._blits: list[Blit] = []
         self._margin = theme.canvas.px(2)
         self._lift = (layout.row - theme.lettering.rendered("0", SIZE, theme.palette.text).get_height() + 1) // 2
@@ -59,34 +63,48 @@ class RowSheet:
     def _row(self, row: RowFacts, y: int) -> None:
         """One row at a px of the picture; its texts are noted."""
         palette, layout, fill = self.theme.palette, self.layout, self._picture.fill
-        ground, ink = _inks(palette, row)
-        fill(ground, (0, y, layout.body.width, layout.row))
-        known = mixed(ground, palette.good, 0.17) if row.values else ground
-        line = mixed(ground, palette.panel_edge, 0.55)
+        ground, ink, line = self._ground(row)
+        self._picture.blit(ground, (0, y))
         for place in layout.places:
             left = place.left - layout.body.left
             if place.column.key:
-                fill(known, (left, y, place.width, layout.row))
                 self._key(row, place, left, y, line)
             elif place.column.name == "tick":
-                tint = palette.ghost if row.name else known
-                fill(tint, (left, y, place.width, layout.row))
-                number = palette.panel if row.name else ink
-                self._blits += self._digits.blits(
-                    str(row.tick), left + place.width - self._margin, y + self._lift, number
-                )
+                if row.name:
+                    fill(palette.ghost, (left, y, place.width, layout.row))
+                number, right = palette.panel if row.name else ink, left + place.width - self._margin
+                self._blits += self._digits.blits(str(row.tick), right, y + self._lift, number)
             elif place.column.name == "events":
                 self._events(row, left, place.width, y, ink)
             elif row.values:
                 self._value(row.values, place, left, y, ink)
-            fill(line, (left, y, 1, layout.row))
-        if row.name or row.tick % 10 == 0:
-            fill(palette.ghost if row.name else line, (0, y, layout.body.width, 1))
+        if row.name:
+            fill(palette.ghost, (0, y, layout.body.width, 1))
         if row.changed:
             fill(palette.ember, (0, y, self.theme.canvas.px(2.5), layout.row))
         if row.cursor:
             frame = (0, y, layout.body.width, layout.row)
             pygame.draw.rect(self._picture, palette.accent, frame, max(1, layout.row // 11))
+
+    def _ground(self, row: RowFacts) -> tuple[pygame.Surface, pygame.Color, pygame.Color]:
+        """What a row lies on, with the lines between the columns; the colours of its letters and of the lines."""
+        kind = row.values is None, row.over or row.beyond, row.selected, row.tick % 10 == 0
+        if kind not in self._grounds:
+            palette, layout = self.theme.palette, self.layout
+            colour, ink = _inks(palette, row)
+            known = colour if row.values is None else mixed(colour, palette.good, 0.17)
+            line = mixed(colour, palette.panel_edge, 0.55)
+            ground = pygame.Surface((layout.body.width, layout.row), 0, self._picture)
+            ground.fill(colour)
+            for place in layout.places:
+                left = place.left - layout.body.left
+                if place.column.key or place.column.name == "tick":
+                    ground.fill(known, (left, 0, place.width, layout.row))
+                ground.fill(line, (left, 0, 1, layout.row))
+            if row.tick % 10 == 0:
+                ground.fill(line, (0, 0, layout.body.width, 1))
+            self._grounds[kind] = ground, ink, line
+        return self._grounds[kind]
 
     def _key(self, row: RowFacts, place: Place, left: int, y: int, line: pygame.Color) -> None:
         """A cell of a key: a bar that begins where the key goes down."""
@@ -120,7 +138,7 @@ class RowSheet:
             if value == 0:
                 text, ink = "0", mixed(ink, theme.palette.panel, 0.5)
             else:
-                text = f"{value:.{place.column.decimals}f}" if abs(value) < 100_000 else "-"
+                text = shortened(value, place.column.decimals)
             self._blits += self._digits.blits(text, left + place.width - self._margin, y + self._lift, ink)
 
     def _contacts(self, contacts: int, place: Place, left: int, y: int, ink: pygame.Color) -> None:
@@ -156,6 +174,14 @@ class RowSheet:
             right -= name.get_width() + 2 * gap
             self._picture.fill(palette.ghost, (right, y, left + width - right, height))
             self._blits.append((name, (right + gap, y + self._lift)))
+
+
+def shortened(value: float, decimals: int) -> str:
+    """A number in at most six characters: with fewer decimals where it is long, "-" where that is not enough."""
+    text = f"{value:.{decimals}f}"
+    if len(text) > LONGEST:
+        text = f"{value:.{max(0, decimals + LONGEST - len(text))}f}"
+    return text if len(text) <= LONGEST and isfinite(value) else "-"
 
 
 def _inks(palette: Palette, row: RowFacts) -> tuple[pygame.Color, pygame.Color]:
