@@ -24,7 +24,7 @@ from ninja_game.formats.replay.input_text import Inputs, read_inputs
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
 from ninja_game.formats.tas_lines import in_our_notation, is_tas_text
 from ninja_game.runs.run import record_replay
-from ninja_game.sim.inputs import Demo
+from ninja_game.sim.inputs import MAX_TICKS, Demo
 from ninja_game.sim.level import Level
 from ninja_game.tas.branches import DAMAGED, Branches, branches_of_json
 from ninja_game.tas.take import Take
@@ -174,7 +174,7 @@ def replay_of_take(about: Recording, take: Take) -> Replay:
     """
     loose = loose_replay(about, take)
     record = partial(record_replay, about.level, take.inputs, body=about.body, name=about.name, author=about.author)
-    run = record(ticks=len(take) + AFTERMATH)
+    run = record(ticks=min(len(take) + AFTERMATH, MAX_TICKS))
     if run.outcome == "running":
         run = record()
     if has_tail(take, run.ticks):

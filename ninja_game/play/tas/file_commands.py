@@ -227,6 +227,6 @@ def _name_of(found: Recovered) -> str:
 
 def _when(found: Recovered) -> str:
     """How many edits, and when the last one was."""
-    count = len(found.takes) - 1
+    count = len(found.takes)
     last = strftime("%Y-%m-%d %H:%M", localtime(found.file.stat().st_mtime)) if found.file.exists() else "gone"
     return f"{count} edit{'s' * (count != 1)}, the last {last}"

@@ -157,8 +157,8 @@ def test_a_speedrun_is_made_shorter_by_hand(tmp_path: Path, root: Path) -> None:
                 assert found is not None
                 assert exit_tick(level, found.inputs) < slow
                 slow = exit_tick(level, found.inputs)
-            runner.press("ctrl+e", "ctrl+s")
-            saved = home / "replays" / "a-level.replay.txt"
+            runner.press("ctrl+e", "ctrl+s", "Return")
+            saved = tmp_path / "a-level.replay.txt"
             runner.wait_for(saved.exists, "saved run")
         finally:
             runner.game.kill()
