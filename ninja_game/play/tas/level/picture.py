@@ -14,7 +14,7 @@ from ninja_game.sim.inputs import first_ticks
 from ninja_game.sim.memory.schema import World
 from ninja_game.simulation import SaveState, Simulation
 
-_WARM = 6
+_WARM = 4
 """Ticks that are run with their animations before the one that is sought, so that it looks as if played."""
 _NEAR = 6
 """Ticks that are played on to, rather than sought."""
