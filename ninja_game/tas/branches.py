@@ -32,11 +32,15 @@ class Branch:
 
 
 class Branches:
-    """The branches of a run, in the order in which they were kept. ``current``: the one from which the take comes."""
+    """The branches of a run, in the order in which they were kept. ``current``: the one from which the take comes.
+
+    ``watched``: the formulas that are watched in the run, kept with them; empty: the usual ones.
+    """
 
     def __init__(self) -> None:
         self.all: list[Branch] = []
         self.current: int | None = None
+        self.watched: tuple[str, ...] = ()
 
     def __len__(self) -> int:
         return len(self.all)
@@ -86,13 +90,14 @@ class Branches:
 
     def as_json(self) -> dict[str, Any]:
         """All of it as JSON can say it."""
-        return {"branches": [branch_as_json(branch) for branch in self.all], "current": self.current}
+        said = {"branches": [branch_as_json(branch) for branch in self.all], "current": self.current}
+        return {**said, "watched": list(self.watched)}
 
     def do(self, change: dict[str, Any]) -> None:
         """A change as a journal tells it: ``keep``, ``drop``, ``rename``, ``go_on`` or all of it. Raises DAMAGED."""
         if "branches" in change:
             whole = branches_of_json(change)
-            self.all, self.current = whole.all, whole.current
+            self.all, self.current, self.watched = whole.all, whole.current, whole.watched
         elif "keep" in change:
             self.keep(branch_of_json(change["keep"]))
         elif "rename" in change:
@@ -113,6 +118,7 @@ def branches_of_json(kept: dict[str, Any]) -> Branches:
         found.all.append(branch)
     if kept["current"] is not None:
         found.go_on_from(int(kept["current"]))
+    found.watched = tuple(map(str, kept.get("watched", ())))
     return found
 
 

@@ -193,7 +193,7 @@ def has_tail(take: Take, ticks: int) -> bool:
 def save_run(
     about: Recording, take: Take, branches: Branches, path: Path, file: RunFile, *, replacing: bool = False
 ) -> RunFile:
-    """Write a take, and its branches beside it; where it is at home now.
+    """Write a take, and its branches and watched formulas beside it; where it is at home now.
 
     Raises OccupiedError where that would replace another file, or one that was changed since it was read, unless
     ``replacing``; FileError, OSError for what cannot be written.
@@ -207,7 +207,7 @@ def save_run(
     if not own or take != file.take or digest_of(path) != file.digest:
         replay = replay_of_take(about, take)
         write_atomically(path, write_replay(_with_old_path(replay, about) if own else replay))
-    if len(branches) or beside.exists():
+    if len(branches) or branches.watched or beside.exists():
         write_atomically(beside, json.dumps(branches.as_json(), indent=1))
     return RunFile(path, digest_of(path), digest_of(beside), take)
 

@@ -23,7 +23,7 @@ from ninja_game.play.tas.controls import COMMANDS
 from ninja_game.play.tas.level.other_runs import OtherRuns
 from ninja_game.play.tas.part import Commands
 from ninja_game.player.saving import keep_replay
-from ninja_game.tas.files import SUFFIX, replay_of_take, runs_beside, same_level
+from ninja_game.tas.files import SUFFIX, branches_path, replay_of_take, runs_beside, same_level
 from ninja_game.tas.journal import Recovered, forget, recovered
 
 if TYPE_CHECKING:
@@ -132,7 +132,8 @@ class FileCommands:
             self.app.notify(f"Not saved: {getattr(error, 'strerror', '') or error}")
         else:
             tail = ", with what is behind its end (Ctrl+E takes that out)" if self.session.has_tail else ""
-            self.app.notify(f"Saved{tail}: {path}")
+            beside = " and its branches beside it" * branches_path(path).exists()
+            self.app.notify(f"Saved{tail}: {path}{beside}")
 
     def open_file(self) -> None:
         """Ask for a file, and show its runs of this level beside this one."""

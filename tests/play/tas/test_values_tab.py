@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from time import process_time
 
 import numpy as np
@@ -11,7 +12,8 @@ import pytest
 from ninja_game.play.editor.panels import Form
 from ninja_game.play.tas.tabs.object_list import ObjectList
 from ninja_game.play.tas.tabs.plot import Window
-from ninja_game.play.tas.tabs.values_tab import ValuesTab, shown_value
+from ninja_game.play.tas.tabs.values_tab import ValuesTab
+from ninja_game.play.tas.tabs.watched import shown_value, watched_values
 from ninja_game.sim.inputs import Input
 from ninja_game.simulation import Simulation
 from ninja_game.tas.take import Take
@@ -161,3 +163,16 @@ def test_four_formulas_over_four_thousand_ticks_are_quick(at: BenchDriver, tab: 
         tab.refresh()
         times.append(process_time() - start)
     assert sorted(times)[10] < 0.01, "2 ms on a quiet machine"
+
+
+def test_watched_values_are_kept_with_the_run(at: BenchDriver, tab: ValuesTab, tmp_path: Path) -> None:
+    tab.remove()
+    tab.add("hypot(vx, vy) * 10")
+    at.chord("s", pygame.KMOD_LCTRL)
+    again = BenchDriver(tmp_path / "player", tmp_path / "run.replay.txt")
+    other = again.screen.tab
+    assert isinstance(other, ValuesTab)
+    assert [each.watch.text for each in other.watched] == [each.watch.text for each in tab.watched]
+    again.session.branches.watched = ("x >", "y")
+    assert [each.watch.text for each in watched_values(again.session.branches.watched)] == ["y"]
+    again.close()

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
-import numpy as np
 import pygame
 
-from ninja_game.directed.formula import Numbers
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.editor.panels import Form
 from ninja_game.play.tas.bench import Bench
@@ -15,28 +11,17 @@ from ninja_game.play.tas.part import Commands
 from ninja_game.play.tas.tabs.object_list import ObjectList
 from ninja_game.play.tas.tabs.plot import Window, colour_of, draw_lane
 from ninja_game.play.tas.tabs.tab import SMALL, Rows, Tab, buttons_in_a_row, what_is_wrong
+from ninja_game.play.tas.tabs.watched import LANES, USUAL, Watched, shown_value, watched_values
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.runs.splits import SPLIT_EVENTS
-from ninja_game.tas.watch import Watch, parse_watch
+from ninja_game.tas.watch import parse_watch
 
-LANES = 4
-"""Values whose course is shown at once."""
 LONGEST = 200
 """Characters of a formula that one can type."""
 
 _PLOT: Area = (214, 377, 210, 180)
 _STILL = 3.0
 """The mouse that moves less, px, clicks."""
-
-
-@dataclass(eq=False)
-class Watched:
-    """A value that is watched. ``plotted``: its course is shown; ``number``: of its colour."""
-
-    watch: Watch
-    number: int
-    plotted: bool = True
-    values: Numbers = field(default_factory=lambda: np.zeros(0))
 
 
 class ValuesTab(Tab):
@@ -46,7 +31,7 @@ class ValuesTab(Tab):
 
     def __init__(self, bench: Bench) -> None:
         super().__init__(bench)
-        self.watched = [Watched(parse_watch(text), number) for number, text in enumerate(("speed", "vx", "vy"))]
+        self.watched = list(watched_values(bench.session.branches.watched or USUAL))
         self.window = Window(_PLOT[0], _PLOT[2])
         self.events: list[tuple[int, str]] = []
         self.list = Rows((10, 378, 168, 176), self._draw_row, self._toggle, empty="V watches a value",
@@ -98,13 +83,18 @@ class ValuesTab(Tab):
             return
         number = next(k for k in range(len(self.watched) + 1) if k not in {each.number for each in self.watched})
         self.watched.append(Watched(watch, number))
-        self.list.fill(self.watched)
+        self._keep()
         self.list.nudge("last")
         self._few_lanes(self.watched[-1])
 
     def remove(self) -> None:
         """Watch the chosen value no more."""
         del self.watched[self.list.index : self.list.index + 1]
+        self._keep()
+
+    def _keep(self) -> None:
+        """The run remembers them when it is saved."""
+        self.bench.session.branches.watched = tuple(each.watch.text for each in self.watched)
         self.list.fill(self.watched)
 
     def show_objects(self) -> None:
@@ -226,13 +216,3 @@ class ValuesTab(Tab):
         tick = min(max(0, tick), self.bench.last_tick)
         values = "  ".join(f"{each.watch.text}: {shown_value(each, tick)}" for each in self.watched if each.plotted)
         self.bench.hint = f"tick {tick}  {values}   (wheel: zoom, drag: move, right: all)"
-
-
-def shown_value(each: Watched, tick: int) -> str:
-    """A value at a tick, as the list has it."""
-    value = float(each.values[tick]) if tick < len(each.values) else np.nan
-    if not np.isfinite(value):
-        return "-"
-    if each.watch.formula.truth:
-        return "yes" if value > 0 else "no"
-    return f"{value:.6g}"
