@@ -9,6 +9,7 @@ import pygame
 
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
+from ninja_game.play.ui.text_layout import wrapped
 from ninja_game.play.ui.widgets import Button, Widget
 
 if TYPE_CHECKING:
@@ -53,8 +54,13 @@ class Panel(MenuScreen):
         canvas.fill_rect(surface, veil, 0, 0, WIDTH, HEIGHT)
         x, y, w, h = self._box
         theme.window(surface, x, y, w, h)
-        size = 17 if theme.width(self.title, 17, bold=True) < w - 24 else 12
-        theme.text(surface, self.title, x + w / 2, y + 17, size=size, align="centre", bold=True, width=w - 24)
+        if theme.width(self.title, 17, bold=True) < w - 24:
+            theme.text(surface, self.title, x + w / 2, y + 17, size=17, align="centre", bold=True)
+        else:
+            lines = wrapped(theme, self.title, w - 40, 12)
+            for line, text in enumerate([*lines[:1], " ".join(lines[1:])]):
+                top = y + (10 if len(lines) > 1 else 17) + 16 * line
+                theme.text(surface, text, x + w / 2, top, size=12, align="centre", bold=True, width=w - 24)
         hint = self.focus.hint if self.focus is not None else ""
         theme.text(surface, hint, x + w / 2, y + h - 17, size=9.5, colour=palette.faint, align="centre", width=w - 16)
         self.draw_widgets(surface)

@@ -17,6 +17,8 @@ LONGEST = 40
 class TextEntry(Widget):
     """A text field. With the focus it takes what is typed; left, right, Home, End, Backspace and Delete edit.
 
+    Ctrl+A selects all of it.
+
     ``prompt``: shown while it is empty. ``put`` is called at every change. ``longest``: how many characters fit in.
     ``proposed``: what is typed first replaces the text.
     """
@@ -48,6 +50,10 @@ class TextEntry(Widget):
         if event.type != pygame.KEYDOWN:
             return False
         name = key_name(scancode_of(event))
+        ctrl = getattr(event, "mod", 0) & (pygame.KMOD_CTRL | pygame.KMOD_META)
+        if ctrl and (event.key == ord("a") or name == "a"):
+            self.proposed = bool(self.text)
+            return True
         if self.proposed and name in ("backspace", "delete"):
             self._drop_proposal()
             return True

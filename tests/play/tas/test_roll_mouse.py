@@ -87,7 +87,9 @@ def test_a_double_click_on_the_number_names_the_tick(at: BenchDriver) -> None:
     at.write("ing")
     at.press("return")
     assert at.bench.take.markers[0] == Marker(9, "landing"), "or is added to it"
-    at.press("m", "backspace", "return")
+    at.press("m", "end")
+    at.chord("a", CTRL)
+    at.press("backspace", "return")
     assert at.bench.take.markers == ()
 
 
