@@ -22,7 +22,7 @@ from ninja_game.play.screen import Screen
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays
 from ninja_game.player.level_context import GhostRun
-from ninja_game.runtime import IN_PAGE
+from ninja_game.runtime import ON_A_DESKTOP
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 
@@ -46,7 +46,7 @@ class ReplayScreen(Screen):
     ``length``: ticks to show. ``editable``: whether the bench can be opened from here.
     """
 
-    def __init__(self, app: App, runs: Sequence[RecordedRun | Recording], *, editable: bool = not IN_PAGE) -> None:
+    def __init__(self, app: App, runs: Sequence[RecordedRun | Recording], *, editable: bool = ON_A_DESKTOP) -> None:
         super().__init__(app)
         self.editable = editable
         self.runs = [run if isinstance(run, RecordedRun) else recorded_run(run) for run in runs]
