@@ -19,7 +19,7 @@ from ninja_game.solver.legs import shorten
 from ninja_game.solver.legs.fronts import Front, Moment
 from ninja_game.solver.legs.route import Route
 from ninja_game.solver.legs.shorten import Shortener
-from ninja_game.solver.search_memory import open_start
+from ninja_game.solver.search_memory import Resolution, open_start
 from ninja_game.solver.search_run import Search
 from ninja_game.solver.solve import Progress, Task, solve
 
@@ -171,3 +171,22 @@ def test_shortening_a_run_with_gold_keeps_the_gold_and_is_the_same_every_time() 
     assert again
     assert better.inputs == again.inputs
     assert (better.gold, better.end_tick <= first.end_tick) == (all_gold(BEHIND_A_DOOR), True)
+
+
+def test_a_search_forgets_those_before_it() -> None:
+    """Also one that is guided, and so gets the table of the search before the last."""
+    start = open_start(LINES, box=False)
+
+    def searched(search: Search, seed: int, *, guided: bool = False) -> tuple[object, ...]:
+        search.begin(Resolution(), seed=seed, bound=0, guided=guided)
+        search.run(30_000)
+        return search.best(), search.ticks, int(search.counters.entries)
+
+    new, used = (Search(start, Heuristics(start.levels, start.worlds), nodes=50_000) for _ in range(2))
+    for search in (new, used):
+        searched(search, 1)  # makes the fields
+    for seed in (4, 5):
+        searched(used, seed, guided=True)
+    assert [searched(new, seed, guided=seed == 3) for seed in (2, 3)] == [
+        searched(used, seed, guided=seed == 3) for seed in (2, 3)
+    ]
