@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from inspect import get_annotations
+from operator import attrgetter
 from typing import Annotated, Any, NamedTuple, TypeVar, get_args, get_origin, get_type_hints
 
 f8 = Annotated[float, "f8"]
@@ -77,6 +78,20 @@ def _field(name: str, hint: Any) -> Field:
     if get_origin(hint) is Annotated:
         return Field(name, get_args(hint)[1], length)
     return Field(name, hint, length)
+
+
+def getter_of(fields: list[Field]) -> Callable[[Any], tuple[Any, ...]]:
+    """A function that reads these fields of an object as a tuple."""
+    return attrgetter(*(field.name for field in fields))
+
+
+def setter_of(fields: list[Field]) -> Callable[[Any, tuple[Any, ...]], None]:
+    """A function that writes a tuple back into these fields of an object."""
+    targets = ", ".join(f"o.{field.name}" for field in fields)
+    names: dict[str, Any] = {}
+    exec(f"def restore(o, values):\n    {targets}, = values", names)  # noqa: S102 - made from the schema, not from input
+    setter: Callable[[Any, tuple[Any, ...]], None] = names["restore"]
+    return setter
 
 
 def part(cls: type[C]) -> type[C]:

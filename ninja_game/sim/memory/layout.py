@@ -12,9 +12,9 @@ import mmap
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.sim.memory.declare import Field, fields_of
+from ninja_game.sim.memory.declare import Field, fields_of, setter_of
 from ninja_game.sim.memory.object_fields import Header, Object
-from ninja_game.sim.memory.schema import TileMap, World
+from ninja_game.sim.memory.schema import Event, Ninja, TileMap, World
 
 _SIZES = {"f8": 8, "f4": 4, "i8": 8, "i4": 4, "i2": 2, "u1": 1}
 _REFUSED = set(dir(np.recarray)) | set(dir(np.record))
@@ -86,6 +86,8 @@ STATE_START = WORLD.fields["event_count"][1]  # type: ignore[index]
 """A save-state leaves out the events, which come first."""
 OBJECTS_START = WORLD.fields["objects"][1]  # type: ignore[index]
 
+_set_ninja, _set_event, _set_object = (setter_of(fields_of(cls)) for cls in (Ninja, Event, Object))
+
 
 def used_bytes(objects: int) -> int:
     """Bytes of a world that are in use when ``objects`` slots are taken (slot 0, nobody, among them)."""
@@ -126,17 +128,11 @@ def plain_copy(worlds: Records, index: int) -> World:
         if isinstance(field.type, str):
             value = record[field.name].tolist()
             setattr(w, field.name, value)
-    _fill(w.ninja, record["ninja"].item())
+    _set_ninja(w.ninja, record["ninja"].item())
     for event, values in zip(w.events, record["events"][: w.event_count].tolist(), strict=False):
-        _fill(event, values)
+        _set_event(event, values)
     for values in record["objects"][1 : w.slots_used].tolist():
         o = Object()
-        _fill(o, values)
+        _set_object(o, values)
         w.objects.append(o)
     return w
-
-
-def _fill(o: object, values: tuple[object, ...]) -> None:
-    """Give an object its fields in the order of the schema."""
-    for field, value in zip(fields_of(type(o)), values, strict=True):
-        setattr(o, field.name, value)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from array import array
-from collections.abc import Callable, Sequence
-from operator import attrgetter
+from collections.abc import Sequence
 from typing import Any
 
 from ninja_game.sim.collision.tiles import set_edges
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import grid_tiles, populate, record_table
-from ninja_game.sim.memory.declare import Field, fields_of
+from ninja_game.sim.memory.declare import fields_of, getter_of, setter_of
 from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES, MemoryName, RunRecord, TraceRecord
 from ninja_game.sim.memory.kernels import kill_ninja, observe_object, run_world, trace_world
 from ninja_game.sim.memory.object_fields import Object
@@ -34,24 +33,10 @@ def load_plain(data: Level, box: bool) -> tuple[TileMap, World]:
     return level, w
 
 
-def _getter(fields: list[Field]) -> Callable[[Any], tuple[Any, ...]]:
-    """A function that reads these fields of an object as a tuple."""
-    return attrgetter(*(field.name for field in fields))
-
-
-def _setter(fields: list[Field]) -> Callable[[Any, tuple[Any, ...]], None]:
-    """A function that writes a tuple back into these fields of an object."""
-    targets = ", ".join(f"o.{field.name}" for field in fields)
-    names: dict[str, Any] = {}
-    exec(f"def restore(o, values):\n    {targets}, = values", names)  # noqa: S102 - made from the schema, not from input
-    setter: Callable[[Any, tuple[Any, ...]], None] = names["restore"]
-    return setter
-
-
 WORLD_SCALARS = [field for field in fields_of(World) if field.length == 0 and isinstance(field.type, str)]
-_get_scalars, _set_scalars = _getter(WORLD_SCALARS), _setter(WORLD_SCALARS)
-_get_ninja, _set_ninja = _getter(fields_of(Ninja)), _setter(fields_of(Ninja))
-_get_object, _set_object = _getter(fields_of(Object)), _setter(fields_of(Object))
+_get_scalars, _set_scalars = getter_of(WORLD_SCALARS), setter_of(WORLD_SCALARS)
+_get_ninja, _set_ninja = getter_of(fields_of(Ninja)), setter_of(fields_of(Ninja))
+_get_object, _set_object = getter_of(fields_of(Object)), setter_of(fields_of(Object))
 
 
 def save_plain(w: World) -> PlainState:
