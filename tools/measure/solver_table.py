@@ -5,8 +5,7 @@
 
 ``--cpu``: the seconds are those of a core's work, for a machine that does other things too: with two jobs a level gets
 twice as many seconds of CPU time. Results are appended to a JSON-lines file after each level; levels that are in it
-are not solved again, so a long run can be interrupted. ``--improve N`` shortens N people's speedruns instead.
-``--table`` prints Markdown of a file.
+are not solved again, so a long run can be interrupted. ``--table`` prints Markdown of a file.
 """
 
 from __future__ import annotations
@@ -23,7 +22,6 @@ from threading import Event
 from typing import Any
 
 from ninja_game.formats.load import load_levels
-from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.solver.certificate import VerifiedRun
 from ninja_game.solver.solve import Progress, Task, compile_solver, solve
@@ -35,18 +33,10 @@ EPISODES = ("00", "10", "20", "30", "40", "50", "60", "70", "80", "90")
 
 def tasks(arguments: argparse.Namespace) -> Iterator[tuple[str, Task]]:
     """Name and task of everything in the table."""
-    from tests.support.reference import levels, recordings
+    from tests.support.reference import levels
 
     work = int(arguments.seconds * WORK_PER_SECOND) if arguments.cpu else 0
     base = {"seconds": arguments.seconds, "jobs": arguments.jobs, "work": work}
-    if arguments.improve:
-        runs = [run for run in recordings() if (run.source, run.kind) == ("rta", "speedrun")]
-        chosen = runs[:: max(1, len(runs) // arguments.improve)][: arguments.improve]
-        for run in chosen:
-            demo = parse_demo(run.demo)
-            first = demo.playback(run.ticks)
-            yield run.label, Task(parse_level_string(run.data), first=first, **base)
-        return
     for path in sorted((ROOT / "levels").glob("*.txt")):
         own = replace(Task(load_levels(path)[0].level), **base)
         yield path.stem, replace(own, seconds=min(30.0, arguments.seconds))
@@ -81,8 +71,6 @@ def solve_all(arguments: argparse.Namespace) -> None:
         row: dict[str, Any] = {"level": name, "end_tick": run.end_tick if run else -1, "seconds": task.seconds}
         row["cpu_s"] = round(time.process_time() - cpu, 1)
         row |= {"first_s": round(found[0], 2) if found else -1, "last_s": round(found[-1], 2) if found else -1}
-        if task.first:
-            row["before"] = len(task.first) - 1
         with arguments.file.open("a", encoding="utf-8") as file:
             file.write(json.dumps(row) + "\n")
         print(row, people("rta").get(name), flush=True)
@@ -104,16 +92,9 @@ def rows(file: Path) -> list[dict[str, Any]]:
     return [json.loads(line) for line in file.read_text(encoding="utf-8").splitlines()] if file.exists() else []
 
 
-def print_table(file: Path, *, improve: bool) -> None:
+def print_table(file: Path) -> None:
     """The results as Markdown."""
     fastest, tas = people("rta"), people("tas")
-    if improve:
-        print("| level | person's speedrun | improved to | ticks saved |\n|---|---|---|---|")
-        for row in rows(file):
-            print(f"| {row['level']} | {row['before']} | {row['end_tick']} | {row['before'] - row['end_tick']} |")
-        better = sum(row["end_tick"] < row["before"] for row in rows(file))
-        print(f"\n{better} of {len(rows(file))} shortened")
-        return
     print("| level | solver | people | ratio | tool-assisted | first run after, s | CPU used, s |")
     print("|---|---|---|---|---|---|---|")
     ratios = []
@@ -139,12 +120,11 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--cpu", action="store_true", help="seconds of CPU time a job")
-    parser.add_argument("--improve", type=int, default=0, metavar="N")
     parser.add_argument("--only", default="", metavar="NAMES", help="only these levels, with commas between")
     parser.add_argument("--table", action="store_true")
     arguments = parser.parse_args()
     if arguments.table:
-        print_table(arguments.file, improve=bool(arguments.improve))
+        print_table(arguments.file)
     else:
         solve_all(arguments)
 
