@@ -32,7 +32,7 @@ CHANGES = (
     Change("tiles-not-in-front", "view/level_view.py", "if backdrop.has_tile(local):", "if False:"),
     # The ninja, its end, who runs along.
     Change("ghost", "view/level_view.py", "for ghost in self.ghosts:\n                draw_ghost", "for ghost in ():\n                draw_ghost"),
-    Change("ninja", "view/level_view.py", "            draw_ninja(target", "            (target"),
+    Change("ninja", "view/level_view.py", "            draw_ninja(self.target", "            (self.target"),
     Change("corpse", "view/level_view.py", "if self.doll is not None:\n            draw", "if self.doll is None:\n            draw"),
     Change("headband", "view/ninja/figure.py", "paint_tails(s, palette.band", "paint_tails(s, colour"),
     Change("facing", "view/ninja/ninja_animation.py", "self.facing = 1 if n.x > n.prev_x else -1", "self.facing = 1"),

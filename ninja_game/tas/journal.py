@@ -21,6 +21,7 @@ from ninja_game.files.locking import hold
 from ninja_game.files.reading import open_regular
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import parse_replays
+from ninja_game.sim.loader import record_table
 from ninja_game.tas.branches import (
     DAMAGED,
     Branches,
@@ -172,6 +173,7 @@ def read_journal(file: Path) -> Recovered:
     with open_regular(file) as lines:
         said = json.loads(lines.readline())
         (recording,) = parse_replays(said["replay"])
+        record_table(recording.level)
         home = RunFile(Path(str(said["path"])), str(said["digest"]), str(said["beside"])) if said["path"] else RunFile()
         takes = [take_of_json(said["take"])]
         branches = branches_of_json(said["branches"])

@@ -58,7 +58,7 @@ def replay(number: int, tick: int, *overlays: str) -> Callable[[App], object]:
     """A moment of a certificate."""
 
     def show(app: App) -> None:
-        screen = ReplayScreen(app, load_replays(bundled_replays()[number]))
+        screen = ReplayScreen(app, load_replays(bundled_replays()[number]), editable=False)
         app.push(screen)
         for overlay in overlays:
             screen.overlays.toggle(overlay)
