@@ -50,12 +50,18 @@ export class PlayerFolder {
 
   // Save what changed; the promise is kept in `saving` until it is on the disk or the disk is too slow to wait for.
   saveChanges(tell) {
-    const state = this.lasting ? this.state() : this.seen;
-    if (state === this.seen || this.saving) return;
-    this.seen = state;
-    const slow = new Promise((done) => setTimeout(done, SLOW));
-    const saved = this.sync(false).catch((error) => tell(`Not saved in this browser: ${error.message ?? error}`));
-    this.saving = Promise.race([saved, slow]).finally(() => (this.saving = null));
+    if (!this.lasting || this.saving || this.state() === this.seen) return;
+    this.saving = this.save(tell).finally(() => (this.saving = null));
+  }
+
+  // What changes meanwhile, such as the last things when the page is left, is saved too.
+  async save(tell) {
+    for (let state = this.state(); state !== this.seen; state = this.state()) {
+      this.seen = state;
+      const slow = new Promise((done) => setTimeout(done, SLOW));
+      const saved = this.sync(false).catch((error) => tell(`Not saved in this browser: ${error.message ?? error}`));
+      await Promise.race([saved, slow]);
+    }
   }
 
   // What the game has written for the player since the last call: offered as downloads.
