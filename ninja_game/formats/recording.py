@@ -85,7 +85,7 @@ def holds_recordings(text: str) -> bool:
 def parse_replays(text: str, *, file: str = "", level: Level | None = None) -> list[Recording]:
     """All recordings in a text of any format. Raises ReplayError, DemoError or LevelError."""
     if is_replay(text):
-        replay = parse_replay(text, file=file)
+        replay = parse_replay(text, file=file, level=level)
         length = float(len(replay.inputs)) if replay.demo_length is None else replay.demo_length
         demo = fitted_demo(replay.inputs, length)
         found = level_of_replay(replay, file, level)

@@ -169,6 +169,14 @@ def test_what_contradicts_itself_is_not_written(changes: dict[str, object]) -> N
         write_replay(replace(REPLAY, **changes))  # type: ignore[arg-type]
 
 
+def test_a_replay_that_says_no_level_takes_the_given_one() -> None:
+    text = "ninja-game replay 3\ninputs:\n  R*20\n"
+    assert parse_replay(text, level=LEVEL).level == LEVEL
+    with pytest.raises(ReplayError, match="a replay without level"):
+        parse_replay(text)
+    assert parse_replay(TEXT, level=LEVEL).level is None
+
+
 def test_a_replay_is_told_by_its_first_words() -> None:
     assert is_replay("\ufeff" + TEXT)
     assert not is_replay("ninja-game level 1")

@@ -96,8 +96,8 @@ def is_replay(text: str) -> bool:
     return text.lstrip("\ufeff \t\r\n").startswith(MAGIC)
 
 
-def parse_replay(text: str, *, file: str = "") -> Replay:
-    """The replay that a text describes.
+def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Replay:
+    """The replay that a text describes. ``level``: what it is played on if it says no level at all.
 
     Raises ReplayError, naming line and column, for whatever is not as `docs/replay-format.md` says; LevelError for the
     level inside.
@@ -109,7 +109,9 @@ def parse_replay(text: str, *, file: str = "") -> Replay:
     if version >= 3 and not ended and not headers.loose:
         hint = f"its last line is '{LAST_LINE}'; where you have changed it by hand, `ninja-game record` writes it anew"
         raise ReplayError("the replay is cut", file, lines[-1][0], hint=hint)
-    level, level_name, level_author = read_level(headers.section("level-data"), file)
+    own, level_name, level_author = read_level(headers.section("level-data"), file)
+    if headers.lines.keys().isdisjoint(("level-digest", "level")):
+        own = own or level
     inputs = read_inputs(headers.section("inputs"), file=file, include=included_beside(file))
     length = headers.number("demo-length")
     last = len(inputs.keys) - 1 if length is None else Demo(inputs.keys, length).end
@@ -126,7 +128,7 @@ def parse_replay(text: str, *, file: str = "") -> Replay:
         level_digest=headers.digest("level-digest"),
         level_path=headers.text("level"),
         level_record=headers.count("level-record"),
-        level=level,
+        level=own,
         level_name=level_name,
         level_author=level_author,
         waypoints=read_waypoints(headers.section("waypoints"), file),
@@ -185,7 +187,8 @@ def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
             "inputs after the final tick", found=found, expected=str(replay.ticks), hint=hint
         )
     if not (replay.level_digest or replay.level_path or replay.level):
-        return "inputs", ReplayError("a replay without level", expected="'level:', 'level-digest:' or 'level-data:'")
+        expected, hint = "'level:', 'level-digest:' or 'level-data:'", "or say with --level where it is played"
+        return "inputs", ReplayError("a replay without level", expected=expected, hint=hint)
     if replay.level and replay.level_digest and replay.level_digest != level_digest(replay.level):
         found = level_digest(replay.level)
         hint = "the level was changed after the recording"
