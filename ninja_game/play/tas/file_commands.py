@@ -20,10 +20,9 @@ from ninja_game.play.clipboard import copy_link
 from ninja_game.play.editor.panels import STAY, Form, HelpPage, Menu, Row
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.controls import COMMANDS
-from ninja_game.play.tas.level.other_runs import OtherRuns
 from ninja_game.play.tas.part import Commands
 from ninja_game.player.saving import keep_replay
-from ninja_game.tas.files import SUFFIX, branches_path, replay_of_take, runs_beside, same_level
+from ninja_game.tas.files import SUFFIX, branches_path, replay_of_take, same_level
 from ninja_game.tas.journal import Recovered, forget, recovered
 
 if TYPE_CHECKING:
@@ -43,15 +42,9 @@ class FileCommands:
     """
 
     def __init__(
-        self,
-        app: App,
-        bench: Bench,
-        others: OtherRuns,
-        run: Callable[[str], object],
-        go_on: Callable[[Recovered], object],
+        self, app: App, bench: Bench, run: Callable[[str], object], go_on: Callable[[Recovered], object]
     ) -> None:
         self.app = app
-        self.others = others
         self._go_on = go_on
         self.bench = bench
         self.session = bench.session
@@ -70,7 +63,6 @@ class FileCommands:
         rows: list[Row] = [
             ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
             ("Open another run...", lambda: self._run("open_other"), "Beside this one: Ctrl+O"),
-            ("Open a file beside...", self.open_file, "A run of this level from any file"),
             ("Not saved last time...", self.list_recovered, "Runs that were edited when the program ended"),
             ("Watch", self.watch, "In the replay viewer, which makes films too"),
             ("Keep as a replay", self.keep, "Among yours"), ("Copy a link", self.copy_link, "Opens the run"),
@@ -134,20 +126,6 @@ class FileCommands:
             tail = ", with what is behind its end (Ctrl+E takes that out)" if self.session.has_tail else ""
             beside = " and its branches beside it" * branches_path(path).exists()
             self.app.notify(f"Saved{tail}: {path}{beside}")
-
-    def open_file(self) -> None:
-        """Ask for a file, and show its runs of this level beside this one."""
-
-        def take(texts: list[str]) -> None:
-            path = Path(texts[0].strip()).expanduser()
-            path = path if path.exists() else self._folder / path
-            self.bench.attempt(lambda: self.open_beside(path))
-
-        self.app.push(Form(self.app, f"A file, also in {self._folder.absolute()}", [("File", "", 300)], "Open", take))
-
-    def open_beside(self, path: Path) -> None:
-        """Show the runs of a file beside this one. Raises ReplayError and what else ``runs_beside`` does."""
-        self.others.open(runs_beside(path, self.session.about))
 
     def keep(self) -> None:
         """Put the run among the player's replays."""

@@ -56,10 +56,7 @@ class TasScreen(MenuScreen):
         self.tabs = all_tabs(self.bench)
         self.tab: Tab = self.tabs[0]
         self.head, self.foot_line = Head(self.bench), Foot(self.bench)
-        self.files = FileCommands(
-            app, self.bench, self.level.others, lambda name: self.commands()[name](),
-            lambda found: app.replace(TasScreen(app, found.opened, found=found)),
-        )  # fmt: skip
+        self.files = FileCommands(app, self.bench, self._run, self._go_on)
         self.level.others.open(beside)
         self._entered = found is not None
         self._widgets_stale = True

@@ -189,18 +189,6 @@ def test_what_was_not_saved_of_another_run_is_told_and_opens_from_the_menu(at: B
     again.close()
 
 
-def test_a_file_is_opened_beside_by_its_name(at: BenchDriver, tmp_path: Path) -> None:
-    (tmp_path / "slower.replay.txt").write_bytes(RUN.read_bytes())
-    for name, count in (("nothing.txt", 0), ("slower.replay.txt", 1)):
-        at.press("escape")
-        at.choose("Open a file beside...")
-        form = at.top()
-        assert isinstance(form, Form)
-        form.texts[0] = name
-        at.choose("Open")
-        assert len(at.bench.others) == count
-
-
 def test_a_closed_window_of_a_saved_run_leaves_nothing(at: BenchDriver) -> None:
     change(at)
     at.chord("z", CTRL)
