@@ -84,6 +84,17 @@ level_option = click.option(
 )  # fmt: skip
 
 
+def window_options(command: Callable[..., T]) -> Callable[..., T]:
+    """The options of commands that open a window: its size in px, how many pictures, where the last one goes."""
+    for option in (
+        click.option("--screenshot", type=click.Path(dir_okay=False), help="Write the last picture to this PNG file."),
+        click.option("--frames", type=click.IntRange(1, 10**9), help="End after so many pictures."),
+        click.option("--size", metavar="WIDTHxHEIGHT", help="Size of the window in px, e.g. 1584x1200."),
+    ):
+        command = option(command)
+    return command
+
+
 def choose_level(path: Path, record: int | None) -> NamedLevel:
     """The level of a file; of several the one with that record number. Usage error as in ``choose``."""
     from ninja_game.formats.load import load_levels

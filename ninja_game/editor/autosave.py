@@ -16,7 +16,7 @@ from ninja_game.editor.background import NewestJob
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, draft_of, new_source, open_source
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.locking import hold
+from ninja_game.files.locking import LOCK_SUFFIX, forget, hold, left_behind
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.named_level import parse_levels
@@ -26,8 +26,6 @@ FOLDER = "editing"
 
 SPACING = 0.4
 """Seconds from one autosave to the next, at least."""
-
-_LOCK = ".lock"
 
 
 class Autosave:
@@ -63,11 +61,12 @@ class Autosave:
     def _work(self, job: tuple[Draft, Source] | None) -> None:
         try:
             if job is None:
-                _forget(self._file)
+                with suppress(OSError):
+                    self._file.unlink(missing_ok=True)
                 return
             if self._handle is None:
                 self._folder.mkdir(parents=True, exist_ok=True)
-                self._handle = hold(self._file.with_suffix(_LOCK))
+                self._handle = hold(self._file.with_suffix(LOCK_SUFFIX))
             draft, source = job
             kept = {"path": str(source.path or ""), "digest": source.digest, "level": ascii_text(draft)}
             write_atomically(self._file, json.dumps(kept, indent=1))
@@ -82,13 +81,7 @@ class Autosave:
             os.close(self._handle)
             self._handle = None
         if not keep:
-            _forget(self._file, self._file.with_suffix(_LOCK))
-
-
-def _forget(*files: Path) -> None:
-    for file in files:
-        with suppress(OSError):
-            file.unlink(missing_ok=True)
+            forget(self._file)
 
 
 @dataclass(frozen=True)
@@ -101,23 +94,12 @@ class Recovered:
 
     def forget(self) -> None:
         """Remove what was kept."""
-        _forget(self.file, self.file.with_suffix(_LOCK))
+        forget(self.file)
 
 
 def recovered(folder: Path) -> Iterator[Recovered]:
     """What editors that have died were editing, the newest first; those of running editors are left out."""
-    with suppress(OSError):
-        files = sorted((folder / FOLDER).glob("*.json"), key=lambda path: -path.stat().st_mtime)
-        for file in files:
-            handle = hold(file.with_suffix(_LOCK))
-            if handle is None:
-                continue
-            try:
-                yield _read(file)
-            except (ValueError, KeyError, TypeError, NinjaGameError):
-                continue
-            finally:
-                os.close(handle)
+    return left_behind(folder / FOLDER, "*.json", _read, (ValueError, KeyError, TypeError, NinjaGameError))
 
 
 def _read(file: Path) -> Recovered:

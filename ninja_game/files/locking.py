@@ -5,9 +5,15 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import TypeVar
+
+Found = TypeVar("Found")
+
+LOCK_SUFFIX = ".lock"
+"""Of the file that a program holds as long as it keeps another one."""
 
 if sys.platform == "win32":
     import msvcrt
@@ -67,3 +73,31 @@ def hold(path: Path) -> int | None:
         os.close(handle)
         return None
     return handle
+
+
+def left_behind(
+    folder: Path, pattern: str, read: Callable[[Path], Found], damaged: tuple[type[Exception], ...]
+) -> Iterator[Found]:
+    """What files hold whose programs have died, the newest first; those of running programs are left out.
+
+    ``damaged``: what ``read`` raises for a file that is left out too.
+    """
+    with suppress(OSError):
+        for file in sorted(folder.glob(pattern), key=lambda path: -path.stat().st_mtime):
+            handle = hold(file.with_suffix(LOCK_SUFFIX))
+            if handle is None:
+                continue
+            try:
+                found = read(file)
+            except damaged:
+                continue
+            finally:
+                os.close(handle)
+            yield found
+
+
+def forget(file: Path) -> None:
+    """Remove a file that was held, and its lock."""
+    for each in (file, file.with_suffix(LOCK_SUFFIX)):
+        with suppress(OSError):
+            each.unlink(missing_ok=True)

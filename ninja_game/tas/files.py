@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
@@ -241,8 +240,3 @@ def read_branches(path: Path) -> Branches:
     except DAMAGED as error:
         hint = "move it away, and the run opens without branches"
         raise ReplayError("not the branches of a run", str(beside), found=str(error)[:60], hint=hint) from None
-
-
-def takes_of(recordings: Sequence[Recording]) -> list[tuple[str, Take]]:
-    """Recordings as named takes, such as ghosts."""
-    return [(each.name or Path(each.file).stem, take_of(each)) for each in recordings]

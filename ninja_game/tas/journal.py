@@ -17,7 +17,7 @@ from typing import Any
 from zlib import crc32
 
 from ninja_game.errors import FileError, NinjaGameError
-from ninja_game.files.locking import hold
+from ninja_game.files.locking import LOCK_SUFFIX, forget, hold, left_behind
 from ninja_game.files.reading import open_regular
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import parse_replays
@@ -36,8 +36,6 @@ from ninja_game.tas.take import Take
 
 FOLDER = "tas"
 """In the player's folder."""
-
-_LOCK = ".lock"
 
 
 def edit_as_json(old: Take, new: Take) -> dict[str, Any]:
@@ -87,7 +85,7 @@ class Journal:
         self._lock: int | None = None
         self._handle: int | None = None
         if file is not None:
-            self._lock = hold(file.with_suffix(_LOCK))
+            self._lock = hold(file.with_suffix(LOCK_SUFFIX))
             if self._lock is None:
                 raise FileError("another window goes on with this run already", str(file))
 
@@ -107,7 +105,7 @@ class Journal:
     def _open(self) -> int:
         self._folder.mkdir(parents=True, exist_ok=True)
         if self._lock is None:
-            self._lock = hold(self._file.with_suffix(_LOCK))
+            self._lock = hold(self._file.with_suffix(LOCK_SUFFIX))
         if not self._file.exists():
             write_atomically(self._file, json.dumps(self.opened, separators=(",", ":")))
         return os.open(self._file, os.O_WRONLY | os.O_APPEND)
@@ -127,13 +125,6 @@ class Journal:
             forget(self._file)
 
 
-def forget(file: Path) -> None:
-    """Remove a journal."""
-    for each in (file, file.with_suffix(_LOCK)):
-        with suppress(OSError):
-            each.unlink(missing_ok=True)
-
-
 @dataclass(frozen=True)
 class Recovered:
     """What a session that has died was editing. ``opened``: as it began; ``takes``: after each edit.
@@ -150,19 +141,7 @@ class Recovered:
 
 def recovered(folder: Path) -> Iterator[Recovered]:
     """What sessions that have died were editing, the newest first; those of running sessions are left out."""
-    with suppress(OSError):
-        files = sorted((folder / FOLDER).glob("*.jsonl"), key=lambda path: -path.stat().st_mtime)
-        for file in files:
-            handle = hold(file.with_suffix(_LOCK))
-            if handle is None:
-                continue
-            try:
-                found = read_journal(file)
-            except DAMAGED:
-                continue
-            finally:
-                os.close(handle)
-            yield found
+    return left_behind(folder / FOLDER, "*.jsonl", read_journal, DAMAGED)
 
 
 def read_journal(file: Path) -> Recovered:

@@ -65,10 +65,9 @@ class Timeline:
 
     def show(self, inputs: bytes) -> int:
         """Other inputs. What they have in common with those before stays simulated. The first tick that differs."""
-        same = first_difference(self.inputs, inputs)
         # Behind the inputs no key is down: a run that grows by such ticks goes the same way.
         longest = max(len(self.inputs), len(inputs))
-        same = max(same, first_difference(first_ticks(self.inputs, longest), first_ticks(inputs, longest)))
+        same = first_difference(first_ticks(self.inputs, longest), first_ticks(inputs, longest))
         self.inputs = inputs
         self._forget(min(same, len(self)))
         return same

@@ -7,15 +7,13 @@ from pathlib import Path
 
 import click
 
-from ninja_game.cli.run_options import LevelPath
+from ninja_game.cli.run_options import LevelPath, window_options
 
 
 @click.command()
 @click.argument("level", required=False, type=LevelPath())
 @click.option("--record", type=click.IntRange(0, 10**6), default=0, help="This level of the file, counted from 0.")
-@click.option("--size", metavar="WIDTHxHEIGHT", help="Size of the window in px, e.g. 1584x1200.")
-@click.option("--frames", type=click.IntRange(1, 10**9), help="End after so many pictures.")
-@click.option("--screenshot", type=click.Path(dir_okay=False), help="Write the last picture to this PNG file.")
+@window_options
 @click.pass_context
 def command(
     ctx: click.Context, level: Path | None, record: int, size: str | None, frames: int | None, screenshot: str | None

@@ -7,14 +7,14 @@ from pathlib import Path
 
 import click
 
+from ninja_game.cli.run_options import window_options
+
 FIGURES = ("cells", "edges", "projection", "grids", "nine-cells", "pairs", "bullets", "rays", "drones", "tick")
 
 
 @click.command()
 @click.argument("figure", required=False, type=click.Choice(FIGURES))
-@click.option("--size", metavar="WIDTHxHEIGHT", help="Size of the window in px, e.g. 1584x1200.")
-@click.option("--frames", type=click.IntRange(1, 10**9), help="End after so many pictures.")
-@click.option("--screenshot", type=click.Path(dir_okay=False), help="Write the last picture to this PNG file.")
+@window_options
 @click.option(
     "-o", "--output", type=click.Path(dir_okay=False, path_type=Path),
     help="Open no window: write the figure to this .png file, or its demonstration to this .gif file.",

@@ -9,7 +9,7 @@ from typing import Literal
 
 import click
 
-from ninja_game.cli.run_options import InputPath, LevelPath, level_option
+from ninja_game.cli.run_options import InputPath, LevelPath, level_option, window_options
 
 
 @click.command()
@@ -24,9 +24,7 @@ from ninja_game.cli.run_options import InputPath, LevelPath, level_option
 @click.option("--practice", is_flag=True, help="No time limit, nothing counts.")
 @click.option("--replay", type=InputPath(dir_okay=False), help="Watch the recordings of this file or link.")
 @level_option
-@click.option("--size", metavar="WIDTHxHEIGHT", help="Size of the window in px, e.g. 1584x1200.")
-@click.option("--frames", type=click.IntRange(1, 10**9), help="End after so many pictures.")
-@click.option("--screenshot", type=click.Path(dir_okay=False), help="Write the last picture to this PNG file.")
+@window_options
 @click.pass_context
 def command(
     ctx: click.Context,

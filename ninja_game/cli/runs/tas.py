@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ninja_game.cli.run_options import level_given, level_option
+from ninja_game.cli.run_options import level_given, level_option, window_options
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
@@ -23,9 +23,7 @@ if TYPE_CHECKING:
     help="Another file with runs of the same level, to be shown beside; may be given several times.",
 )  # fmt: skip
 @click.option("--tick", type=click.IntRange(0, 10**6), default=0, help="Put the cursor on this tick.")
-@click.option("--size", metavar="WIDTHxHEIGHT", help="Size of the window in px, e.g. 1584x1200.")
-@click.option("--frames", type=click.IntRange(1, 10**9), help="End after so many pictures.")
-@click.option("--screenshot", type=click.Path(dir_okay=False), help="Write the last picture to this PNG file.")
+@window_options
 @click.pass_context
 def command(
     ctx: click.Context, file: Path, record: int | None, level_path: Path | None, beside: tuple[Path, ...],

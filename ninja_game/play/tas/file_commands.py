@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from ninja_game.editor.files import OccupiedError
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.locking import forget
 from ninja_game.files.resources import data_folder
 from ninja_game.files.shown_text import file_stem
 from ninja_game.files.user_folder import REPLAYS, free_path
@@ -23,7 +24,7 @@ from ninja_game.play.tas.controls import COMMANDS
 from ninja_game.play.tas.part import Commands
 from ninja_game.player.saving import keep_replay
 from ninja_game.tas.files import SUFFIX, branches_path, replay_of_take, same_level
-from ninja_game.tas.journal import Recovered, forget, recovered
+from ninja_game.tas.journal import Recovered, recovered
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App

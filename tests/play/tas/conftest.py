@@ -14,9 +14,15 @@ from tests.support.own_pack import PACK
 RUN = PACK / "certificates" / "00-2-the-chimney.exit.replay.txt"
 
 
+@pytest.fixture
+def run() -> Path:
+    """The run on the bench; test files may have another one."""
+    return RUN
+
+
 @pytest.fixture(name="at")
-def bench_with_a_run(tmp_path: Path) -> Iterator[BenchDriver]:
-    driver = BenchDriver(tmp_path / "player", Path(copy(RUN, tmp_path / "run.replay.txt")))
+def bench_with_a_run(run: Path, tmp_path: Path) -> Iterator[BenchDriver]:
+    driver = BenchDriver(tmp_path / "player", Path(copy(run, tmp_path / "run.replay.txt")))
     try:
         yield driver
     finally:

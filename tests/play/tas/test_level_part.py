@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from random import Random
@@ -26,13 +25,9 @@ from tests.support.own_pack import PACK
 RUN = PACK / "certificates" / "01-2-the-works.exit.replay.txt"
 
 
-@pytest.fixture(name="at")
-def bench_with_a_run(tmp_path: Path) -> Iterator[BenchDriver]:
-    driver = BenchDriver(tmp_path / "player", Path(copy(RUN, tmp_path / "run.replay.txt")))
-    try:
-        yield driver
-    finally:
-        driver.close()
+@pytest.fixture
+def run() -> Path:
+    return RUN
 
 
 def test_any_tick_is_that_of_a_straight_run_after_any_edits(at: BenchDriver) -> None:
