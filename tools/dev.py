@@ -120,14 +120,15 @@ def pip_install(names: Sequence[str]) -> bool:
     packages = tomllib.loads((ROOT / "uv.lock").read_text("utf-8"))["package"]
     count = Counter(package["name"] for package in packages)
     exact = [f"{p['name']}=={p['version']}" for p in packages if "registry" in p["source"] and count[p["name"]] == 1]
-    extras = [name for name in names if name != "dev"]
+    extras = ",".join(name for name in names if name != "dev")
+    project = f"{ROOT}[{extras}]" if extras else str(ROOT)
     group = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["dependency-groups"]["dev"]
     tools = [name for name in group if not name.startswith("ninja-game")] if "dev" in names else []
     with tempfile.TemporaryDirectory() as folder:
         constraints = Path(folder) / "constraints.txt"
         constraints.write_text("\n".join(exact) + "\n", "utf-8")
         words = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--constraint", str(constraints)]
-        return run(program("python"), *words, "--editable", f"{ROOT}[{','.join(extras)}]", *tools) == 0
+        return run(program("python"), *words, "--editable", project, *tools) == 0
 
 
 def extras_of(words: Sequence[str]) -> list[str]:

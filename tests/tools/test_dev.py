@@ -114,6 +114,9 @@ def test_pip_installs_the_locked_versions_where_uv_cannot_be_had(
     monkeypatch.setattr(dev, "make_environment", lambda: None)
     monkeypatch.setattr(dev, "uv_sync", lambda _names: False)
     monkeypatch.setattr(dev, "run", run)
+    dev.install(())
+    assert asked[0] == str(dev.ROOT)
+    asked.clear()
     dev.install(dev.DEVELOPMENT)
     assert asked[0] == f"{dev.ROOT}[cluster,fast,film,learn,minari,plots,train]"
     lock = (ROOT / "uv.lock").read_text("utf-8")
