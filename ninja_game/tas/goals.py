@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from math import ceil, floor
 from typing import NamedTuple
 
 import numpy as np
@@ -65,8 +66,10 @@ def be_there(span: SearchedSpan) -> Wanted:
 def go_beyond(span: SearchedSpan) -> Wanted:
     """Pass, earlier, the upright line at the end of the span."""
     start, end = span.start, span.end
-    sign = ">" if end["x"] >= start["x"] else "<"
-    return Wanted(f"x {sign} {end['x']:.6g}")
+    # Rounded so that the run itself has passed the line at its end.
+    if end["x"] >= start["x"]:
+        return Wanted(f"x >= {floor(end['x'] * 1000) / 1000:.7g}")
+    return Wanted(f"x <= {ceil(end['x'] * 1000) / 1000:.7g}")
 
 
 def be_fast(span: SearchedSpan) -> Wanted:

@@ -187,6 +187,21 @@ def test_the_same_end_is_found_sooner_and_the_rest_follows(at: BenchDriver, tab:
     assert results.words(fewer)[0].endswith(", 2 gold fewer")
 
 
+@pytest.mark.parametrize("name", ["Be there sooner", "Go beyond sooner"])
+def test_a_run_gets_shorter_by_what_the_list_says(at: BenchDriver, tab: SearchTab, name: str) -> None:
+    at.bench.edit(lambda take: take.replaced(0, 0, [0] * 9))
+    at.bench.select(0, 40)
+    at.choose("Take the selection")
+    before = len(at.bench.take)
+    wish(at, name)
+    results = searched(at, tab)
+    for index in (0, 1, 0):
+        gain = results.words(tab.found[index])[-1]
+        row(at, tab, index)
+        assert results.is_in(tab.found[index])
+        assert gain.split(" tick")[0] == str(before - len(at.bench.take))
+
+
 def test_a_search_is_cancelled_soon_by_hand_and_when_the_bench_is_left(at: BenchDriver, tab: SearchTab) -> None:
     wish(at, "Greatest speed")
     at.press("return")

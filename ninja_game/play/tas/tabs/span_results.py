@@ -37,8 +37,8 @@ class SpanResults:
         self.task = task
         memory = bench.session.timeline.memory
         self.search = SpanSearch(task, method, max(1, cores() - 1), every=every, memory=memory)
-        # The begins of runs that results fit to, and the first tick behind the span in each: the run that is searched
-        # and those that results were put into.
+        # The begins of runs that results fit to, and the first tick that follows a result in each: the run that is
+        # searched and those that results were put into.
         whole = len(task.inputs) if task.rest else task.last
         self._fitting = [(task.inputs[:whole], task.last)]
         self.better: tuple[Found, ...] = ()
@@ -63,7 +63,10 @@ class SpanResults:
 
     @property
     def behind(self) -> int | None:
-        """The first tick behind the span in the run as it is now; None: it was changed, and no result fits to it."""
+        """The first tick behind a result that is put into the run as it is now; None: it was changed, and none fits.
+
+        As with the rest of a run, what follows is what the run did after its own moment at the goal.
+        """
         inputs = self.bench.take.inputs
         for begin, behind in reversed(self._fitting):
             if inputs == begin if self.task.rest else inputs.startswith(begin):
@@ -115,6 +118,8 @@ class SpanResults:
         if found is self._seen:
             return
         self._seen, own = found, self.search.own
+        if own is not None:
+            self._fitting[0] = self._fitting[0][0], self.task.first + own.ticks
         different: dict[object, Found] = {}
         for each in sorted([*self.better, *found]):
             if own is None or each.score < own.score:
