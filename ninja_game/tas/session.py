@@ -24,8 +24,8 @@ SOON_PLAIN = 2000
 class Session:
     """One run that is edited. ``folder``: the player's, for the journal.
 
-    ``about``: level, body, name and author of the run. ``before``: what the ninja did in the run before the last
-    edit. Raises LevelError for a level that cannot be played.
+    ``about``: level, body, name and author of the run. ``before_take``: the run before the last edit; ``before``: what
+    the ninja did in it. Raises LevelError for a level that cannot be played.
     """
 
     def __init__(self, opened: OpenedRun, folder: Path, *, memory: str = "auto") -> None:
@@ -37,6 +37,7 @@ class Session:
         self._saved_branches = list(opened.branches.all)
         self.timeline = Timeline(self.about.level, opened.take.inputs, body=self.about.body, memory=memory)
         self.before: Course = NOWHERE
+        self.before_take = opened.take
         self._noted = opened.take
         self._file_differs = False
         self._stroke_noted = False
@@ -79,7 +80,7 @@ class Session:
         """A stroke begins: what changes until its end is one edit."""
         self.end()
         self.history.begin()
-        self.before = self.timeline.course()
+        self._look_back()
 
     def change(self, take: Take, *, ticks: int | None = None) -> None:
         """Another take, as a part of the stroke or an edit of its own. So many ticks of it are simulated at once.
@@ -89,7 +90,7 @@ class Session:
         if take == self.take:
             return
         if not self.history.in_stroke:
-            self.before = self.timeline.course()
+            self._look_back()
         self.history.change(take)
         self._follow(ticks)
 
@@ -109,12 +110,16 @@ class Session:
 
     def _step(self, step: Callable[[], bool]) -> bool:
         self.end()
-        before = self.timeline.course()
+        before = self.timeline.course(), self.take
         if not step():
             return False
-        self.before = before
+        self.before, self.before_take = before
         self._follow()
         return True
+
+    def _look_back(self) -> None:
+        """Note what there is before an edit."""
+        self.before, self.before_take = self.timeline.course(), self.take
 
     def _follow(self, ticks: int | None = None) -> None:
         """Show what the take leads to, and note it."""

@@ -41,6 +41,8 @@ COMMANDS = (
     Command("marker", "Name this tick, or rename it", ("m",)),
     Command("next_marker", "Next named tick", ("n",)),
     Command("previous_marker", "Named tick before", ("shift+n",)),
+    Command("next_difference", "Next tick with other keys than the run beside", ("k",)),
+    Command("previous_difference", "Tick before with other keys than the run beside", ("shift+k",)),
     Command("play", "Play and stop", ("space",)),
     Command("step_back", "A tick back", ("comma",)),
     Command("step", "A tick on; taken over: with the keys that are down", ("period",)),

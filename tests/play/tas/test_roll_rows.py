@@ -33,6 +33,7 @@ def test_runs_of_no_tick_and_of_one(at: BenchDriver) -> None:
 
 def test_a_very_long_run_scrolls_by_drawing_new_rows_only(at: BenchDriver, monkeypatch: pytest.MonkeyPatch) -> None:
     at.bench.edit(lambda take: Take(bytes([1, 2] * 50_000)))
+    at.bench.edit(lambda take: take.named(60_000, "there"))
     at.session.timeline.work(200_000)
     at.bench.go(70_000)
     at.frames()

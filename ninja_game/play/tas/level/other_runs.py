@@ -65,7 +65,7 @@ class OtherRuns:
         bench = self.bench
         if self.chosen is not None:
             bench.chosen = (bench.chosen + 1) % len(bench.others)
-            bench.app.notify(f"Parts are taken from {bench.others[bench.chosen].name}")
+            bench.app.notify(f"Compared, and parts are taken from: {bench.others[bench.chosen].name}")
 
     def splice(self) -> None:
         """The selected ticks get the keys that the other run has in the same ticks; all others keep theirs."""

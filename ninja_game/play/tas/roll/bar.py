@@ -6,6 +6,7 @@ import pygame
 
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.roll.columns import Layout
+from ninja_game.play.tas.roll.differences import compared, different_rows
 from ninja_game.play.ui.palette import mixed
 from ninja_game.play.ui.theme import Theme
 from ninja_game.tas.take import Take
@@ -56,6 +57,11 @@ class ScrollBar:
         begin, behind = bench.selection
         if behind - begin > 1:
             surface.fill(palette.bar_full, (bar.left, at(begin), bar.width // 2, max(1, at(behind) - at(begin))))
+        other = compared(bench)
+        if other is not None:
+            wide, colour = bar.width // 4, other.colour(palette)
+            for y in different_rows(bench.take.inputs, other.take.inputs, ticks, bar.height):
+                surface.fill(colour, (bar.right - wide, bar.top + y, wide, 1))
         thick = theme.canvas.px(1.5)
         for tick, role in self._places():
             surface.fill(getattr(palette, role), (bar.left + bar.width // 4, at(tick), bar.width, thick))

@@ -12,6 +12,7 @@ from ninja_game.play.clipboard import copy_text, pasted_text
 from ninja_game.play.editor.panels import Form
 from ninja_game.play.tas.bench import Bench, Span
 from ninja_game.play.tas.part import Commands
+from ninja_game.play.tas.roll.differences import changes, compared
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.files import inputs_of_text
 from ninja_game.tas.take import Take
@@ -35,6 +36,8 @@ class RollCommands:
             **{f"select_{name}": partial(self._move, to, select=True) for name, to in moves.items()},
             "select_all": self.select_all, "go_to": self.ask_where,
             "next_marker": lambda: self._to_marker(1), "previous_marker": lambda: self._to_marker(-1),
+            "next_difference": lambda: self._to_difference(1),
+            "previous_difference": lambda: self._to_difference(-1),
             "key_left": lambda: self.toggle(KEY_LEFT), "key_right": lambda: self.toggle(KEY_RIGHT),
             "key_jump": lambda: self.toggle(JUMP_HELD),
             "clear": self.clear, "insert": self.insert, "remove": self.remove,
@@ -89,6 +92,21 @@ class RollCommands:
             self._bench.go(min(ticks, key=lambda tick: abs(tick - cursor)))
         else:
             self._bench.app.notify(f"No named tick {'behind' if way > 0 else 'before'} this one: M names it")
+
+    def _to_difference(self, way: int) -> None:
+        """The next tick in which the keys part from those of the run that is compared, or the one before."""
+        bench, other = self._bench, compared(self._bench)
+        if other is None:
+            bench.app.notify("Other runs are not shown: G shows them")
+            return
+        ticks = changes(bench.take.inputs, other.take.inputs)
+        ticks = ticks[ticks <= bench.last_tick]
+        ahead = ticks[(ticks - bench.cursor) * way > 0]
+        if len(ahead):
+            bench.go(int(ahead[0] if way > 0 else ahead[-1]))
+        else:
+            where = "no" if not len(ticks) else "no more" if way > 0 else "no earlier"
+            bench.app.notify(f"There are {where} ticks with other keys than {other.name}")
 
     # --- changing ---
 

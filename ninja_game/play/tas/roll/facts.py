@@ -7,7 +7,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ninja_game.formats.replay.input_runs import KEY_NAMES
 from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.roll.differences import compared, different_keys
+from ninja_game.sim.inputs import KEYS_DOWN
 from ninja_game.sim.states import STATE_NAMES
 from ninja_game.tas.take import Take
 from ninja_game.tas.watch import exit_distance
@@ -33,13 +36,15 @@ class Values(NamedTuple):
 class RowFacts(NamedTuple):
     """All that the picture of a row depends on.
 
-    ``keys``, ``before``: inputs of the tick and of the one before it. ``values``: None where nothing is simulated.
+    ``keys``, ``before``: inputs of the tick and of the one before it; ``differs``: the keys that are down either here
+    or in the run that this one is compared to. ``values``: None where nothing is simulated.
     ``beyond``: behind the last input; ``over``: behind exit or death. ``changed``: its keys are not the saved ones.
     """
 
     tick: int
     keys: int
     before: int
+    differs: int
     values: Values | None
     events: str
     name: str
@@ -60,11 +65,15 @@ def row_facts(bench: Bench, first: int, last: int) -> list[RowFacts]:
     changed = changed_ticks(take, bench.session.saved)
     names = {tick: name for tick, name in take.markers if first <= tick < last}
     count, inputs = len(take), take.inputs
+    other = compared(bench)
+    differs = different_keys(inputs, other.take.inputs)[first:last].tolist() if other else []
+    differs += [0] * (last - first - len(differs))
     return [
         RowFacts(
             tick,
             inputs[tick] if tick < count else 0,
             inputs[tick - 1] if 0 < tick <= count else 0,
+            differs[tick - first],
             values[tick - first],
             timeline.events(tick),
             names.get(tick, ""),
@@ -103,6 +112,12 @@ def changed_ticks(take: Take, saved: Take) -> range | bytes:
     unequal = np.flatnonzero(ours[::-1][:shared] != theirs[::-1][:shared])
     same = int(unequal[0]) if len(unequal) else shared
     return range(first, len(ours) - min(same, shared - first))
+
+
+def keys_in_words(row: RowFacts, other: str) -> str:
+    """The keys of a row, and those of the run that is compared, which is called ``other``."""
+    ours, theirs = (KEY_NAMES[keys & KEYS_DOWN] for keys in (row.keys, row.keys ^ row.differs))
+    return f"{row.tick}:  {ours}   {other}: {theirs}"
 
 
 def in_words(row: RowFacts, *, numbers: bool) -> str:

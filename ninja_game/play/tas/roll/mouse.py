@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.play.tas.roll.columns import Column
-from ninja_game.play.tas.roll.facts import in_words, row_facts
+from ninja_game.play.tas.roll.differences import compared
+from ninja_game.play.tas.roll.facts import in_words, keys_in_words, row_facts
 
 if TYPE_CHECKING:
     from ninja_game.play.tas.roll.part import Roll
@@ -154,6 +155,8 @@ class RollMouse:
             self._bench.hint = f"tick {self._roll.bar.tick_at(y, layout)}"
         elif layout.body.collidepoint(x, y) and layout.row_at(y) + self._roll.top <= self._bench.last_tick:
             tick = self._tick_at(y)
+            other = compared(self._bench) if column.key else None
             rest = column.name in ("state", "jump_timer", "contacts", "gold", "exit")
-            self._bench.hint = in_words(row_facts(self._bench, tick, tick + 1)[0], numbers=not rest)
+            row = row_facts(self._bench, tick, tick + 1)[0]
+            self._bench.hint = keys_in_words(row, other.name) if other else in_words(row, numbers=not rest)
         self._told = self._bench.hint

@@ -12,6 +12,7 @@ from ninja_game.play.tas.part import Commands, Part
 from ninja_game.play.tas.roll.bar import ScrollBar
 from ninja_game.play.tas.roll.columns import AREA, COLUMNS, Layout, layout_of
 from ninja_game.play.tas.roll.commands import RollCommands
+from ninja_game.play.tas.roll.differences import compared
 from ninja_game.play.tas.roll.facts import row_facts
 from ninja_game.play.tas.roll.mouse import RollMouse
 from ninja_game.play.tas.roll.rows import RowSheet
@@ -84,23 +85,26 @@ class Roll(Part):
         """Runs, cursor, selection, what is simulated and what is seen of it."""
         bench = self.bench
         timeline = bench.session.timeline
-        return bench.take, bench.session.saved, bench.cursor, bench.selection, timeline.valid, self.top, self.hidden
+        return (
+            bench.take, bench.session.saved, compared(bench), bench.cursor, bench.selection, timeline.valid, self.top,
+            self.hidden,
+        )  # fmt: skip
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """Heads, rows, scroll bar."""
-        layout = self.layout
-        if self._sheet is None or self._sheet.theme is not theme or self._sheet.layout != layout:
-            self._sheet = RowSheet(theme, layout)
-        self._sheet.draw(
-            surface, row_facts(self.bench, self.top, min(self.top + layout.rows, self.bench.last_tick + 1))
-        )
+        layout, other, palette = self.layout, compared(self.bench), theme.palette
+        mark = other.colour(palette) if other else palette.ghost
+        sheet = self._sheet
+        if sheet is None or sheet.theme is not theme or sheet.layout != layout or sheet.mark != mark:
+            self._sheet = sheet = RowSheet(theme, layout, mark)
+        sheet.draw(surface, row_facts(self.bench, self.top, min(self.top + layout.rows, self.bench.last_tick + 1)))
         self.bar.draw(surface, theme, layout, self.top)
-        surface.fill(theme.palette.tile, layout.heads)
+        surface.fill(palette.tile, layout.heads)
         scale = theme.canvas.scale
         for place in layout.places:
             x = (place.left - theme.canvas.origin[0] + place.width / 2) / scale
-            theme.text(surface, place.column.head, x, AREA[1] + 4, size=8, colour=theme.palette.on_tile, align="centre")
-        theme.canvas.frame_rect(surface, theme.palette.panel_edge, *AREA)
+            theme.text(surface, place.column.head, x, AREA[1] + 4, size=8, colour=palette.on_tile, align="centre")
+        theme.canvas.frame_rect(surface, palette.panel_edge, *AREA)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         """Painting, selecting, scrolling."""

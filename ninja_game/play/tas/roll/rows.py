@@ -26,10 +26,13 @@ _LETTERS = {KEY_LEFT: "L", KEY_RIGHT: "R", JUMP_HELD: "J"}
 
 
 class RowSheet:
-    """The rows that are seen as one picture. Tick k is at row k modulo their number: scrolling moves none."""
+    """The rows that are seen as one picture. Tick k is at row k modulo their number: scrolling moves none.
 
-    def __init__(self, theme: Theme, layout: Layout) -> None:
-        self.theme, self.layout = theme, layout
+    ``mark``: the colour of the run that this one is compared to.
+    """
+
+    def __init__(self, theme: Theme, layout: Layout, mark: pygame.Color) -> None:
+        self.theme, self.layout, self.mark = theme, layout, mark
         self._picture = pygame.Surface(layout.body.size)
         self._drawn: list[RowFacts | None] = [None] * layout.rows
         self._digits = Digits(theme, SIZE)
@@ -69,6 +72,8 @@ class RowSheet:
             left = place.left - layout.body.left
             if place.column.key:
                 self._key(row, place, left, y, line)
+                if row.differs & place.column.key:
+                    self._difference(row, place, left, y)
             elif place.column.name == "tick":
                 if row.name:
                     fill(palette.ghost, (left, y, place.width, layout.row))
@@ -124,6 +129,16 @@ class RowSheet:
             picture = self.theme.lettering.rendered(letter, SIZE, palette.panel, bold=True)
             middle = left + 1 + (place.width - picture.get_width()) // 2
             self._blits.append((picture, (middle, y + self._lift)))
+
+    def _difference(self, row: RowFacts, place: Place, left: int, y: int) -> None:
+        """At the right of a key's cell: a bar where the key is down in the other run only, a hollow one for ours."""
+        px, height, fill = self.theme.canvas.px, self.layout.row, self._picture.fill
+        wide = px(4)
+        x = left + place.width - wide
+        fill(self.mark, (x, y, wide, height))
+        if row.keys & place.column.key:
+            edge = max(1, px(1))
+            fill(self.theme.palette.panel, (x + edge, y, wide - 2 * edge, height))
 
     def _value(self, values: Values, place: Place, left: int, y: int, ink: pygame.Color) -> None:
         """What a column says after the tick."""

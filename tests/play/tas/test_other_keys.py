@@ -1,0 +1,90 @@
+"""The keys of another run beside those of the one on the bench."""
+
+from __future__ import annotations
+
+import pygame
+
+from ninja_game.play.tas.roll.differences import compared, different_rows
+from ninja_game.play.tas.roll.facts import row_facts
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, press_jumps
+from ninja_game.tas.take import Take
+from tests.support.bench_driver import BenchDriver
+
+OURS = Take(press_jumps([KEY_RIGHT] * 60))
+THEIRS = Take(press_jumps([KEY_RIGHT] * 20 + [KEY_LEFT] * 5 + [KEY_RIGHT | JUMP_HELD] * 5 + [KEY_RIGHT] * 34))
+SHIFT = pygame.KMOD_LSHIFT
+
+
+def beside(at: BenchDriver, *others: Take) -> None:
+    """Runs with few keys on the bench and beside it."""
+    at.bench.edit(lambda take: OURS)
+    at.screen.level.others.open([at.session.recording(other, f"run {n}") for n, other in enumerate(others)])
+    at.frames()
+
+
+def differing(at: BenchDriver) -> dict[int, int]:
+    return {row.tick: row.differs for row in row_facts(at.bench, 0, 100) if row.differs}
+
+
+def test_keys_that_only_one_run_has_are_marked(at: BenchDriver) -> None:
+    beside(at, THEIRS)
+    turned, jumped = dict.fromkeys(range(20, 25), KEY_LEFT | KEY_RIGHT), dict.fromkeys(range(25, 30), JUMP_HELD)
+    assert differing(at) == turned | jumped | dict.fromkeys(range(60, 64), KEY_RIGHT)
+    at.event(pygame.MOUSEMOTION, *at.cell(22, "left"))
+    assert at.bench.hint == "22:  R   run 0: L"
+    at.press("g")
+    assert differing(at) == {}
+    at.press("k")
+    assert at.app.notice == "Other runs are not shown: G shows them"
+
+
+def test_a_mark_stands_at_the_right_of_the_cell_in_the_colour_of_the_ghost(at: BenchDriver) -> None:
+    beside(at, THEIRS)
+    at.bench.go(40)
+    at.frames()
+    other = compared(at.bench)
+    assert other is not None
+    place = next(each for each in at.screen.roll.layout.places if each.column.name == "left")
+    right = place.left + place.width - 1
+
+    def colour(tick: int) -> pygame.Color:
+        return at.app.surface.get_at((right, at.app.canvas.point(*at.cell(tick, "left"))[1]))
+
+    assert colour(22) == other.colour(at.app.theme.palette)
+    assert colour(26) != colour(22)
+
+
+def test_a_key_goes_from_difference_to_difference(at: BenchDriver) -> None:
+    beside(at, THEIRS)
+    places = []
+    for _ in range(4):
+        at.press("k")
+        places.append(at.bench.cursor)
+    assert places == [20, 25, 60, 60]
+    assert at.app.notice == "There are no more ticks with other keys than run 0"
+    for _ in range(3):
+        at.chord("k", SHIFT)
+    assert at.bench.cursor == 20
+    at.chord("k", SHIFT)
+    assert at.app.notice == "There are no earlier ticks with other keys than run 0"
+
+
+def test_the_chosen_run_is_compared_else_the_run_before_the_edit(at: BenchDriver) -> None:
+    at.bench.edit(lambda take: OURS)
+    at.bench.edit(lambda take: take.with_key(7, 9, JUMP_HELD, down=True))
+    assert differing(at) == {7: JUMP_HELD, 8: JUMP_HELD}
+    at.chord("z", pygame.KMOD_LCTRL)
+    assert differing(at) == {7: JUMP_HELD, 8: JUMP_HELD}
+    beside(at, OURS, THEIRS)
+    assert 22 in differing(at)
+    at.press("o")
+    assert differing(at) == {}
+    assert at.app.notice == "Compared, and parts are taken from: run 0"
+    at.press("k")
+    assert at.app.notice == "There are no ticks with other keys than run 0"
+
+
+def test_the_bar_shows_where_keys_differ() -> None:
+    assert different_rows(OURS.inputs, THEIRS.inputs, 100, 10) == [2, 6]
+    assert different_rows(OURS.inputs, OURS.inputs, 100, 10) == []
+    assert different_rows(b"", b"", 40, 10) == []
