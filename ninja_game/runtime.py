@@ -15,9 +15,6 @@ Value = TypeVar("Value")
 IN_PAGE = sys.platform == "emscripten"
 """Whether this is a page, which has no threads, no compiler, no NumPy and no Pillow."""
 
-ON_A_DESKTOP = not IN_PAGE
-"""Whether there is what needs NumPy and threads, such as the bench."""
-
 ONLY_ON_A_DESKTOP = "only the program for the desktop can make that, not a page"
 
 

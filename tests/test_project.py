@@ -6,8 +6,10 @@ import ast
 import re
 import shlex
 from collections import Counter
+from graphlib import TopologicalSorter
 from pathlib import Path
 
+import grimp
 import pytest
 from click.testing import CliRunner
 
@@ -95,3 +97,10 @@ def test_functions_fit_a_screen_and_folders_are_seen_at_once() -> None:
         if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef)) and node.end_lineno
     ]
     assert not [found for found in functions if found[0] > LONGEST_FUNCTION]
+
+
+def test_no_files_import_one_another_in_a_circle() -> None:
+    for package in ("ninja_game", "tools"):
+        graph = grimp.build_graph(package, exclude_type_checking_imports=True, cache_dir=None)
+        # Raises CycleError, which names the files; an import within a function counts too.
+        TopologicalSorter({name: graph.find_modules_directly_imported_by(name) for name in graph.modules}).prepare()

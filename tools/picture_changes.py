@@ -94,7 +94,7 @@ CHANGES = (
     Change("help-text", "menus/help/screen.py", "enumerate(lines):", "enumerate(lines[:1]):"),
     Change("bound-keys", "menus/settings/rebinding.py", "if slot < len(inputs):", "if slot < 1:"),
     Change("chosen-tab", "menus/settings/screen.py", "chosen=index == self.tabs.index", "chosen=False"),
-    Change("boss-figures", "menus/boss.py", "str(sum(figures))", '""'),
+    Change("boss-figures", "boss.py", "str(sum(figures))", '""'),
     Change("panel-veil", "menus/panels.py", "palette.tile.b, 130)", "palette.tile.b, 0)"),
     # Letters, colours.
     Change("letter-spacing", "ui/stroke_font.py", "SPACING = 1.18", "SPACING = 0.6"),

@@ -27,7 +27,8 @@ if TYPE_CHECKING:
     )
     from ninja_game.learn.evaluation import Evaluation, LevelResult, evaluate
     from ninja_game.learn.levels.curriculum import Curriculum
-    from ninja_game.learn.levels.source import LevelSource, generated_levels, level_source
+    from ninja_game.learn.levels.origins import generated_levels, level_source
+    from ninja_game.learn.levels.source import LevelSource
     from ninja_game.learn.observations.guide import Guide
     from ninja_game.learn.observations.level_planes import LevelPlanes
     from ninja_game.learn.observations.local_tiles import LocalTiles
@@ -47,7 +48,8 @@ _NAMES = {
     "demonstrations": ("Demonstration", "UnplayableRecordingError", "demonstration", "write_minari", "write_npz"),
     "evaluation": ("Evaluation", "LevelResult", "evaluate"),
     "levels.curriculum": ("Curriculum",),
-    "levels.source": ("LevelSource", "generated_levels", "level_source"),
+    "levels.origins": ("generated_levels", "level_source"),
+    "levels.source": ("LevelSource",),
     "observations.guide": ("Guide",),
     "observations.level_planes": ("LevelPlanes",),
     "observations.local_tiles": ("LocalTiles",),

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pygame
 
-from ninja_game.errors import NinjaGameError
 from ninja_game.files.resources import data_folder
 from ninja_game.files.shown_text import shown_text
-from ninja_game.files.user_folder import export_path
+from ninja_game.formats.recording import Recording
 from ninja_game.play.audio.output import AudioOutput
 from ninja_game.play.audio.player import AudioPlayer
+from ninja_game.play.boss import BossScreen
+from ninja_game.play.clipboard import write_export
 from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.input.events import InputEvent
-from ninja_game.play.menus.boss import BossScreen
 from ninja_game.play.screen import Screen, ScreenStack
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.palette import PALETTES, palette_named
@@ -36,8 +37,9 @@ class App:
     """The window with its stack of screens.
 
     ``controls``: keys to actions. ``player``: the player's data with the settings, which ``change_settings`` changes.
-    ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``size``: px of the
-    window. Raises NinjaGameError where there is no display.
+    ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``open_bench``: opens a
+    run on the bench, with others beside it, at a tick; who starts the program sets it, and leaves None where there is
+    no bench. ``size``: px of the window. Raises NinjaGameError where there is no display.
     """
 
     def __init__(
@@ -47,6 +49,7 @@ class App:
         self.controls = controls
         self.audio_output = audio_output
         self.overclock = 0
+        self.open_bench: Callable[[Recording, Sequence[Recording], int], object] | None = None
         self.stack = ScreenStack()
         self.running = True
         self.frame_ms = 0.0
@@ -212,13 +215,7 @@ class App:
         if self.notice:
             self.notify("")
             self.draw()
-        try:
-            path = export_path(self.player.folder, "screenshot", ".png")
-            save_picture(self.surface, path)
-        except (OSError, NinjaGameError) as error:
-            self.notify(f"The picture could not be saved: {getattr(error, 'strerror', error)}")
-        else:
-            self.notify(f"Saved: {path}")
+        write_export(self, "screenshot", ".png", lambda path: save_picture(self.surface, path))
 
 
 def build_app(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 import pygame
@@ -60,8 +61,12 @@ def run_app(
 
     Raises NinjaGameError where there is no display.
     """
+    # A page has no bench.
+    from ninja_game.play.tas.opening import open_bench
+
     try:
         app = build_app(size=size)
+        app.open_bench = partial(open_bench, app)
         try:
             app.push(first(app))
             app.run(frames)

@@ -103,7 +103,7 @@ def test_a_curriculum_begins_with_the_easiest_levels() -> None:
 
 
 def test_a_curriculum_opens_the_next_level_when_the_open_ones_are_passed() -> None:
-    source = Curriculum([FLAT] * 6, difficulties=[5, 4, 3, 2, 1, 0], start=2, threshold=0.75)
+    source = Curriculum(level_source([FLAT] * 6), difficulties=[5, 4, 3, 2, 1, 0], start=2, threshold=0.75)
     for _ in range(50):
         source.report(np.array([0, 1]), np.array([False, True]))
     assert source.open == 2
@@ -118,11 +118,11 @@ def test_a_curriculum_opens_the_next_level_when_the_open_ones_are_passed() -> No
 
 def test_every_random_number_chooses_a_level_that_is_open() -> None:
     edges = np.array([0, 2**63, 2**64 - 1], np.uint64)
-    assert Curriculum("test").choose(edges).tolist() == [0, 1, 2]
+    assert Curriculum(level_source("test")).choose(edges).tolist() == [0, 1, 2]
 
 
 def test_a_curriculum_counts_episodes_of_one_report_as_of_many() -> None:
-    one, many = (Curriculum([FLAT], difficulties=[0]) for _ in range(2))
+    one, many = (Curriculum(level_source([FLAT]), difficulties=[0]) for _ in range(2))
     one.report(np.zeros(5, np.intp), np.ones(5, bool))
     for _ in range(5):
         many.report(np.zeros(1, np.intp), np.ones(1, bool))
@@ -131,9 +131,11 @@ def test_a_curriculum_counts_episodes_of_one_report_as_of_many() -> None:
 
 def test_a_curriculum_needs_to_know_how_hard_its_levels_are() -> None:
     with pytest.raises(ArgumentError, match="difficulty of level is not known"):
-        Curriculum(FLAT)
+        Curriculum(level_source(FLAT))
     with pytest.raises(ArgumentError, match="one for each level"):
-        Curriculum(FLAT, difficulties=[1, 2])
+        Curriculum(level_source(FLAT), difficulties=[1, 2])
+    with pytest.raises(ArgumentError, match=r"found 'train'; expected a LevelSource"):
+        Curriculum("train")  # type: ignore[arg-type]
 
 
 def test_generated_levels_are_those_of_their_seeds() -> None:

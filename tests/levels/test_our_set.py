@@ -14,7 +14,8 @@ from ninja_game.formats.pack.pack import Pack
 from ninja_game.verification.verify_many import Tally, verify_all
 from tests.support.memories import BOTH
 from tools.measure.level_figures import alike, common_motifs
-from tools.measure.level_statistics import MOST_SHARED, MOST_WITH_MOTIF, ROWS, figures_of_set, missing, motif_text
+from tools.measure.level_reference import ROWS
+from tools.measure.level_statistics import MOST_SHARED, MOST_WITH_MOTIF, figures_of_set, missing, motif_text
 
 OURS = Pack(data_folder("levels"))
 LEVELS = {file: named.level for file, named in OURS.levels.items()}

@@ -12,10 +12,11 @@ from ninja_game.files.user_folder import export_path
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
-from ninja_game.play.main import first_screen, main
-from ninja_game.play.menus.boss import BossScreen
+from ninja_game.play.boss import BossScreen
+from ninja_game.play.main import first_screen, main, run_app
 from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.menus.watch_replay import watch_recording
+from ninja_game.play.screen import Screen
 from ninja_game.play.window import Window
 from ninja_game.sim.inputs import Demo
 from tests.support.menu_driver import MenuDriver
@@ -106,7 +107,7 @@ def test_picture_that_cannot_be_saved_is_a_notice() -> None:
         (app.player.folder / "exports").write_text("in the way")
         press("screenshot")
         frames(app)
-        assert "could not be saved" in app.notice
+        assert app.notice.startswith("Not written: ")
 
 
 def test_replay_without_a_ninja_is_refused_with_a_notice() -> None:
@@ -142,6 +143,19 @@ def test_screenshot_to_a_place_that_is_not_there_names_it(tmp_path: Path, monkey
     monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path / "home"))
     with pytest.raises(NinjaGameError, match=r"nowhere/a\.png: the picture cannot be written"):
         main(str(LEVEL), frames=1, screenshot=str(tmp_path / "nowhere" / "a.png"))
+
+
+def test_the_program_has_a_bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path))
+    programs: list[App] = []
+
+    def first(app: App) -> Screen:
+        programs.append(app)
+        return BossScreen(app)
+
+    run_app(first, frames=1)
+    (app,) = programs
+    assert app.open_bench is not None
 
 
 def test_no_display_is_said(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -206,6 +206,17 @@ def test_long_run_keeps_few_states_and_every_moment_stays_exact(monkeypatch: pyt
         assert played.simulation.digest() == digests[tick]
 
 
+def test_without_a_bench_nothing_is_edited() -> None:
+    with scripted_app((396, 300)) as (app, _):
+        screen = ReplayScreen(app, [TAKE])
+        app.push(screen)
+        screen.toggle_pause()
+        press("edit")
+        frames(app, 1, 0)
+        assert app.top is screen
+        assert "edit" not in screen._hint()
+
+
 def test_film_is_made_from_the_viewer_and_told_whatever_the_palette() -> None:
     with scripted_app((396, 300), palette="of-another-version") as (app, _):
         screen = ReplayScreen(app, [RecordedRun("a / b", TAKE.level, TAKE.inputs[:3])])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
 
@@ -161,8 +161,10 @@ def write_golden_files() -> None:
         (old,) = load_replays(path)
         assert old.replay, f"{path.name} is no replay of ours"
         body, ticks = old.body, old.replay.ticks
-        new = record_replay(old.level, old.replay.inputs, ticks=ticks, body=body, name=old.name, author=old.author)
-        path.write_text(write_replay(new), "utf-8")
+        run = record_replay(old.level, old.replay.inputs, ticks=ticks, body=body, name=old.name, author=old.author)
+        new = replace(run, level_name=old.replay.level_name, level_author=old.replay.level_author)
+        if new != old.replay:
+            path.write_text(write_replay(new), "utf-8")
     for name, runs in FILES.items():
         with (GOLDEN / f"{name}.tsv").open("w", encoding="utf-8", newline="") as out:
             table = csv.DictWriter(out, COLUMNS, delimiter="\t", lineterminator="\n")

@@ -13,11 +13,11 @@ from ninja_game.files.resources import bundled_levels, bundled_replays
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.play.app import App
+from ninja_game.play.boss import BossScreen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level import play
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.menus.boss import BossScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes.grid import EpisodeGrid
 from ninja_game.play.menus.help.screen import HelpScreen
@@ -58,7 +58,7 @@ def replay(number: int, tick: int, *overlays: str) -> Callable[[App], object]:
     """A moment of a certificate."""
 
     def show(app: App) -> None:
-        screen = ReplayScreen(app, load_replays(bundled_replays()[number]), editable=False)
+        screen = ReplayScreen(app, load_replays(bundled_replays()[number]))
         app.push(screen)
         for overlay in overlays:
             screen.overlays.toggle(overlay)

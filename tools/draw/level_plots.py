@@ -8,7 +8,7 @@ from typing import Any
 
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import Pack
-from tools.measure.level_statistics import DIFFICULTY, ROWS
+from tools.measure.level_reference import DIFFICULTY, ROWS
 
 OURS, THEIRS = "#c0392b", "#34495e"
 

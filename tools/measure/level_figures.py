@@ -56,7 +56,7 @@ ALL_VARIANTS = frozenset(
 
 
 def figures(level: Level) -> dict[str, float]:
-    """The figures of a level that are compared, by the names of ``ROWS`` in level_statistics."""
+    """The figures of a level that are compared, by the names of ``ROWS`` in level_reference."""
     count = Counter(record.kind for record in level.objects)
     tiles = level.tiles
     mirrored = sum(

@@ -2,13 +2,7 @@
 
 from __future__ import annotations
 
-from ninja_game.learn.levels.source import (
-    DEFAULT_LEVEL,
-    LevelSource,
-    Origin,
-    Which,
-    generated_levels,
-    level_source,
-)
+from ninja_game.learn.levels.origins import DEFAULT_LEVEL, Origin, generated_levels, level_source
+from ninja_game.learn.levels.source import LevelSource, Which
 
 __all__ = ["DEFAULT_LEVEL", "LevelSource", "Origin", "Which", "generated_levels", "level_source"]

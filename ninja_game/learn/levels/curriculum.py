@@ -13,33 +13,35 @@ from ninja_game.files.resources import data_folder
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.files import PARS
 from ninja_game.formats.pack.pars import parse_pars
-from ninja_game.learn.levels.source import LevelSource, Origin, level_source
+from ninja_game.learn.levels.source import LevelSource
 
 UNPASSED_WEIGHT = 0.1
 """What is added to the share of failures: so a level that is always passed is still played now and then."""
 
 
 class Curriculum(LevelSource):
-    """Levels in the order of their difficulty, of which the first ``open`` are played.
+    """The levels of a source in the order of their difficulty, of which the first ``open`` are played.
 
     ``rates`` (levels,): the share of each level's episodes that were passed, an exponential average over about
     ``memory`` of them, from 0. As long as its mean over the open levels is ``threshold`` or more, the next one opens.
     Of the open levels those with more failures are chosen more often, in proportion to 1.1 - rate.
 
     ``difficulties``: one for each level; None: those in the table of the game's levels (docs/making-levels.md).
-    ``start``: how many are open at first. Raises ArgumentError for a level whose difficulty is not known.
+    ``start``: how many are open at first. Raises ArgumentError for what is no source, and
+    for a level whose difficulty is not known.
     """
 
     def __init__(
         self,
-        levels: Origin = "train",
+        source: LevelSource,
         *,
         difficulties: Sequence[float] | None = None,
         start: int = 3,
         threshold: float = 0.5,
         memory: float = 20.0,
     ) -> None:
-        source = level_source(levels)
+        if not isinstance(source, LevelSource):
+            raise ArgumentError(f"found {source!r:.60}; expected a LevelSource, such as level_source('train')")
         hard = measured_difficulties(source) if difficulties is None else difficulties
         if len(hard) != len(source.levels) or start < 1 or not 0.0 < threshold < 1.0 or memory < 1.0:
             found = f"{len(hard)} difficulties for {len(source.levels)} levels, {start=}, {threshold=}, {memory=}"

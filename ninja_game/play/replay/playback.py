@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.runs.save_states import SPACING, SaveStates
+from ninja_game.sim.inputs import Demo
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Body, Simulation
 
@@ -40,6 +41,17 @@ def replay_of(run: RecordedRun) -> Replay:
     from ninja_game.runs.run import record_replay
 
     return record_replay(run.level, bytes(run.inputs) or bytes(1), body=run.body, name=run.title)
+
+
+def recording_of(run: RecordedRun, player: str) -> Recording:
+    """What a run is from; of one that was only played a recording by the player."""
+    if run.recording is not None:
+        return run.recording
+    replay = run.replay or Replay(
+        run.inputs, max(0, len(run.inputs) - 1), "", name=run.title, author=player, body=run.body, level=run.level
+    )
+    demo = Demo(replay.inputs, float(len(replay.inputs)))
+    return Recording(replay.name, replay.author, "", run.level, demo, "", replay=replay)
 
 
 class Playback:

@@ -14,15 +14,13 @@ from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.level.run_clock import RunClock
-from ninja_game.play.replay.edit import edit_run
 from ninja_game.play.replay.film_job import FilmJob
-from ninja_game.play.replay.playback import Playback, RecordedRun, recorded_run, replay_of
+from ninja_game.play.replay.playback import Playback, RecordedRun, recorded_run, recording_of, replay_of
 from ninja_game.play.replay.seek_bar import ReplayBar
 from ninja_game.play.screen import Screen
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays
 from ninja_game.player.level_context import GhostRun
-from ninja_game.runtime import ON_A_DESKTOP
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 
@@ -43,12 +41,12 @@ class ReplayScreen(Screen):
     """Shows a recording. Others on the same level run along as ghosts. Raises LevelError for one that cannot be played.
 
     ``end``: the tick of the exit contact or death, or the last one of the recording; ``outcome``: what it brought.
-    ``length``: ticks to show. ``editable``: whether the bench can be opened from here.
+    ``length``: ticks to show. ``editable``: whether the bench may be opened from here, if the app has one.
     """
 
-    def __init__(self, app: App, runs: Sequence[RecordedRun | Recording], *, editable: bool = ON_A_DESKTOP) -> None:
+    def __init__(self, app: App, runs: Sequence[RecordedRun | Recording], *, editable: bool = True) -> None:
         super().__init__(app)
-        self.editable = editable
+        self.open_bench = app.open_bench if editable else None
         self.runs = [run if isinstance(run, RecordedRun) else recorded_run(run) for run in runs]
         self.clock = RunClock()
         self.overlays = Overlays()
@@ -201,9 +199,10 @@ class ReplayScreen(Screen):
 
     def edit(self) -> None:
         """Open the bench on this run, at this tick, with the others beside it."""
-        if self.editable:
-            others = [run for run in self.runs if run is not self.run]
-            edit_run(self.app, self.run, others, max(0, self.tick - 1))
+        if self.open_bench:
+            player = self.app.settings.name
+            beside = [recording_of(run, player) for run in self.runs if run is not self.run]
+            self.open_bench(recording_of(self.run, player), beside, max(0, self.tick - 1))
 
     # --- picture ---
 
@@ -232,6 +231,6 @@ class ReplayScreen(Screen):
         return (
             f"{key('frame_back')} {key('frame_forward')}: tick by tick    {key('left')} {key('right')}: a second    "
             f"{key('slower')} {key('faster')}: speed    {key('export')}: film    "
-            + f"{key('edit')}: edit    " * self.editable
+            + f"{key('edit')}: edit    " * bool(self.open_bench)
             + f"{key('link')}: link    {key('back')}: leave"
         )

@@ -19,6 +19,7 @@ from ninja_game.files.user_folder import REPLAYS, free_path
 from ninja_game.formats.links.making import replay_link
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.editor.panels import STAY, Form, HelpPage, Menu, Row
+from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.controls import COMMANDS
 from ninja_game.play.tas.part import Commands
@@ -143,8 +144,6 @@ class FileCommands:
 
     def watch(self) -> None:
         """The run in the replay viewer."""
-        from ninja_game.play.replay.screen import ReplayScreen
-
         self.app.push(ReplayScreen(self.app, [self.session.recording()], editable=False))
 
     # --- what was not saved ---

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import pygame
@@ -12,6 +13,7 @@ from ninja_game.play.editor.controls import key_label_of
 from ninja_game.play.editor.panels import Form, HelpPage, Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.tas.controls import COMMANDS
+from ninja_game.play.tas.opening import open_bench
 from ninja_game.play.tas.screen import TasScreen
 from ninja_game.sim.inputs import KEY_LEFT
 from ninja_game.tas.journal import FOLDER, recovered
@@ -218,6 +220,7 @@ def test_edit_in_the_viewer_opens_the_bench(tmp_path: Path) -> None:
     runs = load_replays(write_records(tmp_path / "demos.txt", ("a", WALK, running(23)), ("b", WALK, running(9))))
     other = load_replays(PACK / "certificates" / "00-0-first-steps.exit.replay.txt")
     with scripted_app() as (app, _):
+        app.open_bench = partial(open_bench, app)
         viewer = ReplayScreen(app, [*runs, *other])
         app.push(viewer)
         viewer.seek(5)
@@ -237,6 +240,7 @@ def test_edit_of_a_file_goes_back_into_it(tmp_path: Path) -> None:
     path.write_bytes(RUN.read_bytes())
     for changed in (False, True):
         with scripted_app() as (app, _):
+            app.open_bench = partial(open_bench, app)
             app.push(ReplayScreen(app, load_replays(path)))
             if changed:
                 path.write_text(path.read_text("utf-8").replace("name:", "; mine\nname:"), "utf-8")

@@ -9,6 +9,7 @@ import pygame
 
 from ninja_game.play.menus.level_card import all_gold_and_medal
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
+from ninja_game.play.menus.watch_replay import watch
 from ninja_game.play.ui.canvas import WIDTH
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Episode
@@ -53,8 +54,6 @@ class EpisodePassed(ThumbnailScreen):
 
     def watch(self) -> None:
         """The replays of the episode's best run."""
-        from ninja_game.play.menus.watch_replay import watch
-
         best = self.player.records.episode_best(self.run.episode.key)
         if best is not None:
             watch(self.app, [self.player.records.replay(number) for number in best.replays])
