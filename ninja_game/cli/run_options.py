@@ -83,6 +83,11 @@ level_option = click.option(
     help="The level of recordings that do not hold theirs.",
 )  # fmt: skip
 
+other_level_option = click.option(
+    "--level", "level_path", metavar="FILE", type=LevelPath(dir_okay=False),
+    help="Play the inputs on this level, also where they were recorded on another one.",
+)  # fmt: skip
+
 
 def window_options(command: Callable[..., T]) -> Callable[..., T]:
     """The options of commands that open a window: its size in px, how many pictures, where the last one goes."""

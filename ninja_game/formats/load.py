@@ -67,14 +67,17 @@ def _one(levels: Sequence[NamedLevel], record: int, file: str) -> Level:
     return levels[record].level
 
 
-def load_replays(path: Path | str, *, level: Level | None = None) -> list[Recording]:
+def load_replays(path: Path | str, *, level: Level | None = None, changed: bool = False) -> list[Recording]:
     """All recordings of a file, folder or link: our replays and ``$name#author#comment#level#demo#`` records.
 
-    ``level``: what recordings that do not hold their level are played on.
+    ``level``: what recordings that do not hold their level are played on. ``changed``: also those whose level was
+    changed after the recording, on the level as it is now.
 
     Raises ReplayError, DemoError or LevelError naming file and line; OSError for a file that cannot be opened.
     """
-    recordings = [found for file, text in texts_of(path) for found in parse_replays(text, file=file, level=level)]
+    recordings = [
+        found for file, text in texts_of(path) for found in parse_replays(text, file=file, level=level, changed=changed)
+    ]
     if not recordings:
         raise ReplayError("no recordings here", str(path), expected=f"files *{', *'.join(SUFFIXES)}")
     return recordings

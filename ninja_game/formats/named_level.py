@@ -113,10 +113,10 @@ def _is_level_string(text: str) -> bool:
     return len(tiles) >= TILES or _OBJECTS.fullmatch(objects) is not None
 
 
-def level_of_replay(replay: Replay, file: str, level: Level | None = None) -> Level:
+def level_of_replay(replay: Replay, file: str, level: Level | None = None, *, changed: bool = False) -> Level:
     """The level that a replay was recorded on: its own, the one its path leads to, or else the given one.
 
-    Raises ReplayError if there is none, or if it is not the one that was recorded.
+    Raises ReplayError if there is none, or, unless ``changed``, if it is not the one that was recorded.
     """
     if replay.level is not None:
         return replay.level
@@ -132,8 +132,8 @@ def level_of_replay(replay: Replay, file: str, level: Level | None = None) -> Le
         if replay.level_path and path is None:
             hint = "'level:' leads to a file in the replay's folder or below it only"
         raise ReplayError("the replay's level is not here", file, found=found, hint=hint)
-    if replay.level_digest and level_digest(level) != replay.level_digest:
-        hint = "the level was changed after the recording"
+    if replay.level_digest and not changed and level_digest(level) != replay.level_digest:
+        hint = "the level was changed after the recording; `ninja-game tas` opens the run on the changed level"
         raise ReplayError("not the level of this replay", file, found=source, expected=replay.level_digest, hint=hint)
     return level
 

@@ -82,13 +82,18 @@ def holds_recordings(text: str) -> bool:
     return is_demo("".join(text.split())) or is_tas_text(text)
 
 
-def parse_replays(text: str, *, file: str = "", level: Level | None = None) -> list[Recording]:
-    """All recordings in a text of any format. Raises ReplayError, DemoError or LevelError."""
+def parse_replays(
+    text: str, *, file: str = "", level: Level | None = None, changed: bool = False
+) -> list[Recording]:  # fmt: skip
+    """All recordings in a text of any format. ``changed``: also a replay whose level is not as it was recorded.
+
+    Raises ReplayError, DemoError or LevelError.
+    """
     if is_replay(text):
         replay = parse_replay(text, file=file, level=level)
         length = float(len(replay.inputs)) if replay.demo_length is None else replay.demo_length
         demo = fitted_demo(replay.inputs, length)
-        found = level_of_replay(replay, file, level)
+        found = level_of_replay(replay, file, level, changed=changed)
         return [Recording(replay.name or Path(file).stem, replay.author, "", found, demo, file, replay=replay)]
     if not is_ascii_level(text) and is_level_file(text):
         return _read_recordings(read_level_file(text, file=file), file, level)

@@ -56,6 +56,17 @@ def input_texts(recordings: Iterable[Recording], form: str) -> Iterator[str]:
             raise replace(error, file=each.file, line=each.line) from None
 
 
+def on_level(recording: Recording, level: Level | None = None) -> Recording:
+    """The inputs of a recording on a level; None: on its own as it is now.
+
+    The same recording where that is the level on which it was made, else one without claims.
+    """
+    there = replace(recording, level=level or recording.level)
+    digest, now = level_digest(recording.level), level_digest(there.level)
+    recorded = (recording.replay and recording.replay.level_digest) or digest
+    return recording if now == digest == recorded else replace(there, replay=_loose(there))
+
+
 def _loose(recording: Recording) -> Replay:
     """A recording without its claims."""
     old = recording.replay

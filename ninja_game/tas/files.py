@@ -22,6 +22,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.input_text import Inputs, read_inputs
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
 from ninja_game.formats.tas_lines import in_our_notation, is_tas_text
+from ninja_game.runs.conversion import on_level
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.inputs import MAX_TICKS, Demo
 from ninja_game.sim.level import Level
@@ -47,32 +48,39 @@ class RunFile:
 
 @dataclass(frozen=True)
 class OpenedRun:
-    """A run that was opened: its recording, the take in it, its file, and the branches beside it."""
+    """A run that was opened: its recording, the take in it, its file, and the branches beside it.
+
+    ``moved``: the level is not the recorded one.
+    """
 
     recording: Recording
     take: Take
     file: RunFile
     branches: Branches
+    moved: bool = False
 
 
 def open_run(path: Path, *, record: int | None = None, level: Level | None = None) -> OpenedRun:
     """The recording number ``record`` of a file or link; None: its only one.
 
+    ``level``: where it is played, None: on its own as it is now; on another one than the recorded it has no file yet.
     Only replay texts that ``save_run`` could have written are replaced by it: those with comments, blocks or other
     files in them stay, and so do those of the game. Raises ReplayError, DemoError, LevelError; OSError for a file that
     cannot be opened.
     """
-    recordings = load_replays(path, level=level)
+    recordings = load_replays(path, level=level, changed=True)
     if record is None and len(recordings) > 1:
         raise ReplayError(f"{len(recordings)} recordings", str(path), hint="say which one with --record")
     recording = next((each for each in recordings if each.record == (record or 0)), None)
     if recording is None:
         raise ReplayError(f"there is no record {record}", str(path), expected=f"0 to {len(recordings) - 1}")
-    take = take_of(recording)
+    on = on_level(recording, level)
+    take = take_of(on)
+    if on is not recording:
+        return OpenedRun(on, take, RunFile(), Branches(), moved=True)
     if is_link(path) or recording.replay is None or path.resolve().is_relative_to(data_folder("levels").resolve()):
         return OpenedRun(recording, take, RunFile(), Branches())
-    data = read_bytes(path)
-    if not _written_by_us(data):
+    if not _written_by_us(data := read_bytes(path)):
         return OpenedRun(recording, take, RunFile(), Branches())
     file = RunFile(path, sha256(data).hexdigest(), digest_of(branches_path(path)), take)
     return OpenedRun(recording, take, file, read_branches(path))

@@ -24,14 +24,16 @@ SOON_PLAIN = 2000
 class Session:
     """One run that is edited. ``folder``: the player's, for the journal.
 
-    ``about``: level, body, name and author of the run. ``before_take``: the run before the last edit; ``before``: what
-    the ninja did in it. Raises LevelError for a level that cannot be played.
+    ``about``: level, body, name and author of the run; ``moved``: it was recorded on another level. ``before_take``:
+    the run before the last edit; ``before``: what the ninja did in it. Raises LevelError for a level that cannot be
+    played.
     """
 
     def __init__(self, opened: OpenedRun, folder: Path, *, memory: str = "auto") -> None:
         self.about: Recording = opened.recording
         self.file: RunFile = opened.file
         self.branches: Branches = opened.branches
+        self.moved = opened.moved
         self.history: History[Take] = History(opened.take)
         self.saved = opened.take
         self._saved_branches = list(opened.branches.all)

@@ -10,6 +10,7 @@ from click.testing import CliRunner, Result
 from ninja_game import parse_replay, verify_recording
 from ninja_game.cli.main import cli
 from ninja_game.formats.load import load_replays
+from ninja_game.formats.n14.level_string import parse_level_string
 from tests.support.samples import WALK, WALK_END, loose_replay, running, write_records
 
 LOOSE = loose_replay(WALK, "#go (R*5)*2   ; ten ticks", "R*50", headers="name: Idea\nauthor: A. Player\n")
@@ -58,6 +59,18 @@ def test_a_replay_with_wrong_claims_is_recorded_anew(idea: Path) -> None:
     assert called("record", "edited.replay.txt", "-o", "new.replay.txt").exit_code == 0
     assert called("verify", "new.replay.txt").exit_code == 0
     assert parse_replay(Path("new.replay.txt").read_text()).final_tick > WALK_END
+
+
+def test_a_replay_is_recorded_anew_on_a_changed_level(idea: Path) -> None:
+    called("record", idea, "-o", "run.replay.txt")
+    changed = idea.parent / "changed.txt"
+    changed.write_text(WALK.replace("115,566", "115,500"))
+    result = called("record", "run.replay.txt", "--level", changed, "-o", "new.replay.txt")
+    assert result.exit_code == 0, result.output
+    assert result.stdout.endswith("0 gold\n")
+    (recording,) = load_replays("new.replay.txt")
+    assert (recording.author, recording.level) == ("A. Player", parse_level_string(changed.read_text()))
+    assert verify_recording(recording).good
 
 
 def test_a_loose_replay_is_verified_as_any_recording(idea: Path) -> None:

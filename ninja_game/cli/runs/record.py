@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from ninja_game.cli.levels.convert import Output
-from ninja_game.cli.run_options import choose, level_given, level_option
+from ninja_game.cli.run_options import choose, level_given, other_level_option
 from ninja_game.files.user_folder import free_path
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
@@ -19,27 +19,30 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
     help="The replay. [default: FILE's name and .replay.txt, in the current folder]",
 )  # fmt: skip
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
-@level_option
+@other_level_option
 @click.option("--force", is_flag=True, help="Replace a file that exists. FILE is never replaced.")
 def command(inputs: Path, output: Path | None, record: int | None, level_path: Path | None, force: bool) -> None:
     """Run inputs that a person wrote, and write what comes of them.
 
     FILE is a replay text with or without claims (docs/replay-format.md), or any other recording. Its inputs run until
     the exit, death or their end; outcome, gold, digest and waypoints of that run are written with them. Comments,
-    blocks and files that are taken in become plain inputs; markers, names and authors stay.
+    blocks and files that are taken in become plain inputs; markers, names and authors stay. So does a replay whose
+    level was changed after the recording: its inputs run on the level as it is now.
 
     \b
     Examples:
       ninja-game record idea.inputs.txt
       ninja-game record idea.inputs.txt -o best.replay.txt --force
       ninja-game record celeste.tas --level level.txt
+      ninja-game record old.replay.txt --level changed.txt
     """
     from ninja_game.formats.load import load_replays
     from ninja_game.formats.replay.text import parse_replay
-    from ninja_game.runs.conversion import replay_texts
+    from ninja_game.runs.conversion import on_level, replay_texts
 
-    recordings = load_replays(inputs, level=level_given(level_path))
-    (text,) = replay_texts([choose(recordings, "recordings", inputs, record)])
+    level = level_given(level_path)
+    recording = choose(load_replays(inputs, level=level, changed=True), "recordings", inputs, record)
+    (text,) = replay_texts([on_level(recording, level)])
     path = output or free_path(Path(), inputs.name.partition(".")[0], ".replay.txt")
     Output(str(path), [inputs], force=force).write(text)
     new = parse_replay(text)

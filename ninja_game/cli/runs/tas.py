@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ninja_game.cli.run_options import level_given, level_option, window_options
+from ninja_game.cli.run_options import level_given, other_level_option, window_options
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
-@level_option
+@other_level_option
 @click.option(
     "--beside", multiple=True, type=click.Path(exists=True, dir_okay=False, path_type=Path),
     help="Another file with runs of the same level, to be shown beside; may be given several times.",
@@ -33,13 +33,15 @@ def command(
 
     FILE is a recording of any format. On one side the level, on the other a row for each tick: its keys, and what the
     world says after it. Change keys, take over and play on, search for something better, keep branches. A replay text
-    of ours is saved into its file; any other recording becomes a new one.
+    of ours is saved into its file; any other recording becomes a new one. Where the level was changed after the
+    recording, the run opens on the level as it is now, to be mended.
 
     \b
     Examples:
       ninja-game tas best.replay.txt
       ninja-game tas demos.txt --record 3
       ninja-game tas best.replay.txt --beside theirs.replay.txt
+      ninja-game tas old.replay.txt --level changed.txt
     """
     from ninja_game.cli.game.play import pixels
     from ninja_game.tas.files import open_run, runs_beside

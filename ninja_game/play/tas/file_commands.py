@@ -149,11 +149,20 @@ class FileCommands:
     # --- what was not saved ---
 
     def offer_recovered(self) -> None:
-        """Ask what to do with this run, if it was being edited when the program died; tell of others."""
+        """Ask what to do with this run, if it was being edited when the program died; tell of others.
+
+        Of a run that was recorded on another level ask whether it is to be edited on this one.
+        """
         lost = list(recovered(self.app.player.folder))
         own = next((found for found in lost if self._is_of_this_run(found)), None)
         if own:
             self._offer(own)
+        elif self.session.moved:
+            rows: list[Row] = [
+                ("Edit it on this level", lambda: None, "Its keys stay; it is saved as a new recording"),
+                ("Leave", self._go, ""),
+            ]
+            self.app.push(Menu(self.app, f"{self._name}: this level is not the one that was recorded", rows))
         elif lost:
             self.app.notify(f"Not saved last time: {_name_of(lost[0])}. Esc, Not saved last time")
 
