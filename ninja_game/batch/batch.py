@@ -28,7 +28,7 @@ from ninja_game.batch.thread_pool import cores
 from ninja_game.batch.worlds import Numbers, make_worlds
 from ninja_game.compile_cache import choose_memory
 from ninja_game.errors import ArgumentError
-from ninja_game.sim.digest import world_digest
+from ninja_game.sim.digest import state_digest, world_digest
 from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, JUMP_PRESSED, KEYS_DOWN
 from ninja_game.sim.kinds import KINDS
 from ninja_game.sim.level import Level
@@ -154,7 +154,8 @@ class Batch:
             raise ArgumentError(f"inputs are {found}; expected integers, {self.count} a tick")
         if rows.size and not 0 <= rows.min() <= rows.max() <= ALL_KEYS:
             raise ArgumentError(f"inputs are {rows.min()} to {rows.max()}; expected sums of Input, 0 to {ALL_KEYS}")
-        keys = np.ascontiguousarray(rows, np.uint8)
+        # Writable, since a kernel is compiled anew for arrays that can only be read.
+        keys = np.require(rows, np.uint8, ["C", "W"])
         return self._worlds.run(self._pressed(keys) if press else keys, self._levels_now, stop, self.threads)
 
     def _pressed(self, keys: NDArray[np.uint8]) -> NDArray[np.uint8]:
@@ -200,6 +201,17 @@ class Batch:
     def digest(self, index: int) -> str:
         """Sha256 (hex) of one world in canonical form, as ``Simulation.digest``."""
         return world_digest(self.world(index))
+
+    def state_digests(self, worlds: Which = None) -> list[str]:
+        """Of each world the sha256 (hex) of what decides what follows (``state_digest``), once for equal worlds."""
+        known: dict[bytes, str] = {}
+        found = []
+        for index in numbers_of(worlds, self.count, "worlds").tolist():
+            key = self._worlds.states[index].tobytes()
+            if key not in known:
+                known[key] = state_digest(self.world(index))
+            found.append(known[key])
+        return found
 
     def _owner(self) -> tuple[Any, ...]:
         return self.levels, self.body, self.memory

@@ -35,12 +35,13 @@ Kernel: TypeAlias = Callable[..., R]
 class Worlds(Protocol):
     """What a batch asks of a memory.
 
-    ``records``: the worlds as an array of records, in one block. ``maps``, ``fresh`` and ``worlds``: the levels, a new
-    world in each, which nobody changes, and the worlds, as kernels take them: arrays of records, or lists of plain
-    objects.
+    ``records``: the worlds as an array of records, in one block. ``states``: the same as a matrix of bytes, without
+    the events. ``maps``, ``fresh`` and ``worlds``: the levels, a new world in each, which nobody changes, and the
+    worlds, as kernels take them: arrays of records, or lists of plain objects.
     """
 
     records: Records
+    states: NDArray[np.uint8]
     maps: Any
     fresh: Any
     worlds: Any
@@ -85,9 +86,9 @@ class CompiledWorlds:
         slots = int(loaded["slots_used"].max())
         self.fresh, self.worlds = block_of(len(levels), slots), block_of(count, slots)
         self.records = self.worlds[:count]
-        self._bytes, self._fresh_bytes = bytes_of(self.worlds), bytes_of(self.fresh)
+        self.states, self._fresh_bytes = bytes_of(self.worlds), bytes_of(self.fresh)
         # A malformed exit has room for its switch, and does not use it.
-        self._fresh_bytes[: len(levels)] = bytes_of(loaded)[:, : self._bytes.shape[1]]
+        self._fresh_bytes[: len(levels)] = bytes_of(loaded)[:, : self.states.shape[1]]
         self._ticks_at_once = max(1, 8 * SLICE // (slots * count))
 
     def kernel(self, entry: Kernel[R]) -> Kernel[R]:
@@ -97,7 +98,7 @@ class CompiledWorlds:
     def load(self, worlds: Numbers, levels: Numbers) -> None:
         """Start worlds afresh, each in the level of that number."""
         for index, number in zip(worlds.tolist(), levels.tolist(), strict=True):
-            self._bytes[index] = self._fresh_bytes[number]
+            self.states[index] = self._fresh_bytes[number]
         self.records["event_count"][worlds] = 0
 
     def run(self, inputs: NDArray[np.uint8], level_of: Numbers, stop: bool, threads: int) -> int:
@@ -115,11 +116,11 @@ class CompiledWorlds:
 
     def save(self, worlds: Numbers) -> NDArray[np.uint8]:
         """The states of worlds as a matrix of bytes."""
-        return self._bytes[worlds]
+        return self.states[worlds]
 
     def restore(self, worlds: Numbers, states: Any, levels: Numbers) -> None:  # noqa: ARG002
         """Put worlds back to states that ``save`` gave for as many; a state holds its level's objects."""
-        self._bytes[worlds] = states
+        self.states[worlds] = states
         self.records["event_count"][worlds] = 0
 
     def world(self, index: int) -> World:
@@ -145,12 +146,12 @@ class PlainWorlds:
         fresh = [load_plain(level, box) for level in levels]
         self.maps = [tiles for tiles, _ in fresh]
         self.fresh = [w for _, w in fresh]
-        self._states = [save_plain(w) for w in self.fresh]
+        self._fresh_states = [save_plain(w) for w in self.fresh]
         self.worlds = [load_plain(levels[0], box)[1] for _ in range(count)]
         self._playing = [0] * count
         block = block_of(count, max(w.slots_used for _, w in fresh))
         self.records = block[:count]
-        self._shown = bytes_of(block)
+        self.states = bytes_of(block)
 
     def kernel(self, entry: Kernel[R]) -> Kernel[R]:
         """The entry point itself."""
@@ -158,7 +159,7 @@ class PlainWorlds:
 
     def load(self, worlds: Numbers, levels: Numbers) -> None:
         """Start worlds afresh, each in the level of that number."""
-        self.restore(worlds, [self._states[number] for number in levels.tolist()], levels)
+        self.restore(worlds, [self._fresh_states[number] for number in levels.tolist()], levels)
 
     def run(self, inputs: NDArray[np.uint8], level_of: Numbers, stop: bool, threads: int) -> int:  # noqa: ARG002
         """Run all worlds for all rows of ``inputs``, one after the other: the interpreter has one lock."""
@@ -177,7 +178,7 @@ class PlainWorlds:
             if self._playing[index] != number:
                 self.worlds[index] = load_plain(self._levels[number], self._box)[1]
                 self._playing[index] = number
-                self._shown[index] = 0
+                self.states[index] = 0
             restore_plain(self.worlds[index], state)
             self._show(index)
 
@@ -194,7 +195,7 @@ class PlainWorlds:
         record["ninja"] = _NINJA(w.ninja)
         record["heads"] = w.heads
         record["edges"] = w.edges
-        objects = np.ndarray((w.slots_used,), OBJECT, self._shown[index], OBJECTS_START - STATE_START)
+        objects = np.ndarray((w.slots_used,), OBJECT, self.states[index], OBJECTS_START - STATE_START)
         for slot, o in enumerate(w.objects[: w.slots_used]):
             if slot:
                 objects[_KIND_FIELDS[o.kind]][slot] = _KIND_VALUES[o.kind](o)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ninja_game.batch.batch import Batch
 from ninja_game.directed.expressions import parse_number, parse_truth
 from ninja_game.directed.formula import Formula, Numbers
-from ninja_game.directed.view import FACTS, NAMES, view_of
+from ninja_game.directed.view import FACTS, SPAN_NAMES, difference_from, view_of
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.inputs import KEYS_DOWN, press_jumps
 from ninja_game.sim.level import Level
@@ -69,8 +69,8 @@ class SpanTask:
 
     def formulas(self) -> tuple[Formula, Formula | None]:
         """Goal and measure. Raises FormulaError."""
-        goal = parse_truth(self.goal or f"tick >= {self.last - 1}", NAMES, FACTS)
-        return goal, parse_number(self.measure, NAMES, FACTS) if self.measure else None
+        goal = parse_truth(self.goal or f"tick >= {self.last - 1}", SPAN_NAMES, FACTS)
+        return goal, parse_number(self.measure, SPAN_NAMES, FACTS) if self.measure else None
 
 
 @dataclass(order=True)
@@ -124,7 +124,9 @@ class SpanWorlds:
     def __init__(self, task: SpanTask, count: int, *, memory: str = "auto", threads: int | None = None) -> None:
         self.task = task
         self.batch = Batch(task.level, count, body=task.body, memory=memory, threads=threads)
-        self.view = view_of(self.batch)
+        self.view = {
+            **view_of(self.batch), "difference": difference_from(task.level, task.inputs, self.batch)
+        }  # fmt: skip
         self.goal, self.measure = task.formulas()
         before = np.frombuffer(task.inputs[: task.first], np.uint8)
         single = Batch(task.level, 1, body=task.body, memory=memory)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from numpy.typing import NDArray
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, LAUNCHER, MINE, TURRET
+from ninja_game.sim.level import Level
 from ninja_game.sim.states import LAUNCHER_FLIGHT, OUTCOME_DEAD, OUTCOME_EXIT
 
 NAMES = {
@@ -19,6 +21,9 @@ NAMES = {
     "distance": 2, "object_x": 1, "object_y": 1, "taken": 1, "opened": 1,
 }  # fmt: skip
 """The names, and how many numbers stand in brackets behind them; docs/speedruns.md explains them."""
+
+SPAN_NAMES = {**NAMES, "difference": 1}
+"""Those of a search, which has a run to compare with."""
 
 FACTS = ("dead", "won", "in_air", "near_wall", "taken", "opened")
 """Those that are true or false."""
@@ -52,10 +57,42 @@ def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
     }  # fmt: skip
 
 
+def difference_from(level: Level, inputs: bytes, batch: Batch) -> Callable[[Any], NDArray[np.float64]]:
+    """A function of a tick: how far worlds are from what a run of that level is after it.
+
+    0: ``state_digest`` is the same; else 1, and the px and px/tick between place and velocity of the ninjas. It raises
+    ArgumentError for a tick that is none of the run's.
+    """
+
+    @cache
+    def moment(tick: float) -> tuple[Batch, str]:
+        if tick != int(tick) or not 0 <= tick < len(inputs):
+            raise ArgumentError(f"difference({tick:g}): the run has ticks 0 to {len(inputs) - 1}")
+        single = Batch(level, 1, body=batch.body, memory=batch.memory)
+        single.run(np.frombuffer(inputs[: int(tick) + 1], np.uint8)[:, np.newaxis], stop=True)
+        return single, single.state_digests()[0]
+
+    def difference(number: Any) -> NDArray[np.float64]:
+        single, digest = moment(plain_number(number, "the tick in 'difference'"))
+        velocity = batch.velocities() - single.velocities()
+        away: NDArray[np.float64] = 1.0 + np.hypot(*(batch.positions - single.positions).T) + np.hypot(*velocity.T)
+        near = np.flatnonzero(away == 1.0)
+        near = near[(batch.places[near] == single.places).all((1, 2))]
+        away[near] = [found != digest for found in batch.state_digests(near)]
+        return away
+
+    return difference
+
+
 def id_of(number: Any) -> float:
     """The id in the brackets of a formula. Raises ArgumentError for one that is not the same in all worlds."""
+    return plain_number(number, "the id of an object")
+
+
+def plain_number(number: Any, what: str) -> float:
+    """A number in the brackets of a formula. Raises ArgumentError for one that is not the same in all worlds."""
     if np.ndim(number):
-        raise ArgumentError("the id of an object is a plain number, such as 3")
+        raise ArgumentError(f"{what} is a plain number, such as 3")
     return float(number)
 
 

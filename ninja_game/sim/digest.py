@@ -2,7 +2,8 @@
 
 ``world_digest`` covers every field of the schema but the events; of each object the common header and the fields of its
 kind. It compares the two memories; a change of the schema changes it. ``replay_digest`` covers what anybody can see; it
-stands in replays, and nothing inside the world can change it. Numbers are little-endian, -0.0 as 0.0, every NaN as one.
+stands in replays, and nothing inside the world can change it. ``state_digest`` covers what decides what follows, so
+that a moment can be compared with a later one. Numbers are little-endian, -0.0 as 0.0, every NaN as one.
 """
 
 from __future__ import annotations
@@ -19,7 +20,14 @@ from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.plain import WORLD_SCALARS
 from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.rules import NAN
+from ninja_game.sim.states import JUMPING
 from ninja_game.sim.traces import is_traced, place_of, status_of
+
+OVERWRITTEN = {
+    "impact_x", "impact_y", "was_in_air", "near_wall", "wall_x", "wall_y", "first_floor_x", "first_floor_y",
+    "last_floor_x", "last_floor_y", "floor_contacts", "direction", "jump_pressed",
+}  # fmt: skip
+"""Fields of the ninja that every tick writes before anything reads them."""
 
 _SCALARS = [field for field in WORLD_SCALARS if field.name != "event_count"]
 
@@ -44,12 +52,29 @@ def _canonical(value: Any) -> Any:
 
 _WORLD = _Reader(_SCALARS)
 _NINJA = _Reader(fields_of(Ninja))
+_STATE_WORLD = _Reader([field for field in _SCALARS if field.name != "tick"])
+_STATE_NINJA = _Reader([field for field in fields_of(Ninja) if field.name not in OVERWRITTEN | {"jump_timer"}])
 _OBJECTS = {kind.number: _Reader(fields_of(kind.fields)) for kind in KINDS}
 
 
 def world_digest(w: World) -> str:
     """Sha256 (hex) of a world's canonical form."""
-    digest = hashlib.sha256(_WORLD.bytes_of(w) + _NINJA.bytes_of(w.ninja))
+    return _digest(w, _WORLD.bytes_of(w) + _NINJA.bytes_of(w.ninja))
+
+
+def state_digest(w: World) -> str:
+    """Sha256 (hex) of what decides what follows: the canonical form without what no later tick reads.
+
+    Left out are ``OVERWRITTEN``, the jump timer outside of a jump, and the ticks run. Turrets and armed drones do look
+    at the ticks run when they shoot; nothing else does.
+    """
+    timer = w.ninja.jump_timer if w.ninja.state == JUMPING else 0
+    return _digest(w, _STATE_WORLD.bytes_of(w) + _STATE_NINJA.bytes_of(w.ninja) + struct.pack("<i", timer))
+
+
+def _digest(w: World, scalars: bytes) -> str:
+    """Sha256 (hex) of these scalars, all cells and all objects."""
+    digest = hashlib.sha256(scalars)
     digest.update(struct.pack(f"<{len(w.heads)}h", *w.heads) + bytes(w.edges))
     for o in w.objects[1 : w.slots_used]:
         digest.update(_OBJECTS[o.kind].bytes_of(o))

@@ -106,12 +106,23 @@ def same_end(span: SearchedSpan) -> Wanted:
         f"state == {end['state']:.0f}",
         *([f"gold >= {end['gold']:.0f}"] if end["gold"] else []),
     ]
+    return Wanted(" and ".join(parts), rest=_is_passed(span))
+
+
+def same_state(span: SearchedSpan) -> Wanted:
+    """Be exactly in the state of the end of the span, earlier: all that decides what follows, by its digest."""
+    return Wanted(f"difference({span.last - 1}) == 0", rest=_is_passed(span))
+
+
+def _is_passed(span: SearchedSpan) -> bool:
+    """Whether the run reaches the exit behind the span."""
     tick, outcome = span.session.timeline.end
-    return Wanted(" and ".join(parts), rest=outcome == "exit" and tick >= span.last)
+    return outcome == "exit" and tick >= span.last
 
 
 PRESETS: tuple[tuple[str, str, Callable[[SearchedSpan], Wanted]], ...] = (
     ("Same end, sooner", "The same place, speed and state; the rest follows", same_end),
+    ("Same end exactly, sooner", "By the digest of all that decides what follows", same_state),
     ("Be there sooner", "Where the run is at the end of the span", be_there),
     ("Go beyond sooner", "Past the upright line at the end of the span", go_beyond),
     ("Greatest speed", "At the end of the span", be_fast),

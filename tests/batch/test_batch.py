@@ -81,7 +81,9 @@ def test_the_number_of_threads_changes_nothing() -> None:
 @needs_numba
 def test_batches_of_all_sizes_share_one_compiled_function() -> None:
     for count in (1, 2, 5):
-        Batch(LEVELS, count, memory="compiled").step([0] * count)
+        batch = Batch(LEVELS, count, memory="compiled")
+        batch.step([0] * count)
+        batch.run(np.frombuffer(bytes(3 * count), np.uint8).reshape(3, count))
     entry: Any = compiled(run_worlds)
     assert len(entry.signatures) == 1
 

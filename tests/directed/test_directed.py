@@ -18,9 +18,11 @@ from ninja_game.cli.main import cli
 from ninja_game.directed.expressions import FormulaError, parse_number, parse_truth
 from ninja_game.directed.methods import count_ways, search_span
 from ninja_game.directed.span import Found, SpanTask
-from ninja_game.directed.view import FACTS, NAMES, view_of
+from ninja_game.directed.view import FACTS, NAMES, SPAN_NAMES, difference_from, view_of
 from ninja_game.formats.load import load_replays
+from ninja_game.sim.digest import state_digest
 from ninja_game.sim.inputs import press_jumps
+from tests.support.memories import BOTH
 from tests.support.samples import loose_replay
 
 TEXT = "0" * 713 + "|5^100,566!11^200,564,170,564!0^140,566!12^400,400"
@@ -194,6 +196,41 @@ def test_the_rest_of_the_run_follows_and_must_reach_the_exit() -> None:
     assert after[1] < before[1]
 
 
+@pytest.mark.parametrize("memory", BOTH)
+def test_exactly_the_same_state_is_reached_sooner_and_the_rest_follows(memory: str) -> None:
+    """It stands still for six ticks."""
+    task = SpanTask(LEVEL, WAITING, 0, 20, goal="difference(19) == 0", rest=True)
+    best = searched(task, memory=memory, method="local", rounds=3 if memory == "plain" else 30)[0]
+    assert outcome_of(best.inputs) == ("exit", int(best.score)) == ("exit", outcome_of(WAITING)[1] - 20 + best.ticks)
+    assert best.ticks < 20
+    runs = Simulation(LEVEL), Simulation(LEVEL)
+    for run, inputs in zip(runs, (WAITING[:20], best.inputs[: best.ticks]), strict=True):
+        for keys in inputs:
+            run.step_keys(keys)
+    assert state_digest(runs[0].world) == state_digest(runs[1].world)
+
+
+def test_the_difference_is_that_of_place_and_velocity_until_all_is_the_same() -> None:
+    batch = at_ten_ticks()
+    difference = difference_from(LEVEL, bytes([2] * 12), batch)
+    right, x = Simulation(LEVEL), batch.positions[:, 0]
+    for _ in range(10):
+        right.step_keys(2)
+    away = 1 + np.abs(x - right.ninja.x) + np.abs(batch.velocities()[:, 0] - right.ninja.vx)
+    assert difference(9.0).tolist() == pytest.approx([away[0], away[1], 0])
+    for text, message in {"difference(12)": "the run has ticks 0 to 11", "difference(x)": "is a plain number"}.items():
+        with pytest.raises(ArgumentError, match=message):
+            parse_number(text, SPAN_NAMES, FACTS).value({**view_of(batch), "difference": difference})
+
+
+def test_the_same_place_in_another_world_is_a_difference() -> None:
+    batch = Batch(LEVEL, 2, memory="plain")
+    batch.run([[0, 0]] * 6)
+    batch.world(1).objects[2].is_open = 1
+    batch.copy([1], [1])
+    assert difference_from(LEVEL, WAITING, batch)(5.0).tolist() == [0, 1]
+
+
 def test_the_same_seed_finds_the_same() -> None:
     task = SpanTask(LEVEL, WAITING, 0, 30, measure="vx - y / 10")
     first, second = (searched(task, rounds=12, seed=3) for _ in range(2))
@@ -268,5 +305,5 @@ def test_command_says_what_is_wrong(run: Path) -> None:
 
 def test_the_page_explains_every_name() -> None:
     page = (Path(__file__).resolve().parents[2] / "docs" / "speedruns.md").read_text("utf-8")
-    missing = [name for name in NAMES if f"`{name}" not in page]
+    missing = [name for name in SPAN_NAMES if f"`{name}" not in page]
     assert json.dumps(missing) == "[]"

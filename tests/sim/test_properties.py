@@ -10,8 +10,10 @@ from hypothesis import strategies as st
 
 from ninja_game.compile_cache import compiled_available
 from ninja_game.errors import LevelError
+from ninja_game.sim.digest import OVERWRITTEN, differences, state_digest
 from ninja_game.sim.kinds import GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS
 from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.sim.states import JUMPING
 from ninja_game.simulation import BODIES, Body, Simulation
 from tests.support.crowded import crowded_inputs, crowded_level
 from tests.support.memories import BOTH
@@ -40,6 +42,34 @@ def test_a_restored_run_goes_on_as_if_nothing_had_been(
     for keys in inputs[start:]:
         run.step_keys(keys)
     assert run.digest() == straight
+
+
+@settings(max_examples=60)
+@given(seed=seeds, body=bodies, start=st.integers(0, 100), garbage=st.sampled_from([-1, 0, 1, 7]))
+def test_what_the_state_digest_leaves_out_decides_nothing(seed: int, body: Body, start: int, garbage: int) -> None:
+    run, changed = (Simulation(crowded_level(seed), body=body, memory="plain") for _ in range(2))
+    for tick, keys in enumerate(crowded_inputs(seed, start + 60)):
+        if tick == start:
+            ninja = changed.world.ninja
+            for name in OVERWRITTEN | ({"jump_timer"} if ninja.state != JUMPING else set()):
+                setattr(ninja, name, garbage)
+        run.step_keys(keys)
+        changed.step_keys(keys)
+        assert state_digest(run.world) == state_digest(changed.world), run.first_difference(changed)
+        assert run.replay_digest() == changed.replay_digest()
+
+
+@given(seed=seeds)
+def test_the_state_digest_tells_all_else_that_moves(seed: int) -> None:
+    run, later = (Simulation(crowded_level(seed), memory="plain") for _ in range(2))
+    later.step_keys(0)
+    later.world.tick = 0
+    leaves_out = {f"ninja: {name}" for name in OVERWRITTEN | {"jump_timer"}}
+    differs = {name for name, *_ in differences(run.world, later.world)} - leaves_out
+    assert (state_digest(run.world) == state_digest(later.world)) == (not differs)
+    before = state_digest(run.world)
+    run.world.tick += 1
+    assert state_digest(run.world) == before
 
 
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
