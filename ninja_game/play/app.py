@@ -201,9 +201,9 @@ class App:
         """Draw the screens that are seen and show what changed."""
         changed = self.stack.draw(self.surface)
         if self.notice and not isinstance(self.top, BossScreen):
-            x, y, w, h = self.top.notice_area
-            rect = self.canvas.fill_rect(self.surface, self.theme.palette.panel, x, y, w, h)
-            self.theme.text(self.surface, self.notice, x + w / 2, y + 7, size=9.5, align="centre", width=w - 40)
+            theme, (x, y, w, h) = self.top.theme, self.top.notice_area
+            rect = theme.canvas.fill_rect(self.surface, theme.palette.panel, x, y, w, h)
+            theme.text(self.surface, self.notice, x + w / 2, y + 7, size=9.5, align="centre", width=w - 40)
             changed = None if changed is None else [*changed, rect]
         if changed is None:
             pygame.display.flip()

@@ -8,7 +8,7 @@ import pygame
 
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
-from ninja_game.play.ui.theme import Area
+from ninja_game.play.ui.theme import Area, Theme
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
@@ -29,6 +29,11 @@ class Screen:
     def __init__(self, app: App) -> None:
         self.app = app
         self.redraw = True
+
+    @property
+    def theme(self) -> Theme:
+        """The look of what it draws, and where on the window that is."""
+        return self.app.theme
 
     def enter(self) -> None:
         """Called when this becomes the top screen: pushed, or uncovered again."""

@@ -38,7 +38,7 @@ class BenchDriver(MenuDriver):
 
     def event(self, kind: int, x: float = 0, y: float = 0, **more: object) -> None:
         """A mouse event at a logical point, and a picture."""
-        px = self.app.canvas.point(x, y)
+        px = self.top().theme.canvas.point(x, y)
         shared = {"pos": px, "rel": (0, 0), "buttons": (0, 0, 0), "touch": False}
         pygame.event.post(pygame.Event(kind, shared | more))
         self.frames()
@@ -61,7 +61,7 @@ class BenchDriver(MenuDriver):
         layout = roll.layout
         place = next(each for each in layout.places if each.column.name == column)
         y = layout.body.top + (tick - roll.top) * layout.row + layout.row // 2
-        return self.app.canvas.logical((place.left + place.width // 2, y))
+        return self.top().theme.canvas.logical((place.left + place.width // 2, y))
 
     def chord(self, key: str, *modifiers: int) -> None:
         """A key with modifiers."""

@@ -75,7 +75,7 @@ class MenuDriver:
 
     def mouse(self, x: float, y: float, *, click: bool = True) -> None:
         """Move the mouse to a logical point, and click."""
-        place = self.app.canvas.point(x, y)
+        place = self.top().theme.canvas.point(x, y)
         pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=place, rel=(0, 0), buttons=(0, 0, 0), touch=False))
         if click:
             for kind in (pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP):

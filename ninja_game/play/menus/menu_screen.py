@@ -161,10 +161,10 @@ class MenuScreen(Screen):
 
     def _handle_mouse(self, event: pygame.Event) -> None:
         if event.type == pygame.MOUSEWHEEL:
-            widget = self._at(*self.app.canvas.logical(pygame.mouse.get_pos()))
+            widget = self._at(*self.theme.canvas.logical(pygame.mouse.get_pos()))
             self.redraw = (widget is not None and widget.wheel(event.y)) or self.redraw
             return
-        x, y = self.app.canvas.logical(event.pos)
+        x, y = self.theme.canvas.logical(event.pos)
         if event.type == pygame.MOUSEMOTION:
             if self._dragged is not None:
                 self.redraw = self._dragged.drag(x, y) or self.redraw
@@ -214,7 +214,7 @@ class MenuScreen(Screen):
 
     def draw_frame(self, surface: pygame.Surface) -> None:
         """The background: a room in the stage's colours, the title above, the hint below."""
-        palette, canvas, theme = self.app.theme.palette, self.app.canvas, self.app.theme
+        theme, canvas, palette = self.theme, self.theme.canvas, self.theme.palette
         surface.fill(palette.tile)
         canvas.fill_rect(surface, palette.background, 24, 52, WIDTH - 48, HEIGHT - 52 - 36, 6)
         theme.text(surface, self.title, 36, 17, size=TITLE_SIZE, colour=palette.on_tile, bold=True, width=WIDTH - 72)
@@ -226,7 +226,7 @@ class MenuScreen(Screen):
     def draw_widgets(self, surface: pygame.Surface) -> None:
         """The widgets, the focused one last since its mark stands out."""
         for widget in sorted(self.widgets, key=lambda widget: widget is self.focus):
-            widget.draw(surface, self.app.theme, focused=widget is self.focus)
+            widget.draw(surface, self.theme, focused=widget is self.focus)
 
 
 def _ahead(start: Widget, goal: Widget, dx: int, dy: int) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.play.ui.theme import Theme
 from ninja_game.tas.course import Course
 from ninja_game.tas.session import Session
 from ninja_game.tas.take import Take
@@ -42,12 +43,14 @@ class Bench:
     opened beside this one; ``chosen``: the number of the one that parts are taken from, where there are any.
     ``preview``: a result of a search that is looked at. ``tab``: the name of the tab that is to be shown.
     ``against``: the run that the lead is told over; None: the run as it was opened.
+    ``theme``: the look of all parts, in the bench's own logical px, which are not those of other screens.
     ``hint``: of what is under the mouse, for the line below. ``ask_to_watch``: proposes a formula to be watched.
     """
 
     def __init__(self, app: App, session: Session) -> None:
         self.app = app
         self.session = session
+        self.theme: Theme = app.theme
         self.cursor = 0
         self.anchor: int | None = None
         self.others: list[OtherRun] = []

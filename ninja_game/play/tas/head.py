@@ -12,7 +12,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 class Head(Part):
     """The run's name and file, and whether it is saved."""
 
-    area = (0, 0, 792, 26)
+    slot = "head"
 
     def look(self) -> tuple[object, ...]:
         """Name, file, saved, outcome."""
@@ -21,27 +21,34 @@ class Head(Part):
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """One line."""
-        session, palette = self.bench.session, theme.palette
+        session, palette, right = self.bench.session, theme.palette, self.area[2] - 8
         theme.canvas.fill_rect(surface, palette.tile, *self.area)
         end, outcome = session.timeline.end
         file = session.file.path.name if session.file.path else "no file yet"
         author = f" - {session.about.author}" if session.about.author else ""
         title = theme.text(
-            surface, f"{session.about.name}{author}", 8, 6, size=13, bold=True, colour=palette.on_tile, width=330
+            surface,
+            f"{session.about.name}{author}",
+            8,
+            6,
+            size=13,
+            bold=True,
+            colour=palette.on_tile,
+            width=right / 2 - 62,
         )
         x = title.right / theme.canvas.scale + 12
         saved = "" if not session.file.path and session.is_saved else "  saved" if session.is_saved else "  not saved"
         state = session.journal.problem or file + saved
-        theme.text(surface, state, x, 9, size=9.5, colour=palette.on_tile, width=560 - x)
+        theme.text(surface, state, x, 9, size=9.5, colour=palette.on_tile, width=right - 224 - x)
         words = {"exit": f"exit in tick {end}", "dead": f"dead in tick {end}"}.get(outcome, "no exit yet")
         seconds = f"  {(end + 1) / TICKS_PER_SECOND:.3f} s" if end >= 0 else ""
-        theme.text(surface, words + seconds, 784, 8, size=11, bold=True, colour=palette.on_tile, align="right")
+        theme.text(surface, words + seconds, right, 8, size=11, bold=True, colour=palette.on_tile, align="right")
 
 
 class Foot(Part):
     """Where the cursor is, what is selected, and a hint."""
 
-    area = (0, 579, 792, 21)
+    slot = "foot"
 
     def look(self) -> tuple[object, ...]:
         """Cursor, selection, the run's length, the hint."""
@@ -50,15 +57,22 @@ class Foot(Part):
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """One line."""
-        bench, palette = self.bench, theme.palette
+        bench, palette, (_, y, w, _) = self.bench, theme.palette, self.area
         theme.canvas.fill_rect(surface, palette.tile, *self.area)
         first, last = bench.selection
         selected = f"   {last - first} selected" if last - first > 1 else ""
         timeline = bench.session.timeline
         known = "" if timeline.complete else f"   simulated up to {timeline.valid}"
         text = f"tick {bench.cursor} of {len(bench.take)}{selected}{known}"
-        theme.text(surface, text, 8, 584, size=9.5, colour=palette.on_tile)
+        theme.text(surface, text, 8, y + 5, size=9.5, colour=palette.on_tile)
         hint = bench.hint or "Click L R J to change keys; Enter: take over; F: search; F1: help"
         theme.text(
-            surface, hint, 784, 584, size=9.5, colour=palette.on_tile, align="right", width=764 - theme.width(text, 9.5)
+            surface,
+            hint,
+            w - 8,
+            y + 5,
+            size=9.5,
+            colour=palette.on_tile,
+            align="right",
+            width=w - 28 - theme.width(text, 9.5),
         )

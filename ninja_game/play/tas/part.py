@@ -15,9 +15,10 @@ Commands = Mapping[str, Callable[[], object]]
 
 
 class Part:
-    """``area``: where it is, logical px."""
+    """``area``: where it is, logical px. ``slot``: the name of that place in the bench's layout."""
 
-    area: ClassVar[Area]
+    slot: ClassVar[str] = ""
+    area: Area = (0, 0, 0, 0)
 
     def __init__(self, bench: Bench) -> None:
         self.bench = bench
@@ -51,6 +52,10 @@ class Part:
         """Let real time pass."""
 
     # --- for the screen ---
+
+    def place(self, area: Area) -> None:
+        """Be there from now on; all is drawn anew."""
+        self.area = area
 
     def contains(self, x: float, y: float) -> bool:
         """Whether a point lies in it."""

@@ -14,6 +14,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.borders import Borders
 from ninja_game.play.tas.file_commands import FileCommands
 from ninja_game.play.tas.head import Foot, Head
 from ninja_game.play.tas.held_command import HeldCommand
@@ -21,8 +22,9 @@ from ninja_game.play.tas.level.part import LevelPart
 from ninja_game.play.tas.part import Commands, Part
 from ninja_game.play.tas.roll.part import Roll
 from ninja_game.play.tas.tabs.all_tabs import all_tabs
-from ninja_game.play.tas.tabs.tab import Tab, TabName
+from ninja_game.play.tas.tabs.tab import Tab, TabName, put_side_by_side
 from ninja_game.play.ui.text_entry import TextEntry
+from ninja_game.play.ui.theme import Theme
 from ninja_game.play.ui.widgets import Widget
 from ninja_game.tas.session import Session
 
@@ -42,8 +44,6 @@ class TasScreen(MenuScreen):
     for what another window goes on with.
     """
 
-    notice_area = (236, 579, 556, 21)
-
     def __init__(
         self, app: App, opened: OpenedRun, beside: Sequence[Recording] = (), found: Recovered | None = None
     ) -> None:
@@ -55,9 +55,11 @@ class TasScreen(MenuScreen):
         self.level, self.roll = LevelPart(self.bench), Roll(self.bench)
         self.tabs = all_tabs(self.bench)
         self.tab: Tab = self.tabs[0]
+        self.names = [TabName(tab, partial(self.show_tab, tab)) for tab in self.tabs]
         self.head, self.foot_line = Head(self.bench), Foot(self.bench)
         self.files = FileCommands(app, self.bench, self._run, self._go_on)
         self.level.others.open(beside)
+        self.borders = Borders(self.bench, [self.head, self.level, self.roll, self.foot_line, *self.tabs])
         self._entered = found is not None
         self._widgets_stale = True
         self._dragging: Part | None = None
@@ -67,7 +69,16 @@ class TasScreen(MenuScreen):
     @property
     def parts(self) -> list[Part]:
         """All that draws itself."""
-        return [self.head, self.level, self.roll, self.tab, self.foot_line]
+        return [self.head, self.level, self.roll, self.tab, self.foot_line, self.borders]
+
+    @property
+    def theme(self) -> Theme:
+        """The bench's own: a larger window has room for more, where other screens are larger."""
+        if self.borders.fit():
+            self.redraw, layout = True, self.borders.layout
+            self.notice_area = layout.notices
+            put_side_by_side(self.names, layout.strip)
+        return self.bench.theme
 
     def commands(self) -> Commands:
         """What commands do, by name."""
@@ -84,13 +95,7 @@ class TasScreen(MenuScreen):
 
     def build(self) -> Sequence[Widget]:
         """The names of the tabs, and what is in the present one."""
-        x, y, w, h = Tab.strip
-        width = w / len(self.tabs)
-        names = [
-            TabName((x + width * k, y, width - 4, h), tab, partial(self.show_tab, tab))
-            for k, tab in enumerate(self.tabs)
-        ]
-        return [*names, *self.tab.widgets]
+        return [*self.names, *self.tab.widgets]
 
     def enter(self) -> None:
         """Nothing has the focus: keys edit."""
@@ -192,7 +197,7 @@ class TasScreen(MenuScreen):
 
     def _give_mouse(self, raw: pygame.Event) -> None:
         pos = pygame.mouse.get_pos() if raw.type == pygame.MOUSEWHEEL else raw.pos
-        x, y = self.app.canvas.logical(pos)
+        x, y = self.theme.canvas.logical(pos)
         if raw.type == pygame.MOUSEMOTION:
             self.bench.hint = ""
         part = self._dragging or next((each for each in self.parts if each.contains(x, y)), None)
@@ -229,7 +234,8 @@ class TasScreen(MenuScreen):
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
         """What has changed."""
-        theme, whole = self.app.theme, self.redraw
+        theme = self.theme
+        whole = self.redraw
         if whole:
             surface.fill(theme.palette.tile)
         stale = whole or self._widgets_stale
@@ -239,6 +245,6 @@ class TasScreen(MenuScreen):
             changed += drawn
             if part is self.tab and drawn:
                 self.draw_widgets(surface)
-                changed.append(theme.canvas.rect(*Tab.strip))
+                changed.append(theme.canvas.rect(*self.borders.layout.strip))
         self._widgets_stale = False
         return None if whole else changed

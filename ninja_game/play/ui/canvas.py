@@ -14,18 +14,20 @@ Colour = str | tuple[int, int, int] | tuple[int, int, int, int] | pygame.Color
 
 
 class Canvas:
-    """The part of a window that shows the stage: the largest 33 : 25 rectangle in its middle.
+    """The part of a window that shows the stage: the largest rectangle of its shape in the middle.
 
-    ``scale``: px per logical px. ``origin``: px of the stage's upper left corner. ``size``: px of the stage.
+    ``stage_size``: logical px. ``scale``: px per logical px. ``origin``: px of the stage's upper left corner.
+    ``size``: px of the stage.
 
     >>> Canvas((1584, 1200)).point(10, 20)
     (20, 40)
     """
 
-    def __init__(self, window: tuple[int, int]) -> None:
+    def __init__(self, window: tuple[int, int], stage_size: Point = (WIDTH, HEIGHT)) -> None:
         self.window = (max(1, window[0]), max(1, window[1]))
-        self.scale = min(self.window[0] / WIDTH, self.window[1] / HEIGHT)
-        self.size = (max(1, round(WIDTH * self.scale)), max(1, round(HEIGHT * self.scale)))
+        width, height = stage_size
+        self.scale = min(self.window[0] / width, self.window[1] / height)
+        self.size = (max(1, round(width * self.scale)), max(1, round(height * self.scale)))
         self.origin = ((self.window[0] - self.size[0]) // 2, (self.window[1] - self.size[1]) // 2)
 
     @property

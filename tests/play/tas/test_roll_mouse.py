@@ -7,7 +7,6 @@ import pytest
 
 from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.play.editor.panels import Form, Menu
-from ninja_game.play.tas.roll.columns import AREA
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.take import Take
 from tests.support.bench_driver import BenchDriver
@@ -48,7 +47,8 @@ def test_painting_beyond_the_lower_edge_scrolls_on_and_makes_the_run_longer(at: 
     at.bench.edit(lambda take: Take(b""))
     at.frames()
     x, y = at.cell(30, "right")
-    for kind, where in ((pygame.MOUSEBUTTONDOWN, y), (pygame.MOUSEMOTION, AREA[1] + AREA[3] + 60)):
+    lower_edge = at.screen.roll.area[1] + at.screen.roll.area[3]
+    for kind, where in ((pygame.MOUSEBUTTONDOWN, y), (pygame.MOUSEMOTION, lower_edge + 60)):
         at.event(kind, x, where, button=1, buttons=(1, 0, 0))
     at.frames(40)
     at.event(pygame.MOUSEBUTTONUP, x, where, button=1)
@@ -94,7 +94,7 @@ def test_a_double_click_on_the_number_names_the_tick(at: BenchDriver) -> None:
 
 
 def test_the_wheel_scrolls_and_with_ctrl_moves_the_cursor(at: BenchDriver, monkeypatch: pytest.MonkeyPatch) -> None:
-    middle = at.app.canvas.point(*at.cell(20, "x"))
+    middle = at.screen.theme.canvas.point(*at.cell(20, "x"))
     monkeypatch.setattr(pygame.mouse, "get_pos", lambda: middle)
     wheel(at, -5)
     assert (at.screen.roll.top, at.bench.cursor) == (20, 0)
@@ -106,7 +106,7 @@ def test_the_wheel_scrolls_and_with_ctrl_moves_the_cursor(at: BenchDriver, monke
 
 def test_the_scroll_bar_leads_anywhere(at: BenchDriver) -> None:
     bar = at.screen.roll.layout.bar
-    x, y = at.app.canvas.logical((bar.centerx, bar.bottom - 2))
+    x, y = at.screen.theme.canvas.logical((bar.centerx, bar.bottom - 2))
     at.drag((x, 300), (x, y))
     assert at.screen.roll.top == at.bench.last_tick + 1 - at.screen.roll.layout.rows
     assert at.bench.cursor == 0

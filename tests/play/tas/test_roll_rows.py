@@ -8,10 +8,10 @@ import numpy as np
 import pygame
 import pytest
 
-from ninja_game.play.tas.roll.columns import AREA, COLUMNS, layout_of
+from ninja_game.play.tas.layout import Wishes, bench_canvas, bench_layout
+from ninja_game.play.tas.roll.columns import COLUMNS, layout_of
 from ninja_game.play.tas.roll.facts import changed_ticks, in_words, row_facts
 from ninja_game.play.tas.roll.rows import RowSheet, shortened
-from ninja_game.play.ui.canvas import Canvas
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.take import Take
 from tests.support.bench_driver import BenchDriver
@@ -88,7 +88,9 @@ def test_rows_know_what_is_simulated_and_where_the_run_ends(at: BenchDriver) -> 
 
 @pytest.mark.parametrize("size", [(792, 600), (1188, 900), (1584, 1200), (1000, 1000), (3000, 700), (200, 150)])
 def test_columns_lie_side_by_side_in_any_window(size: tuple[int, int]) -> None:
-    layout = layout_of(Canvas(size), ())
+    canvas = bench_canvas(size)
+    area = bench_layout((size[0] / canvas.scale, size[1] / canvas.scale), Wishes()).roll
+    layout = layout_of(canvas, area, ())
     assert [place.column.name for place in layout.places] == [column.name for column in COLUMNS]
     edges = np.array([[place.left, place.left + place.width] for place in layout.places])
     assert (edges[1:, 0] == edges[:-1, 1]).all()
@@ -100,7 +102,7 @@ def test_columns_lie_side_by_side_in_any_window(size: tuple[int, int]) -> None:
 
 def test_the_picture_of_rows_is_the_same_however_one_got_there(at: BenchDriver, tmp_path: Path) -> None:
     """Rows that are kept while scrolling look as rows that are drawn at once."""
-    roll, area = at.screen.roll, at.app.canvas.rect(*AREA)
+    roll, area = at.screen.roll, at.screen.theme.canvas.rect(*at.screen.roll.area)
     for tick in (30, 90, 70, 75, 200, 60):
         at.bench.go(tick)
         at.frames()

@@ -30,7 +30,7 @@ _LETTERS = 17
 class LevelPart(Part):
     """The level, smaller than in the game. ``hover``: the tick to which a click goes; ``pointed``: the object there."""
 
-    area = (6, 28, 424, 322)
+    slot = "level"
 
     def __init__(self, bench: Bench) -> None:
         super().__init__(bench)
@@ -111,8 +111,10 @@ class LevelPart(Part):
         positions = self.bench.session.timeline.positions
         if self.take_over.on or not len(positions):
             return False
-        factor = self.bench.app.canvas.scale / self.picture.canvas.scale
-        at = (x - self.area[0]) * factor, (y - self.area[1]) * factor
+        canvas = self.bench.theme.canvas
+        corner = canvas.rect(*self.area).topleft
+        px, py = canvas.point(x, y)
+        at = self.picture.canvas.logical((px - corner[0], py - corner[1]))
         dragged = event.type == pygame.MOUSEMOTION and event.buttons[0]
         pressed = event.button if event.type == pygame.MOUSEBUTTONDOWN else 0
         self.hover = nearest_tick(positions, *at, self.bench.cursor, dragged=dragged)

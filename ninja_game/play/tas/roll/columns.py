@@ -12,7 +12,6 @@ from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.theme import Area
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 
-AREA: Area = (436, 28, 350, 548)
 HEAD, ROW, BAR = 16.0, 11.0, 12.0
 """Height of the heads and of a row, width of the scroll bar, logical px."""
 
@@ -78,14 +77,14 @@ class Layout:
         return next((place.column for place in self.places if x < place.left + place.width), self.places[-1].column)
 
 
-def layout_of(canvas: Canvas, hidden: Collection[str]) -> Layout:
-    """Heads, rows and scroll bar of a window. All rows have the same height, whole px."""
-    whole = canvas.rect(*AREA)
+def layout_of(canvas: Canvas, area: Area, hidden: Collection[str]) -> Layout:
+    """Heads, rows and scroll bar in an area, logical px. All rows have the same height, whole px."""
+    whole = canvas.rect(*area)
     head, row, bar = canvas.px(HEAD), max(6, int(ROW * canvas.scale)), canvas.px(BAR)
     rows = max(1, (whole.height - head) // row)
     body = pygame.Rect(whole.left, whole.top + head, whole.width - bar, rows * row)
     shown = [column for column in COLUMNS if column.name not in hidden]
-    free = AREA[2] - BAR - sum(column.width for column in shown)
+    free = area[2] - BAR - sum(column.width for column in shown)
     places, x = [], 0.0
     for column in shown:
         left, x = x, x + (column.width or free)

@@ -10,7 +10,7 @@ from ninja_game.play.editor.panels import Menu
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.part import Commands, Part
 from ninja_game.play.tas.roll.bar import ScrollBar
-from ninja_game.play.tas.roll.columns import AREA, COLUMNS, Layout, layout_of
+from ninja_game.play.tas.roll.columns import COLUMNS, Layout, layout_of
 from ninja_game.play.tas.roll.commands import RollCommands
 from ninja_game.play.tas.roll.differences import compared
 from ninja_game.play.tas.roll.facts import row_facts
@@ -25,7 +25,7 @@ MARGIN = 4
 class Roll(Part):
     """A row a tick. ``top``: the first tick that is seen; ``hidden``: the names of columns that are not."""
 
-    area = AREA
+    slot = "roll"
 
     def __init__(self, bench: Bench) -> None:
         super().__init__(bench)
@@ -40,7 +40,7 @@ class Roll(Part):
     @property
     def layout(self) -> Layout:
         """Where things are in the window as it is now."""
-        return layout_of(self.bench.app.canvas, self.hidden)
+        return layout_of(self.bench.theme.canvas, self.area, self.hidden)
 
     def scroll(self, top: int) -> None:
         """Have this tick at the upper edge, as far as there are ticks."""
@@ -103,12 +103,13 @@ class Roll(Part):
         scale = theme.canvas.scale
         for place in layout.places:
             x = (place.left - theme.canvas.origin[0] + place.width / 2) / scale
-            theme.text(surface, place.column.head, x, AREA[1] + 4, size=8, colour=palette.on_tile, align="centre")
-        theme.canvas.frame_rect(surface, palette.panel_edge, *AREA)
+            y = self.area[1] + 4
+            theme.text(surface, place.column.head, x, y, size=8, colour=palette.on_tile, align="centre")
+        theme.canvas.frame_rect(surface, palette.panel_edge, *self.area)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         """Painting, selecting, scrolling."""
-        return self.pointer.take(event, *self.bench.app.canvas.point(x, y))
+        return self.pointer.take(event, *self.bench.theme.canvas.point(x, y))
 
     def update(self, real_ms: int) -> None:
         """A drag beyond the edge scrolls on; the cursor stays in sight."""

@@ -8,7 +8,7 @@ from ninja_game.play.editor.panels import Form
 from ninja_game.play.menus.panels import Question
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.part import Commands
-from ninja_game.play.tas.tabs.tab import SMALL, Rows, Tab, buttons_in_a_row
+from ninja_game.play.tas.tabs.tab import NOWHERE, SMALL, Rows, Tab, put_in_a_row
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button
 from ninja_game.tas.branches import Branch, Branches
@@ -17,8 +17,8 @@ LONGEST = 60
 """Characters of a name."""
 
 _INDENT, _DEEPEST = 9, 12
-_COLUMNS = (230, 292, 340)
-"""Where end, gold and the difference stand, px from the left of a row."""
+_COLUMNS = (174, 112, 64)
+"""Where end, gold and the difference stand, px from the right of a row."""
 
 
 class BranchesTab(Tab):
@@ -29,16 +29,22 @@ class BranchesTab(Tab):
     def __init__(self, bench: Bench) -> None:
         super().__init__(bench)
         self.tree: list[tuple[int, int]] = []
-        self.list = Rows((10, 393, 416, 160), self._draw_row, lambda _: None, empty="B keeps the run as a branch")
+        self.list = Rows(self._draw_row, lambda _: None, empty="B keeps the run as a branch")
         actions = [
-            ("Keep", 46, self.keep, "B: keep the run as it is now, as a child of the marked branch"),
-            ("Go to it", 58, self.take, "The run becomes the chosen branch; undo brings back what was there"),
-            ("Compare", 58, self.compare, "The lead of the run over the chosen branch"),
-            ("Rename", 56, self.rename, "Another name for the chosen branch"),
-            ("Drop", 46, self.drop, "Forget the chosen branch; what was made from it stays"),
+            ("Keep", self.keep, "B: keep the run as it is now, as a child of the marked branch"),
+            ("Go to it", self.take, "The run becomes the chosen branch; undo brings back what was there"),
+            ("Compare", self.compare, "The lead of the run over the chosen branch"),
+            ("Rename", self.rename, "Another name for the chosen branch"),
+            ("Drop", self.drop, "Forget the chosen branch; what was made from it stays"),
         ]
-        keep, *self._for_one = buttons_in_a_row(10, 556, actions)
-        self.widgets: list[Rows | Button] = [self.list, keep, *self._for_one]
+        self._buttons = [Button(NOWHERE, text, action, hint=hint, size=SMALL) for text, action, hint in actions]
+        self._for_one = self._buttons[1:]
+        self.widgets: list[Rows | Button] = [self.list, *self._buttons]
+
+    def arrange(self, x: float, y: float, w: float, h: float) -> None:
+        """The tree above the buttons."""
+        self.list.area = x + 4, y + 20, w - 8, h - 43
+        put_in_a_row(x + 4, y + h - 20, self._buttons, (46, 58, 58, 56, 46))
 
     def commands(self) -> Commands:
         """Keeping."""
@@ -122,29 +128,31 @@ class BranchesTab(Tab):
         """The names of the columns; the list is a widget."""
         super().paint(surface, theme)
         self.refresh()
-        x, y, _, _ = self.list.area
-        for at, text in zip((8, *_COLUMNS), ("Branch", "Ends in tick", "Gold", "Against the run now"), strict=True):
-            theme.text(surface, text, x + at, y - 13, size=8, colour=theme.palette.faint)
+        x, _, w, _ = self.list.row_area(0)
+        y = self.list.area[1]
+        heads = ("Ends in tick", "Gold", "Against the run now")
+        for at, text in ((x + 8, "Branch"), *((x + w - at, text) for at, text in zip(_COLUMNS, heads, strict=True))):
+            theme.text(surface, text, at, y - 13, size=8, colour=theme.palette.faint)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
         """Name, end, gold, the difference to the run."""
         number, depth = self.tree[index]
         branch, palette = self.branches.all[number], theme.palette
-        x, y, h = area[0], area[1], area[3]
-        left = x + 16 + _INDENT * min(depth, _DEEPEST)
+        x, y, w, h = area
+        right, left = x + w, x + 16 + _INDENT * min(depth, _DEEPEST)
         current = number == self.branches.current
         if current:
             tip = left - 4
             theme.canvas.polygon(surface, palette.accent, [(tip - 6, y + 4), (tip - 6, y + h - 4), (tip, y + h / 2)])
         changed = " (changed since)" if current and branch.take != self.bench.take else ""
-        room = x + _COLUMNS[0] - left - 6
+        room = right - _COLUMNS[0] - left - 6
         theme.text(surface, branch.name + changed, left, y + 3, size=SMALL, bold=current, width=room)
         cells = (f"{branch.outcome} {branch.end}" if branch.end >= 0 else "no end", str(branch.gold))
         for at, text in zip(_COLUMNS, cells, strict=False):
-            theme.text(surface, text, x + at, y + 3, size=SMALL)
+            theme.text(surface, text, right - at, y + 3, size=SMALL)
         words, ahead = self._difference(branch)
         colour = palette.good if ahead > 0 else palette.bad if ahead < 0 else palette.text
-        theme.text(surface, words, x + _COLUMNS[2], y + 3, size=SMALL, bold=bool(ahead), colour=colour)
+        theme.text(surface, words, right - _COLUMNS[2], y + 3, size=SMALL, bold=bool(ahead), colour=colour)
 
     def _difference(self, branch: Branch) -> tuple[str, int]:
         """How much a branch is shorter than the run, in words and ticks."""

@@ -9,7 +9,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.play.tas.bench import Bench
-from ninja_game.play.tas.tabs.tab import SMALL, Rows, Tab
+from ninja_game.play.tas.tabs.tab import NOWHERE, SMALL, Rows, Tab
 from ninja_game.play.ui.text_layout import counted
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Choice
@@ -19,8 +19,8 @@ from ninja_game.tas.take import Take
 PAUSE_MS = 300
 """How long a run must stay as it is before it is compared."""
 
-_COLUMNS = (190, 260, 330)
-"""Where the ticks and the lead stand, px from the left of a row."""
+_COLUMNS = (214, 144, 74)
+"""Where the ticks and the lead stand, px from the right of a row."""
 
 Pair = tuple[Take, Take]
 Job = tuple[Pair, Recording, Recording, tuple[Marker, ...]]
@@ -46,11 +46,16 @@ class LeadTab(Tab):
         self._asked: Pair | None = None
         self._still_ms = 0
         self._job: NewestJob[Job, tuple[Pair, LeadTable | str]] = NewestJob(compared)
-        self._choice = Choice((62, 377, 364, 18), "", self._options(), self._against, self._put,
+        self._choice = Choice(NOWHERE, "", self._options(), self._against, self._put,
                               hint="The run that this one is compared to")  # fmt: skip
-        self.list = Rows((10, 426, 416, 148), self._draw_row, self._go, keeps=False,
+        self.list = Rows(self._draw_row, self._go, keeps=False,
                          hint="A click puts the cursor there")  # fmt: skip
         self.widgets = [self._choice, self.list]
+
+    def arrange(self, x: float, y: float, w: float, h: float) -> None:
+        """The choice above the table."""
+        self._choice.area = x + 56, y + 4, w - 60, 18
+        self.list.area = x + 4, y + 53, w - 8, h - 55
 
     # --- which runs ---
 
@@ -143,27 +148,30 @@ class LeadTab(Tab):
         """What it comes to, and the names of the columns."""
         super().paint(surface, theme)
         faint = theme.palette.faint
-        theme.text(surface, "Against", 12, 381, size=11)
-        theme.text(surface, self.summary, 12, 399, size=SMALL, width=408)
-        x, y, _, _ = self.list.area
-        heads = ("Place", "Tick here", "Tick there", "Ahead + or behind -")
-        for at, text in zip((8, *_COLUMNS), heads, strict=True):
-            theme.text(surface, text, x + at, y - 12, size=8, colour=faint)
+        x, y, w, _ = self.area
+        theme.text(surface, "Against", x + 6, y + 8, size=11)
+        theme.text(surface, self.summary, x + 6, y + 26, size=SMALL, width=w - 16)
+        x, _, w, _ = self.list.row_area(0)
+        heads = ("Tick here", "Tick there", "Ahead + or behind -")
+        for at, text in ((x + 8, "Place"), *((x + w - at, text) for at, text in zip(_COLUMNS, heads, strict=True))):
+            theme.text(surface, text, at, y + 41, size=8, colour=faint)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
         """Place, ticks, lead."""
         if self.table is None or index >= len(self.table.rows):
             return
         row, palette = self.table.rows[index], theme.palette
-        x, y = area[0], area[1] + 3
+        x, right, y = area[0], area[0] + area[2], area[1] + 3
         current = self.is_current
         colour = palette.text if row.counts and current else palette.faint
-        theme.text(surface, row.name, x + 8, y, size=SMALL, colour=colour, bold=row.counts, width=_COLUMNS[0] - 14)
+        theme.text(
+            surface, row.name, x + 8, y, size=SMALL, colour=colour, bold=row.counts, width=area[2] - _COLUMNS[0] - 14
+        )
         for at, tick in zip(_COLUMNS, (row.tick, row.other), strict=False):
-            theme.text(surface, str(tick), x + at, y, size=SMALL, colour=colour)
+            theme.text(surface, str(tick), right - at, y, size=SMALL, colour=colour)
         if current and row.ahead:
             colour = palette.good if row.ahead > 0 else palette.bad
-        theme.text(surface, f"{row.ahead:+d}" if row.ahead else "0", x + _COLUMNS[2], y, size=SMALL, bold=True,
+        theme.text(surface, f"{row.ahead:+d}" if row.ahead else "0", right - _COLUMNS[2], y, size=SMALL, bold=True,
                    colour=colour)  # fmt: skip
 
 

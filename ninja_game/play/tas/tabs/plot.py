@@ -26,8 +26,8 @@ _STEPS = (1, 2, 5, 10, 20, 40, 100, 200, 400, 1000, 2000, 4000, 10_000, 40_000)
 class Window:
     """The ticks ``first`` … ``last`` (with fractions) of a run of ``length`` ticks, from ``left`` over ``width`` px."""
 
-    left: float
-    width: float
+    left: float = 0.0
+    width: float = 1.0
     length: float = SHORTEST
     first: float = 0.0
     last: float = SHORTEST

@@ -15,7 +15,7 @@ from ninja_game.play.editor.panels import Menu
 from ninja_game.play.tas.bench import Bench, Span
 from ninja_game.play.tas.part import Commands
 from ninja_game.play.tas.tabs.span_results import SpanResults
-from ninja_game.play.tas.tabs.tab import SMALL, Field, Rows, Tab, what_is_wrong
+from ninja_game.play.tas.tabs.tab import NOWHERE, SMALL, Field, Rows, Tab, what_is_wrong
 from ninja_game.play.ui.text_layout import wrapped
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button, Choice
@@ -35,8 +35,9 @@ _METHODS = (
 _ORDERS = (("the earliest", EARLIEST), ("the greatest", GREATEST), ("the smallest", SMALLEST))
 _RESTS = (("end at the goal", False), ("then the rest", True))
 _NAMES = "x y vx vy speed tick gold state dead won in_air distance(x, y) taken(id) opened(id) and or not < > abs(a)"
-_COLUMNS, _WIDTHS = (14, 172, 222, 282), (154, 46, 58, 30)
-"""Of the cells of a result, px from the left of a row, and their widths."""
+_LEFT, _COLUMNS, _WIDTHS = 14, (232, 182, 122), (46, 58, 30)
+"""Of the cells of a result, px: the first from the left of a row, the others from its right; widths of the others."""
+_HEADS = ("Result", "Other from", "Ends at x, y", "Speed")
 _EXPLAINED = (
     "Say what for: a goal that is true after one of these ticks, as early as possible, or a value that is to be "
     "the greatest or smallest then. Other keys for these ticks are searched; a click puts a result into the run."
@@ -56,26 +57,35 @@ class SearchTab(Tab):
         self.method: object = "auto"
         self.results: SpanResults | None = None
         self.found: tuple[Found, ...] = ()
-        self.goal = Field((46, 398, 380, 18), "x > 400, taken(12), distance(300, 200) < 6 ...", self.start,
-                          longest=LONGEST, hint=_NAMES)  # fmt: skip
-        self.measure = Field((132, 419, 144, 18), "speed; vx, y, gold ...", self.start, longest=LONGEST, hint=_NAMES)
-        self._button = Button((164, 440, 58, 18), "Start", self._start_or_stop, size=SMALL)
-        self.list = Rows((10, 472, 416, 102), self._draw_row, self._put, keeps=False,
+        self.goal = Field("x > 400, taken(12), distance(300, 200) < 6 ...", self.start, longest=LONGEST, hint=_NAMES)
+        self.measure = Field("speed; vx, y, gold ...", self.start, longest=LONGEST, hint=_NAMES)
+        self._button = Button(NOWHERE, "Start", self._start_or_stop, size=SMALL)
+        self.list = Rows(self._draw_row, self._put, keeps=False,
                          hint="Under the mouse: its way in the level; a click puts it into the run")  # fmt: skip
         self.widgets = [
-            Button((248, 377, 96, 18), "Take the selection", self.take_selection, size=SMALL),
-            Button((348, 377, 78, 18), "What for ...", self.propose, size=SMALL, hint="What people want, as goals"),
+            Button(NOWHERE, "Take the selection", self.take_selection, size=SMALL),
+            Button(NOWHERE, "What for ...", self.propose, size=SMALL, hint="What people want, as goals"),
             self.goal,
-            Choice((10, 419, 118, 18), "", _ORDERS, lambda: self.order, self._put_order,
+            Choice(NOWHERE, "", _ORDERS, lambda: self.order, self._put_order,
                    hint="Best is what reaches the goal first, or has the most or least of the value beside this"),
             self.measure,
-            Choice((280, 419, 146, 18), "", _RESTS, lambda: self.rest, self._put_rest,
+            Choice(NOWHERE, "", _RESTS, lambda: self.rest, self._put_rest,
                    hint="What follows the goal in the run is played, too, and must still reach the exit"),
-            Choice((10, 440, 150, 18), "", _METHODS, lambda: self.method, partial(setattr, self, "method"),
+            Choice(NOWHERE, "", _METHODS, lambda: self.method, partial(setattr, self, "method"),
                    hint="Beam: many states at once; small changes: of the keys there; all keys: short spans only"),
             self._button,
             self.list,
         ]  # fmt: skip
+
+    def arrange(self, x: float, y: float, w: float, h: float) -> None:
+        """What is wanted, in three rows, above the results."""
+        areas = (
+            (x + w - 182, y + 4, 96, 18), (x + w - 82, y + 4, 78, 18), (x + 40, y + 25, w - 44, 18),
+            (x + 4, y + 46, 118, 18), (x + 126, y + 46, w - 280, 18), (x + w - 150, y + 46, 146, 18),
+            (x + 4, y + 67, 150, 18), (x + 158, y + 67, 58, 18), (x + 4, y + 99, w - 8, h - 101),
+        )  # fmt: skip
+        for widget, area in zip(self.widgets, areas, strict=True):
+            widget.area = area
 
     def commands(self) -> Commands:
         """Searching."""
@@ -92,10 +102,8 @@ class SearchTab(Tab):
     def take_selection(self) -> None:
         """Search the selected ticks; where only one is, a second from there on."""
         first, last = self.bench.selection
-        self.span = (
-            first,
-            last if last > first + 1 else min(first + TICKS_PER_SECOND, max(len(self.bench.take), last)),
-        )
+        second = min(first + TICKS_PER_SECOND, max(len(self.bench.take), last))
+        self.span = first, last if last > first + 1 else second
 
     def propose(self) -> None:
         """A menu of what people want; it fills the fields."""
@@ -193,34 +201,41 @@ class SearchTab(Tab):
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """Span and state; all else is widgets."""
         super().paint(surface, theme)
-        palette, results = theme.palette, self.results
+        palette, results, (x, y, w, _) = theme.palette, self.results, self.area
         first, last = self.span
-        theme.text(surface, f"Ticks {first} to {last - 1}", 12, 381, size=11, bold=True, width=120)
+        theme.text(surface, f"Ticks {first} to {last - 1}", x + 6, y + 8, size=11, bold=True, width=120)
         if self.span != self.bench.selection and self.bench.anchor is not None:
-            theme.text(surface, "not the selection", 138, 382, size=SMALL, colour=palette.faint, width=106)
-        theme.text(surface, "Goal", 12, 402, size=11)
+            theme.text(surface, "not the selection", x + 132, y + 9, size=SMALL, colour=palette.faint, width=w - 318)
+        theme.text(surface, "Goal", x + 6, y + 29, size=11)
         self._button.text = "Stop" if results is not None and results.running else "Start"
         status, colour = "Enter in the goal starts, too", palette.faint
         if results is not None:
             status, colour = results.status, palette.bad if results.search.problem else palette.text
             if results.behind is None:
                 status, colour = "the run was changed: search again", palette.bad
-        theme.text(surface, status, 228, 445, size=SMALL, colour=colour, width=198)
+        theme.text(surface, status, x + 222, y + 72, size=SMALL, colour=colour, width=w - 226)
         if self.found:
-            for at, head in zip(_COLUMNS, ("Result", "Other from", "Ends at x, y", "Speed"), strict=True):
-                theme.text(surface, head, 10 + at, 461, size=8, colour=palette.faint)
-        for k, line in enumerate(wrapped(theme, results.note if results else _EXPLAINED, 396, 10)):
-            theme.text(surface, line, 16, 470 + 15 * k, size=10, colour=palette.faint)
+            for at, head in zip(self._cells(self.list.row_area(0)), _HEADS, strict=True):
+                theme.text(surface, head, at, y + 88, size=8, colour=palette.faint)
+        for k, line in enumerate(wrapped(theme, results.note if results else _EXPLAINED, w - 28, 10)):
+            theme.text(surface, line, x + 10, y + 97 + 15 * k, size=10, colour=palette.faint)
+
+    @staticmethod
+    def _cells(row: Area) -> tuple[float, ...]:
+        """Where the cells of a row begin."""
+        x, _, w, _ = row
+        return x + _LEFT, *(x + w - at for at in _COLUMNS)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
         """A sign if it is in the run, what a result brings; those that do not fit are faint."""
         if self.results is None or index >= len(self.found):
             return
         x, y, w, _h = area
+        widths = w - _LEFT - _COLUMNS[0] - 4, *_WIDTHS
         palette, fits = theme.palette, self.results.behind is not None
         *cells, gain = self.results.words(self.found[index])
-        for at, cell, width in zip(_COLUMNS, cells, _WIDTHS, strict=True):
-            theme.text(surface, cell, x + at, y + 3, size=SMALL, width=width,
+        for at, cell, width in zip(self._cells(area), cells, widths, strict=True):
+            theme.text(surface, cell, at, y + 3, size=SMALL, width=width,
                        colour=palette.text if fits else palette.faint)  # fmt: skip
         theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, bold=fits, align="right", width=96,
                    colour=palette.good if fits else palette.faint)  # fmt: skip

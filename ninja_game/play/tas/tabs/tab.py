@@ -20,6 +20,8 @@ SMALL = 9.0
 """Size of the text in lists and buttons, px."""
 ROW = 16
 """Height of a row of a list, px."""
+NOWHERE: Area = (0, 0, 0, 0)
+"""Of widgets that their tab has not arranged yet."""
 _SHORT = 60
 """Longer lists of what is expected are left out of a line."""
 
@@ -30,14 +32,22 @@ class Tab(Part):
     ``wants``: the widget that is to get the focus as soon as the tab is shown.
     """
 
+    slot = "tabs"
     name: ClassVar[str] = ""
-    strip: ClassVar[Area] = (6, 353, 424, 18)
-    area = (6, 373, 424, 203)
 
     def __init__(self, bench: Bench) -> None:
         super().__init__(bench)
         self.widgets: Sequence[Widget] = ()
         self.wants: Widget | None = None
+
+    def place(self, area: Area) -> None:
+        """Be there, with the widgets."""
+        super().place(area)
+        self.arrange(*area)
+
+    def arrange(self, x: float, y: float, w: float, h: float) -> None:
+        """Put the widgets where they belong in this area."""
+        raise NotImplementedError
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """Its background."""
@@ -66,8 +76,8 @@ class Tab(Part):
 class TabName(Button):
     """The name of a tab; that of the one that is shown stands out."""
 
-    def __init__(self, area: Area, tab: Tab, action: Callable[[], object]) -> None:
-        super().__init__(area, tab.name, action, size=SMALL)
+    def __init__(self, tab: Tab, action: Callable[[], object]) -> None:
+        super().__init__(NOWHERE, tab.name, action, size=SMALL)
         self._bench = tab.bench
 
     def draw_base(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
@@ -82,10 +92,10 @@ class Rows(ListView):
     """
 
     def __init__(
-        self, area: Area, draw_row: Callable[[pygame.Surface, Theme, int, Area, bool], None],
-        choose: Callable[[int], object], *, empty: str = "", hint: str = "", keeps: bool = True,
+        self, draw_row: Callable[[pygame.Surface, Theme, int, Area, bool], None], choose: Callable[[int], object],
+        *, empty: str = "", hint: str = "", keeps: bool = True,
     ) -> None:  # fmt: skip
-        super().__init__(area, ROW, self._draw_row, choose, empty=empty, hint=hint)
+        super().__init__(NOWHERE, ROW, self._draw_row, choose, empty=empty, hint=hint)
         self.over = -1
         self._keeps = keeps
         self._draw = draw_row
@@ -109,9 +119,9 @@ class Field(TextEntry):
     """A text field in which Enter does something."""
 
     def __init__(
-        self, area: Area, prompt: str, enter: Callable[[], object], *, longest: int, hint: str = ""
+        self, prompt: str, enter: Callable[[], object], *, longest: int, hint: str = ""
     ) -> None:  # fmt: skip
-        super().__init__(area, prompt, "", lambda _: None, longest=longest, hint=hint)
+        super().__init__(NOWHERE, prompt, "", lambda _: None, longest=longest, hint=hint)
         self._enter = enter
 
     def show(self, text: str) -> None:
@@ -128,15 +138,19 @@ class Field(TextEntry):
         return True
 
 
-def buttons_in_a_row(
-    x: float, y: float, rows: Sequence[tuple[str, float, Callable[[], object], str]]
-) -> list[Button]:  # fmt: skip
-    """Buttons side by side: text, width, action, hint."""
-    made = []
-    for text, width, action, hint in rows:
-        made.append(Button((x, y, width, 17), text, action, hint=hint, size=SMALL))
+def put_side_by_side(buttons: Sequence[Button], area: Area) -> None:
+    """Put buttons of one width side by side."""
+    x, y, w, h = area
+    width = w / len(buttons)
+    for number, button in enumerate(buttons):
+        button.area = x + number * width, y, width - 4, h
+
+
+def put_in_a_row(x: float, y: float, buttons: Sequence[Button], widths: Sequence[float]) -> None:
+    """Put buttons side by side."""
+    for button, width in zip(buttons, widths, strict=True):
+        button.area = x, y, width, 17
         x += width + 4
-    return made
 
 
 def what_is_wrong(error: NinjaGameError) -> str:

@@ -10,16 +10,16 @@ from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.part import Commands
 from ninja_game.play.tas.tabs.object_list import ObjectList
 from ninja_game.play.tas.tabs.plot import Window, colour_of, draw_lane
-from ninja_game.play.tas.tabs.tab import SMALL, Rows, Tab, buttons_in_a_row, what_is_wrong
+from ninja_game.play.tas.tabs.tab import NOWHERE, SMALL, Rows, Tab, put_in_a_row, what_is_wrong
 from ninja_game.play.tas.tabs.watched import LANES, USUAL, Watched, shown_value, watched_values
 from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.widgets import Button
 from ninja_game.runs.splits import SPLIT_EVENTS
 from ninja_game.tas.watch import parse_watch
 
 LONGEST = 200
 """Characters of a formula that one can type."""
 
-_PLOT: Area = (214, 377, 210, 180)
 _STILL = 3.0
 """The mouse that moves less, px, clicks."""
 
@@ -32,22 +32,32 @@ class ValuesTab(Tab):
     def __init__(self, bench: Bench) -> None:
         super().__init__(bench)
         self.watched = list(watched_values(bench.session.branches.watched or USUAL))
-        self.window = Window(_PLOT[0], _PLOT[2])
+        self.window = Window()
+        self._plot: Area = NOWHERE
         self.events: list[tuple[int, str]] = []
-        self.list = Rows((10, 378, 168, 176), self._draw_row, self._toggle, empty="V watches a value",
+        self.list = Rows(self._draw_row, self._toggle, empty="V watches a value",
                          hint="Values at the cursor; a click shows or hides the course")  # fmt: skip
         actions = [
-            ("Watch", 48, self.ask, "V: watch another value, such as object_x(12) or x > 400"),
-            ("Objects", 54, self.show_objects, "The objects of the level with their ids"),
-            ("Remove", 54, self.remove, "Watch the chosen value no more"),
+            ("Watch", self.ask, "V: watch another value, such as object_x(12) or x > 400"),
+            ("Objects", self.show_objects, "The objects of the level with their ids"),
+            ("Remove", self.remove, "Watch the chosen value no more"),
         ]
-        buttons = buttons_in_a_row(10, 555, actions)
-        self.widgets = [self.list, *buttons]
+        self._buttons = [Button(NOWHERE, text, action, hint=hint, size=SMALL) for text, action, hint in actions]
+        self.widgets = [self.list, *self._buttons]
         bench.ask_to_watch = self.ask
         self._made: tuple[object, ...] = ()
         self._cursor = 0
         self._grabbed: float | None = None
         self._dragged = False
+
+    def arrange(self, x: float, y: float, w: float, h: float) -> None:
+        """The list above the buttons, the plots beside them."""
+        listed = 168 + (w - 424) / 5
+        self.list.area = x + 4, y + 5, listed, h - 27
+        put_in_a_row(x + 4, y + h - 21, self._buttons, (48, 54, 54))
+        left = x + listed + 40
+        self._plot = left, y + 4, x + w - 6 - left, h - 23
+        self.window.left, self.window.width = left, self._plot[2]
 
     def commands(self) -> Commands:
         """Watching."""
@@ -134,7 +144,7 @@ class ValuesTab(Tab):
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """The plots; the list is a widget."""
         super().paint(surface, theme)
-        x, y, w, h = _PLOT
+        x, y, w, h = self._plot
         lanes = [each for each in self.watched if each.plotted]
         if not lanes:
             theme.text(surface, "Click a value to see its course", x + w / 2, y + h / 2, size=SMALL, align="centre",
@@ -147,7 +157,7 @@ class ValuesTab(Tab):
     def _paint_ticks(self, surface: pygame.Surface, theme: Theme) -> None:
         """Selection, events, the cursor, and the numbers of ticks below."""
         canvas, palette, window = theme.canvas, theme.palette, self.window
-        x, y, w, h = _PLOT
+        x, y, w, h = self._plot
         before = surface.get_clip()
         surface.set_clip(canvas.rect(x, y, w, h + 8))
         first, last = self.bench.selection
@@ -185,7 +195,7 @@ class ValuesTab(Tab):
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         """In the plot: the wheel zooms, a drag moves, a click puts the cursor there, the right button shows all."""
-        left, top, w, h = _PLOT
+        left, top, w, h = self._plot
         inside = left <= x < left + w and top <= y < top + h + 18
         if event.type == pygame.MOUSEBUTTONUP and self._grabbed is not None:
             if not self._dragged:

@@ -1,0 +1,97 @@
+"""The bench in windows of many sizes: more rows and a larger level, borders that are dragged, letters as one likes."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from pathlib import Path
+from shutil import copy
+
+import pygame
+import pytest
+
+from ninja_game.play.tas.layout import NARROWEST_ROLL, Wishes, bench_canvas, bench_layout
+from ninja_game.play.ui.theme import Area
+from ninja_game.player.settings_file import read_settings
+from tests.play.tas.conftest import RUN
+from tests.support.bench_driver import BenchDriver
+
+SIZES = [(792, 600), (1280, 720), (1920, 1080), (2560, 1440), (3840, 2160), (1584, 1200), (800, 1600), (640, 480)]
+
+
+def resized(at: BenchDriver, size: tuple[int, int]) -> None:
+    """Make the window that large."""
+    pygame.display.set_mode(size, pygame.RESIZABLE)
+    pygame.event.post(pygame.Event(pygame.WINDOWSIZECHANGED))
+    at.frames(2)
+
+
+def overlap(a: Area, b: Area) -> bool:
+    """Whether two areas share a point."""
+    return a[0] < b[0] + b[2] and b[0] < a[0] + a[2] and a[1] < b[1] + b[3] and b[1] < a[1] + a[3]
+
+
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("wishes", [Wishes(), Wishes(100, 99, 99), Wishes(400, 1, 1)])
+def test_parts_are_in_the_window_beside_each_other(size: tuple[int, int], wishes: Wishes) -> None:
+    canvas = bench_canvas(size, wishes.letters)
+    width, height = size[0] / canvas.scale, size[1] / canvas.scale
+    layout = bench_layout((width, height), wishes)
+    areas = layout[1:-1]
+    assert all(x >= 0 and y >= 0 and x + w <= width + 0.01 and y + h <= height + 0.01 for x, y, w, h in areas)
+    assert not [pair for pair in combinations(areas, 2) if overlap(*pair)]
+    assert min(layout.level[2:]) > 190
+    assert layout.roll[2] >= NARROWEST_ROLL - 0.01
+    assert layout.tabs[3] >= 149
+
+
+def test_a_larger_window_shows_more_rows_and_a_larger_level(at: BenchDriver) -> None:
+    rows, scales, letters = [], [], []
+    for size in SIZES[:5]:
+        resized(at, size)
+        rows.append(at.screen.roll.layout.rows)
+        scales.append(at.screen.level.picture.canvas.scale)
+        letters.append(at.screen.theme.canvas.scale)
+    for grown in (rows, scales, letters):
+        assert grown == sorted(set(grown))
+    assert rows[2] > 1.3 * rows[0]
+    assert scales[2] > 2 * scales[0]
+    at.bench.go(50)
+    at.frames()
+    before = at.bench.take.keys_at(60)
+    at.drag(at.cell(60, "left"))
+    assert at.bench.take.keys_at(60) == before ^ 1, "a click hits the cell that is seen"
+
+
+def test_a_dragged_border_and_the_size_of_letters_are_remembered(at: BenchDriver, tmp_path: Path) -> None:
+    resized(at, (1920, 1080))
+    layout = at.screen.borders.layout
+    x, y = layout.roll[0] - 3, layout.strip[1] - 1
+    at.drag((x, 300), (x - 60, 300), (x - 100, 310))
+    moved = at.screen.borders.layout
+    assert abs(layout.roll[0] - moved.roll[0] - 100) < 12
+    at.drag((100, y), (100, y + 30))
+    assert abs(moved.tabs[3] - at.screen.borders.layout.tabs[3] - 30) < 10
+    rows = at.screen.roll.layout.rows
+    at.chord("minus", pygame.KMOD_LCTRL)
+    assert at.screen.roll.layout.rows > rows
+    settings, wishes = read_settings(at.player.folder / "settings.toml")[0], at.screen.borders.wishes
+    assert (settings.letters, settings.left_share, settings.tabs_share) == wishes
+    assert all(wishes)
+    again = BenchDriver(at.player.folder, Path(copy(RUN, tmp_path / "again.replay.txt")), (1920, 1080))
+    assert again.screen.borders.layout == at.screen.borders.layout
+    again.chord("0", pygame.KMOD_LCTRL)
+    assert again.screen.borders.layout == layout
+    again.session.close()
+    again.close()
+
+
+def test_letters_end_at_the_size_that_fits(at: BenchDriver) -> None:
+    resized(at, (1280, 720))
+    for _ in range(12):
+        at.chord("equals", pygame.KMOD_LCTRL)
+    assert at.screen.theme.canvas.scale == pytest.approx(1.2)
+    assert "large" in at.app.notice
+    for _ in range(12):
+        at.chord("minus", pygame.KMOD_LCTRL)
+    assert at.screen.theme.canvas.scale == pytest.approx(0.8)
+    assert "small" in at.app.notice
