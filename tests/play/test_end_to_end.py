@@ -5,7 +5,6 @@ Runs under Xvfb with xdotool; skipped where they are missing (`apt-get install x
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -32,13 +31,11 @@ def test_from_the_menu_to_a_saved_record_and_its_ghost(display: str, tmp_path: P
     try:
         player.press("Down", "Down", "Return", "Home", "Return")  # Levels, the player's own comes first, play
         player.press("space")
-        time.sleep(1.5)  # until the dust of the landing has gone
-        alone = player.picture()
+        alone = player.still_picture()  # the dust of the landing has gone
         assert player.differs_from(alone) < 20
         player.tool("keydown", "Right")
         player.wait_for(lambda: player.count("level_best") == 1, "saved record")
         player.tool("keyup", "Right")
-        time.sleep(0.5)
         player.press("q", "Return", "space")  # back to the list, play again
         player.wait_for(lambda: player.differs_from(alone) > 60, "ghost")
         player.press("Escape", "q", "Escape", "Escape", "Down", "Return")  # pause, list, menu, question, leave

@@ -15,6 +15,7 @@ from ninja_game.play.ui.widgets import Widget
 from ninja_game.simulation import Simulation
 from ninja_game.tas.files import open_run
 from tests.support.menu_driver import MenuDriver, ScriptedKeys
+from tests.support.waiting import LONGEST
 
 
 class BenchDriver(MenuDriver):
@@ -84,7 +85,7 @@ class BenchDriver(MenuDriver):
         """Click the button with a text."""
         self.mouse(*self.button(text).centre)
 
-    def wait(self, condition: Callable[[], object], what: str, *, seconds: float = 60.0) -> None:
+    def wait(self, condition: Callable[[], object], what: str, *, seconds: float = LONGEST) -> None:
         """Let pictures pass until something is so."""
         end = time.monotonic() + seconds
         while not condition():

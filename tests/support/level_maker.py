@@ -15,6 +15,7 @@ from ninja_game.play.input.scancodes import SCANCODES
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import Level, ObjectSpec
 from tests.support.menu_driver import MenuDriver
+from tests.support.waiting import LONGEST
 
 ROOM = put(
     Draft(Level(), "Room", "me"),
@@ -66,7 +67,7 @@ class Maker(MenuDriver):
         button = next(widget for widget in panel.widgets if getattr(widget, "text", "") == text)
         self.mouse(*button.centre)
 
-    def wait(self, condition: object, what: str, *, seconds: float = 60.0) -> None:
+    def wait(self, condition: object, what: str, *, seconds: float = LONGEST) -> None:
         end = time.monotonic() + seconds
         while not condition():  # type: ignore[operator]
             assert time.monotonic() < end, what

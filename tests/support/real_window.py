@@ -43,6 +43,12 @@ def virtual_screen() -> Iterator[str]:
         server.wait()
 
 
+def difference(one: pygame.Surface, other: pygame.Surface) -> int:
+    """How many px of two pictures of one size are not the same."""
+    same = pygame.mask.from_threshold(one, (0, 0, 0), (8, 8, 8, 255), other)
+    return one.get_width() * one.get_height() - same.count()
+
+
 class Player:
     """Someone at the keyboard of a running game. ``words``: how it is called, ``play`` without any."""
 
@@ -60,8 +66,7 @@ class Player:
             cwd=home,
         )
         self.wait_for(lambda: bool(self.tool("search", "--pid", str(self.game.pid))), "window")
-        # A window is not yet an answer to keys.
-        self.wait_for(self.answers, "answer to a key")
+        self.await_answer()
 
     def tool(self, *words: str) -> str:
         """What xdotool answers."""
@@ -82,10 +87,30 @@ class Player:
             assert self.game.poll() is None, f"the game has ended while waiting for {what}"
             time.sleep(0.1)
 
-    def answers(self) -> bool:
-        """Whether the game does what a key says: here, save a picture."""
-        self.press("F12")
-        return any((self.home / "exports").glob("*.png"))
+    def await_answer(self) -> None:
+        """A window is not yet an answer to keys: wait until all that were pressed have saved a picture.
+
+        Keys that were pressed too early are lost or wait in the queue: few are pressed, so that few pictures come late.
+        """
+        pause = 1.0
+        while not self.pictures():
+            self.press("F12")
+            with suppress(AssertionError):
+                self.wait_for(lambda: bool(self.pictures()), "answer to a key", seconds=pause)
+            pause *= 2
+            assert pause < TIMEOUT, "no answer to a key"
+        seen = -1
+        while seen != (seen := len(self.pictures())):
+            time.sleep(1.0)
+
+    def pictures(self) -> set[Path]:
+        """What the game has saved when F12 was pressed."""
+        return set((self.home / "exports").glob("*.png"))
+
+    def catch_up(self) -> None:
+        """Wait until the game has done all that was pressed: the second picture is of a later turn than the first."""
+        self.picture()
+        self.picture()
 
     def count(self, table: str) -> int:
         """Rows of a table of the records, read as another program would."""
@@ -99,18 +124,25 @@ class Player:
 
     def picture(self) -> pygame.Surface:
         """The stage without what is written over it, as the game saves it on request."""
-        before = set((self.home / "exports").glob("*.png"))
+        before = self.pictures()
         self.press("F12")
-        self.wait_for(lambda: bool(set((self.home / "exports").glob("*.png")) - before), "picture")
-        time.sleep(0.3)
-        return pygame.image.load((set((self.home / "exports").glob("*.png")) - before).pop()).subsurface(
-            24, 60, 744, 516
-        )
+        self.wait_for(lambda: bool(self.pictures() - before), "picture")
+        return pygame.image.load((self.pictures() - before).pop()).subsurface(24, 60, 744, 516)
+
+    def still_picture(self) -> pygame.Surface:
+        """A picture when nothing moves any more: three in a row are the same, but for a few px."""
+        shown = [self.picture()]
+
+        def is_still() -> bool:
+            shown.append(self.picture())
+            return len(shown) > 2 and all(difference(shown[-1], each) < 20 for each in shown[-3:-1])
+
+        self.wait_for(is_still, "end of all movement")
+        return shown[-1]
 
     def differs_from(self, other: pygame.Surface) -> int:
         """How many px of a picture taken now are not those of another."""
-        same = pygame.mask.from_threshold(self.picture(), (0, 0, 0), (8, 8, 8, 255), other)
-        return 744 * 516 - same.count()
+        return difference(self.picture(), other)
 
     def drag(self, *places: tuple[float, float]) -> None:
         """Press the left mouse button at the first px of the window, go to the others, release it."""

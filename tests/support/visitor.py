@@ -3,11 +3,20 @@
 from __future__ import annotations
 
 import time
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from typing import Any
 
 LOADING = 60_000
 """ms in which the game must run, on a busy machine."""
+
+
+def eventually(page: Any, condition: Callable[[], object], what: str) -> None:
+    """Wait until something is so, while the page goes on and tells what happens in it."""
+    end = time.monotonic() + LOADING / 1000
+    while not condition():
+        assert time.monotonic() < end, what
+        page.wait_for_timeout(50)
 
 
 class Visitor:
@@ -31,6 +40,13 @@ class Visitor:
         if message.type == "error":
             self.problems.append(message.text)
 
+    @contextmanager
+    def loading_anew(self) -> Iterator[None]:
+        """What is done within makes the page load again; afterwards the new one runs."""
+        self.page.evaluate("() => (document.body.dataset.old = '')")
+        yield
+        self.page.locator("body[data-state]:not([data-old])").wait_for(state="attached", timeout=LOADING)
+
     def visit(self, fragment: str = "") -> None:
         """Open the page, and wait until the game runs or a message says why it does not."""
         self.page.goto(self.address + fragment)
@@ -52,10 +68,7 @@ class Visitor:
 
     def eventually(self, text: str) -> None:
         """Wait until an expression as of ``python`` is true."""
-        end = time.monotonic() + LOADING / 1000
-        while not self.python(text):
-            assert time.monotonic() < end, text
-            self.page.wait_for_timeout(50)
+        eventually(self.page, lambda: self.python(text), text)
 
     def menu(self, label: str) -> None:
         """Open the page's own menu and press one of its buttons."""

@@ -22,7 +22,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Any:
     base = tmp_path_factory.getbasetemp()
     folder = (base if "PYTEST_XDIST_WORKER" not in os.environ else base.parent) / "site"
     try:
-        with locked(folder, 300):
+        with locked(folder, 1800):  # as long as a download and all that Node compiles may take
             return folder if (folder / MARK).exists() else built_site(folder)
     except NinjaGameError as error:
         pytest.skip(f"no site can be built here: {error}")

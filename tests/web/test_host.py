@@ -9,6 +9,7 @@ import pygame
 import pytest
 
 from ninja_game.play.input.scancodes import SCANCODES, key_name
+from tests.support.visitor import eventually
 
 EVENTS = """
 import json, pygame
@@ -183,8 +184,7 @@ LOOP.set_volume(0.5)
 assert CHANNEL.number == 2 and CHANNEL.get_busy() and LOOP.get_busy() and LOOP.get_sound() is SOUND
 """,
     )
-    page.wait_for_timeout(600)
     busy = "() => python.runPython('[CHANNEL.get_busy(), LOOP.get_busy()]').toJs()"
-    assert page.evaluate(busy) == [False, True]
+    eventually(page, lambda: page.evaluate(busy) == [False, True], "the sound does not end, or the loop does")
     page.evaluate("() => { python.runPython('pygame.mixer.stop()'); }")
     assert page.evaluate(busy) == [False, False]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import shutil
 import sqlite3
-import time
 from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
@@ -18,6 +17,7 @@ from ninja_game.cli.main import cli
 from ninja_game.formats.links.making import level_link, replay_link
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.runs.run import record_replay
+from tests.support.visitor import eventually
 from tests.support.web_page import served
 
 TEXT = "0" * 713 + "|5^100,566!11^160,564,130,564"
@@ -65,8 +65,7 @@ def test_a_level_is_passed_with_keys_and_the_record_is_there_offline(new_visitor
     visitor.page.goto(visitor.address, wait_until="commit")
     visitor.page.locator("progress").wait_for()
     visitor.page.get_by_text("Loading the game: ").wait_for()
-    while not waiting:
-        visitor.page.wait_for_timeout(20)
+    eventually(visitor.page, lambda: waiting, "no download of the library")
     waiting.pop().continue_()
     visitor.until("menu")
     visitor.press("ArrowDown", "ArrowDown", "Enter")
@@ -79,10 +78,8 @@ def test_a_level_is_passed_with_keys_and_the_record_is_there_offline(new_visitor
     # The page keeps itself and its memory once the game runs.
     visitor.page.evaluate("() => navigator.serviceWorker.ready.then(() => ninjaGame.kept)")
     visitor.context.set_offline(True)
-    began = time.monotonic()
     visitor.visit()
-    assert visitor.page.evaluate("ninjaGame.fromMemory")
-    assert time.monotonic() - began < 10, "the second visit is no faster than a first one"
+    assert visitor.page.evaluate("ninjaGame.fromMemory"), "the second visit is no faster than a first one"
     with visitor.page.expect_download() as download:
         visitor.menu("Save all to a file")
     download.value.save_as(tmp_path / "player.zip")
@@ -110,8 +107,8 @@ def test_a_link_of_a_level_is_played_at_once_and_the_data_move_to_another_browse
     other.page.click("#panel-open")
     other.page.set_input_files("#panel input[accept='.zip']", tmp_path / "player.zip")
     other.page.get_by_text("1 new replays in the records").wait_for()
-    other.page.get_by_role("button", name="Back to the game").click()
-    other.page.locator("#start").wait_for(state="attached")
+    with other.loading_anew():
+        other.page.get_by_role("button", name="Back to the game").click()
     other.until("menu")
     assert other.python("len(app.player.records.level_bests())") == 1
     assert visitor.problems == other.problems == []
@@ -161,7 +158,7 @@ def test_what_throws_in_a_turn_is_told_and_nothing_foreign_runs(new_visitor: New
         " document.body.append(s); return typeof window.ran; }"
     ) == "undefined"  # fmt: skip
     assert visitor.page.evaluate("() => fetch('http://localhost:9/').then(() => 1, error => String(error))")
-    assert any("Content Security Policy" in problem for problem in visitor.problems)
+    eventually(visitor.page, lambda: any("Content Security Policy" in each for each in visitor.problems), "no refusal")
     visitor.python("setattr(app, 'frame', lambda ms: 1 // 0)")
     trouble = visitor.page.locator("#trouble[open]")
     trouble.wait_for()
@@ -170,7 +167,8 @@ def test_what_throws_in_a_turn_is_told_and_nothing_foreign_runs(new_visitor: New
     trouble.get_by_role("button", name="Copy the text").click()
     trouble.get_by_text("Copied").wait_for()
     assert "ZeroDivisionError" in visitor.page.evaluate("navigator.clipboard.readText()")
-    trouble.get_by_role("button", name="Load the page again").click()
+    with visitor.loading_anew():
+        trouble.get_by_role("button", name="Load the page again").click()
     visitor.until("menu")
 
 

@@ -6,6 +6,7 @@ from datetime import date
 from pathlib import Path
 from threading import Event
 from time import monotonic, sleep
+from typing import Self
 
 import pytest
 
@@ -16,6 +17,7 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.verification.pack_checks import certificate
 from tests.support.menu_driver import MenuDriver
+from tests.support.waiting import LONGEST
 
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
@@ -26,9 +28,18 @@ MADE = daily.make_daily
 DAY = date(2026, 11, 23)
 
 
+class Today(date):
+    """A calendar that stands still: other days make other levels, and not every one of a small budget."""
+
+    @classmethod
+    def today(cls) -> Self:
+        return cls(DAY.year, DAY.month, DAY.day)
+
+
 @pytest.fixture
 def making(driver: MenuDriver, monkeypatch: pytest.MonkeyPatch) -> MenuDriver:
-    """The program, with real levels of the day from a small budget."""
+    """The program on a Monday, with real levels of the day from a small budget."""
+    monkeypatch.setattr("ninja_game.play.menus.daily.date", Today)
     monkeypatch.setattr("ninja_game.generator.generate.DEFAULT", SMALL)
     monkeypatch.setattr(daily, "make_daily", MADE)
     return driver
@@ -38,7 +49,7 @@ def opened(driver: MenuDriver) -> DailyScreen:
     """The screen, when nothing is being made any more."""
     screen = driver.open("Daily")
     assert isinstance(screen, DailyScreen)
-    end = monotonic() + 120
+    end = monotonic() + LONGEST
     while screen.making and monotonic() < end:
         sleep(0.02)
         driver.frames(1)
@@ -80,7 +91,7 @@ def test_without_numba_it_is_said(making: MenuDriver, monkeypatch: pytest.Monkey
 
 
 def test_a_file_that_is_no_level_is_told_and_stays(making: MenuDriver) -> None:
-    file = daily.daily_file(making.player.folder / "levels", date.today())  # noqa: DTZ011
+    file = daily.daily_file(making.player.folder / "levels", DAY)
     file.parent.mkdir(parents=True)
     file.write_text("ninja-game level 1\nname: mine\n")
     screen = opened(making)
@@ -102,7 +113,7 @@ def test_leaving_gives_up_what_is_made(driver: MenuDriver, monkeypatch: pytest.M
     assert isinstance(screen, DailyScreen)
     assert screen.making
     driver.press("escape")
-    assert stopped.wait(5)
+    assert stopped.wait(15), "it is not told that nobody waits for it"
     driver.frames(2)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 from ninja_game.compile_cache import compiled_available
@@ -22,9 +21,7 @@ from tests.play.tas.conftest import RUN
 from tests.support import reference
 from tests.support.bench_driver import BenchDriver
 from tests.support.real_window import NEEDS_WINDOW, TIMEOUT, Player, virtual_screen
-
-COMPILING = 400.0
-"""Seconds that the search may need on a machine that has never compiled it."""
+from tests.support.waiting import LONGEST
 
 DELAYS = (30, 45, 60)
 """Ticks of standing at the start with which the run must still reach its exit, whatever the height of the roll."""
@@ -71,25 +68,15 @@ def written(path: Path, author: str, level: Level, inputs: bytes) -> Path:
 class Runner(Player):
     """Someone at the bench, whose edits are seen in the journal."""
 
-    def await_quiet(self) -> None:
-        """Wait until the game has answered all keys that were pressed while it started."""
-        seen = -1
-        while seen != (seen := len(list((self.home / "exports").glob("*.png")))):
-            time.sleep(2.0)
-
     def play(self, key: str) -> None:
         """Take over, and hold a key until it is in the run."""
         self.press("Return")
 
-        def is_played() -> bool:
-            self.tool("keydown", key)
-            time.sleep(1.0)
-            self.tool("keyup", key)
-            time.sleep(0.3)
-            return self.take() is not None
-
-        self.wait_for(is_played, "tick that was played")
+        self.tool("keydown", key)
+        self.wait_for(lambda: self.take() is not None, "tick that was played")
+        self.tool("keyup", key)
         self.press("Return")
+        self.catch_up()
 
     def take(self) -> Take | None:
         """The run after the last edit; None before the first."""
@@ -127,7 +114,6 @@ def test_a_speedrun_is_made_shorter_by_hand(tmp_path: Path, root: Path) -> None:
         try:
             # Take over, with a key that the run has not: ticks change, and undo brings all of them back at once.
             key = "Left" if sum(each & KEY_LEFT for each in mine[:40]) < 20 else "Right"
-            runner.await_quiet()
             runner.play(key)
             assert runner.edit("ctrl+z").inputs.rstrip(b"\0") == opened
             # A click changes a key.
@@ -150,9 +136,10 @@ def test_a_speedrun_is_made_shorter_by_hand(tmp_path: Path, root: Path) -> None:
 
                 def a_result_is_in_the_run() -> bool:
                     runner.drag((left + 150, top + 8))
+                    runner.catch_up()
                     return runner.take() != delayed
 
-                runner.wait_for(a_result_is_in_the_run, "result of the search", seconds=COMPILING)
+                runner.wait_for(a_result_is_in_the_run, "result of the search", seconds=LONGEST)
                 found = runner.take()
                 assert found is not None
                 assert exit_tick(level, found.inputs) < slow
