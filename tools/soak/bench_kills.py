@@ -31,8 +31,11 @@ from tests.support.bench_edits import edit_at_random, use_at_random
 from tests.support.samples import replay_of_walk
 from tools.soak.kills import PATIENCE, life
 
-LONGEST_LIFE = 0.15
-"""Seconds after its first word at which a child is killed at the latest."""
+LONGEST_LIFE = 0.05
+"""Seconds after its last word that is waited for at which a child is killed at the latest."""
+
+MOST_WORDS = 20
+"""How many words of a child are waited for at most."""
 
 RUN = "walk.replay.txt"
 
@@ -110,7 +113,8 @@ def kill_test(
             (home / RUN).write_text(replay_of_walk(), "utf-8")
             last = digest(open_run(home / RUN).take)
             saved = {last}
-        facts = life(PLAYERS[what], home, chance.randrange(2**31), chance.random() * LONGEST_LIFE, settled=True)
+        words, seconds = chance.randrange(1, MOST_WORDS + 1), chance.random() * LONGEST_LIFE
+        facts = life(PLAYERS[what], home, chance.randrange(2**31), seconds, words=words)
         # What changes nothing, such as undo without an edit, is no edit that could be lost.
         said = [each for each, _ in groupby([last, *(each for kind, each, _ in facts if kind == "edited")])]
         for kind, each, _ in facts:

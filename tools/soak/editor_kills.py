@@ -99,7 +99,7 @@ def kill_test(
         if number % 10 == 0:
             said = Said()
         said.drawn.clear()
-        facts = life(edit, home, chance.randrange(2**31), chance.random() * LONGEST_LIFE, settled=True)
+        facts = life(edit, home, chance.randrange(2**31), chance.random() * LONGEST_LIFE, words=1)
         killed_at = time.monotonic_ns()
         said.note(facts)
         try:

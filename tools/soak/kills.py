@@ -18,6 +18,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -36,8 +37,8 @@ from ninja_game.sim.level import Level
 LONGEST_LIFE = 0.25
 """Seconds after which a child is killed at the latest."""
 
-PATIENCE = 30.0
-"""Seconds to wait for a child's first save."""
+PATIENCE = 120.0
+"""Seconds to wait for a word of a child."""
 
 Fact = tuple[str, str, int]
 """What was saved ("best", "replay", "volume", "progress"), its key, its number; "about": a volume to be saved next."""
@@ -152,10 +153,11 @@ class Said:
                 self.numbers[place] = max(number, self.numbers.get(place, 0))
 
 
-def life(player: Callable[..., None], folder: Path, seed: int, seconds: float, *, settled: bool) -> list[Fact]:
-    """Let a child live for so long, kill it; what it said was saved.
+def life(player: Callable[..., None], folder: Path, seed: int, seconds: float, *, words: int) -> list[Fact]:
+    """Let a child live, kill it; what it said was saved.
 
-    ``settled``: the time counts from its first save, else from its birth, so that opening the files is interrupted too.
+    ``seconds`` count from the moment when it has said so many ``words``; 0: from its birth, so that opening the files
+    is interrupted too. How much it does in a second depends on the machine.
     """
     methods = multiprocessing.get_all_start_methods()
     context: Any = multiprocessing.get_context("fork" if "fork" in methods else "spawn")
@@ -163,17 +165,19 @@ def life(player: Callable[..., None], folder: Path, seed: int, seconds: float, *
     child = context.Process(target=player, args=(str(folder), seed, theirs), daemon=True)
     child.start()
     theirs.close()
-    started = not settled or ours.poll(PATIENCE)
+    facts: list[Fact] = []
+    # The last word may be cut off; what it was about counts as not said.
+    with suppress(EOFError, OSError):
+        while len(facts) < words and ours.poll(PATIENCE):
+            facts.append(ours.recv())
+    if words and not facts:
+        facts.append(("no start", "", 0))
     time.sleep(seconds)
     child.kill()
     child.join()
-    facts: list[Fact] = [] if started else [("no start", "", 0)]
-    try:
+    with suppress(EOFError, OSError):
         while ours.poll():
             facts.append(ours.recv())
-    except (EOFError, OSError):
-        # The last word was cut off; what it was about counts as not said.
-        pass
     ours.close()
     return facts
 
@@ -219,7 +223,7 @@ def kill_test(
         if number % 10 == 0:
             said = Said()
         seconds = chance.random() * LONGEST_LIFE
-        facts = life(PLAYERS[what], home, chance.randrange(2**31), seconds, settled=number % 4 > 0)
+        facts = life(PLAYERS[what], home, chance.randrange(2**31), seconds, words=min(number % 4, 1))
         told += sum(kind not in {"about", "no start"} for kind, _, _ in facts)
         said.note(facts)
         lost = losses(home, said)
