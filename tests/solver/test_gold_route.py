@@ -57,6 +57,12 @@ KEY_AT_THE_LEFT = parse_level_string(
 )
 """A locked door between the ninja and the exit, its switch at the left end of a low corridor, gold on the way."""
 
+ONE_WAY = parse_level_string(
+    ("1" * (COLUMN - 2) + "00") * 31
+    + "|5^300,566!11^700,566,60,566!7^396,540,0!7^396,564,0!0^340,566!0^600,566!0^640,566"
+)
+"""A corridor that is passed to the right only, by one-way platforms; the exit's switch is at its left end."""
+
 WALLED_IN = parse_level_string(
     "0" * COLUMN * 20 + "1" * COLUMN + "0" * COLUMN * 10 + "|5^60,566!11^400,566,330,566!0^200,566!0^700,300"
 )
@@ -68,7 +74,7 @@ def all_gold(level: Level) -> int:
     return sum(record.kind == GOLD for record in level.objects)
 
 
-@pytest.mark.parametrize("level", [LINES, PIT, BEHIND_A_DOOR], ids=["lines", "pit", "behind a door"])
+@pytest.mark.parametrize("level", [LINES, PIT, BEHIND_A_DOOR, ONE_WAY], ids=["lines", "pit", "door", "one-way"])
 def test_all_gold_is_collected_before_the_exit(level: Level) -> None:
     run = solve(Task(level, gold=-1, work=3_000_000))
     assert run is not None
@@ -105,6 +111,13 @@ def test_doors_are_opened_one_by_one_also_when_the_exit_is_open() -> None:
     runs = [route.step(lambda _: False) for _ in range(4)]
     assert any(runs)
     assert {mask for _, mask in route.fronts} >= {1, 3}
+
+
+def test_a_piece_from_which_no_way_leads_to_others_comes_last() -> None:
+    start = open_start(ONE_WAY, box=False)
+    route = Route(Search(start, Heuristics(start.levels, start.worlds), nodes=50_000), gold=3, seed=1)
+    route.urgency[1] = 1.0
+    assert route._target(next(iter(route.fronts.values()))) == 0
 
 
 def test_gold_that_was_never_collected_is_told() -> None:

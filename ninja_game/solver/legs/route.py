@@ -179,22 +179,31 @@ class Route:
         front.add(moment, WIDTH)
 
     def _target(self, front: Front) -> int:
-        """The piece to fetch next from a front, -1: the exit."""
+        """The piece to fetch next from a front, -1: the exit or its switch.
+
+        Pieces from which no way leads to others, or to the switch, come last: they are behind one-way platforms, say.
+        """
         left = [piece for piece in range(len(self._points)) if not front.taken >> piece & 1]
         if front.count >= self.gold:
             return -1
         moment = front.moments[0]
         fields = self._tour_fields(moment.mask)
-        start = fields[left, point_at(*moment.place)].astype(np.float64)
+        here = fields[:, point_at(*moment.place)].astype(np.float64)
+        start = here[left]
         home = fields[-1, self._points[left]]
         between = fields[left][:, self._points[left]].T.astype(np.float64)
+        no_return = (home >= UNREACHED) & (here[-1] < UNREACHED)
+        if not front.mask & self._exits and no_return.all():
+            return -1
+        shut = no_return | ((between >= UNREACHED) & (start < UNREACHED)).any(axis=1)
         names = {piece: k for k, piece in enumerate(left)}
         order = [names[piece] for piece in front.tour]
         tour = short_tour(np.minimum(start, FAR), np.minimum(between, FAR), np.minimum(home, FAR).astype(float), order)
         front.tour = [left[k] for k in tour]
         nearest = np.argsort(start, kind="stable").tolist()
         ranks = [min(tour.index(k), nearest.index(k) + 0.5) + 2.5 * front.failed[left[k]] for k in range(len(left))]
-        return min((start[k] >= UNREACHED, -self.urgency[left[k]], ranks[k], left[k]) for k in range(len(left)))[-1]
+        ranked = zip(start >= UNREACHED, shut, -self.urgency[left], ranks, left, strict=True)
+        return min(ranked)[-1]
 
     def _tour_fields(self, mask: int) -> Field:
         if mask not in self._distances:
