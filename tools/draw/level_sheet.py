@@ -15,27 +15,31 @@ os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
+import numpy as np
 import pygame
+from numpy.typing import NDArray
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel
+from ninja_game.play.replay.paths import draw_path
 from ninja_game.play.ui.canvas import WIDTH, Canvas
 from ninja_game.play.ui.palette import PALETTES
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.runs.run import run_level
+from ninja_game.sim.rules import TICKS_PER_SECOND
 
 ROUTES = {"exit": pygame.Color(220, 40, 40), "gold": pygame.Color(235, 180, 0)}
 CAPTION = 26
 
 
-def route(named: NamedLevel, certificate: Path) -> list[tuple[float, float]]:
-    """The ninja's positions, px, in a certificate; empty if there is none or if it is of another level."""
+def route(named: NamedLevel, certificate: Path) -> NDArray[np.float64]:
+    """The ninja's positions in a certificate, (ticks, 2), px; none if there is none or if it is of another level."""
     try:
         recording = load_replays(certificate, level=named.level)[0]
-        return [(x, y) for x, y in run_level(named.level, recording.playback(recording.ticks)).positions.tolist()]
+        return run_level(named.level, recording.playback(recording.ticks)).positions
     except (NinjaGameError, OSError):
-        return []
+        return np.zeros((0, 2))
 
 
 def draw_level(named: NamedLevel, width: int, certificates: Path | None) -> tuple[pygame.Surface, str]:
@@ -44,10 +48,12 @@ def draw_level(named: NamedLevel, width: int, certificates: Path | None) -> tupl
     canvas = Canvas(picture.get_size())
     words = []
     for name, colour in ROUTES.items():
-        points = certificates and route(named, certificates / f"{Path(named.file).stem}.{name}.replay.txt")
-        if points and len(points) > 1:
-            pygame.draw.lines(picture, colour, False, [canvas.exact(x, y) for x, y in points], max(1, width // 400))
-            words.append(f"{name} {len(points) / 40:.1f} s")
+        if not certificates:
+            break
+        positions = route(named, certificates / f"{Path(named.file).stem}.{name}.replay.txt")
+        draw_path(picture, canvas, positions, colour)
+        if len(positions):
+            words.append(f"{name} {len(positions) / TICKS_PER_SECOND:.1f} s")
     return picture, ", ".join(words) if words or not certificates else "no certificates"
 
 
