@@ -53,13 +53,17 @@ class SpanSearch:
 
     def finish(self, seconds: float = 10.0) -> None:
         """Wait until the search is over, at most so long."""
-        if self._thread is not None:
+        if self._thread is not None and not self.done:
             self._thread.join(seconds)
 
     @property
     def done(self) -> bool:
-        """Whether the search was started and is over."""
-        return bool(self._ended)
+        """Whether the search was started and is over.
+
+        One that is cancelled while kernels are compiled, which nothing can hold up, is over at once. They are finished
+        beside, for the next search.
+        """
+        return bool(self._ended) or (self._thread is not None and self._cancelled.is_set() and not self._began)
 
     @property
     def seconds(self) -> float:
@@ -76,6 +80,8 @@ class SpanSearch:
 
     def _report(self, ticks: int, found: tuple[Found, ...]) -> bool:
         if not self._began:
+            if self._cancelled.is_set():
+                return False
             # The run's own keys are tried first.
             self._began, self.own = monotonic(), found[0] if found else None
         self.ticks_run, self.found = ticks, found

@@ -40,6 +40,16 @@ def test_interrupt_ends_a_command_with_all_its_processes(name: str, work: Path) 
     assert (code, left) == (130, [])
 
 
+@pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+@pytest.mark.parametrize("name", ["solve", "improve", "search"])
+def test_a_command_that_still_compiles_ends_too(
+    name: str, work: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    code, _, left = ended(COMMANDS[name], signal.SIGINT, 2.5, work, settled=True)
+    assert (code, left) == (130, [])
+
+
 def test_a_command_has_less_than_two_seconds_to_end_by_itself() -> None:
     assert GRACE < 1.5
 

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import sys
 import time
+from collections.abc import Callable
+from threading import Event
 from time import process_time, thread_time
 from typing import Any
 
+import numpy as np
 import pytest
 
 from ninja_game import ArgumentError, Simulation, parse_level
 from ninja_game.compile_cache import compiled_available
+from ninja_game.directed import background
 from ninja_game.directed.background import SpanSearch
 from ninja_game.directed.expressions import FormulaError
 from ninja_game.directed.span import Found, SpanTask
@@ -79,6 +83,26 @@ def test_what_cannot_be_searched_is_said() -> None:
         assert search.done
         assert search.problem
         assert not search.found
+
+
+def test_it_is_over_at_once_where_it_is_cancelled_while_kernels_are_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
+    compiled, asked = Event(), Event()
+
+    def slow(_: SpanTask, report: Callable[[int, tuple[Found, ...]], bool], **__: object) -> None:
+        assert compiled.wait(60.0)
+        assert not report(1, (Found(1.0, 1, np.zeros(1, np.uint8)),))
+        asked.set()
+
+    monkeypatch.setattr(background, "search_span", slow)
+    search = SpanSearch(task())
+    search.start()
+    before = search.done
+    search.cancel()
+    assert (before, search.done) == (False, True)
+    search.finish(60.0)
+    compiled.set()
+    assert asked.wait(60.0)
+    assert (search.found, search.ticks_run, search.seconds) == ((), 0, 0.0)
 
 
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")

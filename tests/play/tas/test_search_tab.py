@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from threading import Event
 
 import numpy as np
 import pygame
 import pytest
 
+from ninja_game.directed import background
 from ninja_game.play.input.scancodes import SCANCODES
 from ninja_game.play.tas.tabs import span_results
 from ninja_game.play.tas.tabs.search_tab import SearchTab, fewest_ticks
-from ninja_game.play.tas.tabs.span_results import NOTHING, NOTHING_YET, SpanResults
+from ninja_game.play.tas.tabs.span_results import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SpanResults
 from ninja_game.sim.inputs import Input
 from tests.support.bench_driver import BenchDriver
 from tests.support.waiting import LONGEST
@@ -221,6 +223,20 @@ def test_a_search_is_cancelled_by_hand_and_when_the_bench_is_left(
     at.wait(lambda: second.search.ticks_run, "a search")
     at.app.pop()
     assert not second.running
+
+
+def test_the_button_stops_what_still_compiles(at: BenchDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch) -> None:
+    compiled = Event()
+    monkeypatch.setattr(background, "search_span", lambda *_, **__: compiled.wait(60.0))
+    wish(at, "Greatest speed")
+    at.choose("Start")
+    assert results_of(tab).note == COMPILING
+    at.choose("Stop")
+    assert not results_of(tab).running
+    assert (results_of(tab).status, results_of(tab).note) == ("ended", NOT_BEGUN)
+    at.choose("Start")
+    assert results_of(tab).running
+    compiled.set()
 
 
 def test_what_is_wrong_is_told(at: BenchDriver, tab: SearchTab) -> None:

@@ -21,6 +21,7 @@ CLOSING_SECONDS = 0.5
 
 
 COMPILING = "The rules are made ready. On a machine that has never searched this takes a minute or two."
+NOT_BEGUN = "Stopped before it began. The rules are still made ready, for the next search."
 NOTHING_YET = "Nothing yet."
 NOTHING = "The goal was not reached. More time, a longer span or another method may reach it."
 
@@ -145,8 +146,8 @@ class SpanResults:
         search = self.search
         if search.problem:
             return "cannot be searched"
-        if self.running and not search.ticks_run:
-            return f"getting ready: {monotonic() - self._started:.0f} s"
+        if not search.ticks_run:
+            return f"getting ready: {monotonic() - self._started:.0f} s" if self.running else "ended"
         doing = "searching" if self.running else "ended"
         return f"{doing}: {search.ticks_run / 1e6:.1f} million ticks, {search.seconds:.0f} s"
 
@@ -159,4 +160,6 @@ class SpanResults:
         if search.own is not None:
             yet = "yet " if self.running else ""
             return f"Nothing better {yet}than the run's own keys: {score_in_words(self.task, search.own)}."
-        return NOTHING if not self.running else NOTHING_YET if search.ticks_run else COMPILING
+        if not search.ticks_run:
+            return COMPILING if self.running else NOT_BEGUN
+        return NOTHING_YET if self.running else NOTHING
