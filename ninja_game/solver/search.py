@@ -29,6 +29,8 @@ CHOICES = 10
 """Macros to choose from: three directions by three modes of the jump key, and waiting."""
 BOUND_SHARE = 0.4
 """What share of the estimate a run may count on when it is compared with the best one; fields are a guide only."""
+OTHER_ENDS = 8
+"""Ends of a leg that are kept where another switch than a wanted one was touched."""
 MORE, EXHAUSTED, NO_ROOM = 0, 1, 2
 """How a slice of a search ended."""
 
@@ -72,7 +74,7 @@ def expand(start: Start, memory: SearchMemory, goals: Goals, guide: Guide, resol
     w = start.worlds[1]
     counters = memory.counters[0]
     stop = counters.ticks + budget
-    while counters.ticks < stop and counters.wanted_fields == 0 and counters.ends < goals.ends:
+    while counters.ticks < stop and counters.wanted_fields == 0 and counters.ends - counters.others < goals.ends:
         full = counters.nodes + 16 > len(memory.nodes) or counters.links + 16 > len(memory.links)
         if full or counters.entries * 4 > len(memory.table) * 3:
             return NO_ROOM
@@ -173,6 +175,9 @@ def keep_child(
         return
     at_end = goals.leg > 0 and (w.gold >= goals.leg or goals.masks[switch_state] != goals.mask)
     gold = gold_hash(w, goals) if at_end else 0
+    elsewhere = at_end and goals.wanted != 0 and not goals.masks[switch_state] & goals.wanted
+    if elsewhere and counters.others >= OTHER_ENDS:
+        return
     key = key_of(w, goals, switch_state, gold, resolution)
     slot = find(memory.table, key)
     entry = memory.table[slot]
@@ -209,6 +214,7 @@ def keep_child(
     elif child.chunk >= 0 and (goals.rollouts == 0 or survives(child, start, memory, goals.rollouts)):
         memory.ends[counters.ends] = index
         counters.ends += 1
+        counters.others += elsewhere
 
 
 @fast

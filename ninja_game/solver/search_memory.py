@@ -103,6 +103,7 @@ class Counters(RandomState):
     best_node: i8  #: its last node, -1: none found
     wanted_fields: i8  #: switch states reached that have no field yet
     ends: i8  #: ends of a leg found so far
+    others: i8  #: those of them that are not at a wanted switch
 
 
 class Resolution(NamedTuple):

@@ -40,7 +40,8 @@ class Leg(NamedTuple):
 
     ``until``: gold at which it ends, as where what is open differs from ``mask``; 0: only at the exit, with ``gold``
     pieces at least; ``ends``: how many are enough, ``rollouts``: tries to survive there;
-    ``field``: what makes the fields.
+    ``field``: what makes the fields; ``wanted``: switches of which one must have been touched there, but for a few
+    ends (0: any).
     """
 
     roots: Sequence[Words]
@@ -50,6 +51,7 @@ class Leg(NamedTuple):
     ends: int
     rollouts: int
     field: FieldOf
+    wanted: int = 0
 
 
 class End(NamedTuple):
@@ -80,6 +82,7 @@ class Search:
             gold=0,
             leg=0,
             mask=0,
+            wanted=0,
             ends=1,
             rollouts=0,
             gold_slots=heuristics.gold_slots,
@@ -110,7 +113,7 @@ class Search:
         """Begin a new search from other moments to another goal; ``bound`` as for ``begin``."""
         self.guide = NO_GUIDE
         self.goals = self.goals._replace(
-            gold=leg.gold, leg=leg.until, mask=leg.mask, ends=leg.ends, rollouts=leg.rollouts
+            gold=leg.gold, leg=leg.until, mask=leg.mask, wanted=leg.wanted, ends=leg.ends, rollouts=leg.rollouts
         )
         self.goals.fields[:, 0] = NOT_MADE
         self._field = leg.field
@@ -152,7 +155,7 @@ class Search:
             ended = compiled(expand)(self.start, self.memory, self.goals, self.guide, self.resolution, left)
             if self.counters.wanted_fields:
                 self._fill_fields()
-            elif ended != MORE or self.counters.ends >= self.goals.ends:
+            elif ended != MORE or self._enough_ends:
                 return int(ended)
         return MORE
 
@@ -165,10 +168,14 @@ class Search:
         while self.ticks < stop:
             before = self.ticks
             self.run(min(part, stop - before))
-            if over(self.ticks - before) or self.ticks == before or self.counters.ends >= self.goals.ends:
+            if over(self.ticks - before) or self.ticks == before or self._enough_ends:
                 return
-            if self.counters.ends or self.counters.best_node >= 0:
+            if self.counters.ends > self.counters.others or self.counters.best_node >= 0:
                 stop = min(stop, max(2 * self.ticks, least)) if stop == budget else stop
+
+    @property
+    def _enough_ends(self) -> bool:
+        return bool(self.counters.ends - self.counters.others >= self.goals.ends)
 
     def _fill_fields(self) -> None:
         """Make the distance fields that the search wants."""

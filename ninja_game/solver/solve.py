@@ -23,7 +23,6 @@ from ninja_game.solver.spans.run_shortener import RunShortener
 from ninja_game.solver.task import (
     FOUND_BOUND,
     GIVEN_BOUND,
-    LEGS_TICKS,
     SEARCH_COST,
     SLICE,
     SWEEP_TICKS,
@@ -68,7 +67,7 @@ class _Job:
             self._turn += 1
             if state.task.gold_wanted:
                 self._sweep()
-            elif self._wants_to_vary:
+            elif self._early or (self.work > 0 and self._turn % VARY_TURNS == 2):
                 self._vary()
             else:
                 # The best run most of the time; now and then another one that may have more in it.
@@ -81,11 +80,10 @@ class _Job:
                 self.shortener.climb(inputs, shares.climb)
 
     @property
-    def _wants_to_vary(self) -> bool:
-        """Whether other routes are looked for: at first; from a run that was given, now and then."""
-        if self.state.task.first:
-            return self.work > 0 and self._turn % VARY_TURNS == 2
-        return self.work < self.shares.vary_until * self.state.task.work_planned
+    def _early(self) -> bool:
+        """Whether it is the time in which only other routes are looked for; a run that was given has none."""
+        task = self.state.task
+        return not task.first and self.work < self.shares.vary_until * task.work_planned
 
     def _spend(self, played: int, cost: float) -> bool:
         """Count ticks of shortening; whether the job is over."""
@@ -99,7 +97,7 @@ class _Job:
 
     @cached_property
     def _search(self) -> Search:
-        nodes = int(min(1_500_000, max(100_000, self.state.task.work_planned / 40)))
+        nodes = int(min(1_500_000, max(100_000, self.state.task.work_planned / 80)))
         return Search(self.start, self.heuristics, nodes=nodes)
 
     @cached_property
@@ -115,7 +113,7 @@ class _Job:
             if self._over or self.state.runs:
                 return
             if turn:
-                self._follow(route, LEGS_TICKS)  # switch by switch: for long ways
+                self._follow(route, ticks)  # switch by switch: for long ways
             self._search_once(resolution, ticks, seed=turn, bound=0, until_found=True)
 
     def _sweep(self) -> None:
@@ -166,13 +164,13 @@ class _Job:
         with self.state.lock:
             shortest = len(self.state.runs[0])
         resolution = resolution._replace(slack=resolution.slack * shortest)
-        given = bool(self.state.task.first)
+        given, early = bool(self.state.task.first), self._early
         bound = shortest + max(4, int(shortest * (GIVEN_BOUND if given else FOUND_BOUND)))
         found = self._search_once(resolution, VARY_TICKS, seed=100 + turn, bound=bound, guided=guided)
-        if given and not found:
+        if not early and not found:
             return
         run = self.shortener.climb(found or self.state.runs[0], self.shares.climb)
-        if given and len(run) < shortest * (1.0 + FOUND_BOUND):
+        if not early and len(run) < shortest * (1.0 + FOUND_BOUND):
             self.shortener.search_spans(run, self.shares.spans)
 
     def _search_once(

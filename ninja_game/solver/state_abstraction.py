@@ -31,6 +31,7 @@ class Goals(NamedTuple):
     gold: int  #: pieces that a run must have at the exit
     leg: int  #: a leg ends where this many pieces are collected; 0: only the exit counts
     mask: int  #: and where what is open differs from this
+    wanted: int  #: of these switches one at least must be open at the end of a leg, but for a few ends; 0: any
     ends: int  #: how many ends of a leg are enough
     rollouts: int  #: tries to survive at the end of a leg, 0: it need not be survived
     gold_slots: NDArray[np.int64]

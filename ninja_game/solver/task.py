@@ -121,7 +121,7 @@ class SearchState:
         return late or self.stop.is_set() or self.cancelled.is_set() or bool(self.task.first_only and self.best)
 
 
-WORK_PER_SECOND = 3_000_000
+WORK_PER_SECOND = 6_000_000
 """What one thread is expected to do; plans are made with this number, never with the clock."""
 SEARCH_COST = 2.0
 
@@ -135,15 +135,15 @@ FIND = (
     (Resolution(cell=5.0, speed=0.4, macro=4, weight=3.0, visits=2), 40_000_000),
     (Resolution(cell=10.0, speed=0.4, macro=7, jitter=4, weight=1.2, visits=6, patience=25), 40_000_000),
 )
-"""Searches for a first run, with their ticks; then over again with other seeds."""
+"""Searches for a first run, with their ticks; then over again with other seeds.
 
-LEGS_TICKS = 8_000_000
-"""Ticks for a run from switch to switch, before each of these searches but the first."""
+Before each but the first, a run from switch to switch is looked for, as long.
+"""
 
 VARY = (
     Resolution(cell=8.0, speed=0.5, macro=8, weight=1.0),
-    Resolution(cell=6.0, speed=0.35, macro=6, weight=1.0, slack=0.2, off_guide=0.3),
     Resolution(cell=8.0, speed=0.4, macro=6, jitter=3, weight=1.1),
+    Resolution(cell=6.0, speed=0.35, macro=6, weight=1.0, slack=0.2, off_guide=0.3),
     Resolution(cell=12.0, speed=0.4, macro=7, weight=1.0),
     Resolution(cell=10.0, speed=0.35, macro=9, weight=1.2),
     Resolution(cell=6.0, speed=0.5, macro=10, weight=1.1),
@@ -153,7 +153,7 @@ VARY_TICKS = 12_000_000
 FOUND_BOUND, GIVEN_BOUND = 0.05, 0.15
 """By what share a run of theirs may be longer than the best: one that was found here, or one that was given."""
 VARY_TURNS = 4
-"""With a run that was given, one of them is made every so many turns."""
+"""One of them is made every so many turns, once runs are shortened."""
 
 SWEEP_TICKS = 12_000_000
 """Ticks that a run with gold is swept before it gets a local search."""
@@ -168,9 +168,9 @@ COOLING = (6.0, 4.0, 2.5, 1.2, 0.4)
 
 @dataclass(frozen=True)
 class Shares:
-    """How a solver's work is divided: until which part of all work it looks for other routes; ticks of the others."""
+    """How a solver's work is divided: the part of it that only looks for other routes; ticks of the others."""
 
-    vary_until: float = 0.4
+    vary_until: float = 0.25
     spans: int = 20_000_000
     spans_with_gold: int = 6_000_000
     first_climb: int = 20_000_000

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import pytest
 
@@ -17,10 +19,11 @@ from ninja_game.solver.certificate import VerifiedRun, verified_run
 from ninja_game.solver.heuristics import Heuristics
 from ninja_game.solver.legs import shorten
 from ninja_game.solver.legs.fronts import Front, Moment
-from ninja_game.solver.legs.route import Route
+from ninja_game.solver.legs.route import NEVER, Route
 from ninja_game.solver.legs.shorten import Shortener
+from ninja_game.solver.search import OTHER_ENDS
 from ninja_game.solver.search_memory import Resolution, open_start
-from ninja_game.solver.search_run import Search
+from ninja_game.solver.search_run import Leg, Search
 from ninja_game.solver.solve import Progress, Task, solve
 
 COLUMN = 23
@@ -63,10 +66,21 @@ ONE_WAY = parse_level_string(
 )
 """A corridor that is passed to the right only, by one-way platforms; the exit's switch is at its left end."""
 
+KEY_AT_THE_RIGHT = parse_level_string(
+    ("0" * 10 + "1" * 12 + "0") * 10 + "0" * COLUMN * 21 + "|5^400,566!11^60,566,430,566!9^750,566,0,0,10,23,1,0,0"
+)
+"""The exit in a low corridor, closed by a locked door; the exit's switch on the way from the ninja to the door's."""
+
 WALLED_IN = parse_level_string(
     "0" * COLUMN * 20 + "1" * COLUMN + "0" * COLUMN * 10 + "|5^60,566!11^400,566,330,566!0^200,566!0^700,300"
 )
 """A piece of gold behind a wall from top to bottom."""
+
+
+TWO_KEYS = parse_level_string(
+    "0" * 713 + "|5^100,566!11^36,36,60,36!9^160,566,0,0,3,1,1,0,0!9^500,566,0,0,4,1,1,0,0!0^130,36"
+)
+"""The switches of two locked doors on the floor, the near one on the way to the far one."""
 
 
 def all_gold(level: Level) -> int:
@@ -118,6 +132,34 @@ def test_a_piece_from_which_no_way_leads_to_others_comes_last() -> None:
     route = Route(Search(start, Heuristics(start.levels, start.worlds), nodes=50_000), gold=3, seed=1)
     route.urgency[1] = 1.0
     assert route._target(next(iter(route.fronts.values()))) == 0
+
+
+def test_a_leg_to_a_certain_switch_does_not_end_at_another_on_the_way() -> None:
+    start = open_start(TWO_KEYS, box=False)
+    heuristics = Heuristics(start.levels, start.worlds)
+    far = next(1 << bit for bit, switch in enumerate(heuristics.switches) if switch.switch_x == 500.0)
+    search = Search(start, heuristics, nodes=50_000)
+
+    def ends(wanted: int) -> list[int]:
+        field = partial(heuristics.field_to, (500.0, 566.0))
+        leg = Leg([start.base], NEVER, 0, NEVER, 4, 0, field, wanted)
+        search.begin_leg(leg, Resolution(), seed=1, bound=0)
+        search.run_leg(300_000, lambda _: False, part=1_000)
+        return [end.mask & far for end in search.ends()]
+
+    assert not any(ends(wanted=0))
+    found = ends(wanted=far)
+    assert found.count(far) >= 4
+    assert found.count(0) <= OTHER_ENDS
+
+
+def test_the_exit_is_opened_last() -> None:
+    """A front with an open exit to which there is no way is searched later than the one with a closed exit."""
+    start = open_start(KEY_AT_THE_RIGHT, box=False)
+    route = Route(Search(start, Heuristics(start.levels, start.worlds), nodes=50_000), gold=0, seed=1)
+    for _ in range(2):
+        assert not route.step(lambda _: False)
+    assert [route.fronts[0, mask].tries for mask in (0, 1)] == [2, 0]
 
 
 def test_gold_that_was_never_collected_is_told() -> None:

@@ -34,13 +34,14 @@ class Moment:
 
 @dataclass
 class Front:
-    """Moments with the same gold and switches, earliest first; in which order to fetch the rest; what was tried."""
+    """Moments with the same gold and switches, earliest first; in which order to fetch the rest; tries, their ticks."""
 
     taken: int
     mask: int
     moments: list[Moment] = field(default_factory=list)
     tour: list[int] = field(default_factory=list)
     tries: int = 0
+    spent: int = 0
     failed: Counter[int] = field(default_factory=Counter)
 
     def add(self, moment: Moment, width: int) -> None:

@@ -44,6 +44,8 @@ STALL_TICKS = 6_000_000
 """Steps and ticks without another piece of gold after which it begins again from the start."""
 DOOR_WORTH = 0.5
 """Pieces of gold that an open door counts like."""
+DOOR_TICKS = 3_000_000
+"""Ticks of search that an open door counts like, without gold."""
 FAR = 20_000.0
 """Ticks that an unreachable piece counts in a tour."""
 FIELDS_KEPT = 400
@@ -67,6 +69,7 @@ class Route:
         self.fronts: dict[tuple[int, int], Front] = {}
         self._stalled_steps = self._stalled_ticks = self._restarts = 0
         self._most_now = 0.0
+        self._leaving: dict[tuple[int, int], bool] = {}
         self._fields: dict[tuple[int, int], Field] = {}
         self._distances: dict[int, Field] = {}
         self._points = np.array([point_at(x, y) for x, y in self.heuristics.gold_places], np.int64)
@@ -86,19 +89,22 @@ class Route:
 
         ``over``: called now and then with the ticks just simulated; true: stop.
         """
-        if self._stalled_steps > STALL_STEPS or self._stalled_ticks > STALL_TICKS * (1 + self._restarts):
+        stalled = self._stalled_steps > STALL_STEPS or self._stalled_ticks > STALL_TICKS * (1 + self._restarts)
+        if self.gold and stalled:
             self._restart()
         front = max(self.fronts.values(), key=self._promise)
         target = self._target(front)
-        resolution, budget = LEGS[min(front.tries, len(LEGS) - 1)]
-        budget *= 4 if target < 0 else 1
+        ways = 1 if self.gold else 1 + (self._doors & ~front.mask).bit_count()
+        resolution, budget = LEGS[min(front.tries // ways, len(LEGS) - 1)]
         front.tries += 1
         self.steps += 1
         leg = self._leg(front, target)
+        budget *= 4 if target < 0 and ways == 1 else 1
         self.search.begin_leg(leg, resolution, seed=self.seed * 10_000 + self.steps, bound=0)
         before = self._most_now
         self.search.run_leg(budget, over, part=EXTRA, least=EXTRA)
         self._stalled_ticks += self.search.ticks
+        front.spent += self.search.ticks
         self._stalled_steps += 1
         if leg.gold < NEVER:
             best = self.search.best()
@@ -120,10 +126,25 @@ class Route:
         return None
 
     def _promise(self, front: Front) -> tuple[float, int, int]:
-        """How far a front is: pieces collected and doors opened, less what its tries count."""
+        """How far a front is, less what its tries count; without gold, less the ticks that were spent on it."""
+        if self.gold:
+            return self._done(front) - TRY_PENALTY * front.tries, front.taken, front.mask
+        # The exit is opened last, or the way to the doors may be shut.
+        early = bool(front.mask & self._exits) and not self._may_leave(front)
+        doors = (front.mask & self._doors).bit_count()
+        return doors - early - front.spent / DOOR_TICKS, -front.tries, front.mask
+
+    def _done(self, front: Front) -> float:
+        """Pieces collected and doors opened."""
         useful = self._doors | (self._exits if front.count >= self.gold else 0)
-        done = front.count + DOOR_WORTH * (front.mask & useful).bit_count()
-        return done - TRY_PENALTY * front.tries, front.taken, front.mask
+        return front.count + DOOR_WORTH * (front.mask & useful).bit_count()
+
+    def _may_leave(self, front: Front) -> bool:
+        """Whether an open exit can be reached, as far as walls and doors tell; asked once a front."""
+        key = (front.taken, front.mask)
+        if key not in self._leaving:
+            self._leaving[key] = self.heuristics.may_leave(front.mask, *front.moments[0].place)
+        return self._leaving[key]
 
     def never_taken(self) -> list[int]:
         """The pieces that were collected at no moment."""
@@ -152,20 +173,25 @@ class Route:
         rollouts = ROLLOUTS if front.tries <= CAREFUL_TRIES else 0
         if target >= 0:
             return Leg(roots, front.count + 1, front.mask, NEVER, ENDS, rollouts, partial(self._field, target))
-        if self.heuristics.may_leave(front.mask, *front.moments[0].place):
+        if self._may_leave(front):
             return Leg(roots, 0, front.mask, self.gold, 1, 0, self.heuristics.field)
-        return Leg(roots, NEVER, front.mask, NEVER, ENDS, rollouts, self._way_to_a_switch(front))
+        field, wanted = self._way_to_a_switch(front)
+        return Leg(roots, NEVER, front.mask, NEVER, ENDS, rollouts, field, wanted)
 
-    def _way_to_a_switch(self, front: Front) -> FieldOf:
-        """The fields of the first door in the way; at later tries, by turns, those of the other doors' switches."""
+    def _way_to_a_switch(self, front: Front) -> tuple[FieldOf, int]:
+        """The fields of the first door in the way; at later tries, by turns, those of the other doors' switches.
+
+        And the bit of the switch that it is then about.
+        """
         switches = enumerate(self.heuristics.switches)
-        closed = [s for bit, s in switches if s.door and not s.trap and not front.mask >> bit & 1]
+        closed = [(bit, s) for bit, s in switches if s.door and not s.trap and not front.mask >> bit & 1]
         turn = (front.tries - 1) % (len(closed) + 1)
         if turn == 0:
-            return self.heuristics.field
+            return self.heuristics.field, 0
         x, y = front.moments[0].place
-        closed.sort(key=lambda switch: abs(switch.switch_x - x) + abs(switch.switch_y - y))
-        return partial(self.heuristics.field_to, (closed[turn - 1].switch_x, closed[turn - 1].switch_y))
+        closed.sort(key=lambda pair: abs(pair[1].switch_x - x) + abs(pair[1].switch_y - y))
+        bit, switch = closed[turn - 1]
+        return partial(self.heuristics.field_to, (switch.switch_x, switch.switch_y)), 0 if self.gold else 1 << bit
 
     def _add(self, moment: Moment, tour: list[int]) -> None:
         """Put a moment into its front, which keeps the best."""
@@ -175,7 +201,7 @@ class Route:
         front = self.fronts[key]
         self.ever_taken |= moment.taken
         self.most = max(self.most, front.count)
-        self._most_now = max(self._most_now, self._promise(Front(*key))[0])
+        self._most_now = max(self._most_now, self._done(front))
         front.add(moment, WIDTH)
 
     def _target(self, front: Front) -> int:

@@ -70,7 +70,7 @@ class SpanSearches:
         self.memory = new_memory(NODES)
         self.gold = gold
         self.goals = Goals(
-            gold=gold, leg=0, mask=0, ends=1, rollouts=0, gold_slots=heuristics.gold_slots,
+            gold=gold, leg=0, mask=0, wanted=0, ends=1, rollouts=0, gold_slots=heuristics.gold_slots,
             enemies=heuristics.enemies, switch_slots=heuristics.slots, masks=np.full(MAX_SWITCH_STATES, -1, np.int64),
             places=np.zeros((MAX_SWITCH_STATES, 2)), fields=np.full((MAX_SWITCH_STATES, 1), NOT_MADE, np.float32),
         )  # fmt: skip
