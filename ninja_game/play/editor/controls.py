@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import pygame
-
 from ninja_game.editor.brush import FAMILIES, QUARTERS, SORTS
 from ninja_game.play.input.events import InputEvent
-from ninja_game.play.input.scancodes import key_label, key_name, scancode_of
+from ninja_game.play.input.scancodes import chord, key_label
 
 
 class Command(NamedTuple):
@@ -90,16 +88,6 @@ def key_label_of(name: str) -> str:
     return {"ctrl": "Ctrl", "delete": "Del", "minus": "-", "equals": "="}.get(name) or key_label(
         {"shift": "lshift"}.get(name, name)
     )
-
-
-def chord(event: pygame.Event) -> str:
-    """A key press by name, with ``ctrl+`` and ``shift+``. With Ctrl letters count by what is printed on the key."""
-    name = key_name(scancode_of(event))
-    modifiers = getattr(event, "mod", 0)
-    ctrl = "ctrl+" if modifiers & (pygame.KMOD_CTRL | pygame.KMOD_META) else ""
-    if ctrl and event.key and 97 <= event.key <= 122:
-        name = chr(event.key)
-    return ctrl + ("shift+" if modifiers & pygame.KMOD_SHIFT else "") + name
 
 
 def command_of(event: InputEvent) -> str:

@@ -12,13 +12,14 @@ from ninja_game.editor.brush import SNAPS, snapped
 from ninja_game.editor.files import Source
 from ninja_game.editor.records import PROPERTIES, properties, with_word, word
 from ninja_game.play.editor.commands import EditorCommands
-from ninja_game.play.editor.controls import DIRECTION_KEYS, SORT_OF_KEY, chord, command_of, tile_of_key
+from ninja_game.play.editor.controls import DIRECTION_KEYS, SORT_OF_KEY, command_of, tile_of_key
 from ninja_game.play.editor.desk import DESK, Desk
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.properties import property_widgets, subject
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.toolbar import toolbar
 from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.scancodes import chord
 from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_entry import TextEntry

@@ -56,6 +56,16 @@ def key_name(scancode: int) -> str:
     return _NAMES.get(scancode, f"scancode-{scancode}")
 
 
+def chord(event: pygame.Event) -> str:
+    """A key press by name, with ``ctrl+`` and ``shift+``. With Ctrl letters count by what is printed on the key."""
+    name = key_name(scancode_of(event))
+    modifiers = getattr(event, "mod", 0)
+    ctrl = "ctrl+" if modifiers & (pygame.KMOD_CTRL | pygame.KMOD_META) else ""
+    if ctrl and event.key and 97 <= event.key <= 122:
+        name = chr(event.key)
+    return ctrl + ("shift+" if modifiers & pygame.KMOD_SHIFT else "") + name
+
+
 def scancode_named(name: str) -> int | None:
     """The key that a name means; None if none."""
     unnamed = _UNNAMED.fullmatch(name)

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.held_key import HeldKey
+from ninja_game.play.input.scancodes import scancode_of
 from ninja_game.play.screen import Screen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.list_view import ListView
@@ -18,11 +20,8 @@ if TYPE_CHECKING:
     from ninja_game.play.app import App
     from ninja_game.player.player_data import PlayerData
 
-FIRST_REPEAT_MS, REPEAT_MS = 350, 70
-"""A direction that is held repeats: when first, and then how often."""
-
-LONGEST_STEP_MS = 50
-"""More than this in one picture is a stall."""
+FIRST_REPEAT_MS, REPEAT_MS, TEXT_REPEAT_MS = 350, 70, 40
+"""A direction that is held repeats, or a key in a text: when first, and then how often."""
 
 DIRECTIONS = {"left": (-1, 0), "right": (1, 0), "up": (0, -1), "down": (0, 1)}
 REPEATING = frozenset({*DIRECTIONS, "page_up", "page_down"})
@@ -43,8 +42,8 @@ class MenuScreen(Screen):
         super().__init__(app)
         self.widgets: list[Widget] = []
         self.focus: Widget | None = None
-        self._repeat = ""
-        self._repeat_in = 0
+        self._direction: HeldKey[str] = HeldKey()
+        self._typed: HeldKey[pygame.Event] = HeldKey()
         self._dragged: Widget | None = None
 
     @property
@@ -63,7 +62,7 @@ class MenuScreen(Screen):
         able = [widget for widget in self.widgets if widget.focusable]
         wanted = self.widgets[place] if place < len(self.widgets) else None
         self.focus = wanted if wanted in able else next(iter(able), None)
-        self._repeat = ""
+        self._direction.end()
         self.await_text()
         self.app.tell_problems()
 
@@ -79,6 +78,11 @@ class MenuScreen(Screen):
     def capture(self, event: InputEvent) -> bool:
         """While a text is typed, a key is a letter before it is anything else."""
         taken = self.focus is not None and self.focus.text_event(event.raw)
+        self._typed.follow(event.raw)
+        if event.raw.type == pygame.KEYDOWN:
+            self._typed.end()
+            if taken:
+                self._typed.begin(event.raw, scancode_of(event.raw), first=FIRST_REPEAT_MS, every=TEXT_REPEAT_MS)
         self.redraw = self.redraw or taken
         return taken
 
@@ -87,11 +91,11 @@ class MenuScreen(Screen):
         if event.raw.type in (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL):
             self._handle_mouse(event.raw)
             return
-        if event.menu_released and event.menu_released == self._repeat:
-            self._repeat = ""
+        if event.menu_released and event.menu_released == self._direction.what:
+            self._direction.end()
         if event.menu:
             if event.menu in REPEATING:
-                self._repeat, self._repeat_in = event.menu, FIRST_REPEAT_MS
+                self._direction.begin(event.menu, first=FIRST_REPEAT_MS, every=REPEAT_MS)
             self.act(event.menu)
 
     def act(self, action: str, *, held: bool = False) -> None:
@@ -190,18 +194,16 @@ class MenuScreen(Screen):
     # --- time and picture ---
 
     def update(self, real_ms: int) -> None:
-        """Repeat a direction that is held."""
-        if not self._repeat:
-            return
-        # A stall is not a long press: the release may be waiting behind it.
-        self._repeat_in -= min(real_ms, LONGEST_STEP_MS)
-        if self._repeat_in <= 0:
-            self._repeat_in = REPEAT_MS
-            self.act(self._repeat, held=True)
+        """Repeat a direction, or a key in a text, that is held."""
+        for typed in self._typed.due(real_ms):
+            self.redraw = (self.focus is not None and self.focus.text_event(typed)) or self.redraw
+        for direction in self._direction.due(real_ms):
+            self.act(direction, held=True)
 
     def leave(self) -> None:
         """Nothing repeats in another screen's time."""
-        self._repeat = ""
+        self._typed.end()
+        self._direction.end()
         self._dragged = None
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:

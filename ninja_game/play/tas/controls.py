@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from ninja_game.play.editor.controls import Command, chord
+from ninja_game.play.editor.controls import Command
 from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.scancodes import chord
 
 COMMANDS = (
     Command("help", "This page", ("f1",)),

@@ -186,7 +186,7 @@ class TasScreen(MenuScreen):
         elif command and not typing:
             self._run(command)
             self._show_asked()
-            self._held.begin(command, event.raw.scancode)
+            self._held.hold(command, event.raw.scancode)
         else:
             with self._widgets_only():
                 super().handle(event)

@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Callable
+from contextlib import suppress
 
 import pygame
 
-from ninja_game.play.input.scancodes import key_name, scancode_of
+from ninja_game.play.input.scancodes import chord
+from ninja_game.play.ui.edited_text import EditedText
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import PAD, TEXT, Widget
 
 LONGEST = 40
 """How many characters can be typed unless a field says otherwise."""
+DOUBLE_MS = 400
+"""A second click within so many ms selects a word, a third one everything."""
 
 
 class TextEntry(Widget):
-    """A text field. With the focus it takes what is typed; left, right, Home, End, Backspace and Delete edit.
+    """A text field, edited as everywhere: arrows, Home and End, with Shift to select, with Ctrl by words.
 
-    Ctrl+A selects all of it.
-
-    ``prompt``: shown while it is empty. ``put`` is called at every change. ``longest``: how many characters fit in.
-    ``proposed``: what is typed first replaces the text.
+    So are Backspace and Delete; Ctrl+A, C, X, V and Z; the mouse, dragged or clicked twice. ``prompt``: shown while it
+    is empty. ``put`` is called at every change. ``longest``: how many characters fit in. ``proposed``: the text is
+    selected at first, so that what is typed replaces it.
     """
 
     def __init__(
@@ -35,83 +39,140 @@ class TextEntry(Widget):
         proposed: bool = False,
     ) -> None:
         super().__init__(area, hint=hint)
-        self.proposed = proposed
-        self.longest = longest
         self.prompt = prompt
-        self.text = text
         self.put = put
-        self.cursor = len(text)
+        self.edited = EditedText(text, longest)
+        if proposed:
+            self.edited.select_all()
+        self._first = 0
+        self._stops: list[float] = [0.0]
+        self._clicks, self._clicked = 0, (-DOUBLE_MS, 0.0)
+
+    @property
+    def text(self) -> str:
+        """What is in it."""
+        return self.edited.text
+
+    def show(self, text: str) -> None:
+        """Put another text in it, the cursor at its end."""
+        self.edited = EditedText(text, self.edited.longest)
+
+    # --- keys ---
 
     def text_event(self, event: pygame.Event) -> bool:
-        """Type, move, erase."""
-        if event.type == pygame.TEXTINPUT:
-            self._insert(event.text)
-            return True
-        if event.type != pygame.KEYDOWN:
+        """Type, move, select, erase, copy and paste."""
+        if event.type not in (pygame.TEXTINPUT, pygame.KEYDOWN):
             return False
-        name = key_name(scancode_of(event))
-        ctrl = getattr(event, "mod", 0) & (pygame.KMOD_CTRL | pygame.KMOD_META)
-        if ctrl and (event.key == ord("a") or name == "a"):
-            self.proposed = bool(self.text)
-            return True
-        if self.proposed and name in ("backspace", "delete"):
-            self._drop_proposal()
-            return True
-        if name in ("left", "right", "home", "end"):
-            self.proposed = False
-        if name == "backspace" and self.text:
-            self._replace(self.cursor - 1, self.cursor)
-        elif name == "delete":
-            self._replace(self.cursor, self.cursor + 1)
-        elif name in ("left", "right", "home", "end"):
-            places = {"left": self.cursor - 1, "right": self.cursor + 1, "home": 0, "end": len(self.text)}
-            self.cursor = min(len(self.text), max(0, places[name]))
-        elif name not in ("space", "backspace") and len(name) > 1:
-            return False
-        # What types a character comes again as TEXTINPUT; as a key it must not move the focus.
+        before = self.text
+        used = self._type(event.text) if event.type == pygame.TEXTINPUT else self._press(event)
+        if self.text != before:
+            self.put(self.text)
+        return used
+
+    def _type(self, text: str) -> bool:
+        self.edited.put(text)
         return True
 
+    def _press(self, event: pygame.Event) -> bool:
+        """A key; whether it is one for a text."""
+        *modifiers, key = chord(event).split("+")
+        select, ctrl, edited = "shift" in modifiers, "ctrl" in modifiers, self.edited
+        if key in ("left", "right"):
+            edited.step(1 if key == "right" else -1, word=ctrl, select=select)
+        elif key in ("home", "end"):
+            edited.go(0 if key == "home" else len(self.text), select=select)
+        elif key in ("backspace", "delete"):
+            edited.erase(1 if key == "delete" else -1, word=ctrl)
+        elif ctrl and not getattr(event, "mod", 0) & pygame.KMOD_ALT:
+            return self._command(key)
+        else:
+            # What types a character comes again as TEXTINPUT; as a key it must not move the focus.
+            return key == "space" or len(key) == 1
+        return True
+
+    def _command(self, letter: str) -> bool:
+        """Ctrl and a letter; whether it means anything in a text."""
+        edited = self.edited
+        with suppress(pygame.error):
+            if letter == "a":
+                edited.select_all()
+            elif letter == "z":
+                edited.undo()
+            elif letter in ("c", "x") and edited.selected:
+                pygame.scrap.put_text(edited.selected)
+                if letter == "x":
+                    edited.put("")
+            elif letter == "v":
+                edited.put(pygame.scrap.get_text())
+        return letter in ("a", "z", "c", "x", "v")
+
+    # --- mouse ---
+
     def click(self, x: float, y: float) -> bool:
-        """What was proposed is kept, to be changed."""
-        self.proposed = False
-        return super().click(x, y)
+        """Put the cursor there; twice: select the word, three times: everything. With Shift select up to there."""
+        now, place = pygame.time.get_ticks(), self._place_at(x)
+        last, where = self._clicked
+        self._clicks = self._clicks % 3 + 1 if now - last < DOUBLE_MS and abs(where - x) < PAD else 1
+        self._clicked = now, x
+        if self._clicks == 1:
+            self.edited.go(place, select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
+        elif self._clicks == 2:
+            self.edited.select_word(self._first + max(0, bisect_right(self._stops, x) - 1))
+        else:
+            self.edited.select_all()
+        return True
 
-    def _drop_proposal(self) -> None:
-        self.proposed = False
-        self.text, self.cursor = "", 0
-        self.put("")
+    def drag(self, x: float, y: float) -> bool:
+        """Select up to there."""
+        if self._clicks == 1:
+            self.edited.go(self._place_at(x), select=True)
+        return True
 
-    def _insert(self, typed: str) -> None:
-        if self.proposed:
-            self._drop_proposal()
-        typed = "".join(char for char in typed if char.isprintable())[: max(0, self.longest - len(self.text))]
-        self.text = self.text[: self.cursor] + typed + self.text[self.cursor :]
-        self.cursor += len(typed)
-        self.put(self.text)
+    def _place_at(self, x: float) -> int:
+        """The place between two characters that is nearest to a point; beyond the edges the next one out of sight."""
+        stops = self._stops
+        if x < stops[0] - 1:
+            return self._first - 1
+        if x > stops[-1] + PAD:
+            return self._first + len(stops)
+        return self._first + min(range(len(stops)), key=lambda k: abs(stops[k] - x))
 
-    def _replace(self, start: int, end: int) -> None:
-        if start < 0:
-            return
-        self.text = self.text[:start] + self.text[end:]
-        self.cursor = start
-        self.put(self.text)
+    # --- picture ---
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """The text with its cursor, or the prompt."""
+        """The text with its cursor and what is selected, or the prompt."""
         self.draw_base(surface, theme, focused=focused)
         x, y, w, h = self.area
-        top = y + (h - TEXT) / 2
-        shown = self.text
-        while shown and theme.width(shown, TEXT) > w - 2 * PAD - 4:
-            shown = shown[1:]
-        if shown and self.proposed and focused:
-            marked = x + PAD - 2, top - 3, theme.width(shown, TEXT) + 4, TEXT + 6
-            theme.canvas.fill_rect(surface, theme.palette.bar_full, *marked)
+        left, top, room = x + PAD, y + (h - TEXT) / 2, w - 2 * PAD - 4
+        self._scroll(theme, room)
+        shown = self._measure(theme, left, room)
+        fill, palette = theme.canvas.fill_rect, theme.palette
+        begin, end = (self._stops[min(max(0, k - self._first), len(shown))] for k in self.edited.span)
+        if begin < end and focused:
+            fill(surface, palette.bar_full, begin - 1, top - 3, end - begin + 2, TEXT + 6)
         if shown:
-            theme.text(surface, shown, x + PAD, top, size=TEXT)
+            theme.text(surface, shown, left, top, size=TEXT)
         else:
-            theme.text(surface, self.prompt, x + PAD, top, size=TEXT, colour=theme.palette.faint)
+            theme.text(surface, self.prompt, left, top, size=TEXT, colour=palette.faint)
         if focused:
-            before = shown[: max(0, self.cursor - (len(self.text) - len(shown)))]
-            place = x + PAD + theme.width(before, TEXT) + 1
-            theme.canvas.fill_rect(surface, theme.palette.accent, place, top - 2, 1.5, TEXT + 4)
+            place = self._stops[min(self.edited.cursor - self._first, len(shown))]
+            fill(surface, palette.accent, place - 1, top - 2, 1.5, TEXT + 4)
+
+    def _scroll(self, theme: Theme, room: float) -> None:
+        """Show the part of the text with the cursor, and as much as there is room for."""
+        text, cursor = self.text, self.edited.cursor
+        self._first = min(self._first, cursor)
+        while theme.width(text[self._first : cursor], TEXT) > room:
+            self._first += 1
+        while self._first > 0 and theme.width(text[self._first - 1 :], TEXT) <= room:
+            self._first -= 1
+
+    def _measure(self, theme: Theme, left: float, room: float) -> str:
+        """What is shown; ``_stops`` gets the places between its characters."""
+        self._stops = [left]
+        for last in range(self._first + 1, len(self.text) + 1):
+            width = theme.width(self.text[self._first : last], TEXT)
+            if width > room:
+                break
+            self._stops.append(left + width)
+        return self.text[self._first : self._first + len(self._stops) - 1]

@@ -124,17 +124,9 @@ class Field(TextEntry):
         super().__init__(NOWHERE, prompt, "", lambda _: None, longest=longest, hint=hint)
         self._enter = enter
 
-    def show(self, text: str) -> None:
-        """Put another text in it."""
-        self.text, self.cursor = text, len(text)
-
     def confirm(self) -> bool:
         """Do it."""
         self._enter()
-        return True
-
-    def click(self, x: float, y: float) -> bool:
-        """Only the focus."""
         return True
 
 

@@ -1,0 +1,192 @@
+"""Fields for text: moving, selecting, the clipboard, the mouse, keys that are held."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pygame
+import pytest
+
+from ninja_game.play.editor.panels import Form
+from ninja_game.play.input.scancodes import SCANCODES
+from ninja_game.play.ui.edited_text import EditedText
+from ninja_game.play.ui.text_entry import TextEntry
+from tests.support.menu_driver import MenuDriver
+
+CTRL, SHIFT, ALT = pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT, pygame.KMOD_RALT
+
+
+class Writer(MenuDriver):
+    """Somebody with a field in a form."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(folder)
+        self.form = Form(self.app, "Two fields", [("first", "one two-three", 40), ("second", "", 200)], "Yes", print)
+        self.app.push(self.form)
+        self.frames(2)
+
+    @property
+    def field(self) -> TextEntry:
+        """The one that has the focus."""
+        assert isinstance(self.form.focus, TextEntry)
+        return self.form.focus
+
+    def key(self, name: str, mod: int = 0, *, release: bool = True) -> None:
+        """Press a key."""
+        for kind in (pygame.KEYDOWN, pygame.KEYUP)[: 1 + release]:
+            pygame.event.post(pygame.Event(kind, key=0, scancode=SCANCODES[name], mod=mod, unicode=""))
+        self.frames()
+
+    def button(self, kind: int, at: tuple[float, float]) -> None:
+        """A mouse event with the left button."""
+        place = self.app.canvas.point(*at)
+        more = {"buttons": (1, 0, 0), "rel": (0, 0)} if kind == pygame.MOUSEMOTION else {"button": 1}
+        pygame.event.post(pygame.Event(kind, pos=place, touch=False, **more))
+        self.frames()
+
+    def place(self, index: int) -> tuple[float, float]:
+        """Where a character begins, logical px."""
+        return self.field._stops[index], self.field.centre[1]
+
+
+@pytest.fixture(name="at")
+def writer(tmp_path: Path) -> Iterator[Writer]:
+    at = Writer(tmp_path)
+    try:
+        yield at
+    finally:
+        at.close()
+
+
+def test_keys_move_and_select_by_characters_words_and_to_the_ends(at: Writer) -> None:
+    steps: list[tuple[str, int, tuple[int, int]]] = [
+        ("left", 0, (12, 12)), ("left", SHIFT, (11, 12)), ("left", SHIFT | CTRL, (8, 12)), ("right", SHIFT, (9, 12)),
+        ("right", 0, (12, 12)), ("home", SHIFT, (0, 12)), ("left", 0, (0, 0)), ("right", CTRL, (3, 3)),
+        ("right", CTRL, (7, 7)), ("end", SHIFT, (7, 13)), ("left", CTRL, (8, 8)), ("left", CTRL, (4, 4)),
+        ("a", CTRL, (0, 13)), ("home", 0, (0, 0)), ("left", SHIFT, (0, 0)),
+    ]  # fmt: skip
+    for name, mod, span in steps:
+        at.key(name, mod)
+        assert at.field.edited.span == span, (name, mod)
+    assert at.form.texts == ["one two-three", ""]
+
+
+def test_what_is_selected_is_typed_over_erased_and_brought_back(at: Writer) -> None:
+    at.key("left", SHIFT | CTRL)
+    at.type("x")
+    assert at.form.texts[0] == "one two-x"
+    at.key("home")
+    at.key("right", SHIFT | CTRL)
+    at.key("delete")
+    assert at.form.texts[0] == " two-x"
+    at.key("delete", CTRL)
+    assert at.form.texts[0] == "-x"
+    at.key("end")
+    at.key("backspace", CTRL)
+    assert at.form.texts[0] == "-"
+    for _ in range(4):
+        at.key("z", CTRL)
+    assert at.form.texts[0] == "one two-three"
+    at.key("z", CTRL)
+    at.key("w", CTRL | ALT)
+    assert at.form.texts[0] == "one two-three"
+
+
+def test_the_clipboard(at: Writer) -> None:
+    at.key("left", SHIFT | CTRL)
+    at.key("c", CTRL)
+    assert (pygame.scrap.get_text(), at.field.edited.selected) == ("three", "three")
+    at.key("a", CTRL)
+    at.key("x", CTRL)
+    assert (pygame.scrap.get_text(), at.form.texts[0]) == ("one two-three", "")
+    at.key("v", CTRL)
+    at.key("v", CTRL)
+    assert at.form.texts[0] == "one two-three" * 2
+    pygame.scrap.put_text("a\tb\r\nc\x01\n")
+    at.key("a", CTRL)
+    at.key("v", CTRL)
+    assert at.form.texts[0] == "a b c"
+    pygame.scrap.put_text("long " * 50)
+    at.key("v", CTRL)
+    assert len(at.form.texts[0]) == 40
+
+
+def test_without_a_clipboard_nothing_is_lost(at: Writer, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(*_: object) -> None:
+        raise pygame.error("no clipboard")
+
+    monkeypatch.setattr(pygame.scrap, "put_text", fails)
+    monkeypatch.setattr(pygame.scrap, "get_text", fails)
+    at.key("a", CTRL)
+    for letter in "cxv":
+        at.key(letter, CTRL)
+    assert at.form.texts[0] == "one two-three"
+
+
+def test_the_mouse_puts_the_cursor_drags_and_selects_words(at: Writer, monkeypatch: pytest.MonkeyPatch) -> None:
+    down, up, move = pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEMOTION
+    now = [1000]
+    monkeypatch.setattr(pygame.time, "get_ticks", lambda: now[0])
+    at.button(down, at.place(4))
+    assert at.field.edited.span == (4, 4)
+    at.button(move, at.place(9))
+    at.button(move, (at.place(7)[0] + 1, 500))
+    at.button(up, at.place(7))
+    assert at.field.edited.selected == "two"
+    selected = []
+    for _ in range(4):
+        now[0] += 200
+        at.button(down, (at.place(9)[0] + 1, at.place(9)[1]))
+        at.button(move, at.place(12))
+        at.button(up, at.place(12))
+        selected.append(at.field.edited.selected)
+    assert selected == ["hre", "three", "one two-three", "hre"]
+    now[0] += 2000
+    monkeypatch.setattr(pygame.key, "get_mods", lambda: SHIFT)
+    at.button(down, at.place(2))
+    assert at.field.edited.selected == "e two-t"
+
+
+def test_a_key_that_is_held_repeats(at: Writer) -> None:
+    at.key("backspace", release=False)
+    at.frames(30)
+    left = len(at.form.texts[0])
+    assert 0 < left < 8
+    pygame.event.post(pygame.Event(pygame.KEYUP, key=0, scancode=SCANCODES["backspace"], mod=0))
+    at.frames(30)
+    assert len(at.form.texts[0]) == left
+
+
+def test_a_long_text_shows_the_part_with_the_cursor(at: Writer) -> None:
+    at.press("down")
+    field = at.field
+    assert field.text == ""
+    pygame.event.post(pygame.Event(pygame.TEXTINPUT, text="abcdefgh " * 15))
+    at.frames(2)
+    assert field._first > 50
+    at.key("home")
+    assert field._first == 0
+    right = at.place(-1)
+    at.button(pygame.MOUSEBUTTONDOWN, at.place(0))
+    at.button(pygame.MOUSEMOTION, (right[0] + 30, right[1]))
+    at.button(pygame.MOUSEMOTION, (right[0] + 31, right[1]))
+    assert field._first > 0
+    assert field.edited.span[0] == 0
+    at.button(pygame.MOUSEBUTTONUP, right)
+
+
+@pytest.mark.parametrize("text", ["", " ", "-", "é"])
+def test_short_texts(text: str) -> None:
+    edited = EditedText(text, 3)
+    steps: list[Callable[[], object]] = [
+        lambda: edited.select_word(0), edited.select_all, lambda: edited.step(1, word=True),
+        lambda: edited.step(-1, word=True, select=True), lambda: edited.go(9), lambda: edited.go(-9, select=True),
+        edited.undo,
+    ]  # fmt: skip
+    for step in steps:
+        step()
+        assert 0 <= edited.span[0] <= edited.span[1] <= len(text)
+        assert edited.text == text
+    edited.put("abcdef")
+    assert len(edited.text) == 3
