@@ -10,12 +10,15 @@ import os
 import signal
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, NoReturn
 
 GRACE = 1.2
 """Seconds that a command has to end by itself after a signal."""
 
+
+_ENDING = (signal.SIGINT, signal.SIGTERM)
 
 told = threading.Event()
 """The command has said itself that it was stopped; what remains may take its time."""
@@ -51,10 +54,34 @@ def _forget_signals(lost: sys.UnraisableHookArgs) -> None:
         sys.__unraisablehook__(lost)
 
 
+@contextmanager
+def held_back() -> Iterator[None]:
+    """Start processes in here: signals wait until it is over, and what is started never hears Ctrl-C.
+
+    So no process is left half started. A terminal sends Ctrl-C to all processes: the one that started the others ends
+    them. In another thread than the main one, where Python never deals with signals, it does nothing.
+    """
+    if sys.platform == "win32" or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    came: list[int] = []
+    handlers = {number: signal.signal(number, lambda number, _: came.append(number)) for number in _ENDING}
+    # A new process has the mask of the thread that starts it.
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        for each, handler in handlers.items():
+            signal.signal(each, handler)
+    for number in came:
+        signal.raise_signal(number)
+
+
 def _end_by_force(arrivals: int) -> None:
     """Wait for a signal that ends the program, give it time to clean up, then end it."""
     number = 0
-    while number not in {signal.SIGINT, signal.SIGTERM}:
+    while number not in _ENDING:
         number = os.read(arrivals, 1)[0]
     threading.Event().wait(GRACE)
     # What is not loaded has nothing to end; to load it now might wait for the main thread.

@@ -24,6 +24,7 @@ import sys
 if sys.version_info < (3, 11):  # noqa: UP036 - the one file that an older Python may meet
     sys.exit(f"tools/dev.py: Python 3.11 or newer is needed, this is {sys.version.split()[0]} ({sys.executable}).")
 
+import ast
 import hashlib
 import os
 import shutil
@@ -160,7 +161,12 @@ def test(rest: Sequence[str]) -> int:
 
 
 def tool(name: str, *rest: str) -> int:
-    """A script of tools/."""
+    """A script of tools/. One without options would not read --help: what it is for is said here."""
+    script = ROOT / "tools" / f"{name.replace('.', '/')}.py"
+    text = script.read_text("utf-8") if script.is_file() else "argparse"
+    if {"-h", "--help"} & {*rest} and "argparse" not in text:
+        print(ast.get_docstring(ast.parse(text)))
+        return 0
     install(DEVELOPMENT)
     return become("-m", f"tools.{name}", *rest)
 

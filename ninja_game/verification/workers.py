@@ -22,6 +22,7 @@ from typing import Any, Protocol, TypeVar
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.resources import how_to_install
+from ninja_game.signals import held_back
 
 J = TypeVar("J")
 R = TypeVar("R")
@@ -96,12 +97,13 @@ class Local:
         return self._count
 
     def submit(self, function: Callable[[J], R], job: J) -> Any:
-        """A future of ``function(job)``."""
-        try:
-            return self._executor.submit(function, job)
-        except BrokenProcessPool:
-            self.renew()
-            return self._executor.submit(function, job)
+        """A future of ``function(job)``. This starts processes."""
+        with held_back():
+            try:
+                return self._executor.submit(function, job)
+            except BrokenProcessPool:
+                self.renew()
+                return self._executor.submit(function, job)
 
     def renew(self) -> None:
         """Start new processes instead of a pool of which one died."""

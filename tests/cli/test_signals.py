@@ -12,7 +12,7 @@ import pytest
 
 from ninja_game.compile_cache import compiled_available
 from ninja_game.runs import benchmark
-from ninja_game.signals import GRACE
+from ninja_game.signals import GRACE, held_back
 from tests.support.samples import WALK, WALK_END, running, write_records
 from tests.support.stopping import COMMANDS, ended, make_work
 
@@ -82,6 +82,15 @@ def test_a_signal_in_the_depths_of_python_is_neither_lost_nor_a_traceback(code: 
     program = [sys.executable, "-c", f"{DEEP}{code}\ntime.sleep(30)"]
     done = subprocess.run(program, capture_output=True, text=True, timeout=25, check=False)
     assert (done.returncode, done.stderr) == (end[0], f"ninja-game: {end[1]}\n")
+
+
+def test_a_signal_waits_until_processes_have_started() -> None:
+    done = []
+    with pytest.raises(KeyboardInterrupt), held_back():  # noqa: PT012 - it is raised behind the block
+        signal.raise_signal(signal.SIGINT)
+        done.append("all of it")
+    assert done == ["all of it"]
+    assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
 
 
 # --- nothing of the current folder runs ---

@@ -11,10 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game import __version__
-from tests.support.draw_log import DrawLog
-from tests.support.game_screens import run_tour
-from tests.support.menu_driver import MenuDriver
+from tests.support.game_screens import screens_as_texts
 
 GOLDEN = Path(__file__).parent / "golden" / "screens"
 ACCEPT = bool(os.environ.get("ACCEPT_PICTURES"))
@@ -24,21 +21,7 @@ NAMES = sorted(path.stem for path in GOLDEN.glob("*.txt"))
 @pytest.fixture(scope="module")
 def screens(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     """The text of each screen by its name."""
-    folder = tmp_path_factory.mktemp("player")
-    shown: dict[str, str] = {}
-    log = DrawLog()
-
-    def show(driver: MenuDriver, name: str) -> None:
-        driver.app.stack.redraw_all()
-        with log.recording(driver.app.theme.palette) as lines:
-            driver.app.draw()
-        text = "\n".join(lines).replace(str(folder), "FOLDER").replace(__version__, "VERSION") + "\n"
-        assert name not in shown
-        shown[name] = text
-
-    with log.installed():
-        run_tour(folder, (792, 600), show)
-    return shown
+    return screens_as_texts(tmp_path_factory.mktemp("player"))
 
 
 def test_recorded_screens_are_those_that_there_are(screens: dict[str, str]) -> None:

@@ -10,6 +10,7 @@ from unittest.mock import patch
 
 import pygame
 
+from ninja_game import __version__
 from ninja_game.editor.files import Source, draft_of
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.formats.named_level import parse_levels
@@ -22,6 +23,7 @@ from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.menus.settings.screen import PAGES
 from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.level import ObjectSpec
+from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import instead_of_ours
 
@@ -317,3 +319,20 @@ def run_tour(folder: Path, size: tuple[int, int], show: Callable[[MenuDriver, st
         driver.close()
         for each in patches:
             each.stop()  # type: ignore[attr-defined]
+
+
+def screens_as_texts(folder: Path, size: tuple[int, int] = (792, 600)) -> dict[str, str]:
+    """What is drawn on each screen of the tour, by its name; in an empty folder of a player's."""
+    shown: dict[str, str] = {}
+    log = DrawLog()
+
+    def show(driver: MenuDriver, name: str) -> None:
+        driver.app.stack.redraw_all()
+        with log.recording(driver.app.theme.palette) as lines:
+            driver.app.draw()
+        assert name not in shown
+        shown[name] = "\n".join(lines).replace(str(folder), "FOLDER").replace(__version__, "VERSION") + "\n"
+
+    with log.installed():
+        run_tour(folder, size, show)
+    return shown

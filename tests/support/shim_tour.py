@@ -14,10 +14,7 @@ from pathlib import Path
 
 import pygame
 
-from ninja_game import __version__
-from tests.support.draw_log import DrawLog
-from tests.support.game_screens import run_tour
-from tests.support.menu_driver import MenuDriver
+from tests.support.game_screens import screens_as_texts
 
 
 class NoPage:
@@ -41,23 +38,7 @@ class NoPage:
         return len(text) * size // 2
 
 
-def screens(folder: Path) -> dict[str, str]:
-    """By the name of each screen, its texts and draw calls."""
-    shown: dict[str, str] = {}
-    log = DrawLog()
-
-    def show(driver: MenuDriver, name: str) -> None:
-        driver.app.stack.redraw_all()
-        with log.recording(driver.app.theme.palette) as lines:
-            driver.app.draw()
-        shown[name] = "\n".join(lines).replace(str(folder), "FOLDER").replace(__version__, "VERSION") + "\n"
-
-    with log.installed():
-        run_tour(folder, (NoPage.width, NoPage.height), show)
-    return shown
-
-
 if __name__ == "__main__":
     import_module("pygame.host").LINK.page = NoPage()
     pygame.event.clear = pygame.event.get  # type: ignore[assignment]
-    json.dump(screens(Path(sys.argv[1])), sys.stdout)
+    json.dump(screens_as_texts(Path(sys.argv[1]), (NoPage.width, NoPage.height)), sys.stdout)

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import json
 import os
+import signal
+import sys
 import time
 from collections.abc import Iterator
 from functools import partial
 from io import BytesIO
+from multiprocessing import active_children
 from pathlib import Path
 
 import pytest
@@ -267,6 +270,17 @@ def test_what_a_dead_process_had_is_done_again_and_counted_once(tmp_path: Path) 
     pool.close()
     assert results == [(number, 2 * number) for number in range(20)]
     assert (tmp_path / "mark").exists()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C is another thing there")
+def test_ctrl_c_in_a_terminal_is_nothing_to_a_worker_that_starts() -> None:
+    pool = Local(1, processes=True)
+    future = pool.submit(double, 4)
+    for child in active_children():
+        assert child.pid
+        os.kill(child.pid, signal.SIGINT)
+    assert future.result() == 8
+    pool.close()
 
 
 def test_a_job_that_kills_every_process_is_named(tmp_path: Path) -> None:

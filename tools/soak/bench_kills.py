@@ -10,10 +10,8 @@ the folder must offer the run as it was said last, or later, and the file must b
 
 from __future__ import annotations
 
-import argparse
 import os
 import sys
-import tempfile
 import time
 from hashlib import sha256
 from itertools import groupby
@@ -29,7 +27,7 @@ from ninja_game.tas.session import Session
 from ninja_game.tas.take import Take
 from tests.support.bench_edits import edit_at_random, use_at_random
 from tests.support.samples import replay_of_walk
-from tools.soak.kills import PATIENCE, life
+from tools.soak.killing import PATIENCE, life, run_kills
 
 LONGEST_LIFE = 0.05
 """Seconds after its last word that is waited for at which a child is killed at the latest."""
@@ -141,19 +139,5 @@ def kill_test(
     return told, wrong
 
 
-def main() -> int:
-    """Exit code 1 if more than the last edit, or a file, was lost."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", maxsplit=1)[0])
-    parser.add_argument("--kills", type=int, default=100)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--what", choices=PLAYERS, default="session")
-    options = parser.parse_args()
-    os.environ |= {"PYGAME_HIDE_SUPPORT_PROMPT": "1", "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
-    with tempfile.TemporaryDirectory() as folder:
-        told, wrong = kill_test(options.kills, options.seed, Path(folder), what=options.what, report=True)
-    print(*wrong, f"{options.kills} kills, {told} edits, {len(wrong)} things wrong", sep="\n")
-    return 1 if wrong else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_kills(__doc__, kill_test, "{} edits", players=PLAYERS))

@@ -9,10 +9,7 @@ draft that is at most two seconds old, and the saved file must be readable and a
 
 from __future__ import annotations
 
-import argparse
-import os
 import sys
-import tempfile
 import time
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
@@ -23,7 +20,7 @@ from ninja_game.editor.autosave import recovered
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
-from tools.soak.kills import life
+from tools.soak.killing import life, run_kills
 
 LONGEST_LIFE = 2.5
 """Seconds after its first word at which a child is killed at the latest."""
@@ -120,22 +117,5 @@ def kill_test(
     return worst, wrong
 
 
-def main() -> int:
-    """Exit code 1 if more than two seconds, or a file, were lost."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", maxsplit=1)[0])
-    parser.add_argument("--kills", type=int, default=100)
-    parser.add_argument("--seed", type=int, default=1)
-    options = parser.parse_args()
-    os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
-    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
-    os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
-    with tempfile.TemporaryDirectory() as folder:
-        worst, wrong = kill_test(options.kills, options.seed, Path(folder), report=True)
-    for text in wrong:
-        print(text)
-    print(f"{options.kills} kills, at most {worst:.2f} s lost, {len(wrong)} things wrong")
-    return 1 if wrong else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_kills(__doc__, kill_test, "at most {:.2f} s lost"))

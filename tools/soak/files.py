@@ -8,22 +8,17 @@ Exit code 0: only errors of ours, each file read within two seconds; 1: somethin
 from __future__ import annotations
 
 import argparse
-import io
 import random
 import sqlite3
 import sys
 import tempfile
 from collections.abc import Callable
 from contextlib import suppress
-from functools import cache, partial
+from functools import partial
 from pathlib import Path
-from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile
-
-import numpy as np
 
 from ninja_game.files.reading import read_utf8
 from ninja_game.formats.load import load_levels, load_replays
-from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.pack.index import parse_index
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.recording import parse_replays
@@ -31,16 +26,13 @@ from ninja_game.formats.replay.text import parse_replay
 from ninja_game.levels.warnings import level_warnings
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.records import SavedReplay
-from ninja_game.player.settings import Settings
 from ninja_game.player.settings_file import read_settings, write_changes
-from ninja_game.runs.run_trace import RunTrace, trace_level
 from ninja_game.runs.trace import first_difference, rows, trace_digests
-from ninja_game.runs.trace_files import FiledTrace, read_traces, write_csv, write_npz
+from ninja_game.runs.trace_files import read_traces
 from ninja_game.verification.checkpoint_log import CheckpointLog
-from ninja_game.verification.verify_many import verify_all
-from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records
-from tools import ROOT
-from tools.soak.odd_texts import Trial, odd
+from tests.support.samples import replay_of_walk
+from tools.soak.odd_files import known_run, odd_file, sound_files
+from tools.soak.odd_texts import Trial
 
 CELLS: tuple[object, ...] = (
     None,
@@ -58,10 +50,6 @@ CELLS: tuple[object, ...] = (
     10,
 )
 """What damaged rows hold."""
-
-KINDS = ("<f8", ">f8", "|S0", "<U0", "<U9", "|u1", "<i4", "<i8", "|O", "<M8[s]", [("x", "<f8"), ("s", "<i4")])
-SHAPES = ((), (0,), (1,), (2,), (6,), (6, 2), (2, 6), (10**7,), (10**6, 10), (2**62,), (2**40, 2**40), (-1,))
-"""What headers of damaged arrays claim."""
 
 
 def read_log(path: Path) -> None:
@@ -86,12 +74,6 @@ def read_archive(path: Path) -> None:
     for level in load_levels(path)[:5]:
         level_warnings(level.level)
     load_replays(path)
-
-
-@cache
-def known_run() -> RunTrace:
-    """The run that the traces hold."""
-    return trace_level(parse_level_string(WALK), bytes([2] * 6), memory="plain", events=True)
 
 
 def compare_traces(path: Path) -> None:
@@ -120,49 +102,6 @@ READERS: dict[str, Callable[[Path], object]] = {
     "archive": read_archive,
     "replay": load_replays,
 }
-
-
-def odd_zip(text: str, rng: random.Random) -> str:
-    """A sound zip with odd files: mutated ones, or arrays with headers that claim another kind and shape."""
-    out = io.BytesIO()
-    with ZipFile(io.BytesIO(text.encode("latin-1"))) as source, ZipFile(out, "w") as target:
-        odd_ones = rng.sample(source.namelist(), 2)
-        for info in source.infolist():
-            data = source.read(info)
-            if info.filename not in odd_ones:
-                pass
-            elif not info.filename.endswith(".npy") or rng.random() < 0.4:
-                inside = data.decode("latin-1")
-                data = odd(inside, inside, rng).encode("latin-1", "replace")
-            else:
-                header = io.BytesIO()
-                about = {"descr": rng.choice(KINDS), "fortran_order": False, "shape": rng.choice(SHAPES)}
-                np.lib.format.write_array_header_1_0(header, about)
-                data = header.getvalue() + rng.choice((b"", data[128:], rng.randbytes(120)))
-            target.writestr(info.filename, data, rng.choice((ZIP_STORED, ZIP_DEFLATED)))
-    return out.getvalue().decode("latin-1")
-
-
-def seeds(folder: Path) -> dict[str, str]:
-    """A sound file for each reader; bytes as the characters of the same numbers."""
-    write_changes(Settings(), Settings().changed(volume=10), folder / "settings")
-    write_records(folder / "archive", ("a", WALK, running(WALK_END)), ("b", WALK, running(9)))
-    (folder / "run.replay.txt").write_text(replay_of_walk())
-    places = [folder / "archive", folder / "run.replay.txt"]
-    list(verify_all(places, memory="plain", jobs=1, processes=False, resume=folder / "checkpoint log"))
-    traces = [FiledTrace(k, "walk", known_run(), "a.txt", bytes([2] * 6)) for k in range(2)]
-    with (folder / "trace.csv").open("w") as text:
-        write_csv(traces, text)
-    with (folder / "trace.npz").open("wb") as file:
-        write_npz(traces, file)
-    (folder / "level").write_text(WALK)
-    (folder / "replay").write_text(replay_of_walk(level=None, level_path="level"))
-    (folder / "pack.toml").write_bytes((ROOT / "levels" / "pack.toml").read_bytes())
-    with ZipFile(folder / "pack.zip", "w") as packed:
-        packed.write(folder / "pack.toml", "pack.toml")
-        packed.writestr("00-0-walk.txt", WALK)
-        packed.writestr("certificates/00-0-walk.exit.replay.txt", replay_of_walk())
-    return {name: (folder / name).read_bytes().decode("latin-1") for name in READERS}
 
 
 def read_rows(folder: Path, rng: random.Random) -> None:
@@ -230,7 +169,7 @@ def look(name: str, text: str, rng: random.Random, folder: Path) -> None:
         with tempfile.TemporaryDirectory(dir=folder) as home:
             HOMES[name](Path(home), rng)
         return
-    text = odd_zip(text, rng) if text.startswith("PK") and rng.random() < 0.7 else odd(text, text, rng)
+    text = odd_file(text, rng)
     path = folder / ("file.zip" if name == "pack.zip" else "file")
     path.write_bytes(text.encode("latin-1" if all(ord(char) < 256 for char in text) else "utf-8", "surrogatepass"))
     try:
@@ -253,7 +192,7 @@ def main() -> int:
     trial = Trial()
     with tempfile.TemporaryDirectory() as place:
         folder = Path(place)
-        texts = seeds(folder) | dict.fromkeys(HOMES, "")
+        texts = sound_files(folder) | dict.fromkeys(HOMES, "")
         names = [*list(READERS) * 20, *HOMES]
         for seed in range(options.seed, options.seed + options.count):
             name = names[seed % len(names)]

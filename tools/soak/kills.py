@@ -11,19 +11,11 @@ the folder is opened as the game would open it: everything that was said must be
 
 from __future__ import annotations
 
-import argparse
-import multiprocessing
-import os
 import sys
-import tempfile
-import time
-from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from pathlib import Path
 from random import Random
-from typing import Any
 
 from ninja_game.files import writing
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
@@ -33,15 +25,10 @@ from ninja_game.player.catalogue import Entry
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.sim.level import Level
+from tools.soak.killing import Fact, life, run_kills
 
 LONGEST_LIFE = 0.25
 """Seconds after which a child is killed at the latest."""
-
-PATIENCE = 120.0
-"""Seconds to wait for a word of a child."""
-
-Fact = tuple[str, str, int]
-"""What was saved ("best", "replay", "volume", "progress"), its key, its number; "about": a volume to be saved next."""
 
 
 def level_of(number: int) -> Level:
@@ -153,35 +140,6 @@ class Said:
                 self.numbers[place] = max(number, self.numbers.get(place, 0))
 
 
-def life(player: Callable[..., None], folder: Path, seed: int, seconds: float, *, words: int) -> list[Fact]:
-    """Let a child live, kill it; what it said was saved.
-
-    ``seconds`` count from the moment when it has said so many ``words``; 0: from its birth, so that opening the files
-    is interrupted too. How much it does in a second depends on the machine.
-    """
-    methods = multiprocessing.get_all_start_methods()
-    context: Any = multiprocessing.get_context("fork" if "fork" in methods else "spawn")
-    ours, theirs = context.Pipe(duplex=False)
-    child = context.Process(target=player, args=(str(folder), seed, theirs), daemon=True)
-    child.start()
-    theirs.close()
-    facts: list[Fact] = []
-    # The last word may be cut off; what it was about counts as not said.
-    with suppress(EOFError, OSError):
-        while len(facts) < words and ours.poll(PATIENCE):
-            facts.append(ours.recv())
-    if words and not facts:
-        facts.append(("no start", "", 0))
-    time.sleep(seconds)
-    child.kill()
-    child.join()
-    with suppress(EOFError, OSError):
-        while ours.poll():
-            facts.append(ours.recv())
-    ours.close()
-    return facts
-
-
 def losses(folder: Path, said: Said) -> list[str]:
     """What is wrong with the folder: facts that are lost, files half written, or that it cannot be opened as it was."""
     writing._tidied.clear()  # noqa: SLF001 - as a new process
@@ -233,21 +191,5 @@ def kill_test(
     return told, wrong
 
 
-def main() -> int:
-    """Exit code 1 if anything was lost."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", maxsplit=1)[0])
-    parser.add_argument("--kills", type=int, default=200)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--what", choices=PLAYERS, default="records")
-    options = parser.parse_args()
-    os.environ["PYGAME_HIDE_SUPPORT_PROMPT"] = "1"
-    with tempfile.TemporaryDirectory() as folder:
-        told, wrong = kill_test(options.kills, options.seed, Path(folder), what=options.what, report=True)
-    for text in wrong:
-        print(text)
-    print(f"{options.kills} kills, {told} saves told of, {len(wrong)} lost")
-    return 1 if wrong else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run_kills(__doc__, kill_test, "{} saves told of", kills=200, players=PLAYERS))
