@@ -51,6 +51,7 @@ COMMANDS = (
     Command("slower", "Slower", ("minus", "kp_minus")),
     Command("take_over", "Take over: play on yourself from here", ("return", "kp_enter")),
     Command("ghosts", "Other runs, on or off", ("g",)),
+    Command("whole_level", "All of the level, after the wheel has zoomed", ("0", "kp_0")),
     Command("splice", "The selected ticks from the other run", ("ctrl+p",)),
     Command("splice_here", "Here the rest of the other run, from its nearest tick", ("ctrl+shift+p",)),
     Command("next_other", "Next other run", ("o",)),
@@ -73,8 +74,15 @@ REPEATING = {
 """The commands that are repeated, and then how often, ms. 25: as the run goes."""
 
 _BY_KEY = {key: command.name for command in COMMANDS for key in command.keys}
+BY_PAD = {
+    "start": "take_over", "y": "play", "leftshoulder": "step_back", "rightshoulder": "step", "x": "undo",
+    "dpad-up": "up", "dpad-down": "down",
+}  # fmt: skip
+"""Commands by buttons of a pad; of a run that is taken over, only those that step."""
 
 
 def command_of(event: InputEvent) -> str:
-    """The command that a key means; '' for none."""
-    return _BY_KEY.get(chord(event.raw), "") if event.source and event.source[0] == "keys" else ""
+    """The command that a key or a button of a pad means; '' for none."""
+    if event.source is None:
+        return ""
+    return _BY_KEY.get(chord(event.raw), "") if event.source[0] == "keys" else BY_PAD.get(event.source[1], "")

@@ -63,7 +63,7 @@ class TasScreen(MenuScreen):
         self._entered = found is not None
         self._widgets_stale = True
         self._dragging: Part | None = None
-        self._held = HeldCommand()
+        self._held = HeldCommand(app.controls.pads)
         self._pointed: Part | None = None
 
     @property
@@ -186,7 +186,7 @@ class TasScreen(MenuScreen):
         elif command and not typing:
             self._run(command)
             self._show_asked()
-            self._held.hold(command, event.raw.scancode)
+            self._held.hold(command, event)
         else:
             with self._widgets_only():
                 super().handle(event)

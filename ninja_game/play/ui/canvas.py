@@ -32,7 +32,7 @@ class Canvas:
 
     @property
     def stage(self) -> pygame.Rect:
-        """The stage in the window, px."""
+        """What is seen of the stage in the window, px."""
         return pygame.Rect(self.origin, self.size)
 
     def px(self, length: float) -> int:
@@ -100,3 +100,23 @@ class Canvas:
         for a, b in zip(corners, (*corners[1:], corners[0]), strict=True):
             rect.union_ip(pygame.draw.aaline(surface, colour, a, b))
         return rect
+
+
+class Lens(Canvas):
+    """A part of the stage, at any scale. ``origin``: px where the stage's upper left corner would be.
+
+    >>> Lens((100, 50), 4, (-400, -40)).logical((0, 0))
+    (100.0, 10.0)
+    """
+
+    def __init__(self, window: tuple[int, int], scale: float, origin: tuple[int, int]) -> None:
+        super().__init__(window)
+        self.scale, self.origin = scale, origin
+        whole = pygame.Rect(origin, (round(WIDTH * scale), round(HEIGHT * scale)))
+        self._seen = whole.clip(pygame.Rect((0, 0), self.window))
+        self.size = self._seen.size
+
+    @property
+    def stage(self) -> pygame.Rect:
+        """What is seen of the stage in the window, px."""
+        return self._seen.copy()

@@ -76,6 +76,7 @@ class LevelView:
         self.doll: Ragdoll | None = None
         self._covered: list[pygame.Rect] = []
         self._look: tuple[object, ...] = ()
+        self._book: SpriteBook | None = None
         self._layout()
 
     # --- the world goes on ---
@@ -157,7 +158,9 @@ class LevelView:
         """Make what depends on the window's size and the palette."""
         self.canvas = self.app.canvas
         palette = self.app.theme.palette
-        book = SpriteBook(self.canvas.scale, palette)
+        if self._book is None or (self._book.scale, self._book.palette) != (self.canvas.scale, palette):
+            self._book = SpriteBook(self.canvas.scale, palette)
+        book = self._book
         self.target = DrawTarget(self.canvas, palette, book)
         self._backdrop = Backdrop(self.canvas, palette, book, self.simulation.tiles)
         self._backdrop.reset(self.simulation.world, self.object_animation)
@@ -200,7 +203,7 @@ class LevelView:
 
     def _restore(self, surface: pygame.Surface, whole: bool, fraction: float) -> list[pygame.Rect]:
         """Put the backdrop where something was drawn last time, and where it changed."""
-        origin = self.canvas.origin
+        origin = self.canvas.stage.topleft
         mended = [r.move(origin) for r in self._backdrop.update(self.simulation.world, self.object_animation, fraction)]
         if whole:
             surface.fill(self.target.palette.tile)
@@ -236,7 +239,7 @@ class LevelView:
 
     def _cover_by_tiles(self, surface: pygame.Surface) -> None:
         """Tiles are in front of everything that moves."""
-        origin, backdrop = self.canvas.origin, self._backdrop
+        origin, backdrop = self.canvas.stage.topleft, self._backdrop
         for rect in self.target.covered:
             local = rect.move(-origin[0], -origin[1])
             if backdrop.has_tile(local):

@@ -9,22 +9,30 @@ from ninja_game.play.input.events import InputEvent
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.controls import command_of
+from ninja_game.play.tas.level.mouse import LevelPointer
 from ninja_game.play.tas.level.other_runs import OtherRuns
-from ninja_game.play.tas.level.paths import FAINT, NEAR, LevelPaths, Positions, Way, first_other_place, shown_span
+from ninja_game.play.tas.level.paths import (
+    FAINT,
+    LETTERS,
+    NEAR,
+    LevelPaths,
+    Positions,
+    Way,
+    first_other_place,
+    shown_span,
+)
 from ninja_game.play.tas.level.picture import LevelPicture
 from ninja_game.play.tas.level.playing import Playing
-from ninja_game.play.tas.level.pointing import nearest_tick, object_at
 from ninja_game.play.tas.level.run_ghost import RunGhost
 from ninja_game.play.tas.level.take_over import TakeOver
 from ninja_game.play.tas.part import Commands, Part
-from ninja_game.play.tas.tabs.object_list import proposal
 from ninja_game.play.tas.tabs.plot import colour_of
+from ninja_game.play.ui.canvas import Point
 from ninja_game.play.ui.theme import Theme
-from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.simulation import ObjectView
 
-_LETTERS = 17
-"""Size of what is written into the level's frame, px of the level."""
+LINE = 13.0
+"""Height of what is written below the level, logical px."""
 
 
 class LevelPart(Part):
@@ -45,13 +53,15 @@ class LevelPart(Part):
         self._ghosts: dict[object, RunGhost] = {}
         self._known: tuple[object, ...] = ()
         self._positions: Positions = np.zeros((0, 2))
+        self._pointer = LevelPointer(self)
+        self._followed: Point = (0.0, 0.0)
 
     def commands(self) -> Commands:
         """Playing, taking over, other runs."""
         playing, taken = self.playing, self.take_over
         shared: Commands = {
             "faster": lambda: playing.change_speed(1), "slower": lambda: playing.change_speed(-1),
-            "ghosts": self._toggle_ghosts, **self.others.commands(),
+            "ghosts": self._toggle_ghosts, "whole_level": self.picture.camera.show_all, **self.others.commands(),
         }  # fmt: skip
         if taken.on:
             return {
@@ -84,8 +94,9 @@ class LevelPart(Part):
             self.mouse_left()
 
     def stop(self) -> None:
-        """End playing and taking over."""
+        """End playing and taking over; the speed is remembered."""
         self.playing.stop()
+        self.playing.remember()
         self.take_over.end()
 
     # --- keys and mouse ---
@@ -103,35 +114,19 @@ class LevelPart(Part):
         return False
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """A click, or a drag, goes to the tick in which the ninja was nearest."""
-        if event.type == pygame.MOUSEWHEEL:
-            if not self.take_over.on:
-                self.playing.step(-event.y)
-            return True
-        positions = self.bench.session.timeline.positions
-        if self.take_over.on or not len(positions):
-            return False
-        canvas = self.bench.theme.canvas
-        corner = canvas.rect(*self.area).topleft
-        px, py = canvas.point(x, y)
-        at = self.picture.canvas.logical((px - corner[0], py - corner[1]))
-        dragged = event.type == pygame.MOUSEMOTION and event.buttons[0]
-        pressed = event.button if event.type == pygame.MOUSEBUTTONDOWN else 0
-        self.hover = nearest_tick(positions, *at, self.bench.cursor, dragged=dragged)
-        self._hovered_run = self.bench.take
-        self.pointed = None if dragged else object_at(self.picture.run, *at)
-        words = f"{self.pointed.kind} {self.pointed.id}; right button: watch it   " if self.pointed else ""
-        self.bench.hint = f"{words}Click: to tick {self.hover}"
-        if dragged or pressed == pygame.BUTTON_LEFT:
-            self.playing.stop()
-            self.bench.go(self.hover, select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
-        elif pressed == pygame.BUTTON_RIGHT and self.pointed:
-            self.bench.ask_to_watch(proposal(self.pointed.id, KIND_NAMES.index(self.pointed.kind)))
+        """Going along the run, looking closer."""
+        self._pointer.take(event, x, y)
         return True
+
+    def point_at(self, tick: int, found: ObjectView | None) -> None:
+        """Show the tick to which a click goes, and an object."""
+        self.hover, self.pointed = tick, found
+        self._hovered_run = self.bench.take
 
     def mouse_left(self) -> None:
         """Nothing is pointed at."""
         self.hover = self.pointed = None
+        self._pointer.release()
 
     # --- picture ---
 
@@ -142,21 +137,24 @@ class LevelPart(Part):
         return (
             bench.take, bench.cursor, bench.selection, timeline.valid, bench.session.before, bench.ghosts,
             tuple(bench.others), bench.preview, self.hover, self.pointed, bench.app.settings, playing.on, playing.speed,
-            self.take_over.on, self.take_over.still, self.take_over.waiting, moving and playing.clock.remainder,
+            self.picture.camera.look, self.take_over.on, self.take_over.still, self.take_over.waiting,
+            moving and playing.clock.remainder,
         )  # fmt: skip
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """The level, the ways of runs, their ghosts, what goes on."""
         bench, picture = self.bench, self.picture
         rect = theme.canvas.rect(*self.area)
-        whole = picture.fit(rect.size)
-        if whole or self._paths is None:
-            self._paths = LevelPaths(picture.context.theme)
-        positions = self._present()
-        ways = self._follow_others(positions)
-        picture.show(bench.cursor)
         running = self.playing.on or (self.take_over.on and not (self.take_over.still or self.take_over.waiting))
         fraction = self.playing.clock.fraction if running else 1.0
+        positions = self._present()
+        ways = self._follow_others(positions)
+        whole = picture.fit(rect.size)
+        picture.show(bench.cursor)
+        self._follow_ninja(rect.size, fraction)
+        whole = picture.fit(rect.size) or whole
+        if whole or self._paths is None or self._paths.theme is not theme:
+            self._paths = LevelPaths(theme, picture.canvas)
         picture.draw(fraction, whole=whole)
         surface.blit(picture.surface, rect)
         inner = surface.subsurface(rect.clip(surface.get_rect()))
@@ -168,12 +166,19 @@ class LevelPart(Part):
         picture.draw_ninja_over(inner, fraction)
         for ghost in self.ghosts:
             if ghost.label:
-                paths.draw_name(inner, ghost.label, ghost.place(fraction), ghost.colour(picture.context.theme.palette))
+                paths.draw_name(inner, ghost.label, ghost.place(fraction), ghost.colour(theme.palette))
         if self.hover is not None and self.hover < len(positions):
             paths.draw_hover(inner, positions, self.hover)
         if self.pointed is not None:
             paths.draw_object(inner, self.pointed)
-        self._write(inner, picture.context.theme)
+        self._write(surface, theme)
+
+    def _follow_ninja(self, size: tuple[int, int], fraction: float) -> None:
+        """Have the ninja in the picture when it is elsewhere than before, unless the mouse has hold of the run."""
+        place = self.picture.place(fraction)
+        if place != self._followed and not self._pointer.busy:
+            self.picture.camera.follow(size, *place)
+        self._followed = place
 
     def _present(self) -> Positions:
         """Where the ninja is after each simulated tick."""
@@ -190,7 +195,7 @@ class LevelPart(Part):
         if not bench.ghosts:
             self.picture.follow([])
             return []
-        palette = self.picture.context.theme.palette
+        palette = self.bench.theme.palette
         runs = [(run, colour_of(number, palette)) for number, run in enumerate(bench.others)]
         if bench.preview is not None:
             runs.append((bench.preview, palette.exit))
@@ -207,7 +212,7 @@ class LevelPart(Part):
         return [Way(before, palette.ghost, max(first, at - at % NEAR - 1), last, FAINT), *beside]
 
     def _write(self, surface: pygame.Surface, theme: Theme) -> None:
-        """What goes on, in the level's frame."""
+        """What goes on, below the level."""
         take_over = self.take_over
         if take_over.on:
             now = "press a key to begin" if take_over.waiting else "tick by tick" if take_over.still else "your keys"
@@ -217,6 +222,11 @@ class LevelPart(Part):
             text = "Playing.   Space: stop"
         else:
             text = "Space: play   Enter: take over"
-        colour = theme.palette.on_tile
-        theme.text(surface, text, 10, 578, size=_LETTERS, colour=colour, bold=take_over.on, width=690)
-        theme.text(surface, f"x {SPEEDS[self.playing.speed]:g}", 782, 578, size=_LETTERS, colour=colour, align="right")
+        x, y, w, h = self.area
+        palette, y = theme.palette, y + h - LINE
+        theme.canvas.fill_rect(surface, palette.tile, x, y, w, LINE)
+        zoom = self.picture.camera.zoom
+        speed = f"zoom {zoom:.1f}   " * (zoom > 1) + f"x {SPEEDS[self.playing.speed]:g}"
+        right = theme.text(surface, speed, x + w - 6, y + 1, size=LETTERS, colour=palette.on_tile, align="right")
+        room = right.left / theme.canvas.scale - x - 12
+        theme.text(surface, text, x + 6, y + 1, size=LETTERS, colour=palette.on_tile, bold=take_over.on, width=room)

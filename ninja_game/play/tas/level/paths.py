@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.play.replay.paths import draw_path
 from ninja_game.play.tas.bench import Span
-from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas, Point
+from ninja_game.play.ui.canvas import Canvas, Point
 from ninja_game.play.ui.theme import Theme
 from ninja_game.simulation import ObjectView
 from ninja_game.tas.course import Course
@@ -21,16 +21,17 @@ Positions = NDArray[np.float64]
 
 NEAR = 40
 """Ticks before and after the cursor whose way is bright."""
-_DOT_EVERY = 10
-"""Ticks between two dots on the bright way."""
+_DOT_EVERY, _CLOSE = 10, 0.5
+"""Ticks between two dots on the bright way; where a px of the bench is less than so much of the level: each tick."""
 FAINT, CLEAR = 110, 190
 """Of 255: how solid ways are."""
 _BLOCK = 1000
 """Ticks by which the part of a long run moves whose way is shown."""
-_LETTERS = 16
-"""Size of names and numbers in the level, px of the level."""
-_LONGEST_NAME = 180
-"""px of the level."""
+LETTERS = 9
+"""Size of what is written over the level, logical px of the bench, as all sizes here."""
+_LONGEST_NAME = 100
+_THIN, _THICK = 0.8, 2.7
+"""Width of ways, and of their selected part."""
 
 
 def shaded(colour: pygame.Color, alpha: int) -> pygame.Color:
@@ -57,10 +58,11 @@ class Way(NamedTuple):
 class WayLayer:
     """One surface with the way of one run, to which more ticks are added as they are known."""
 
-    def __init__(self, canvas: Canvas, colour: pygame.Color) -> None:
-        self.surface = pygame.Surface(canvas.size, pygame.SRCALPHA)
+    def __init__(self, canvas: Canvas, colour: pygame.Color, width: float) -> None:
+        self.surface = pygame.Surface(canvas.window, pygame.SRCALPHA)
         self._canvas = canvas
         self._colour = colour
+        self._width = width
         self._drawn: Positions = np.zeros((0, 2))
 
     def show(self, positions: Positions) -> None:
@@ -69,18 +71,27 @@ class WayLayer:
         if known > len(positions) or not np.array_equal(self._drawn, positions[:known]):
             self.surface.fill((0, 0, 0, 0))
             known = 0
-        draw_path(self.surface, self._canvas, positions[max(0, known - 1) :], self._colour)
+        draw_path(self.surface, self._canvas, positions[max(0, known - 1) :], self._colour, self._width)
         self._drawn = positions
 
 
 class LevelPaths:
-    """What lies over a picture of the level in one size and palette. ``theme``: of that picture."""
+    """What lies over a picture of the level. ``canvas``: of that picture; ``theme``: the bench's."""
 
-    def __init__(self, theme: Theme) -> None:
+    def __init__(self, theme: Theme, canvas: Canvas) -> None:
         self.theme = theme
-        self._present = WayLayer(theme.canvas, shaded(theme.palette.accent, FAINT))
-        self._under = pygame.Surface(theme.canvas.size, pygame.SRCALPHA)
+        self.canvas = canvas
+        self._present = WayLayer(canvas, shaded(theme.palette.accent, FAINT), self._px(_THIN))
+        self._under = pygame.Surface(canvas.window, pygame.SRCALPHA)
         self._beside: tuple[Way, ...] = ()
+
+    def _px(self, length: float) -> float:
+        """A length of the bench in px of the level: what is drawn over it does not grow with it."""
+        return length * self.theme.canvas.scale / self.canvas.scale
+
+    def _put(self, surface: pygame.Surface, layer: pygame.Surface) -> None:
+        stage = self.canvas.stage
+        surface.blit(layer, stage, stage)
 
     def draw_beside(self, surface: pygame.Surface, ways: Sequence[Way]) -> None:
         """The other runs."""
@@ -89,57 +100,68 @@ class LevelPaths:
             self._under.fill((0, 0, 0, 0))
             for way in ways:
                 positions = way.course.positions[way.first : way.last]
-                draw_path(self._under, self.theme.canvas, positions, shaded(way.colour, way.alpha))
-        surface.blit(self._under, (0, 0))
+                draw_path(self._under, self.canvas, positions, shaded(way.colour, way.alpha), self._px(_THIN))
+        if ways:
+            self._put(surface, self._under)
 
     def draw_present(
         self, surface: pygame.Surface, positions: Positions, cursor: int, selected: Span, shown: Span
     ) -> None:
         """The run itself: faint, brighter near the cursor and dotted there; the selected ticks stand out."""
-        canvas, palette = self.theme.canvas, self.theme.palette
+        canvas, palette = self.canvas, self.theme.palette
         self._present.show(positions[slice(*shown)])
-        surface.blit(self._present.surface, (0, 0))
+        self._put(surface, self._present.surface)
         first, last = selected
         if last - first > 1:
-            draw_path(surface, canvas, positions[max(0, first - 1) : last], palette.good, 5)
+            draw_path(surface, canvas, positions[max(0, first - 1) : last], palette.good, self._px(_THICK))
         low = max(0, cursor - NEAR)
-        draw_path(surface, canvas, positions[low : cursor + NEAR + 1], palette.accent)
-        for tick in range(low + -low % _DOT_EVERY, min(len(positions), cursor + NEAR + 1), _DOT_EVERY):
-            canvas.circle(surface, palette.accent, _point(positions, tick), 3)
+        draw_path(surface, canvas, positions[low : cursor + NEAR + 1], palette.accent, self._px(_THIN))
+        every = 1 if self._px(1.0) < _CLOSE else _DOT_EVERY
+        for tick in range(low + -low % every, min(len(positions), cursor + NEAR + 1), every):
+            radius = 1.0 if tick % _DOT_EVERY else 1.6
+            canvas.circle(surface, palette.accent, _point(positions, tick), self._px(radius))
 
     def draw_flags(self, surface: pygame.Surface, positions: Positions, markers: Sequence[Marker]) -> None:
         """A flag where each marked tick is, with its name."""
-        canvas, palette = self.theme.canvas, self.theme.palette
+        canvas, palette, px = self.canvas, self.theme.palette, self._px
         for tick, name in markers:
             if tick < len(positions):
-                x, y = _point(positions, tick)
-                canvas.line(surface, palette.outline, (x, y), (x, y - 26), 1.5)
-                canvas.polygon(surface, palette.good, [(x, y - 26), (x + 13, y - 21), (x, y - 16)])
-                self._label(surface, name, x + 16, y - 30, palette.text)
+                x, y = at = _point(positions, tick)
+                canvas.line(surface, palette.outline, at, (x, y - px(14)), px(_THIN))
+                tips = [(x, y - px(14)), (x + px(7), y - px(11)), (x, y - px(8.5))]
+                canvas.polygon(surface, palette.good, tips)
+                self._label(surface, name, at, (8.5, -16), palette.text)
 
     def draw_hover(self, surface: pygame.Surface, positions: Positions, tick: int) -> None:
         """A ring where the run is after a tick, and its number."""
-        x, y = _point(positions, tick)
-        self.theme.canvas.circle(surface, self.theme.palette.text, (x, y), 9, 2)
-        self._label(surface, str(tick), x + 13, y + 4, self.theme.palette.text)
+        at = _point(positions, tick)
+        self.canvas.circle(surface, self.theme.palette.text, at, self._px(4.8), self._px(1))
+        self._label(surface, str(tick), at, (7, 2), self.theme.palette.text)
 
     def draw_object(self, surface: pygame.Surface, seen: ObjectView) -> None:
         """What an object is and its id, above it."""
-        self._label(surface, f"{seen.kind} {seen.id}", seen.x + 10, seen.y - 26, self.theme.palette.text)
+        self._label(surface, f"{seen.kind} {seen.id}", (seen.x, seen.y), (5, -14), self.theme.palette.text)
 
     def draw_name(self, surface: pygame.Surface, name: str, at: Point, colour: pygame.Color) -> None:
         """The name of a ghost, above it."""
-        name = self.theme.fit(name, _LONGEST_NAME, _LETTERS)
-        self._label(surface, name, at[0] - 8, at[1] - 34, colour)
+        name = self.theme.fit(name, _LONGEST_NAME, LETTERS)
+        self._label(surface, name, at, (-4, -18), colour)
 
-    def _label(self, surface: pygame.Surface, text: str, x: float, y: float, colour: pygame.Color) -> None:
-        """A small text on a plate, inside of the picture."""
-        theme = self.theme
-        w = theme.width(text, _LETTERS)
-        x, y = min(max(2.0, x), WIDTH - w - 8), min(max(2.0, y), HEIGHT - 24)
+    def _label(
+        self, surface: pygame.Surface, text: str, at: Point, beside: Point, colour: pygame.Color
+    ) -> None:  # fmt: skip
+        """A small text on a plate, beside a place of the level, inside of the picture where that place is."""
+        theme, px = self.theme, self.canvas.point(*at)
+        if not surface.get_rect().collidepoint(px):
+            return
+        # The bench fills its window: its logical px begin at the window's corner.
+        scale = theme.canvas.scale
+        w, (width, height) = theme.width(text, LETTERS), surface.get_size()
+        x = min(max(1.0, px[0] / scale + beside[0]), width / scale - w - 4)
+        y = min(max(1.0, px[1] / scale + beside[1]), height / scale - 13)
         plate = shaded(theme.palette.background, 200)
-        theme.canvas.fill_rect(surface, plate, x - 3, y - 1, w + 6, _LETTERS + 5, 2)
-        theme.text(surface, text, x, y, size=_LETTERS, colour=colour)
+        theme.canvas.fill_rect(surface, plate, x - 1.5, y - 0.5, w + 3, LETTERS + 2.5, 1)
+        theme.text(surface, text, x, y, size=LETTERS, colour=colour)
 
 
 def first_other_place(ours: Positions, theirs: Positions) -> int:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import pygame
 
 from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.level.camera import Camera
 from ninja_game.play.tas.level.run_ghost import RunGhost
-from ninja_game.play.ui.canvas import Canvas
+from ninja_game.play.ui.canvas import Canvas, Point
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.ninja.ragdoll import Ragdoll
 from ninja_game.play.view.render_context import OffscreenContext
@@ -48,7 +49,10 @@ class _Seen(Simulation):
 
 
 class LevelPicture:
-    """``canvas``: from px of the level to px of ``surface``, which is the picture. ``run``: what it shows."""
+    """``canvas``: from px of the level to px of ``surface``, which is the picture. ``run``: what it shows.
+
+    ``camera``: which part of the level.
+    """
 
     def __init__(self, bench: Bench) -> None:
         self.bench = bench
@@ -57,11 +61,8 @@ class LevelPicture:
         self._context = OffscreenContext((1, 1), bench.app.settings)
         self._view: LevelView | None = None
         self.surface = pygame.Surface((1, 1))
-
-    @property
-    def context(self) -> OffscreenContext:
-        """Palette and lettering in the size of the picture."""
-        return self._context
+        self.camera = Camera()
+        self._seen: tuple[object, ...] = ()
 
     @property
     def canvas(self) -> Canvas:
@@ -74,18 +75,28 @@ class LevelPicture:
         return self.run.tick - 1
 
     def fit(self, size: tuple[int, int]) -> bool:
-        """Have a size, px, and the player's settings; whether everything is to be drawn anew."""
-        app = self.bench.app
+        """Have a size, px, the player's settings and what the camera shows; whether all is to be drawn anew."""
+        app, seen = self.bench.app, (size, *self.camera.look)
         settings = app.settings.changed(show_ghost=True)
-        if self.surface.get_size() == size and self._context.settings.palette == settings.palette and self._view:
+        if self._view is not None and self._context.settings.palette == settings.palette and size == self._seen[0]:
             self._context.settings = settings
-            return False
-        self._context = OffscreenContext(size, settings)
-        self._context.audio_output = app.audio_output
-        self.surface = pygame.Surface(size)
-        self._view = LevelView(self._context, self.run, audible=False)
-        self._view.on_seek()
+            if seen == self._seen:
+                return False
+        else:
+            self._context = OffscreenContext(size, settings)
+            self._context.audio_output = app.audio_output
+            self.surface = pygame.Surface(size)
+            self._view = None
+        self._seen = seen
+        self._context.canvas = self.camera.canvas(size)
+        if self._view is None:
+            self._view = LevelView(self._context, self.run, audible=False)
+            self._view.on_seek()
         return True
+
+    def place(self, fraction: float) -> Point:
+        """Where the ninja is drawn, px of the level."""
+        return self._view.object_animation.ninja_place(fraction) if self._view is not None else (0.0, 0.0)
 
     def follow(self, ghosts: list[RunGhost]) -> None:
         """Have other runs go along."""

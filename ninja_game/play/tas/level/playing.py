@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ninja_game.play.level.run_clock import RunClock
-from ninja_game.play.replay.screen import NORMAL_SPEED, SPEEDS
+from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.level.picture import LevelPicture
 from ninja_game.sim.rules import TICK_MS
@@ -16,7 +16,8 @@ class Playing:
         self.bench = bench
         self.picture = picture
         self.clock = RunClock()
-        self.speed = NORMAL_SPEED
+        wished = bench.app.settings.play_speed / 100
+        self.speed = min(range(len(SPEEDS)), key=lambda speed: abs(SPEEDS[speed] - wished))
         self.on = False
 
     @property
@@ -41,6 +42,12 @@ class Playing:
         """Faster or slower by so many steps."""
         self.speed = min(len(SPEEDS) - 1, max(0, self.speed + by))
         self.clock.reset()
+
+    def remember(self) -> None:
+        """Have this speed the next time, too."""
+        percent = round(100 * SPEEDS[self.speed])
+        if percent != self.bench.app.settings.play_speed:
+            self.bench.app.change_settings(play_speed=percent)
 
     def step(self, ticks: int) -> None:
         """Some ticks on, or back, and stop."""

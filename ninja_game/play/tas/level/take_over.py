@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ninja_game.play.input.events import InputEvent
-from ninja_game.play.tas.controls import COMMANDS
+from ninja_game.play.tas.controls import BY_PAD, COMMANDS
 from ninja_game.play.tas.level.playing import Playing
 from ninja_game.tas.timeline import AFTERMATH
 
@@ -14,10 +14,11 @@ _BY_ACTION = {"pause": "play", "back": "take_over", "frame_forward": "step", "fr
 _BY_KEY = {"escape": "take_over"} | {
     key: command.name
     for command in COMMANDS
-    if command.name in ("play", "take_over", "step", "step_back", "faster", "slower", "ghosts")
+    if command.name in ("play", "take_over", "step", "step_back", "faster", "slower", "ghosts", "whole_level")
     for key in command.keys
 }
 """The commands of a run that is taken over."""
+_BY_PAD = {button: name for button, name in BY_PAD.items() if name in ("step", "step_back")}
 
 
 class TakeOver:
@@ -124,7 +125,7 @@ class TakeOver:
         if event.source is None or _MOVES.intersection(event.pressed):
             return ""
         # By the bare key: Shift may be down, which jumps.
-        of_key = _BY_KEY.get(event.source[1], "") if event.source[0] == "keys" else ""
+        of_key = (_BY_KEY if event.source[0] == "keys" else _BY_PAD).get(event.source[1], "")
         return of_key or next((_BY_ACTION[action] for action in event.pressed if action in _BY_ACTION), "")
 
     def captures(self, event: InputEvent) -> bool:

@@ -17,14 +17,18 @@ from ninja_game.sim.memory.schema import TileMap, World
 
 
 class Backdrop:
-    """Background, static sprites and tiles of a level in one size. Px here count from the stage's upper left corner."""
+    """Background, static sprites and tiles of a level in one size, as far as they are seen.
+
+    Px here count from the upper left corner of what is seen of the stage.
+    """
 
     def __init__(self, canvas: Canvas, palette: Palette, book: SpriteBook, level: TileMap) -> None:
         self.canvas = canvas
         self.palette = palette
         self._book = book
+        self._corner = canvas.stage.topleft
         self.picture = pygame.Surface(canvas.size)
-        sheet = TileSheet(canvas, palette)
+        sheet = TileSheet(canvas, palette, book.tiles)
         sheet.show(level)
         self.tiles, self.has_tile = sheet.surface, sheet.has_tile
         self._blits: dict[int, list[tuple[Sprite, int, int]]] = {}
@@ -54,7 +58,7 @@ class Backdrop:
                 continue
             sprite = self._book.sprite(key)
             px, py = self.canvas.point(x, y)
-            px, py = px - self.canvas.origin[0], py - self.canvas.origin[1]
+            px, py = px - self._corner[0], py - self._corner[1]
             blits.append((sprite, px, py))
             box = sprite.surface.get_rect(topleft=(px - sprite.ax, py - sprite.ay))
             rect = box if rect is None else rect.union(box)

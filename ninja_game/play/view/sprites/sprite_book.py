@@ -7,16 +7,18 @@ from collections import OrderedDict
 from ninja_game.play.ui.palette import Palette
 from ninja_game.play.view.sprites.drawing import Extent, SpriteKey
 from ninja_game.play.view.sprites.sketch import Sketch, Sprite
+from ninja_game.play.view.sprites.tile_sheet import TilePictures
 
 _KEPT = 3000
 
 
 class SpriteBook:
-    """The sprites at one scale in one palette."""
+    """The sprites at one scale in one palette. ``tiles``: the pictures of tiles, for a sheet of them."""
 
     def __init__(self, scale: float, palette: Palette) -> None:
         self.scale = scale
         self.palette = palette
+        self.tiles: TilePictures = {}
         self._kept: OrderedDict[SpriteKey, Sprite] = OrderedDict()
 
     def sprite(self, key: SpriteKey) -> Sprite:

@@ -1,0 +1,116 @@
+"""The level larger than its part of the window: drawn at that size, moved, and it goes along with the ninja."""
+
+from __future__ import annotations
+
+import numpy as np
+import pygame
+import pytest
+
+from ninja_game.play.tas.level.camera import LARGEST
+from ninja_game.play.ui.canvas import Point
+from tests.support.bench_driver import BenchDriver
+
+
+def on_screen(at: BenchDriver, place: Point) -> Point:
+    """Where a place of the level is; logical px of the bench."""
+    canvas, level = at.screen.theme.canvas, at.screen.level
+    left, top = canvas.rect(*level.area).topleft
+    x, y = level.picture.canvas.point(*place)
+    return canvas.logical((x + left, y + top))
+
+
+def wheel(at: BenchDriver, notches: int, where: Point, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Turn the wheel over a logical point."""
+    monkeypatch.setattr(pygame.mouse, "get_pos", lambda: at.screen.theme.canvas.point(*where))
+    pygame.event.post(pygame.Event(pygame.MOUSEWHEEL, x=0, y=notches, flipped=False))
+    at.frames()
+
+
+def ninja_place(at: BenchDriver) -> Point:
+    x, y = at.session.timeline.positions[at.bench.cursor]
+    return float(x), float(y)
+
+
+def test_the_wheel_zooms_at_the_pointer_and_all_can_be_shown_again(
+    at: BenchDriver, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    level = at.screen.level
+    whole = level.picture.canvas.scale
+    under = (300.0, 330.0)
+    pointer = on_screen(at, under)
+    cursor = at.bench.cursor
+    for _ in range(4):
+        wheel(at, 1, pointer, monkeypatch)
+        assert on_screen(at, under) == pytest.approx(pointer, abs=1.6)
+    assert level.picture.canvas.scale == pytest.approx(whole * 1.25**4)
+    assert at.bench.cursor == cursor
+    wheel(at, 40, pointer, monkeypatch)
+    assert level.picture.canvas.scale == pytest.approx(LARGEST)
+    at.press("0")
+    assert level.picture.canvas.scale == whole
+    wheel(at, 3, pointer, monkeypatch)
+    at.event(pygame.MOUSEBUTTONDOWN, *pointer, button=2)
+    at.event(pygame.MOUSEBUTTONUP, *pointer, button=2)
+    assert level.picture.canvas.scale == whole
+    wheel(at, -3, pointer, monkeypatch)
+    assert level.picture.camera.zoom == 1.0
+
+
+def test_a_click_in_the_larger_level_goes_to_the_tick_that_is_there(
+    at: BenchDriver, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    positions = at.session.timeline.positions
+    tick = 100
+    wheel(at, 5, on_screen(at, tuple(positions[tick])), monkeypatch)
+    at.mouse(*on_screen(at, tuple(positions[tick])))
+    assert np.hypot(*(positions[at.bench.cursor] - positions[tick])) < 1
+
+
+def test_it_is_drawn_at_its_size_wherever_it_was_moved_to(at: BenchDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What was moved, played and edited looks as what is drawn at once."""
+    level = at.screen.level
+    camera, picture = level.picture.camera, level.picture
+    at.bench.go(60)
+    at.frames()
+    wheel(at, 5, on_screen(at, ninja_place(at)), monkeypatch)
+    x, y = on_screen(at, ninja_place(at))
+    before = camera.centre
+    at.drag((x, y), (x - 40, y - 30), (x - 41, y - 30), button=3)
+    assert camera.centre != before
+    assert at.top() is at.screen, "a drag watches nothing"
+    at.event(pygame.MOUSEMOTION, 3, 3)
+    for _ in range(30):
+        at.press("period")
+    kept = picture.surface.copy()
+    place = camera.centre
+    camera.centre = place[0] + 9, place[1]
+    at.frames()
+    assert pygame.image.tobytes(kept, "RGB") != pygame.image.tobytes(picture.surface, "RGB")
+    camera.centre = place
+    at.frames()
+    assert pygame.image.tobytes(kept, "RGB") == pygame.image.tobytes(picture.surface, "RGB")
+
+
+def test_it_goes_along_with_the_ninja(at: BenchDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    level = at.screen.level
+    at.bench.go(0)
+    at.frames()
+    wheel(at, 7, on_screen(at, ninja_place(at)), monkeypatch)
+    seen = pygame.Rect((0, 0), level.picture.surface.get_size())
+    at.press("space")
+    for _ in range(60):
+        at.frames(3)
+        assert seen.collidepoint(level.picture.canvas.point(*ninja_place(at)))
+    at.press("space")
+    for tick in (150, 20, 200):
+        at.bench.go(tick)
+        at.frames()
+        assert seen.collidepoint(level.picture.canvas.point(*ninja_place(at)))
+
+
+def test_ctrl_and_the_wheel_go_tick_by_tick(at: BenchDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    at.bench.go(50)
+    monkeypatch.setattr(pygame.key, "get_mods", lambda: pygame.KMOD_LCTRL)
+    wheel(at, -2, (100, 100), monkeypatch)
+    assert at.bench.cursor == 52
+    assert at.screen.level.picture.camera.zoom == 1.0
