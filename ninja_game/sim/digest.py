@@ -14,13 +14,13 @@ from collections.abc import Iterator
 from operator import attrgetter
 from typing import Any
 
-from ninja_game.sim.kinds import KIND_OF, KINDS
+from ninja_game.sim.kinds import DRONE, KIND_OF, KINDS
 from ninja_game.sim.memory.declare import fields_of
-from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.object_fields import Drone, Object
 from ninja_game.sim.memory.plain import WORLD_SCALARS
 from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.rules import NAN
-from ninja_game.sim.states import JUMPING
+from ninja_game.sim.states import JUMPING, PSEUDO_RANDOM
 from ninja_game.sim.traces import is_traced, place_of, status_of
 
 OVERWRITTEN = {
@@ -55,29 +55,34 @@ _NINJA = _Reader(fields_of(Ninja))
 _STATE_WORLD = _Reader([field for field in _SCALARS if field.name != "tick"])
 _STATE_NINJA = _Reader([field for field in fields_of(Ninja) if field.name not in OVERWRITTEN | {"jump_timer"}])
 _OBJECTS = {kind.number: _Reader(fields_of(kind.fields)) for kind in KINDS}
+_STATE_OBJECTS = {**_OBJECTS, DRONE: _Reader([field for field in fields_of(Drone) if field.name != "move_ticks"])}
 
 
 def world_digest(w: World) -> str:
     """Sha256 (hex) of a world's canonical form."""
-    return _digest(w, _WORLD.bytes_of(w) + _NINJA.bytes_of(w.ninja))
+    return _digest(w, _WORLD.bytes_of(w) + _NINJA.bytes_of(w.ninja), _OBJECTS)
 
 
 def state_digest(w: World) -> str:
     """Sha256 (hex) of what decides what follows: the canonical form without what no later tick reads.
 
-    Left out are ``OVERWRITTEN``, the jump timer outside of a jump, and the ticks run. Turrets and armed drones do look
-    at the ticks run when they shoot; nothing else does.
+    Left out are ``OVERWRITTEN``, the jump timer outside of a jump, of the ticks that a drone has moved all but what a
+    pseudo-random one asks of them, and the ticks run. Turrets and armed drones do look at the ticks run when they
+    shoot; nothing else does.
     """
     timer = w.ninja.jump_timer if w.ninja.state == JUMPING else 0
-    return _digest(w, _STATE_WORLD.bytes_of(w) + _STATE_NINJA.bytes_of(w.ninja) + struct.pack("<i", timer))
+    drones = (o for o in w.objects[1 : w.slots_used] if o.kind == DRONE)
+    odd = bytes(o.move_ticks % 2 if o.movement == PSEUDO_RANDOM else 0 for o in drones)
+    scalars = _STATE_WORLD.bytes_of(w) + _STATE_NINJA.bytes_of(w.ninja) + struct.pack("<i", timer)
+    return _digest(w, scalars + odd, _STATE_OBJECTS)
 
 
-def _digest(w: World, scalars: bytes) -> str:
+def _digest(w: World, scalars: bytes, readers: dict[int, _Reader]) -> str:
     """Sha256 (hex) of these scalars, all cells and all objects."""
     digest = hashlib.sha256(scalars)
     digest.update(struct.pack(f"<{len(w.heads)}h", *w.heads) + bytes(w.edges))
     for o in w.objects[1 : w.slots_used]:
-        digest.update(_OBJECTS[o.kind].bytes_of(o))
+        digest.update(readers[o.kind].bytes_of(o))
     return digest.hexdigest()
 
 

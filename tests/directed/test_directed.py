@@ -291,6 +291,15 @@ def test_command_writes_the_best_run_and_keeps_its_author(run: Path, tmp_path: P
     assert run.read_text() == before
 
 
+def test_command_keeps_the_end_of_a_span_exactly(run: Path, tmp_path: Path) -> None:
+    out = tmp_path / "shorter.replay.txt"
+    goal = "difference(19) == 0"
+    result = called(run, "--from", 0, "--to", 20, "--goal", goal, "--rest", "--seconds", 1.5, "-o", out)
+    assert result.exit_code == 0, result.output
+    (recording,) = load_replays(out)
+    assert recording.ticks < outcome_of(WAITING)[1]
+
+
 def test_command_says_what_is_wrong(run: Path) -> None:
     assert (
         "--maximise and --minimise" in called(run, "--from", 0, "--to", 9, "--maximise", "x", "--minimise", "y").stderr
