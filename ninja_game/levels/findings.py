@@ -39,6 +39,8 @@ MENDS = {
     "on the same side": "Delete one of the two.",
     "the tiles close this side": "Clear the tiles on both sides, or move the door.",
     "in this place already": "Delete one of the two.",
+    "the tiles hide it": "Move it, or clear the tile.",
+    "over a piece of gold": "Move one of the two.",
 }
 """How to mend a finding, by words of its text."""
 

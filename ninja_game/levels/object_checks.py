@@ -17,6 +17,10 @@ from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec, well_formed
 from ninja_game.sim.rules import DOOR_SWITCH_RADIUS, EXIT_RADIUS, GOLD_RADIUS, OFF, SOLID, SWITCH_RADIUS
 
 _DIRECTIONS = (0, 1, 2, 3)
+_SAMPLES = (-1.0, -0.5, 0.0, 0.5, 1.0)
+"""Where a piece of gold is looked at, across and down, as parts of its radius."""
+_HIDDEN = 2 / 3
+"""The share of gold in the rock from which on nobody sees it: tiles are drawn over it."""
 _UNIT_TOLERANCE = 0.02  # pads of other editors have 0.7 for both parts of a diagonal
 
 
@@ -75,8 +79,13 @@ def _exit(record: ObjectSpec, ground: Ground) -> Iterator[str]:
 
 def _gold(record: ObjectSpec, ground: Ground) -> Iterator[str]:
     x, y = record.values
-    if cell_at(x, y) and not ground.touchable(x, y, GOLD_RADIUS):
+    if not cell_at(x, y):
+        return
+    places = [(x + a * GOLD_RADIUS, y + b * GOLD_RADIUS) for a in _SAMPLES for b in _SAMPLES]
+    if not ground.touchable(x, y, GOLD_RADIUS):
         yield "the ninja cannot reach it"
+    elif sum(solid_at(ground.level, *place) for place in places) >= _HIDDEN * len(places):
+        yield "the tiles hide it"
 
 
 def _launch_pad(record: ObjectSpec, ground: Ground) -> Iterator[str]:  # noqa: ARG001 - all checks have one signature

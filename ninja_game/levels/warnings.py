@@ -21,6 +21,9 @@ MANY_THINKERS = 30
 """With more enemies than these that think in turn, one waits more than three seconds for its turn."""
 _NAMES_SHOWN = 3
 _AGAIN = "the same object is in this place already"
+_OVER_GOLD = "it is drawn over a piece of gold"
+_OVER = 8.0
+"""Nearer than this, px, a mine covers a piece of gold."""
 
 
 def level_warnings(level: Level) -> list[str]:
@@ -40,9 +43,11 @@ def level_findings(level: Level) -> list[Finding]:
     ground = Ground(level)
     odd: dict[str, list[int]] = {}
     first: dict[ObjectSpec, int] = {}
+    covering = _mines_over_gold(objects)
     for id_, record in enumerate(objects):
         again = [_AGAIN] if first.setdefault(record, id_) != id_ else []
-        for text in (*oddities(record, ground), *again):
+        over = [_OVER_GOLD] if record in covering else []
+        for text in (*oddities(record, ground), *again, *over):
             odd.setdefault(text, []).append(id_)
     found = []
     for text, ids in odd.items():
@@ -108,6 +113,23 @@ def _waits_for_its_turn(record: ObjectSpec) -> bool:
     if record.kind == kinds.DRONE and well_formed(record):
         return record.values[4] in (1, 2)
     return record.kind in (kinds.TURRET, kinds.LAUNCHER)
+
+
+def _mines_over_gold(objects: Sequence[ObjectSpec]) -> set[ObjectSpec]:
+    """The mines that cover a piece of gold."""
+    gold: dict[tuple[float, float], list[tuple[float, ...]]] = {}
+    for record in objects:
+        if record.kind == kinds.GOLD and well_formed(record):
+            x, y = record.values
+            gold.setdefault((x // _OVER, y // _OVER), []).append(record.values)
+    found = set()
+    for record in objects:
+        if gold and record.kind == kinds.MINE and well_formed(record):
+            column, row = (value // _OVER for value in record.values)
+            places = [(column + a, row + b) for a in (-1, 0, 1) for b in (-1, 0, 1)]
+            if any(dist(record.values, piece) < _OVER for place in places for piece in gold.get(place, ())):
+                found.add(record)
+    return found
 
 
 def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[tuple[str, list[int]]]:

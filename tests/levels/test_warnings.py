@@ -202,6 +202,12 @@ CASES: dict[str, tuple[list[str], dict[int, str], str]] = {
             "another door is on the same side: the later one may never open"
         ),
     ),
+    "gold in the rock": (["gold 124,490px"], {20: "....#"}, "gold at 124,490px (object 2): the tiles hide it"),
+    "mine over gold": (
+        ["gold 301,300px", "mine 305,306px"],
+        {},
+        "mine at 305,306px (object 3): it is drawn over a piece of gold",
+    ),
     "door switch behind walls": (
         ["locked door 9,9 left switch 1,1"],
         {1: "&#", 2: "##"},
@@ -218,6 +224,10 @@ def test_warning(name: str) -> None:
 
 def test_a_proper_level_has_no_warning() -> None:
     assert warnings_of(rows={20: "....^^^...oo...###", 22: "###"}) == []
+
+
+def test_gold_may_be_half_in_the_rock_and_beside_a_mine() -> None:
+    assert warnings_of("gold 121,490px 301,300px", "mine 306,307px", rows={20: "....#"}) == []
 
 
 def test_an_empty_level_lacks_ninja_and_exit() -> None:
