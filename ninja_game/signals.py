@@ -35,6 +35,8 @@ def end_on_signals() -> None:
     """
     if sys.platform == "win32" or signal.getsignal(signal.SIGTERM) is _raise_terminated:
         return
+    # What a process that is ended by force shared with its workers is cleaned up by one of Python's, without a word.
+    sys.warnoptions.append("ignore:resource_tracker:UserWarning")
     signal.signal(signal.SIGTERM, _raise_terminated)
     sys.unraisablehook = _forget_signals
     arrivals, announce = os.pipe()

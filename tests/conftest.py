@@ -7,10 +7,15 @@ import signal
 from pathlib import Path
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
-# Speed is no business of tests on a loaded machine; the automatic check always tries the same examples.
-settings.register_profile("ninja-game", deadline=None, derandomize="CI" in os.environ)
+# Speed is no business of tests on a loaded machine. The examples are always the same, unless new ones are asked for.
+settings.register_profile(
+    "ninja-game",
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow],
+    derandomize="NEW_EXAMPLES" not in os.environ,
+)
 settings.load_profile("ninja-game")
 
 # A shell lets what it starts in the background ignore Ctrl-C; the programs that tests start must hear it.

@@ -173,7 +173,8 @@ def test_interrupt_ends_the_program_and_its_workers(tmp_path: Path) -> None:
         os.killpg(program.pid, signal.SIGINT)
         _, errors = program.communicate(timeout=60)
     assert program.returncode == 130
-    assert errors.decode().strip() == "ninja-game: interrupted"
+    # A slow machine has said how far it was.
+    assert errors.decode().splitlines()[-1] == "ninja-game: interrupted"
 
 
 def test_no_file_is_wrong_usage(tmp_path: Path) -> None:

@@ -210,7 +210,7 @@ def test_megabytes_of_nothing_take_no_time(name: str) -> None:
         started = time.process_time()
         with suppress(NinjaGameError):
             read(BULK[name])
-        assert time.process_time() - started < 2
+        assert time.process_time() - started < 10
 
 
 @pytest.mark.parametrize(

@@ -89,10 +89,10 @@ def test_space_between_small_letters_is_even() -> None:
 
 def test_long_text_is_fitted_in_no_time() -> None:
     theme = Theme(CLASSIC, Canvas((792, 600)))
-    start = time.perf_counter()
+    start = time.process_time()
     for _ in range(20):
         shown = theme.fit("m" * 100_000, 200, 12)
-    assert time.perf_counter() - start < 1
+    assert time.process_time() - start < 1
     assert shown.endswith("...")
     assert theme.width(shown, 12) <= 200 < theme.width("m" + shown, 12)
     assert theme.fit("short", 200, 12) == "short"

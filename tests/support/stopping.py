@@ -36,7 +36,7 @@ COMMANDS = {
     "check": "check far.txt --seconds 100 --replays out",
     "bench": "bench walk.replay.txt",
     "play": "play --replay archive.txt --size 132x100",
-    "film": "film archive.txt -o out/film.gif",
+    "film": "film long.txt -o out/film.gif",
     "learn train": "learn train --levels far.txt --seconds 100 -o out/agent.npz",
     "convert": "convert archive.txt out/replays --to replay",
 }
@@ -45,6 +45,7 @@ COMMANDS = {
 def make_work(folder: Path, runs: int = 500) -> Path:
     """A folder with work for minutes."""
     write_records(folder / "archive.txt", *((f"run {k}", FAR, running(20_000)) for k in range(runs)))
+    write_records(folder / "long.txt", ("a long run", FAR, running(400_000)))
     (folder / "many").mkdir()
     for number in range(COPIES):
         (folder / "many" / f"{number}.txt").hardlink_to(folder / "archive.txt")

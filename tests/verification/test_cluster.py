@@ -61,7 +61,8 @@ def test_a_killed_worker_changes_nothing_in_the_report(
     assert together == alone
     assert there.getvalue() == here.getvalue()
     with distributed.Client(cluster.scheduler_address) as client:
-        assert pids[0] not in client.run(os.getpid).values()
+        # One that dies while it is asked has no answer.
+        assert pids[0] not in client.run(os.getpid, on_error="ignore").values()
     # Every chunk stands once in the log.
     keys = [line.split(b'"results"')[0] for line in log.read_bytes().splitlines()[1:]]
     assert len(keys) == len(set(keys)) == RUNS + 2

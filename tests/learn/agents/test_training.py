@@ -18,6 +18,7 @@ from ninja_game.learn.agents.starts import SPACING, Starts, runs_through
 from ninja_game.learn.agents.training import ROUND, Progress, Task, train
 from ninja_game.learn.levels import level_source
 from ninja_game.learn.worlds import EnvWorlds
+from tests.support.waiting import LONGEST
 
 pytestmark = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 pytest.importorskip("jax")
@@ -109,15 +110,14 @@ def test_the_command_keeps_the_agent_and_says_how_good_it_is(tmp_path: Path, mon
 @pytest.mark.skipif(sys.platform == "win32", reason="signals are another thing there")
 def test_a_training_that_is_stopped_leaves_the_best_agent(tmp_path: Path) -> None:
     output = tmp_path / "agent.npz"
-    words = ["learn", "train", "--levels", LEVELS[0], "--seconds", "300", "--worlds", "16", "-o", str(output)]
+    words = ["learn", "train", "--levels", LEVELS[0], "--seconds", "3000", "--worlds", "16", "-o", str(output)]
     program = [sys.executable, "-m", "ninja_game", *words]
     with subprocess.Popen(program, stderr=subprocess.PIPE) as training:
-        for _ in range(600):
+        while not output.exists():
+            assert training.poll() is None
             time.sleep(0.2)
-            if output.exists():
-                break
         training.send_signal(signal.SIGINT)
-        _, errors = training.communicate(timeout=20)
+        _, errors = training.communicate(timeout=LONGEST)
     assert training.returncode == 130
     assert b"interrupted" in errors
     assert load_policy(output).training["curve"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from time import thread_time
 
 import pygame
 import pytest
@@ -221,10 +222,11 @@ def test_a_frame_of_a_full_level_is_quick(tmp_path: Path) -> None:
             place = maker.app.canvas.point(*maker.at(40 + 7 * k, 100 + 3 * k))
             kind = pygame.MOUSEBUTTONDOWN if k % 20 == 0 else pygame.MOUSEMOTION
             pygame.event.post(pygame.Event(kind, pos=place, button=1, rel=(0, 0), buttons=(0, 0, 0), touch=False))
+            start = thread_time()
             maker.frames()
-            times.append(maker.app.frame_ms)
-        # Four are wanted; tests run on busy machines.
-        assert sorted(times)[50] < 20
+            times.append(thread_time() - start)
+        # Four ms are wanted, and two are needed; tests run on slow machines.
+        assert sorted(times)[50] < 0.02
     finally:
         maker.editor.session.close()
         maker.close()

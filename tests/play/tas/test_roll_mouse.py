@@ -71,9 +71,11 @@ def test_clicks_and_drags_select(at: BenchDriver, monkeypatch: pytest.MonkeyPatc
     assert at.bench.selection == (20, 31)
 
 
-def test_a_double_click_on_the_number_names_the_tick(at: BenchDriver) -> None:
-    at.mouse(*at.cell(9, "tick"))
-    at.mouse(*at.cell(9, "tick"))
+def test_a_double_click_on_the_number_names_the_tick(at: BenchDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    for ms in (1000, 1500, 1600):
+        assert at.top() is at.screen, "half a second between them: two clicks"
+        monkeypatch.setattr(pygame.time, "get_ticks", lambda ms=ms: ms)
+        at.mouse(*at.cell(9, "tick"))
     assert isinstance(at.top(), Form)
     at.write("first jump")
     at.press("return")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from random import Random
-from time import process_time
+from time import thread_time
 
 import pygame
 import pytest
@@ -177,9 +177,9 @@ def test_a_tick_is_quick_in_a_run_of_any_length(at: BenchDriver, length: int) ->
     taken = take_over(at)
     costs = []
     for _ in range(30):
-        started = process_time()
+        started = thread_time()
         taken.step()
-        costs.append(1000 * (process_time() - started))
+        costs.append(1000 * (thread_time() - started))
     assert sorted(costs)[15] < 4, "ms"
 
 

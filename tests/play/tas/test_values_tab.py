@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from time import process_time
+from time import thread_time
 
 import numpy as np
 import pygame
@@ -159,10 +159,10 @@ def test_four_formulas_over_four_thousand_ticks_are_quick(at: BenchDriver, tab: 
     times = []
     for key in range(20):
         at.session.change(at.bench.take.with_key(100 + key, 101 + key, Input.RIGHT, down=True))
-        start = process_time()
+        start = thread_time()
         tab.refresh()
-        times.append(process_time() - start)
-    assert sorted(times)[10] < 0.01, "2 ms on a quiet machine"
+        times.append(thread_time() - start)
+    assert sorted(times)[10] < 0.01, "ten times less on a quiet machine"
 
 
 def test_watched_values_are_kept_with_the_run(at: BenchDriver, tab: ValuesTab, tmp_path: Path) -> None:
