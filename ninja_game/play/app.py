@@ -134,7 +134,7 @@ class App:
     # --- the loop ---
 
     def run(self, frames: int | None = None) -> None:
-        """Run until a screen quits, or for ``frames`` pictures.
+        """Run until a screen quits, or for ``frames`` pictures. Then, or on a signal, every screen is left.
 
         Without a real display (SDL's dummy driver) a bounded run takes its time from the count of pictures, 60 a
         second, and does not wait: it always shows the same.
@@ -143,14 +143,16 @@ class App:
         simulated = frames is not None and pygame.display.get_driver() in {"dummy", "offscreen"}
         last = pygame.time.get_ticks()
         count = 0
-        while self.running and self.stack and (frames is None or count < frames):
-            count += 1
-            now = last + (count * 1000 // 60 - (count - 1) * 1000 // 60) if simulated else pygame.time.get_ticks()
-            self.frame(now - last)
-            last = now
-            if not simulated:
-                clock.tick(self.settings.frame_limit or pygame.display.get_current_refresh_rate() or FALLBACK_RATE)
-        self.stack.clear()
+        try:
+            while self.running and self.stack and (frames is None or count < frames):
+                count += 1
+                now = last + (count * 1000 // 60 - (count - 1) * 1000 // 60) if simulated else pygame.time.get_ticks()
+                self.frame(now - last)
+                last = now
+                if not simulated:
+                    clock.tick(self.settings.frame_limit or pygame.display.get_current_refresh_rate() or FALLBACK_RATE)
+        finally:
+            self.stack.clear()
 
     def frame(self, real_ms: int) -> None:
         """One turn of the loop: events, time, picture."""

@@ -9,7 +9,7 @@ import pygame
 import pytest
 
 from ninja_game.cli.main import cli
-from ninja_game.editor.autosave import FOLDER
+from ninja_game.editor.autosave import FOLDER, recovered
 from ninja_game.editor.files import open_source
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
@@ -17,6 +17,7 @@ from ninja_game.play.editor.panels import Form, LevelChoice, Menu
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.signals import Terminated
 from tests.support.level_maker import ROOM, Maker
 
 
@@ -113,6 +114,23 @@ def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_pa
     assert not room.editor.session.is_saved
     room.chord("s", pygame.KMOD_LCTRL)
     room.wait(lambda: not list((tmp_path / FOLDER).glob("*.json")), "end of the autosave")
+
+
+def test_what_is_drawn_when_a_signal_ends_the_program_is_kept(
+    room: Maker, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ninja_game.editor.autosave.SPACING", 1e9)
+    room.drag((300, 300))
+    session = room.editor.session
+
+    def end(_: int) -> None:
+        raise Terminated
+
+    monkeypatch.setattr(room.app, "frame", end)
+    with pytest.raises(Terminated):
+        room.app.run()
+    session.autosave.close(keep=True)
+    assert [found.draft for found in recovered(tmp_path)] == [session.draft]
 
 
 def test_levels_of_the_game_open_as_new_ones_and_own_ones_in_their_files(room: Maker, tmp_path: Path) -> None:
