@@ -7,7 +7,7 @@ import pygame
 from ninja_game.editor.bench import DRAGGED, Bench
 from ninja_game.editor.brush import placed
 from ninja_game.editor.motion import SYMMETRIES, Motion
-from ninja_game.editor.records import carried, points
+from ninja_game.editor.records import BODY, SWITCH, carried, points
 from ninja_game.editor.stamp import Area, area_between, nearest
 from ninja_game.play.editor.palette_view import tile_icon
 from ninja_game.play.editor.sheet import LevelSheet, joined
@@ -20,6 +20,8 @@ from ninja_game.sim.kinds import EXIT, NINJA
 
 GHOST = 5
 """Eighths as solid as what is there is what would be drawn."""
+_COVERED = 1.0
+"""A switch so near, px, would not be seen under the next exit: nothing is drawn over one that was just placed."""
 
 
 @drawing(13)
@@ -97,10 +99,12 @@ class Overlay:
                 self._frame((*cell, 1, 1), self.sheet.palette.accent)
             return
         record = placed(bench.record, *bench.pointer, bench.snap)
-        images = [record] if record.kind in (NINJA, EXIT) else [carried(record, motion) for motion in motions]
-        for look in self.sheet.pictures.looks(images).values():
-            look.draw(self.target, alpha=GHOST)
-        x, y = points(record).get(0, bench.pointer)
+        x, y = points(record).get(BODY, bench.pointer)
+        there = nearest(bench.draft, x, y, _COVERED)
+        if there is None or there[1] != SWITCH:
+            images = [record] if record.kind in (NINJA, EXIT) else [carried(record, motion) for motion in motions]
+            for look in self.sheet.pictures.looks(images).values():
+                look.draw(self.target, alpha=GHOST)
         for a, b in (((x - 4, y), (x + 4, y)), ((x, y - 4), (x, y + 4))):
             self.target.line(self.sheet.palette.accent, *a, *b)
 

@@ -61,6 +61,21 @@ def test_keys_choose_draw_and_place_as_in_ned(room: Maker) -> None:
     assert len(room.draft.objects) == 2
 
 
+def test_the_next_exit_does_not_cover_a_switch_that_was_just_placed(maker: Maker) -> None:
+    maker.open("Editor")
+    maker.press("grave", "rightbracket")
+    maker.drag((300, 300))
+    maker.drag((372, 348))
+    at_switch = maker.app.surface.copy()
+    px = maker.app.canvas.point(*maker.at(500, 500))
+    pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=px, rel=(0, 0), buttons=(0, 0, 0), touch=False))
+    maker.frames()
+    x, y = maker.app.canvas.point(*maker.at(372, 348))
+    shown, seen = (each.subsurface(x - 16, y - 16, 32, 32) for each in (at_switch, maker.app.surface))
+    same = pygame.mask.from_threshold(shown, (0, 0, 0), (8, 8, 8, 255), seen)
+    assert same.count() > 32 * 32 - 40  # all but the cross of the pointer
+
+
 def test_a_pad_draws_too(room: Maker) -> None:
     bench = room.editor.session.bench
     a, b, x, right, down = 0, 1, 2, 14, 12
