@@ -20,7 +20,12 @@ _WORD = re.compile(r"\s*(?:([0-9]+(?:\.[0-9]*)?|\.[0-9]+)|([a-z_]+)|(<=|>=|==|!=
 
 
 class FormulaError(FormatError):
-    """A formula that cannot be read; the column counts from 1."""
+    """A formula that cannot be read. ``file``: what it is for, such as "goal", if that is known."""
+
+    def __str__(self) -> str:
+        """As of other texts, with the column in words."""
+        place = ", ".join(filter(None, (self.file, f"column {self.column}" if self.column else "")))
+        return str(FormatError(self.what, place, found=self.found, expected=self.expected, hint=self.hint))
 
 
 def parse_truth(text: str, names: Mapping[str, int], facts: Sequence[str]) -> Formula:
@@ -42,8 +47,9 @@ def _parse(text: str, names: Mapping[str, int], facts: Sequence[str], *, truth: 
     if reader.word:
         raise reader.error("something after the end", "and, or, a comparison or nothing")
     if found.truth != truth:
+        what = "a number, neither true nor false" if truth else "true or false, no number"
         expected = "a comparison or a fact, such as x > 400" if truth else "a number, such as vx or distance(x, y)"
-        raise FormulaError("not a formula of this sort", found=repr(text[:60]), expected=expected)
+        raise FormulaError(what, found=repr(text[:60]), expected=expected)
     return found
 
 

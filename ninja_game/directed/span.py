@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.batch.batch import Batch
-from ninja_game.directed.expressions import parse_number, parse_truth
+from ninja_game.directed.expressions import FormulaError, parse_number, parse_truth
 from ninja_game.directed.formula import Formula, Numbers
 from ninja_game.directed.view import FACTS, SPAN_NAMES, difference_from, view_of
 from ninja_game.errors import ArgumentError
@@ -68,9 +68,15 @@ class SpanTask:
         return np.pad(given, (0, self.length - len(given)))
 
     def formulas(self) -> tuple[Formula, Formula | None]:
-        """Goal and measure. Raises FormulaError."""
-        goal = parse_truth(self.goal or f"tick >= {self.last - 1}", SPAN_NAMES, FACTS)
-        return goal, parse_number(self.measure, SPAN_NAMES, FACTS) if self.measure else None
+        """Goal and measure. Raises FormulaError, which says in which of them."""
+        what = "goal"
+        try:
+            goal = parse_truth(self.goal or f"tick >= {self.last - 1}", SPAN_NAMES, FACTS)
+            what = "measure"
+            return goal, parse_number(self.measure, SPAN_NAMES, FACTS) if self.measure else None
+        except FormulaError as error:
+            error.file = what
+            raise
 
 
 @dataclass(order=True)
@@ -148,7 +154,8 @@ class SpanWorlds:
                 score = self.batch.ticks.astype(float)
             else:
                 value = np.broadcast_to(self.measure.value(self.view), at_goal.shape)
-                score = np.nan_to_num(value if self.task.least else -value, nan=np.inf)
+                # What has no value, such as 1 / 0, is no result.
+                score = np.where(np.isfinite(value), value if self.task.least else -value, np.inf)
         return at_goal, margin, score
 
     def found(self, trials: Trials, index: int, keys: Keys) -> Found:

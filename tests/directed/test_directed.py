@@ -110,7 +110,7 @@ def test_names_mean_what_a_simulation_shows() -> None:
         ("(x > 1) + 2", 9, "a truth where a number belongs"),
         ("-" * 50 + "x > 1", 42, "too many brackets"),
         ("(" * 50, 42, "too many brackets"),
-        ("x", 0, "not a formula of this sort"),
+        ("x", 0, "a number, neither true nor false; found 'x'"),
         ("x" * 2000, 0, "a formula that is too long"),
     ],
 )
@@ -237,6 +237,12 @@ def test_the_same_seed_finds_the_same() -> None:
     assert [(each.score, each.keys.tolist()) for each in first] == [(each.score, each.keys.tolist()) for each in second]
 
 
+@pytest.mark.parametrize("measure", ["1 / (x - x)", "0 / 0", "-1 / 0"])
+def test_what_has_no_value_is_no_result(measure: str) -> None:
+    for least in (False, True):
+        assert not searched(SpanTask(LEVEL, WAITING, 0, 10, measure=measure, least=least), rounds=2)
+
+
 def test_results_are_different_and_sorted() -> None:
     found = searched(SpanTask(LEVEL, WAITING, 0, 30, goal="x > 110"))
     assert list(found) == sorted(found)
@@ -306,7 +312,11 @@ def test_command_says_what_is_wrong(run: Path) -> None:
     )
     wrong = called(run, "--from", 0, "--to", 9, "--goal", "x >")
     assert wrong.exit_code == 2
-    assert "an unfinished formula" in wrong.stderr
+    assert "ninja-game: goal, column 4: an unfinished" in wrong.stderr
+    number = called(run, "--from", 0, "--to", 9, "--maximise", "x > 3")
+    assert "ninja-game: measure: true or false, no number; found 'x > 3'" in number.stderr
+    assert "say what is wanted" in called(run, "--from", 0, "--to", 9).stderr
+    assert "--every is for" in called(run, "--from", 0, "--to", 9, "--goal", "x > 1", "--every", 2).stderr
     none = called(run, "--from", 0, "--to", 9, "--goal", "x > 700", "--seconds", 0.3)
     assert none.exit_code == 1
     assert "not reached" in none.stdout

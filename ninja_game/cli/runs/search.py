@@ -68,6 +68,10 @@ def command(
 
     if maximise and minimise:
         raise click.UsageError("--maximise and --minimise exclude each other")
+    if not (goal or maximise or minimise or rest):
+        raise click.UsageError("say what is wanted: --goal, --maximise, --minimise or --rest")
+    if every > 1 and method != "exhaustive":
+        raise click.UsageError("--every is for --method exhaustive")
     recording = choose(load_replays(replay, level=level_given(level_path)), "recordings", replay, record)
     task = SpanTask(
         recording.level, recording.playback(recording.ticks), first, last, goal=goal, measure=maximise or minimise,
