@@ -77,6 +77,11 @@ def compiled(entry: Callable[..., R]) -> Callable[..., R]:
     return kernel
 
 
+def is_compiled(entry: Callable[..., Any]) -> bool:
+    """Whether this process has made the compiled twin of an entry point."""
+    return entry in _KERNELS
+
+
 def fastest(entry: Callable[..., R]) -> Callable[..., R]:
     """The compiled twin of an entry point that only takes arrays of numbers; without Numba the function itself."""
     return compiled(entry) if compiled_available() else entry

@@ -12,6 +12,7 @@ from ninja_game.cli.run_options import level_given, other_level_option, window_o
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
+    from ninja_game.play.screen import Screen
 
 
 @click.command()
@@ -51,6 +52,7 @@ def command(
     others = [run for path in beside for run in runs_beside(path, opened.recording)]
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from ninja_game.play.main import run_app
+    from ninja_game.play.tas.opening import OpeningScreen
     from ninja_game.play.tas.screen import TasScreen
 
     def bench(app: App) -> TasScreen:
@@ -58,4 +60,8 @@ def command(
         screen.bench.go(tick)
         return screen
 
-    ctx.exit(run_app(bench, size=window, frames=frames, screenshot=screenshot))
+    def opening(app: App) -> Screen:
+        # So many pictures are pictures of the bench.
+        return bench(app) if frames is not None else OpeningScreen(app, opened.recording, lambda: bench(app))
+
+    ctx.exit(run_app(opening, size=window, frames=frames, screenshot=screenshot))

@@ -44,12 +44,14 @@ def paths_picture(level: Level, paths: Sequence[Path], palette: Palette, width: 
 
 def draw_path(
     surface: pygame.Surface, canvas: Canvas, positions: NDArray[np.float64], colour: pygame.Color, width: float = 1.5
-) -> None:
-    """A path as a line, ``width`` logical px wide, over a picture of its level."""
-    if len(positions) > 1:
-        x, y = (positions * canvas.scale + canvas.origin).T.tolist()
-        points = list(zip(x, y, strict=True))
-        pygame.draw.lines(surface, colour, False, points, max(1, canvas.px(width)))
+) -> pygame.Rect:
+    """A path as a line, ``width`` logical px wide, over a picture of its level; the px that it covers."""
+    if len(positions) < 2:
+        return pygame.Rect(0, 0, 0, 0)
+    x, y = (positions * canvas.scale + canvas.origin).T.tolist()
+    points = list(zip(x, y, strict=True))
+    thick = max(1, canvas.px(width))
+    return pygame.draw.lines(surface, colour, False, points, thick).inflate(2 * thick, 2 * thick)
 
 
 def _draw_speeds(surface: pygame.Surface, theme: Theme, paths: Sequence[Path]) -> None:

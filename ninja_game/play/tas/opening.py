@@ -1,28 +1,136 @@
-"""The bench opened on a run that is being watched."""
+"""The bench is opened: on a run that is being watched, or behind a picture that says what takes so long."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
+import pygame
+
+from ninja_game.compile_cache import compiled_available, is_compiled
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.recording import Recording
+from ninja_game.kernel_cache import before_compiling
+from ninja_game.play.input.events import InputEvent
+from ninja_game.play.screen import Screen
+from ninja_game.play.ui.canvas import HEIGHT, WIDTH
+from ninja_game.runtime import beside
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
+    from ninja_game.play.tas.screen import TasScreen
+
+PATIENCE_MS = 1000
+"""What takes longer is explained."""
 
 
-def open_bench(app: App, recording: Recording, beside: Sequence[Recording], tick: int) -> None:
+def open_bench(app: App, recording: Recording, others: Sequence[Recording], tick: int) -> None:
     """Open the bench on a run, with others of its level beside it; a notice where that is impossible."""
-    try:
+
+    def make() -> TasScreen:
         # They import NumPy, which watching does without.
         from ninja_game.play.tas.screen import TasScreen
         from ninja_game.tas.files import open_recording, same_level
 
         opened = open_recording(recording)
-        screen = TasScreen(app, opened, [each for each in beside if same_level(each, recording)])
-    except (NinjaGameError, OSError) as error:
-        app.notify(f"It cannot be edited: {getattr(error, 'strerror', '') or error}")
+        screen = TasScreen(app, opened, [each for each in others if same_level(each, recording)])
+        screen.bench.go(tick)
+        return screen
+
+    if not is_prepared():
+        app.push(OpeningScreen(app, recording, make))
         return
-    screen.bench.go(tick)
-    app.push(screen)
+    try:
+        screen = make()
+    except (NinjaGameError, OSError) as error:
+        app.notify(_refusal(error))
+    else:
+        app.push(screen)
+
+
+def is_prepared() -> bool:
+    """Whether the bench opens at once."""
+    from ninja_game.sim.memory.kernels import trace_world
+
+    return not compiled_available() or is_compiled(trace_world)
+
+
+def prepare(run: Recording) -> None:
+    """Have the rules that the bench needs for a run in this process: loaded, or compiled."""
+    from ninja_game.simulation import Simulation
+    from ninja_game.tas.timeline import Timeline
+
+    # What is wrong with the run, the bench says.
+    with suppress(NinjaGameError):
+        Timeline(run.level, b"\0", body=run.body).work(1)
+        Simulation(run.level, body=run.body, memory="auto").step_keys(0)
+
+
+class OpeningScreen(Screen):
+    """Says what is being done until the rules are there; then the bench, which ``make`` gives, takes its place.
+
+    What is wrong then is told on the screen below, or raised where there is none: NinjaGameError, OSError.
+    """
+
+    def __init__(self, app: App, run: Recording, make: Callable[[], TasScreen]) -> None:
+        super().__init__(app)
+        self._name = run.name or "the run"
+        self._make = make
+        self._compiles = False
+        self._waited_ms = 0
+        self._shown = ""
+        before_compiling.append(self._note_compiling)
+        self._thread = beside(lambda: prepare(run))
+
+    def _note_compiling(self) -> None:
+        self._compiles = True
+
+    @property
+    def explanation(self) -> str:
+        """What takes so long."""
+        if self._waited_ms < PATIENCE_MS:
+            return ""
+        seconds = f"{self._waited_ms // 1000} s"
+        if self._compiles:
+            return f"Compiling the rules for this machine, only the first time: a minute or two ({seconds})"
+        return f"Loading the rules ({seconds})"
+
+    def capture(self, event: InputEvent) -> bool:
+        """Nothing can be done yet, except close the window."""
+        return True
+
+    def update(self, real_ms: int) -> None:
+        """Wait for the rules, at least for one picture."""
+        self._waited_ms += real_ms
+        if self._thread.is_alive() or not self._shown:
+            return
+        try:
+            screen = self._make()
+        except (NinjaGameError, OSError) as error:
+            if len(self.app.stack) == 1:
+                raise
+            self.app.pop()
+            self.app.notify(_refusal(error))
+        else:
+            self.app.replace(screen)
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        """Two lines, when they are others than before."""
+        shown = f"Opening {self._name} ...\n{self.explanation}"
+        if shown == self._shown and not self.redraw:
+            return []
+        self._shown = shown
+        palette = self.theme.palette
+        surface.fill(palette.tile)
+        for number, (line, size) in enumerate(zip(shown.split("\n"), (18, 11), strict=True)):
+            y = HEIGHT / 2 - 30 + 34 * number
+            self.theme.text(
+                surface, line, WIDTH / 2, y, size=size, bold=not number, colour=palette.on_tile, align="centre",
+                width=WIDTH - 80,
+            )  # fmt: skip
+        return None
+
+
+def _refusal(error: Exception) -> str:
+    return f"It cannot be edited: {getattr(error, 'strerror', '') or error}"

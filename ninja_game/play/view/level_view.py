@@ -110,8 +110,7 @@ class LevelView:
         self.ninja_animation.reset(world)
         self.effects.reset()
         self.doll = None
-        self._backdrop.reset(world, self.object_animation)
-        self._whole = True
+        self._mended += self._backdrop.reset(world, self.object_animation)
         for ghost in self.ghosts:
             ghost.on_seek(world.tick)
         if world.ninja.state == DEAD:
@@ -165,6 +164,7 @@ class LevelView:
         self._backdrop = Backdrop(self.canvas, palette, book, self.simulation.tiles)
         self._backdrop.reset(self.simulation.world, self.object_animation)
         self._look = self._wanted_look()
+        self._mended: list[pygame.Rect] = []
         self._whole = True
 
     def _wanted_look(self) -> tuple[object, ...]:
@@ -173,11 +173,8 @@ class LevelView:
     @property
     def colour(self) -> pygame.Color:
         """The ninja's colour."""
-        return (
-            pygame.Color(self.app.settings.ninja_colour)
-            if self.app.settings.ninja_colour
-            else self.target.palette.ninja
-        )
+        chosen = self.app.settings.ninja_colour
+        return pygame.Color(chosen) if chosen else self.target.palette.ninja
 
     def draw(self, surface: pygame.Surface, fraction: float = 1.0, *, whole: bool = False) -> list[pygame.Rect] | None:
         """Draw the world ``fraction`` of a tick after the last but one; the px that changed, None for all.
@@ -204,7 +201,9 @@ class LevelView:
     def _restore(self, surface: pygame.Surface, whole: bool, fraction: float) -> list[pygame.Rect]:
         """Put the backdrop where something was drawn last time, and where it changed."""
         origin = self.canvas.stage.topleft
-        mended = [r.move(origin) for r in self._backdrop.update(self.simulation.world, self.object_animation, fraction)]
+        self._mended += self._backdrop.update(self.simulation.world, self.object_animation, fraction)
+        mended = [rect.move(origin) for rect in self._mended]
+        self._mended.clear()
         if whole:
             surface.fill(self.target.palette.tile)
             surface.blit(self._backdrop.picture, origin)

@@ -8,10 +8,18 @@ from shutil import copy
 
 import pytest
 
+from ninja_game.formats.load import load_replays
+from ninja_game.play.tas.opening import prepare
 from tests.support.bench_driver import BenchDriver
 from tests.support.own_pack import PACK
 
 RUN = PACK / "certificates" / "00-2-the-chimney.exit.replay.txt"
+
+
+@pytest.fixture(scope="session", autouse=True)
+def rules_are_there() -> None:
+    """The bench opens at once from the viewer, too."""
+    prepare(load_replays(RUN)[0])
 
 
 @pytest.fixture

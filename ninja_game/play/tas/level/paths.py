@@ -56,7 +56,7 @@ class Way(NamedTuple):
 
 
 class WayLayer:
-    """One surface with the way of one run, to which more ticks are added as they are known."""
+    """One surface with the way of one run, to which more ticks are added as they are known. ``covered``: its px."""
 
     def __init__(self, canvas: Canvas, colour: pygame.Color, width: float) -> None:
         self.surface = pygame.Surface(canvas.window, pygame.SRCALPHA)
@@ -64,14 +64,16 @@ class WayLayer:
         self._colour = colour
         self._width = width
         self._drawn: Positions = np.zeros((0, 2))
+        self.covered = pygame.Rect(0, 0, 0, 0)
 
     def show(self, positions: Positions) -> None:
         """Show this way; what it has in common with the last one stays."""
         known = len(self._drawn)
         if known > len(positions) or not np.array_equal(self._drawn, positions[:known]):
-            self.surface.fill((0, 0, 0, 0))
-            known = 0
-        draw_path(self.surface, self._canvas, positions[max(0, known - 1) :], self._colour, self._width)
+            self.surface.fill((0, 0, 0, 0), self.covered)
+            self.covered, known = pygame.Rect(0, 0, 0, 0), 0
+        added = draw_path(self.surface, self._canvas, positions[max(0, known - 1) :], self._colour, self._width)
+        self.covered = union_of([self.covered, added])
         self._drawn = positions
 
 
@@ -83,26 +85,31 @@ class LevelPaths:
         self.canvas = canvas
         self._present = WayLayer(canvas, shaded(theme.palette.accent, FAINT), self._px(_THIN))
         self._under = pygame.Surface(canvas.window, pygame.SRCALPHA)
+        self._covered = pygame.Rect(0, 0, 0, 0)
         self._beside: tuple[Way, ...] = ()
 
     def _px(self, length: float) -> float:
         """A length of the bench in px of the level: what is drawn over it does not grow with it."""
         return length * self.theme.canvas.scale / self.canvas.scale
 
-    def _put(self, surface: pygame.Surface, layer: pygame.Surface) -> None:
-        stage = self.canvas.stage
-        surface.blit(layer, stage, stage)
+    def _put(self, surface: pygame.Surface, layer: pygame.Surface, covered: pygame.Rect) -> None:
+        seen = covered.clip(self.canvas.stage)
+        surface.blit(layer, seen, seen)
 
     def draw_beside(self, surface: pygame.Surface, ways: Sequence[Way]) -> None:
         """The other runs."""
         if tuple(ways) != self._beside:
             self._beside = tuple(ways)
-            self._under.fill((0, 0, 0, 0))
-            for way in ways:
-                positions = way.course.positions[way.first : way.last]
-                draw_path(self._under, self.canvas, positions, shaded(way.colour, way.alpha), self._px(_THIN))
-        if ways:
-            self._put(surface, self._under)
+            self._under.fill((0, 0, 0, 0), self._covered)
+            drawn = [
+                draw_path(
+                    self._under, self.canvas, way.course.positions[way.first : way.last],
+                    shaded(way.colour, way.alpha), self._px(_THIN),
+                )
+                for way in ways
+            ]  # fmt: skip
+            self._covered = union_of(drawn)
+        self._put(surface, self._under, self._covered)
 
     def draw_present(
         self, surface: pygame.Surface, positions: Positions, cursor: int, selected: Span, shown: Span
@@ -110,7 +117,7 @@ class LevelPaths:
         """The run itself: faint, brighter near the cursor and dotted there; the selected ticks stand out."""
         canvas, palette = self.canvas, self.theme.palette
         self._present.show(positions[slice(*shown)])
-        self._put(surface, self._present.surface)
+        self._put(surface, self._present.surface, self._present.covered)
         first, last = selected
         if last - first > 1:
             draw_path(surface, canvas, positions[max(0, first - 1) : last], palette.good, self._px(_THICK))
@@ -162,6 +169,12 @@ class LevelPaths:
         plate = shaded(theme.palette.background, 200)
         theme.canvas.fill_rect(surface, plate, x - 1.5, y - 0.5, w + 3, LETTERS + 2.5, 1)
         theme.text(surface, text, x, y, size=LETTERS, colour=colour)
+
+
+def union_of(rects: Sequence[pygame.Rect]) -> pygame.Rect:
+    """What holds all rectangles that are not empty."""
+    known = [rect for rect in rects if rect]
+    return known[0].unionall(known) if known else pygame.Rect(0, 0, 0, 0)
 
 
 def first_other_place(ours: Positions, theirs: Positions) -> int:

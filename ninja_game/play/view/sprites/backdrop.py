@@ -35,18 +35,31 @@ class Backdrop:
         self._order: list[int] = []
         self._rects: dict[int, pygame.Rect] = {}
         self._moving: set[int] = set()
+        self._drawn = False
 
-    def reset(self, world: World, animation: ObjectAnimation) -> None:
-        """Draw all of it for a world as it is now."""
+    def reset(self, world: World, animation: ObjectAnimation) -> list[pygame.Rect]:
+        """Have it as it is in another world, or moment, of this level; the px that changed."""
         self._moving.clear()
         # Walls first, then what lies before them.
         front = {GOLD, MINE}
-        self._order = sorted(animation.static_slots, key=lambda slot: world.objects[slot].kind in front)
-        self._blits.clear()
-        self._rects.clear()
-        for slot in self._order:
-            self._place(slot, static_sprites_of(world, slot, animation, 1.0))
-        self._mend(self.picture.get_rect())
+        order = sorted(animation.static_slots, key=lambda slot: world.objects[slot].kind in front)
+        if order != self._order or not self._drawn:
+            self._order, self._drawn = order, True
+            self._blits.clear()
+            self._rects.clear()
+            for slot in order:
+                self._place(slot, static_sprites_of(world, slot, animation, 1.0))
+            changed = [self.picture.get_rect()]
+        else:
+            changed = []
+            for slot in order:
+                before = self._blits[slot]
+                rect = self._place(slot, static_sprites_of(world, slot, animation, 1.0))
+                if self._blits[slot] != before:
+                    changed.append(rect)
+        for rect in changed:
+            self._mend(rect)
+        return changed
 
     def _place(self, slot: int, sprites: list[PlacedSprite]) -> pygame.Rect:
         """Take down and put up the drawings of an object; the px that it covered and covers."""
