@@ -127,6 +127,7 @@ SEARCH_COST = 2.0
 
 FIND = (
     (Resolution(), 8_000_000),
+    (Resolution(enemy_cell=24.0), 12_000_000),
     (Resolution(cell=8.0, speed=0.5, macro=8, weight=1.5), 12_000_000),
     (Resolution(cell=12.0, speed=1.0, macro=6, weight=1.2, visits=20, patience=12, enemy_cell=24.0), 12_000_000),
     (Resolution(cell=12.0, speed=0.7, weight=2.0, visits=10), 16_000_000),
@@ -183,4 +184,4 @@ def find_order(job: int) -> Iterator[tuple[Resolution, int, int]]:
     while True:
         resolution, ticks = FIND[turn % len(FIND)]
         yield resolution, ticks, turn
-        turn += 1 if job == 0 else 3
+        turn += 1 if job == 0 else 4

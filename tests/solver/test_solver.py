@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import islice
+
 import pytest
 
 from ninja_game.compile_cache import compiled_available
@@ -15,7 +17,12 @@ if not compiled_available():
 
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED
 from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, replay_of, rows_of, smoothed, verified_run
+from ninja_game.solver.heuristics import Heuristics
+from ninja_game.solver.search_memory import open_start
+from ninja_game.solver.search_run import Search
 from ninja_game.solver.solve import Progress, Task, solve
+from ninja_game.solver.task import FIND, find_order
+from tests.support.reference import levels, require_reference
 
 OPEN = "0" * 713 + "|"
 WALK = parse_level_string(OPEN + "5^100,566!11^160,564,130,564!0^115,566!0^60,566")
@@ -94,6 +101,27 @@ def test_a_dawdling_run_is_improved() -> None:
     run = replayed(WALK, solve(Task(WALK, first=dawdling, work=SMALL_WORK)))
     assert run.end_tick < before.end_tick
     assert run.end_tick == WALK_TICKS
+
+
+def test_every_job_makes_all_searches_for_a_first_run() -> None:
+    for job in range(4):
+        first = islice(find_order(job), len(FIND))
+        assert {(resolution, ticks) for resolution, ticks, _ in first} == set(FIND)
+
+
+def test_a_rocket_is_led_where_it_must_be() -> None:
+    """The rocket must live till the end: its launcher stands in the corridor that leads to the exit."""
+    require_reference()
+    level = parse_level_string(next(row.data for row in levels() if row.label == "80-3"))
+    start = open_start(level, box=False)
+    search = Search(start, Heuristics(start.levels, start.worlds), nodes=700_000)
+    resolution, ticks = FIND[1]
+    search.begin(resolution, seed=1, bound=0)
+    while search.ticks < ticks and not search.best():
+        search.run(1_000_000)
+    best = search.best()
+    assert best
+    assert verified_run(level, best[1]).end_tick < 700
 
 
 TWO_WAYS = parse_level_string(OPEN + "5^400,566!11^760,564,730,564!11^340,564,370,564")

@@ -3,9 +3,10 @@
     python3 tools/dev.py tool measure.solver_table results.jsonl --seconds 60
     python3 tools/dev.py tool measure.solver_table results.jsonl --table
 
-``--cpu``: the seconds are those of a core's work, for a machine that does other things too: with two jobs a level gets
-twice as many seconds of CPU time. Results are appended to a JSON-lines file after each level; levels that are in it
-are not solved again, so a long run can be interrupted. ``--table`` prints Markdown of a file.
+``--reference``: only the reference levels. ``--cpu``: the seconds are those of a core's work, for a machine that does
+other things too: with two jobs a level gets twice as many seconds of CPU time. Results are appended to a file of JSON
+lines after each level; levels that are in it are not solved again, so a long run can be interrupted. ``--table``
+prints Markdown of a file.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ def tasks(arguments: argparse.Namespace) -> Iterator[tuple[str, Task]]:
 
     work = int(arguments.seconds * WORK_PER_SECOND) if arguments.cpu else 0
     base = {"seconds": arguments.seconds, "jobs": arguments.jobs, "work": work}
-    for path in sorted((ROOT / "levels").glob("*.txt")):
+    for path in sorted((ROOT / "levels").glob("*.txt")) if not arguments.reference else ():
         own = replace(Task(load_levels(path)[0].level), **base)
         yield path.stem, replace(own, seconds=min(30.0, arguments.seconds))
     for level in levels():
@@ -98,7 +99,7 @@ def print_table(file: Path) -> None:
     print("| level | solver | people | ratio | tool-assisted | first run after, s | CPU used, s |")
     print("|---|---|---|---|---|---|---|")
     ratios = []
-    for row in rows(file):
+    for row in sorted(rows(file), key=lambda row: str(row["level"])):
         name, ticks = row["level"], row["end_tick"]
         ratio = ""
         if ticks >= 0 and name in fastest:
@@ -120,6 +121,7 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=60.0)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--cpu", action="store_true", help="seconds of CPU time a job")
+    parser.add_argument("--reference", action="store_true", help="only the reference levels, none of ours")
     parser.add_argument("--only", default="", metavar="NAMES", help="only these levels, with commas between")
     parser.add_argument("--table", action="store_true")
     arguments = parser.parse_args()
