@@ -15,6 +15,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.real_window import TIMEOUT
+
 PROGRAMS = ("Xvfb", "openbox", "xdotool", "xprop")
 
 pytestmark = pytest.mark.skipif(
@@ -55,7 +57,7 @@ class Desktop:
 
     def wait_for(self, condition: Callable[[], bool]) -> None:
         """Wait until something is so."""
-        end = time.monotonic() + 30
+        end = time.monotonic() + TIMEOUT
         while not condition():
             assert time.monotonic() < end
             assert self.game.poll() is None

@@ -15,7 +15,7 @@ from pathlib import Path
 import pygame
 import pytest
 
-TIMEOUT = 60.0
+TIMEOUT = 240.0
 """Seconds that each step may take on a busy machine."""
 
 NEEDS_WINDOW = pytest.mark.skipif(

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from typing import Any
 
-LOADING = 60_000
-"""ms in which the game must run, on a busy machine."""
+LOADING = 240_000
+"""ms in which what is waited for must be there: the game runs, a page is open, also on a slow, busy machine."""
 
 
 def eventually(page: Any, condition: Callable[[], object], what: str) -> None:
@@ -26,6 +26,7 @@ class Visitor:
         self.address = address
         self.context = browser.new_context(**{"viewport": {"width": 1188, "height": 900}} | about)
         stack.callback(self.context.close)
+        self.context.set_default_timeout(LOADING)
         self.problems: list[str] = []
         self.page = self.new_page()
 
@@ -45,16 +46,16 @@ class Visitor:
         """What is done within makes the page load again; afterwards the new one runs."""
         self.page.evaluate("() => (document.body.dataset.old = '')")
         yield
-        self.page.locator("body[data-state]:not([data-old])").wait_for(state="attached", timeout=LOADING)
+        self.page.locator("body[data-state]:not([data-old])").wait_for(state="attached")
 
     def visit(self, fragment: str = "") -> None:
         """Open the page, and wait until the game runs or a message says why it does not."""
         self.page.goto(self.address + fragment)
-        self.page.locator("#trouble[open], body[data-state]").first.wait_for(state="attached", timeout=LOADING)
+        self.page.locator("#trouble[open], body[data-state]").first.wait_for(state="attached")
 
     def until(self, state: str) -> None:
         """Wait until the game shows that."""
-        self.page.locator(f"body[data-state={state}]").wait_for(state="attached", timeout=LOADING)
+        self.page.locator(f"body[data-state={state}]").wait_for(state="attached")
 
     def press(self, *keys: str) -> None:
         """Press keys, one after the other, as long as a finger does."""

@@ -201,8 +201,8 @@ def test_one_tab_at_a_time_writes_the_records(new_visitor: NewVisitor) -> None:
     visitor.visit()
     second = visitor.new_page()
     second.goto(visitor.address)
-    second.get_by_role("button", name="Play here instead").click(timeout=60_000)
-    second.locator("body[data-state=menu]").wait_for(state="attached", timeout=60_000)
+    second.get_by_role("button", name="Play here instead").click()
+    second.locator("body[data-state=menu]").wait_for(state="attached")
     assert "opened in another tab" in visitor.page.locator("#trouble[open]").inner_text()
 
 
@@ -214,14 +214,14 @@ def test_verdicts_in_the_page_are_those_of_the_command(new_visitor: NewVisitor, 
     visitor.menu("Verify a recording")
     for file in (CERTIFICATE, wrong):
         visitor.page.set_input_files("#panel input[type=file]", file)
-        visitor.page.locator("#verdicts", has_text=file.name).locator("table").wait_for(timeout=60_000)
+        visitor.page.locator("#verdicts", has_text=file.name).locator("table").wait_for()
         shown = json.loads(visitor.page.locator("#verdicts pre").text_content())
         said = json.loads(CliRunner().invoke(cli, ["verify", "--json", str(file)]).stdout)
         assert shown | {"file": str(file)} == said
         assert all(problem in visitor.page.locator("#verdicts").inner_text() for problem in said.get("problems", ()))
     assert "first difference" in visitor.page.locator("#verdicts").inner_text()
     visitor.page.set_input_files("#panel input[type=file]", [{"name": "x", "mimeType": "", "buffer": b"\0\1"}])
-    visitor.page.get_by_text("not a text file").wait_for(timeout=60_000)
+    visitor.page.get_by_text("not a text file").wait_for()
     assert visitor.problems == []
 
 

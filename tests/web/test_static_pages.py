@@ -21,7 +21,7 @@ from ninja_game.web.pages.exhibition import exhibition
 from ninja_game.web.pages.gallery import SORTS, write_gallery
 from tests.support.forgeries import WALKING, replay
 from tests.support.samples import WALK
-from tests.support.visitor import eventually
+from tests.support.visitor import LOADING, eventually
 from tests.support.web_page import served
 
 HOSTILE = (
@@ -80,6 +80,7 @@ def open_page(chromium: Any, address: str) -> Iterator[Callable[..., Any]]:
         def open_page(name: str, **about: Any) -> Any:
             context = chromium.new_context(**about)
             stack.callback(context.close)
+            context.set_default_timeout(LOADING)
             page = context.new_page()
             page.on("console", lambda message: problems.append(message.text))
             page.on("pageerror", lambda error: problems.append(str(error)))
