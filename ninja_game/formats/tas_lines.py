@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 
 from ninja_game.errors import ReplayError
@@ -14,16 +14,29 @@ from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, press_jumps
 KEYSYMS = {"ff51": "L", "ff53": "R", "ffe1": "J", "ffe2": "J", "7a": "J", "20": "J"}
 """Keys by their X11 numbers: the arrows; the shift keys, Z and space jump. The first of each is written."""
 
-_FRAMES = re.compile(r"\s*([1-9][0-9]{0,6})((?:,[A-Za-z0-9.]+)*),?\s*")
-_REPEAT = re.compile(r"\s*repeat[ ,]+([1-9][0-9]{0,6})\s*", re.IGNORECASE)
-_READ = re.compile(r"\s*read[ ,]+([^,]+)", re.IGNORECASE)
-_SKIPPED = re.compile(r"\s*(#\s.*|#|#{2,}.*|\*\*\*.*)?")
+MOST_FRAMES = 9999
+"""Of a line of CelesteTAS."""
+
+_FRAMES = re.compile(r"([0-9]{1,7})((?:[ \t]*+,[ \t]*+[A-Za-z0-9.]++)*+)[ \t]*+,?[ \t]*+(?:#.*)?")
+_REPEAT = re.compile(r"repeat[ ,]+([1-9][0-9]{0,6})", re.IGNORECASE)
+_END = re.compile(r"endrepeat[ ,]*", re.IGNORECASE)
+_READ = re.compile(r"read[ ,]+([^,]+),?([^,].*)?", re.IGNORECASE)
+_SKIPPED = re.compile(r"#\s.*|#{1,2}|#{2,}.*|\*\*\*.*")
+_ABOUT = re.compile(
+    r"console[ ,]+load[ ,].*|(?:unsafe|safe|enforcelegal|enforcemaingame|analogmode|completeinfo|exitgame|"
+    r"(?:start|finish|end)export\w*|(?:start|stop)recording)(?:[ ,].*)?|(?:author|\w*count|\w*time)[ ]*:.*",
+    re.IGNORECASE,
+)
+"""Lines of CelesteTAS that concern its game only, or tell of the run."""
+_ODD = re.compile(r"[^\w.-]+")
+_KEYS = re.compile(r"[0-9a-f]+(:[0-9a-f]+)*")
 
 
 def is_tas_text(text: str) -> bool:
     """Whether a text may be of one of these notations."""
-    for _, line in numbered_lines(text):
-        if not _SKIPPED.fullmatch(line) and not line.startswith("#"):
+    for _, found in numbered_lines(text):
+        line = found.strip()
+        if not _SKIPPED.fullmatch(line) and not line.startswith("#") and not _ABOUT.fullmatch(line):
             return line.startswith("|") or any(form.fullmatch(line) for form in (_FRAMES, _REPEAT, _READ))
     return False
 
@@ -33,24 +46,61 @@ def in_our_notation(text: str, file: str = "") -> Iterator[Line]:
 
     Raises ReplayError for keys and commands that a run of the ninja has no use for.
     """
-    counts: list[str] = []
-    for number, line in numbered_lines(text):
-        if line.startswith("|"):
+    repeats: list[tuple[int, str]] = []
+    names: dict[str, int] = {}
+    for number, found in numbered_lines(text):
+        line = found.strip()
+        if _SKIPPED.fullmatch(line) or _ABOUT.fullmatch(line):
+            continue
+        if line.startswith("#"):
+            yield number, _label(line, names)
+        elif line.startswith("|"):
             yield number, _libtas_word(line, file, number)
-        elif found := _FRAMES.fullmatch(line):
-            yield number, f"{_word(found[2].upper().split(',')[1:], found[2], file, number)}*{found[1]}"
-        elif found := _REPEAT.fullmatch(line):
-            counts.append(found[1])
+        elif match := _FRAMES.fullmatch(line):
+            word = _celeste_word(match[2], file, number)
+            yield number, f"{word}*{int(match[1])}" if int(match[1]) else ""
+        elif match := _REPEAT.fullmatch(line):
+            repeats.append((number, match[1]))
             yield number, "("
-        elif line.strip().lower() == "endrepeat":
-            yield number, f")*{counts.pop()}" if counts else ")"
-        elif found := _READ.fullmatch(line):
-            yield number, f"include {found[1].rstrip()}"
-        elif line.lstrip().startswith("#"):
-            yield number, "" if _SKIPPED.fullmatch(line) else line.strip().replace(" ", "-")
-        elif not _SKIPPED.fullmatch(line):
-            expected = "frames and keys, such as 30,R,J; Repeat 4, EndRepeat, Read,FILE, #label"
-            raise ReplayError("not a line of inputs", file, number, 1, repr(line[:40]), expected)
+        elif _END.fullmatch(line):
+            if not repeats:
+                raise ReplayError("EndRepeat without Repeat", file, number, 1, hint="begin with Repeat 4 before it")
+            yield number, f")*{repeats.pop()[1]}"
+        else:
+            yield number, _included(line, file, number)
+    if repeats:
+        raise ReplayError(
+            "Repeat without EndRepeat", file, repeats[-1][0], 1, hint="end what it repeats with EndRepeat"
+        )
+
+
+def _label(line: str, names: dict[str, int]) -> str:
+    """A label as a marker: what cannot stand in its name becomes '-', and a name that comes again gets a number.
+
+    ``names``: how often each was given so far.
+    """
+    name = _ODD.sub("-", line[1:]).strip("-")[:90] or "label"
+    names[name] = names.get(name, 0) + 1
+    free = name
+    while names[name] > 1 and free in names:
+        free = f"{name}-{names[name]}"
+        names[name] += free in names
+    names.setdefault(free, 1)
+    return f"#{free}"
+
+
+def _included(line: str, file: str, number: int) -> str:
+    """A line that reads another file. Raises ReplayError for any other line."""
+    match = _READ.fullmatch(line)
+    if match is None:
+        expected = "frames and keys, such as 30,R,J; Repeat 4, EndRepeat, Read,FILE, #label"
+        hint = "other commands of CelesteTAS have no meaning here: take the line out"
+        raise ReplayError("not a line of inputs", file, number, 1, repr(line[:40]), expected, hint)
+    if match[2]:
+        hint = "put the lines that are wanted into a file of their own"
+        raise ReplayError("a part of another file", file, number, 1, repr(line[:40]), "Read,FILE", hint)
+    name = match[1].strip()
+    return f"include {name if '.' in name else name + '.tas'}"
 
 
 def write_celeste(inputs: bytes, markers: Sequence[Marker] = ()) -> str:
@@ -62,7 +112,9 @@ def write_celeste(inputs: bytes, markers: Sequence[Marker] = ()) -> str:
         found = list(ticks)
         if found[0][0] in names:
             lines.append(f"#{names[found[0][0]]}")
-        lines.append(",".join([f"{len(found):>4}", *KEY_NAMES[part[1]].strip(".")]))
+        for first in range(0, len(found), MOST_FRAMES):
+            frames = len(found[first : first + MOST_FRAMES])
+            lines.append(",".join([f"{frames:>4}", *KEY_NAMES[part[1]].strip(".")]))
     return "".join(f"{line}\n" for line in lines)
 
 
@@ -93,18 +145,31 @@ def _check_keyboard(inputs: bytes) -> None:
 
 def _libtas_word(line: str, file: str, number: int) -> str:
     """The keys of a line ``|Kff53:ffe1|…``, as one of our words; fields of other devices are passed by."""
-    fields = [field[1:] for field in line.strip().strip("|").split("|") if field.startswith("K")]
+    fields = line.strip("|").split("|")
+    keys = [field[1:] for field in fields if field.startswith("K")]
+    if not keys and _KEYS.fullmatch(fields[0]):
+        # Older movies have no letter before the keys.
+        keys = fields[:1]
     letters = []
-    for keysym in filter(None, ":".join(fields).split(":")):
-        if keysym.lower() not in KEYSYMS:
+    for keysym in filter(None, ":".join(keys).lower().split(":")):
+        letter = KEYSYMS.get(keysym.strip().lstrip("0"))
+        if letter is None:
             expected = f"the numbers {', '.join(KEYSYMS)}"
-            raise ReplayError("a key that the ninja has not", file, number, 1, repr(keysym[:20]), expected)
-        letters.append(KEYSYMS[keysym.lower()])
-    return _word(letters, line, file, number)
+            hint = "take it out, or replace it: the ninja runs left and right, and jumps"
+            raise ReplayError("a key that the ninja has not", file, number, 1, repr(keysym[:20]), expected, hint)
+        letters.append(letter)
+    return _in_order(letters)
 
 
-def _word(letters: Sequence[str], found: str, file: str, number: int) -> str:
-    """Keys in our order."""
+def _celeste_word(found: str, file: str, number: int) -> str:
+    """The keys behind the frames of a line, as one of our words."""
+    letters = "".join(found.upper().replace(",", " ").split())
     if not set(letters) <= set("LRJ"):
-        raise ReplayError("a key that the ninja has not", file, number, 1, repr(found[:40]), "L, R and J")
-    return "".join(letter for letter in "LRJ" if letter in letters) or "."
+        hint = "a second jump key would press again what is held: write J" if "K" in letters else "take it out"
+        raise ReplayError("a key that the ninja has not", file, number, 1, repr(found[:40]), "L, R and J", hint)
+    return _in_order(letters)
+
+
+def _in_order(letters: Iterable[str]) -> str:
+    """Keys in our order."""
+    return "".join(letter for letter in "LRJ" if letter in [*letters]) or "."

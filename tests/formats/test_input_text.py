@@ -15,13 +15,11 @@ from ninja_game import ReplayError, parse_level, parse_replay, write_replay
 from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import parse_demo, write_demo
-from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.formats.named_level import is_level_file
 from ninja_game.formats.recording import parse_replays, record_of
 from ninja_game.formats.replay.input_runs import Marker, write_inputs
 from ninja_game.formats.replay.input_text import MOST_INCLUDES, read_inputs
 from ninja_game.formats.replay.text import Replay
-from ninja_game.formats.tas_lines import in_our_notation, is_tas_text, write_celeste, write_libtas
+from ninja_game.formats.tas_lines import in_our_notation
 from ninja_game.runs.conversion import input_texts
 from ninja_game.sim.inputs import press_jumps
 from tests.support import reference
@@ -190,75 +188,6 @@ def test_every_reference_recording_comes_back_from_a_text_with_its_frames_and_le
         assert back.playback(back.ticks + 3) == recording.playback(recording.ticks + 3)
         count += 1
     assert count == 1108
-
-
-# --- Other tools ---
-
-
-def read_lines(text: str) -> bytes:
-    return read_inputs(in_our_notation(text, "a.tas"), file="a.tas").keys
-
-
-def test_celeste_lines_are_read() -> None:
-    text = "#Start\n# a comment\n***S\n  30,R\n   2,R,J\nRepeat 2\n   1,L\n   1\nEndRepeat\n"
-    assert is_tas_text(text)
-    read = read_inputs(in_our_notation(text), file="a.tas")
-    assert read.keys == bytes([2] * 30 + [14, 6, 1, 0, 1, 0])
-    assert read.markers == (Marker(0, "Start"),)
-
-
-def test_libtas_lines_are_read() -> None:
-    text = "|Kff53:ffe1|M0:0:A:.....:0|\n|Kff53|\n|K|\n||\n"
-    assert is_tas_text(text)
-    assert read_lines(text) == bytes([14, 2, 0, 0])
-
-
-@given(keyboard_inputs, st.data())
-def test_other_notations_read_back_equal(inputs: bytes, data: st.DataObject) -> None:
-    ticks = data.draw(st.lists(st.integers(0, max(0, len(inputs) - 1)), max_size=3, unique=True)) if inputs else []
-    markers = tuple(Marker(tick, f"m{tick}") for tick in sorted(ticks))
-    read = read_inputs(in_our_notation(write_celeste(inputs, markers)))
-    assert read == (inputs, markers)
-    assert read_lines(write_libtas(inputs)) == inputs
-
-
-@pytest.mark.parametrize("form", [write_celeste, write_libtas])
-def test_a_jump_that_no_keyboard_makes_is_refused(form: object) -> None:
-    assert callable(form)
-    with pytest.raises(ReplayError, match="no keyboard can make; found tick 1"):
-        form(bytes([14, 14]))
-
-
-@pytest.mark.parametrize(
-    "text, message",
-    [
-        ("   3,X\n", "a.tas:1:1: a key that the ninja has not; found ',X'"),
-        ("   3,R\nconsole load 1\n", "a.tas:2:1: not a line of inputs"),
-        ("|K41|\n", "a.tas:1:1: a key that the ninja has not; found '41'"),
-        ("   1,R\nEndRepeat\n", "a.tas:2:1: the end of a block"),
-        ("Repeat 3\n   1,R\n", "a block that does not end"),
-    ],
-)
-def test_what_the_ninja_cannot_do_is_refused(text: str, message: str) -> None:
-    with pytest.raises(ReplayError, match=re.escape(message)):
-        read_lines(text)
-
-
-def test_inputs_of_other_tools_need_a_level() -> None:
-    text = "  30,R\n"
-    with pytest.raises(ReplayError, match="give it with --level"):
-        parse_replays(text, file="a.tas")
-    (recording,) = parse_replays(text, file="a.tas", level=LEVEL)
-    assert recording.playback(31) == bytes([2] * 30 + [0])
-
-
-def test_celeste_lines_that_begin_with_a_label_are_no_record_of_n() -> None:
-    level = parse_level_string(WALK)
-    for text in ("#start\n  30,R,J\n", "# a comment\n#start\n\n  30,R\n#end\n   1,J", "##\n30\n"):
-        (recording,) = parse_replays(text, level=level)
-        assert len(recording.demo.inputs) >= 30
-    for demo in ("##3:801#", "##902:35791394|\n35791394#"):
-        assert is_level_file(demo)
 
 
 def test_a_long_line_takes_no_time() -> None:
