@@ -113,4 +113,4 @@ class Certifier:
     def _found(self) -> str:
         assert self.run is not None  # noqa: S101 - asked only then
         gold = f", {self.run.gold} gold" if self.run.gold else ""
-        return f"Certified: par {self.run.end_tick / TICKS_PER_SECOND:.2f} s{gold}"
+        return f"Certified: {self.run.end_tick / TICKS_PER_SECOND:.2f} s{gold}"

@@ -115,7 +115,7 @@ def test_check_certifies_and_keeps_replays(tmp_path: Path) -> None:
     assert [path.name for path in runs.iterdir()] == ["good.exit.replay.txt"]
     result = command("check", tmp_path / "good.txt", "--ticks", "300000", "--jobs", "1")
     assert result.exit_code == 0
-    assert "solvable par   0.575 s" in result.stdout
+    assert "solvable best   0.575 s" in result.stdout
 
 
 def check_both(level: Path, runs: Path, *words: str) -> str:

@@ -13,7 +13,7 @@ FIGURES = ("cells", "edges", "projection", "grids", "nine-cells", "pairs", "bull
 
 
 @click.command()
-@click.argument("figure", required=False, type=click.Choice(FIGURES))
+@click.argument("figure", metavar="[FIGURE]", required=False, type=click.Choice(FIGURES))
 @window_options
 @click.option(
     "-o", "--output", type=click.Path(dir_okay=False, path_type=Path),
@@ -29,6 +29,9 @@ def command(
     output: Path | None,
 ) -> None:
     """Drag, paint and watch: ten figures about how the world works.
+
+    FIGURE is the one that is shown first: cells, edges, projection, grids, nine-cells, pairs, bullets, rays, drones or
+    tick.
 
     \b
     Examples:

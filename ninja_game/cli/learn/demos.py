@@ -15,13 +15,16 @@ from ninja_game.cli.run_options import level_given, level_option, memory_option,
 @click.command(name="demos")
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
 @click.option("--output", "-o", type=click.Path(dir_okay=False, path_type=Path), help="Write arrays to this .npz file.")
-@click.option("--minari", "dataset", metavar="NAME", help="Write a data set of Minari, called such as ninja/set-v0.")
+@click.option("--minari", "dataset", metavar="NAME", help="Write a Minari data set of this name, such as ninja/set-v0.")
 @click.option(
     "--observation", "parts", metavar="PART", multiple=True, default=("state",), show_default=True,
     help="What is observed, as `Ninja-v0` has it; may be given several times.",
 )  # fmt: skip
 @click.option("--flat", is_flag=True, help="Put all parts into one row of numbers.")
-@click.option("--actions", type=click.Choice(["discrete", "buttons"]), default="discrete", show_default=True)
+@click.option(
+    "--actions", type=click.Choice(["discrete", "buttons"]), default="discrete", show_default=True,
+    help="An action as a number from 0 to 5, or as three keys, each up or down.",
+)  # fmt: skip
 @level_option
 @memory_option
 def command(
@@ -34,7 +37,7 @@ def command(
     level_path: Path | None,
     memory: str,
 ) -> None:
-    """Make demonstrations of recordings: what an environment shows, is told and pays, a step a tick.
+    """Make demonstrations of recordings: observations, actions and rewards of each tick.
 
     FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Recordings that
     no agent could have made, since they press jump anew while it is held, are left out and named.

@@ -17,13 +17,27 @@ from ninja_game.cli.run_options import memory_option, with_progress
     help="test, train, set, a level of the game, a file or folder, generated:3:1-8. May be given several times.",
 )  # fmt: skip
 @click.option("--episodes", type=click.IntRange(1, 100_000), default=20, show_default=True, help="Tries in each level.")
-@click.option("--seed", type=click.IntRange(0), default=1_000_000, show_default=True, help="Equal seeds, equal tables.")
+@click.option(
+    "--seed", type=click.IntRange(0), default=1_000_000, show_default=True, help="The same seed gives the same table."
+)
 @click.option(
     "--repeat", type=click.FloatRange(0, 0.99), default=0.25, show_default=True,
     help="Chance that an action is played once more in place of the next one.",
 )  # fmt: skip
-@click.option("--wait", type=click.IntRange(0, 100), default=7, show_default=True, help="Steps of waiting, at most.")
-@click.option("--time-limit", type=click.IntRange(1, 100_000), default=2000, show_default=True, help="In ticks.")
+@click.option(
+    "--wait",
+    type=click.IntRange(0, 100),
+    default=7,
+    show_default=True,
+    help="At most so many steps of waiting at the start.",
+)
+@click.option(
+    "--time-limit",
+    type=click.IntRange(1, 100_000),
+    default=2000,
+    show_default=True,
+    help="An episode ends after so many ticks.",
+)
 @click.option("--json", "form", flag_value="json", help="One JSON object, for programs.")
 @click.option("--csv", "form", flag_value="csv", help="A row a level, for spreadsheets.")
 @click.option("--output", "-o", type=click.Path(dir_okay=False, path_type=Path), help="Write the table to this file.")
@@ -44,7 +58,7 @@ def command(
 
     AGENT is random, search, learned, or the file of an agent that `learn train` wrote. A policy is tried in many
     episodes that differ: actions are repeated by chance, and an episode begins with some steps of waiting. The search
-    agent plays each level once, what it found.
+    agent plays the run that it found, once in each level.
 
     \b
     Examples:

@@ -31,7 +31,9 @@ LEVELS = (
     "--steps", type=click.IntRange(0, 10**12), default=0, metavar="N",
     help="Stop after N steps of all worlds together instead: with the same seed always the same agent.",
 )  # fmt: skip
-@click.option("--seed", type=click.IntRange(0, 999_999), default=0, show_default=True)
+@click.option(
+    "--seed", type=click.IntRange(0, 999_999), default=0, show_default=True, help="Of all that is left to chance."
+)
 @click.option("--worlds", type=click.IntRange(1, 10**5), default=1024, show_default=True, help="Worlds at a time.")
 @click.option(
     "--out", "-o", "output", metavar="FILE", type=click.Path(dir_okay=False, path_type=Path),

@@ -72,8 +72,8 @@ def command(
     """Certify levels: whether they can be passed, how fast, and what is odd.
 
     LEVEL is a file of levels or a folder. A level is solvable if a run to the exit was found; not finding one in the
-    time proves nothing. The par time is that of the best run found. A locked door that this run does not open is told:
-    the level may not need it.
+    time proves nothing. The time is that of the best run found; `levels pars` makes the longer par times from it. A
+    locked door that this run does not open is told: the level may not need it.
 
     --replays keeps the runs as NAME.exit.replay.txt and NAME.gold.replay.txt. Runs that are there are played again: if
     the level has not changed and they pass it, they are kept as they are (--improve shortens them); the others are
@@ -172,8 +172,8 @@ def _row(goal: str, certified: Certified, level: NamedLevel) -> str:
     run = certified.run
     if run:
         mark = click.style("solvable", fg="green") if first else "all gold"
-        par = f"par {run.end_tick / TICKS_PER_SECOND:7.3f} s  {run.end_tick:>5} ticks  {run.gold:>3} gold"
-        return f"{mark} {par}  {certified.how}"
+        best = f"best {run.end_tick / TICKS_PER_SECOND:7.3f} s  {run.end_tick:>5} ticks  {run.gold:>3} gold"
+        return f"{mark} {best}  {certified.how}"
     mark = click.style("??      " if first else "all gold", fg="yellow")
     if not certified.gold or not certified.progress:
         return f"{mark} no run found"

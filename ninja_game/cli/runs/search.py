@@ -49,6 +49,7 @@ def command(
 ) -> None:  # fmt: skip
     """Find other keys for a span of a run.
 
+    RUN is a recording of any format; the keys of the ticks from --from on, up to but without --to, are searched.
     Without --maximise, --minimise and --rest the goal is to be reached as early as possible; without a goal the span's
     last tick counts. Formulas are made of numbers, + - * /, comparisons, and, or, not, and names such as x, y, vx,
     vy, speed, tick, gold, dead, won, distance(x, y), taken(id), opened(id): docs/speedruns.md has all of them.

@@ -255,7 +255,7 @@ def test_a_certificate_is_shown_and_gets_stale(room: Maker) -> None:
     room.wait(lambda: not certifier.busy, "end of the solver")
     if certifier.run is None:
         pytest.skip(certifier.text)
-    assert certifier.text.startswith("Certified: par 0.")
+    assert certifier.text.startswith("Certified: 0.")
     assert certifier.route[0] == (60.0, 542.0)
     assert not certifier.is_stale(room.draft.level)
     room.drag((300, 300))
