@@ -93,7 +93,7 @@ key = SimpleNamespace(
     get_pressed=lambda: DEVICES.keys, get_mods=lambda: DEVICES.modifiers, name=_name,
     start_text_input=lambda: LINK.page.typing(True), stop_text_input=lambda: LINK.page.typing(False),
 )  # fmt: skip
-mouse = SimpleNamespace(get_pos=lambda: DEVICES.mouse)
+mouse = SimpleNamespace(get_pos=lambda: DEVICES.mouse, set_cursor=lambda _: None)
 # The page keeps the pace itself.
 time = SimpleNamespace(
     get_ticks=lambda: int(LINK.page.ticks()), Clock=lambda: SimpleNamespace(tick=lambda framerate=0: 0)
