@@ -5,6 +5,7 @@ With one job a solver does the same work in the same order for the same seed: th
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from functools import cache, cached_property
@@ -126,16 +127,14 @@ class _Job:
         until = self.work + SWEEP_TICKS * SEARCH_COST
 
         def over(played: int) -> bool:
-            self.work += played * SEARCH_COST
-            self.state.count(played, 0, "shortening")
-            return self._over
+            return self._spend(played, played * SEARCH_COST)
 
         while self.work < until and not over(0):
             found = self._sweeper.sweep(over)
             if found:
                 self.state.submit(found)
-        best = self.shortener.climb(self.state.runs[0], self.shares.climb)
-        self.shortener.search_spans(best, self.shares.spans_with_gold)
+        best, shares = self.state.runs[0], self.shares
+        self.shortener.search_spans(self.shortener.climb(best, shares.climb), shares.spans_with_gold)
 
     def _follow(self, route: Route, ticks: float) -> None:
         """Search a run in legs, for so many ticks; one that is found is submitted."""
@@ -160,13 +159,12 @@ class _Job:
         """Search a run from the start, maybe by another route than that of the best; shorten what is found."""
         turn, self._varied = self._varied, self._varied + 1
         resolution = VARY[turn % len(VARY)]
-        guided = resolution.slack > 0.0
         with self.state.lock:
             shortest = len(self.state.runs[0])
         resolution = resolution._replace(slack=resolution.slack * shortest)
         given, early = bool(self.state.task.first), self._early
         bound = shortest + max(4, int(shortest * (GIVEN_BOUND if given else FOUND_BOUND)))
-        found = self._search_once(resolution, VARY_TICKS, seed=100 + turn, bound=bound, guided=guided)
+        found = self._search_once(resolution, VARY_TICKS, seed=100 + turn, bound=bound, guided=resolution.slack > 0.0)
         if not early and not found:
             return
         run = self.shortener.climb(found or self.state.runs[0], self.shares.climb)
@@ -221,18 +219,26 @@ def solve(
 
     ``report`` is called a few times a second, ``on_better`` with every verified run that is shorter than those before.
     ``task.first`` is a run to start from: then it is only improved, and is itself the first that ``on_better`` gets.
-    ``stop``: ends the search when it is set.
-    Raises LevelError for a level that cannot be played, MemoryUnavailableError without Numba, UnverifiedRunError for a
-    first run that does not reach the exit.
+    ``stop``: ends the search when it is set. Raises LevelError for a level that cannot be played,
+    MemoryUnavailableError without Numba, UnverifiedRunError for a first run that does not reach the exit.
     """
     compile_solver()
     state = SearchState(task, report, on_better=on_better, cancelled=stop or Event())
     if task.first:
         state.submit(with_plain_triggers(task.level, task.first, body=task.body, gold=task.gold_wanted))
-    jobs = [_Job(state, number) for number in range(task.jobs)]
+    try:
+        _work(state)
+    finally:
+        gc.collect()  # a job and its shortener hold each other, and up to 1 GB
+    return state.best
+
+
+def _work(state: SearchState) -> None:
+    """Have all jobs run until the end."""
+    jobs = [_Job(state, number) for number in range(state.task.jobs)]
     if len(jobs) == 1:
         jobs[0].run()
-        return state.best
+        return
     with ThreadPoolExecutor(len(jobs)) as pool:
         running = {pool.submit(job.run) for job in jobs}
         try:
@@ -242,4 +248,3 @@ def solve(
                     job.result()
         finally:
             state.stop.set()
-    return state.best

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from itertools import islice
 
 import pytest
@@ -101,6 +102,17 @@ def test_a_dawdling_run_is_improved() -> None:
     run = replayed(WALK, solve(Task(WALK, first=dawdling, work=SMALL_WORK)))
     assert run.end_tick < before.end_tick
     assert run.end_tick == WALK_TICKS
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_the_memory_of_a_solver_is_free_when_it_has_ended(jobs: int) -> None:
+    gc.collect()
+    gc.disable()
+    try:
+        assert solve(Task(WALK, work=SMALL_WORK, jobs=jobs))
+        assert not [one for one in gc.get_objects() if isinstance(one, Search)]
+    finally:
+        gc.enable()
 
 
 def test_every_job_makes_all_searches_for_a_first_run() -> None:
