@@ -31,6 +31,7 @@ class Borders(Part):
         self._wishes: Wishes | None = None
         self._side = ""
         self._grabbed = 0.0, 0.0
+        self._before: BenchLayout | None = None
 
     @property
     def wishes(self) -> Wishes:
@@ -97,6 +98,7 @@ class Borders(Part):
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT:
             left, top, w, h = self.layout.level
             self._side, self._grabbed = self._side_at(x, y), (x - left - w, y - top - h)
+            self._before = self.layout
         elif event.type == pygame.MOUSEMOTION:
             side = self._side or self._side_at(x, y)
             _show_pointer(pygame.SYSTEM_CURSOR_SIZEWE if side == "left" else pygame.SYSTEM_CURSOR_SIZENS)
@@ -120,6 +122,9 @@ class Borders(Part):
         self._side = ""
         if self._wishes is not None:
             wishes, self._wishes = self._wishes, None
+            if self.layout == self._before:
+                # Where there is no room to drag, nothing is wished for larger windows either.
+                return
             self.bench.app.change_settings(left_share=wishes.left, tabs_share=wishes.tabs)
 
     def mouse_left(self) -> None:

@@ -100,6 +100,7 @@ class TasScreen(MenuScreen):
     def enter(self) -> None:
         """Nothing has the focus: keys edit."""
         super().enter()
+        self.bench.theme = self.theme  # all parts are in their places before the first of them looks around
         self.focus = None
         self.await_text()
         self._widgets_stale = True
@@ -234,8 +235,7 @@ class TasScreen(MenuScreen):
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
         """What has changed."""
-        theme = self.theme
-        whole = self.redraw
+        theme, whole = self.theme, self.redraw
         if whole:
             surface.fill(theme.palette.tile)
         stale = whole or self._widgets_stale

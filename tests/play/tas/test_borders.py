@@ -10,8 +10,10 @@ import pygame
 import pytest
 
 from ninja_game.play.tas.layout import NARROWEST_ROLL, Wishes, bench_canvas, bench_layout
+from ninja_game.play.tas.screen import TasScreen
 from ninja_game.play.ui.theme import Area
 from ninja_game.player.settings_file import read_settings
+from ninja_game.tas.files import open_run
 from tests.play.tas.conftest import RUN
 from tests.support.bench_driver import BenchDriver
 
@@ -83,6 +85,20 @@ def test_a_dragged_border_and_the_size_of_letters_are_remembered(at: BenchDriver
     assert again.screen.borders.layout == layout
     again.session.close()
     again.close()
+
+
+def test_a_bench_that_opens_at_a_tick_has_it_in_the_middle_of_the_roll(at: BenchDriver) -> None:
+    screen = TasScreen(at.app, open_run(RUN))
+    screen.bench.go(90)
+    at.app.replace(screen)
+    at.frames(2)
+    assert 90 - screen.roll.layout.rows // 2 == screen.roll.top
+
+
+def test_a_border_that_cannot_be_dragged_wishes_nothing(at: BenchDriver) -> None:
+    x = at.screen.borders.layout.roll[0] - 3
+    at.drag((x, 300), (x - 60, 300), (x - 100, 300))
+    assert at.app.settings.left_share == 0
 
 
 def test_letters_end_at_the_size_that_fits(at: BenchDriver) -> None:

@@ -17,8 +17,9 @@ from ninja_game.play.editor.panels import Form
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.tas.level.other_runs import OtherRunScreen
 from ninja_game.play.tas.level.paths import shown_span
+from ninja_game.play.tas.screen import TasScreen
 from ninja_game.play.tas.tabs.values_tab import ValuesTab
-from ninja_game.tas.files import runs_beside
+from ninja_game.tas.files import open_run, runs_beside
 from tests.support.bench_driver import BenchDriver
 from tests.support.own_pack import PACK
 
@@ -244,3 +245,17 @@ def test_of_a_long_run_the_way_near_the_cursor_is_shown(at: BenchDriver) -> None
     at.mouse(200, 200, click=False)
     assert at.screen.level.hover is not None
     assert 13_000 <= at.screen.level.hover < 19_000
+
+
+def test_another_run_is_in_the_first_picture_and_in_that_of_a_larger_window(at: BenchDriver) -> None:
+    screen = TasScreen(at.app, open_run(RUN), runs_beside(RUN, at.session.about))
+    screen.bench.go(100)
+    at.app.replace(screen)
+    picture = screen.level.picture
+    for size in ((792, 600), (1280, 720)):
+        pygame.display.set_mode(size)
+        pygame.event.post(pygame.Event(pygame.WINDOWSIZECHANGED))
+        at.frames()
+        assert picture._view is not None
+        (ghost,) = picture._view.ghosts
+        assert ghost.place(1.0) == tuple(screen.session.timeline.positions[100])

@@ -148,8 +148,8 @@ class LevelPart(Part):
         running = self.playing.on or (self.take_over.on and not (self.take_over.still or self.take_over.waiting))
         fraction = self.playing.clock.fraction if running else 1.0
         positions = self._present()
-        ways = self._follow_others(positions)
         whole = picture.fit(rect.size)
+        ways = self._follow_others(positions)
         picture.show(bench.cursor)
         self._follow_ninja(rect.size, fraction)
         whole = picture.fit(rect.size) or whole
