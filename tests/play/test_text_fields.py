@@ -190,3 +190,14 @@ def test_short_texts(text: str) -> None:
         assert edited.text == text
     edited.put("abcdef")
     assert len(edited.text) == 3
+
+
+def test_tab_goes_to_the_next_field_and_never_hides_what_is_typed(at: Writer) -> None:
+    first = at.field
+    at.key("tab")
+    assert at.app.top is at.form
+    second = at.field
+    assert second is not first
+    at.key("tab", SHIFT)
+    assert at.field is first
+    assert first.text == "one two-three"

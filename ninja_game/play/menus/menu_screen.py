@@ -76,7 +76,10 @@ class MenuScreen(Screen):
     # --- input ---
 
     def capture(self, event: InputEvent) -> bool:
-        """While a text is typed, a key is a letter before it is anything else."""
+        """While a text is typed, a key is a letter before it is anything else; Tab leads to the next widget."""
+        if event.raw.type == pygame.KEYDOWN and event.source == ("keys", "tab") and isinstance(self.focus, TextEntry):
+            self._next(-1 if event.raw.mod & pygame.KMOD_SHIFT else 1)
+            return True
         taken = self.focus is not None and self.focus.text_event(event.raw)
         self._typed.follow(event.raw)
         if event.raw.type == pygame.KEYDOWN:
@@ -131,12 +134,12 @@ class MenuScreen(Screen):
             self.chime("menu-move")
             self.redraw = True
 
-    def _next(self) -> None:
-        """The focus goes to the next widget in their order."""
+    def _next(self, step: int = 1) -> None:
+        """The focus goes to the next widget in their order, or to the one before."""
         able = [widget for widget in self.widgets if widget.focusable]
         if able:
             place = able.index(self.focus) if self.focus in able else -1
-            self.focus_on(able[(place + 1) % len(able)])
+            self.focus_on(able[(place + step) % len(able)])
 
     def _move(self, dx: int, dy: int) -> None:
         """The focus goes to the nearest widget in a direction.
