@@ -12,7 +12,8 @@ import sys
 from tools.changes import Suite
 from tools.picture_changes import CHANGES
 
-FILES = [f"tests/play/test_{name}.py" for name in ("recorded_screens", "pictures", "backdrop", "palette", "lettering")]
+SEEN = ("recorded_screens", "pictures", "backdrop", "palette", "lettering", "text_fields")
+FILES = [f"tests/play/test_{name}.py" for name in SEEN]
 SUITE = Suite("ninja_game/play", CHANGES, FILES, allowed=5)
 
 if __name__ == "__main__":

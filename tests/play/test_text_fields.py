@@ -72,6 +72,19 @@ def test_keys_move_and_select_by_characters_words_and_to_the_ends(at: Writer) ->
     assert at.form.texts == ["one two-three", ""]
 
 
+def test_what_is_selected_is_seen(at: Writer) -> None:
+    def tinted(index: int) -> bool:
+        x, y = at.place(index)
+        return at.app.surface.get_at(at.app.canvas.point(x + 2, y + 8)) == at.app.theme.palette.bar_full
+
+    at.key("home")
+    assert not any(map(tinted, range(13)))
+    at.key("right", CTRL | SHIFT)
+    selected = len(at.field.edited.selected)
+    assert 0 < selected < 12
+    assert [tinted(index) for index in range(13)] == [index < selected for index in range(13)]
+
+
 def test_what_is_selected_is_typed_over_erased_and_brought_back(at: Writer) -> None:
     at.key("left", SHIFT | CTRL)
     at.type("x")
