@@ -14,15 +14,7 @@ from ninja_game.solver.distance_field import point_at
 from ninja_game.solver.legs.survival import survives
 from ninja_game.solver.macro_actions import PRESSED, PRESSED_AGAIN, RELEASED, action_code, play_macro
 from ninja_game.solver.open_list import drop_highest, free_state, keep_state, load_state, pop_lowest, push
-from ninja_game.solver.search_memory import (
-    Counters,
-    Guide,
-    Node,
-    Resolution,
-    SearchMemory,
-    Start,
-    random_below,
-)
+from ninja_game.solver.search_memory import Counters, Guide, Node, Resolution, SearchMemory, Start, random_below
 from ninja_game.solver.state_abstraction import Goals, estimate, find, gold_hash, is_news, key_of, switch_state_of
 
 CHOICES = 10
@@ -194,27 +186,41 @@ def keep_child(
         if best > 0 and tick + ahead > best + resolution.slack:
             return
     if entry.key == 0:
-        counters.entries += 1
-        entry.key = key
-        entry.first = tick
-        entry.last = tick
         note_link(memory, source.entry, slot, played)
-    entry.visits += 1
-    entry.first = min(entry.first, tick)
-    entry.last = max(entry.last, tick)
-    index = add_node(parent, action, tick, memory)
+    index = keep_node(parent, action, slot, key, ahead, start, memory)
     child = memory.nodes[index]
     child.switch_state = switch_state
-    child.entry = slot
-    child.ahead = ahead
-    while not keep_state(start.work_words, start.base, child, memory) and counters.waiting > 0:
-        drop_highest(memory)
     if not at_end:
         push(index, tick + resolution.weight * ahead, memory)
     elif child.chunk >= 0 and (goals.rollouts == 0 or survives(child, start, memory, goals.rollouts)):
         memory.ends[counters.ends] = index
         counters.ends += 1
         counters.others += elsewhere
+
+
+@fast
+def keep_node(parent: int, action: int, slot: int, key: int, ahead: float, start: Start, memory: SearchMemory) -> int:
+    """Make the working world a node, with a save-state if there is room, and note it under its key; its index.
+
+    ``slot``: the place of the key in the table.
+    """
+    counters = memory.counters[0]
+    tick = start.worlds[1].tick
+    entry = memory.table[slot]
+    if entry.key == 0:
+        counters.entries += 1
+        entry.key = key
+        entry.first = tick
+    entry.visits += 1
+    entry.first = min(entry.first, tick)
+    entry.last = max(entry.last, tick)
+    index = add_node(parent, action, tick, memory)
+    node = memory.nodes[index]
+    node.entry = slot
+    node.ahead = ahead
+    while not keep_state(start.work_words, start.base, node, memory) and counters.waiting > 0:
+        drop_highest(memory)
+    return index
 
 
 @fast

@@ -12,8 +12,8 @@ from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
 from ninja_game.sim.world import step
 from ninja_game.solver.macro_actions import action_code, play_macro
-from ninja_game.solver.open_list import drop_highest, keep_state, pop_lowest, push
-from ninja_game.solver.search import CHOICES, EXHAUSTED, MORE, NO_ROOM, add_node, macro_of, take_state
+from ninja_game.solver.open_list import pop_lowest, push
+from ninja_game.solver.search import CHOICES, EXHAUSTED, MORE, NO_ROOM, add_node, keep_node, macro_of, take_state
 from ninja_game.solver.search_memory import BUCKETS, Resolution, SearchMemory, Start, random_below
 from ninja_game.solver.spans.known_run import KnownRun, mask_of, nearest
 from ninja_game.solver.state_abstraction import Goals, find, is_news, key_of
@@ -104,21 +104,10 @@ def keep_ahead(
     if promise > counters.best_ticks + late:
         return
     key = key_of(w, goals, mask & 511, 0, resolution)
-    entry = memory.table[find(memory.table, key)]
+    slot = find(memory.table, key)
+    entry = memory.table[slot]
     if entry.key != 0 and not is_news(entry, w.tick, resolution):
         return
-    if entry.key == 0:
-        counters.entries += 1
-        entry.key = key
-        entry.first = w.tick
-    entry.visits += 1
-    entry.first = min(entry.first, w.tick)
-    entry.last = max(entry.last, w.tick)
-    index = add_node(parent, action, w.tick, memory)
-    child = memory.nodes[index]
-    child.entry = find(memory.table, key)
-    child.ahead = ahead
-    while not keep_state(start.work_words, start.base, child, memory) and counters.waiting > 0:
-        drop_highest(memory)
+    index = keep_node(parent, action, slot, key, ahead, start, memory)
     # Two buckets a tick; the known run's own moments wait in the middle one.
     push(index, 0.5 * BUCKETS + 2.0 * (promise - len(run.keys)), memory)
