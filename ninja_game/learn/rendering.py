@@ -40,8 +40,9 @@ class EpisodePicture:
         self._window: Window | None = None
         if window:
             from ninja_game.play.window import Window
+            from ninja_game.player.settings import Settings
 
-            self._window = Window(size, fullscreen=False)
+            self._window = Window(size, Settings())
         self._clock = pygame.time.Clock()
         self._context = OffscreenContext(size)
         self._surface = pygame.Surface(size)

@@ -55,7 +55,7 @@ class App:
         self.frame_ms = 0.0
         self.notice = ""
         self._notice_ms = 0
-        self.window = Window(size, fullscreen=self.settings.fullscreen)
+        self.window = Window(size, self.settings)
         pygame.font.init()
         self._lay_out()
 
@@ -153,6 +153,8 @@ class App:
                     clock.tick(self.settings.frame_limit or pygame.display.get_current_refresh_rate() or FALLBACK_RATE)
         finally:
             self.stack.clear()
+            if self.window.was_resized:
+                self.change_settings(window_width=self.surface.width, window_height=self.surface.height)
 
     def frame(self, real_ms: int) -> None:
         """One turn of the loop: events, time, picture."""

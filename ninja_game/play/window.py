@@ -13,6 +13,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.writing import write_atomically
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.palette import PALETTES
+from ninja_game.player.settings import Settings
 
 TITLE = "ninja-game"
 """What the window is called."""
@@ -22,12 +23,12 @@ _ICON = 64
 
 
 class Window:
-    """The one window. ``size``: px; by default the stage times the largest whole number that fits the display.
+    """The one window. ``size``: px; by default what the settings say, as ``fitting_size`` has it.
 
     Raises NinjaGameError where there is no display, unless SDL_VIDEODRIVER asks for a driver without one.
     """
 
-    def __init__(self, size: tuple[int, int] | None, *, fullscreen: bool) -> None:
+    def __init__(self, size: tuple[int, int] | None, settings: Settings) -> None:
         prepare_sdl()
         pygame.display.init()
         if pygame.display.get_driver() in _INVISIBLE and not os.environ.get("SDL_VIDEODRIVER"):
@@ -35,13 +36,19 @@ class Window:
             raise NinjaGameError("there is no display; SDL_VIDEODRIVER=dummy plays without one")
         _prefer_shared_memory()
         pygame.display.set_icon(icon(_ICON))
-        pygame.display.set_mode(size or fitting_size(), pygame.RESIZABLE)
+        pygame.display.set_mode(size or fitting_size((settings.window_width, settings.window_height)), pygame.RESIZABLE)
         pygame.display.set_caption(TITLE)
         self.fullscreen = False
         self._place: tuple[int, int] | None = None
         self._size = pygame.display.get_window_size()
-        if fullscreen:
+        self._own_size = None if size else self._size
+        if settings.fullscreen:
             self.set_fullscreen(wanted=True)
+
+    @property
+    def was_resized(self) -> bool:
+        """Whether the player has given the window, of which nothing else said the size, another one."""
+        return not self.fullscreen and self._own_size not in (None, pygame.display.get_window_size())
 
     @property
     def surface(self) -> pygame.Surface:
@@ -94,10 +101,12 @@ def _prefer_shared_memory() -> None:
         os.environ.setdefault("SDL_FRAMEBUFFER_ACCELERATION", "0")
 
 
-def fitting_size() -> tuple[int, int]:
-    """The stage times the largest whole number that leaves the desktop some room."""
+def fitting_size(wished: tuple[int, int] = (0, 0)) -> tuple[int, int]:
+    """A wished size, as far as the desktop has room; else the stage times the largest whole number that leaves some."""
     sizes = pygame.display.get_desktop_sizes() or [(WIDTH, HEIGHT)]
     width, height = sizes[0]
+    if all(wished):
+        return min(wished[0], width), min(wished[1], height)
     factor = max(1, min((width - 20) // WIDTH, (height - 80) // HEIGHT))
     return WIDTH * factor, HEIGHT * factor
 

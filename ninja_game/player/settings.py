@@ -27,8 +27,9 @@ class Settings:
 
     ``volume`` and ``loop_volume``: 0 to 99. ``dead_zone``: share of a stick's way that counts as rest. ``site``:
     address of the page with the game to which links lead, "" for none. ``ninja_colour``: "" or "#rrggbb".
-    ``frame_limit``: pictures a second, 0: as the display. Of the bench: ``letters``, ``left_share`` and
-    ``tabs_share`` in percent, 0: as it suits the window; ``play_speed``: in percent.
+    ``frame_limit``: pictures a second, 0: as the display. ``window_width`` and ``window_height``: px, 0: as it fits.
+    Of the bench: ``letters``, ``left_share`` and ``tabs_share`` in percent, 0: as it suits the window; ``play_speed``
+    in percent.
     """
 
     palette: str = DEFAULT_PALETTE
@@ -41,6 +42,8 @@ class Settings:
     show_keys: bool = False
     show_frame_time: bool = False
     frame_limit: int = 0
+    window_width: int = 0
+    window_height: int = 0
     volume: int = 70
     loop_volume: int = 99
     letters: int = 0
@@ -123,6 +126,8 @@ RULES = {
     "show_keys": _flag("look"),
     "show_frame_time": _flag("look"),
     "frame_limit": _whole("look", 0, 1000),
+    "window_width": _whole("look", 0, 16384),
+    "window_height": _whole("look", 0, 16384),
     "volume": _whole("sound", 0, 99),
     "loop_volume": _whole("sound", 0, 99),
     "letters": _whole("bench", 0, 400),

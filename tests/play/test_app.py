@@ -18,6 +18,7 @@ from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.menus.watch_replay import watch_recording
 from ninja_game.play.screen import Screen
 from ninja_game.play.window import Window
+from ninja_game.player.settings import Settings
 from ninja_game.sim.inputs import Demo
 from tests.support.menu_driver import MenuDriver
 from tests.support.samples import NO_NINJA
@@ -164,7 +165,7 @@ def test_no_display_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pygame.display, "get_driver", lambda: "offscreen")
     monkeypatch.setattr(pygame.display, "init", lambda: None)
     with pytest.raises(NinjaGameError, match="no display"):
-        Window((792, 600), fullscreen=False)
+        Window((792, 600), Settings())
 
 
 def test_names_of_exports_are_free_short_and_plain(tmp_path: Path) -> None:

@@ -11,9 +11,10 @@ import pygame
 import pytest
 
 from ninja_game.errors import LevelError
-from ninja_game.play.app import App
+from ninja_game.play.app import App, build_app
 from ninja_game.play.level.run_clock import RunClock
 from ninja_game.play.main import main
+from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.screen import Screen
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.window import fitting_size
@@ -152,3 +153,24 @@ def test_the_first_size_is_a_whole_multiple() -> None:
     assert width % 792 == 0
     assert height % 600 == 0
     pygame.display.quit()
+
+
+def test_the_window_opens_as_large_as_it_was(tmp_path: Path) -> None:
+    def closed(size: tuple[int, int] | None, made: tuple[int, int] | None) -> tuple[int, int]:
+        """Open the game, make the window so large, close it; the size that it had at first."""
+        app = build_app(tmp_path, size=size)
+        first: tuple[int, int] = app.surface.get_size()
+        app.push(MainMenu(app))
+        if made:
+            pygame.display.set_mode(made, pygame.RESIZABLE)
+            pygame.event.post(pygame.Event(pygame.WINDOWSIZECHANGED))
+        app.run(2)
+        app.player.close()
+        return first
+
+    usual = closed(None, None)
+    assert not (tmp_path / "settings.toml").exists()
+    assert closed((640, 480), (700, 500)) == (640, 480)
+    assert closed(None, (900, 640)) == usual, "one that --size made is not kept"
+    assert closed(None, None) == (900, 640)
+    assert fitting_size((10**5, 640)) == (pygame.display.get_desktop_sizes()[0][0], 640)

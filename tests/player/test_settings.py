@@ -22,6 +22,8 @@ VALUES = {
     "palette": st.sampled_from(["classic", "dark", "safe-dark"]),
     "ninja_colour": st.sampled_from(["", "#000000", "#aB12Ff"]),
     "frame_limit": st.integers(0, 1000),
+    "window_width": st.integers(0, 16384),
+    "window_height": st.integers(0, 16384),
     "volume": st.integers(0, 99),
     "loop_volume": st.integers(0, 99),
     "letters": st.integers(0, 400),

@@ -51,7 +51,8 @@ class Panel(MenuScreen):
             return []
         canvas, theme, palette = self.app.canvas, self.app.theme, self.app.theme.palette
         veil = pygame.Color(palette.tile.r, palette.tile.g, palette.tile.b, 130)
-        canvas.fill_rect(surface, veil, 0, 0, WIDTH, HEIGHT)
+        (left, top), (right, bottom) = canvas.logical((0, 0)), canvas.logical(canvas.window)
+        canvas.fill_rect(surface, veil, left, top, right - left, bottom - top)
         x, y, w, h = self._box
         theme.window(surface, x, y, w, h)
         if theme.width(self.title, 17, bold=True) < w - 24:

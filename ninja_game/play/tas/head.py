@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pygame
 
 from ninja_game.play.tas.part import Part
@@ -24,7 +26,9 @@ class Head(Part):
         session, palette, right = self.bench.session, theme.palette, self.area[2] - 8
         theme.canvas.fill_rect(surface, palette.tile, *self.area)
         end, outcome = session.timeline.end
-        file = session.file.path.name if session.file.path else "no file yet"
+        opened = Path(session.about.file).name
+        unsaved = f"{opened}, to be saved as a new file" if opened else "no file yet"
+        file = session.file.path.name if session.file.path else unsaved
         author = f" - {session.about.author}" if session.about.author else ""
         title = theme.text(
             surface,

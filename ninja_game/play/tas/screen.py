@@ -117,11 +117,11 @@ class TasScreen(MenuScreen):
         self.level.stop()
         self.session.end()
         self._held.end()
+        self._dragging = None  # its release goes to what covers this
         if self not in self.app.stack:
             for tab in self.tabs:
                 tab.close()
-            # What is not saved is offered again.
-            self.session.close(keep=True)
+            self.session.close(keep=True)  # what is not saved is offered again
 
     def chime(self, name: str) -> None:
         """Editing is silent."""

@@ -9,6 +9,7 @@ from shutil import copy
 import pygame
 import pytest
 
+from ninja_game.play.editor.panels import Menu
 from ninja_game.play.tas.layout import NARROWEST_ROLL, Wishes, bench_canvas, bench_layout
 from ninja_game.play.tas.screen import TasScreen
 from ninja_game.play.ui.theme import Area
@@ -99,6 +100,21 @@ def test_a_border_that_cannot_be_dragged_wishes_nothing(at: BenchDriver) -> None
     x = at.screen.borders.layout.roll[0] - 3
     at.drag((x, 300), (x - 60, 300), (x - 100, 300))
     assert at.app.settings.left_share == 0
+
+
+def test_a_press_that_opens_a_dialog_holds_nothing_after_it(at: BenchDriver) -> None:
+    resized(at, (1280, 720))
+    x, y, w, _ = at.screen.roll.area
+    at.event(pygame.MOUSEBUTTONDOWN, x + w / 2, y + 5, button=1)
+    assert isinstance(at.top(), Menu)
+    corner, middle = at.app.surface.get_at((2, 300)), at.app.surface.get_at((640, 2))
+    assert corner == middle == at.app.surface.get_at((1278, 718)), "the veil covers all of the window"
+    at.event(pygame.MOUSEBUTTONUP, x + w / 2, y + 5, button=1)
+    at.press("escape")
+    cursor = at.bench.cursor
+    at.choose("Branches")
+    assert at.screen.tab.name == "Branches"
+    assert at.bench.cursor == cursor
 
 
 def test_letters_end_at_the_size_that_fits(at: BenchDriver) -> None:

@@ -259,3 +259,16 @@ def test_another_run_is_in_the_first_picture_and_in_that_of_a_larger_window(at: 
         assert picture._view is not None
         (ghost,) = picture._view.ghosts
         assert ghost.place(1.0) == tuple(screen.session.timeline.positions[100])
+
+
+def test_names_do_not_lie_on_each_other(at: BenchDriver) -> None:
+    screen = at.screen
+    screen.level.others.open([load_replays(RUN)[0]] * 3)
+    screen.bench.edit(lambda take: take.named(100, "here"))
+    screen.bench.go(100)
+    at.frames(2)
+    paths = screen.level._paths
+    assert paths is not None
+    labels = paths._labels
+    assert len(labels) == 5, "a flag, its name, three runs"
+    assert all(label.collidelist([each for each in labels if each is not label]) < 0 for label in labels)

@@ -43,6 +43,8 @@ class LevelPointer:
         rect = self._bench.theme.canvas.rect(*self._part.area)
         left, top = self._bench.theme.canvas.point(x, y)
         at = left - rect.left, top - rect.top
+        if event.type == pygame.MOUSEMOTION and not any(event.buttons):
+            self.release()
         if event.type == pygame.MOUSEWHEEL:
             self._wheel(event.y, rect.size, at)
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button in (pygame.BUTTON_MIDDLE, pygame.BUTTON_RIGHT):

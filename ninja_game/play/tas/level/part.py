@@ -160,13 +160,13 @@ class LevelPart(Part):
         inner = surface.subsurface(rect.clip(surface.get_rect()))
         paths = self._paths
         paths.draw_beside(inner, ways)
-        if len(positions):
-            paths.draw_present(inner, positions, bench.cursor, bench.selection, shown_span(bench.cursor))
-            paths.draw_flags(inner, positions, bench.take.markers)
-        picture.draw_ninja_over(inner, fraction)
+        paths.draw_flags(inner, positions, bench.take.markers)
         for ghost in self.ghosts:
             if ghost.label:
                 paths.draw_name(inner, ghost.label, ghost.place(fraction), ghost.colour(theme.palette))
+        if len(positions):
+            paths.draw_present(inner, positions, bench.cursor, bench.selection, shown_span(bench.cursor))
+        picture.draw_ninja_over(inner, fraction)
         if self.hover is not None and self.hover < len(positions):
             paths.draw_hover(inner, positions, self.hover)
         if self.pointed is not None:

@@ -87,6 +87,7 @@ class LevelPaths:
         self._under = pygame.Surface(canvas.window, pygame.SRCALPHA)
         self._covered = pygame.Rect(0, 0, 0, 0)
         self._beside: tuple[Way, ...] = ()
+        self._labels: list[pygame.Rect] = []
 
     def _px(self, length: float) -> float:
         """A length of the bench in px of the level: what is drawn over it does not grow with it."""
@@ -97,7 +98,8 @@ class LevelPaths:
         surface.blit(layer, seen, seen)
 
     def draw_beside(self, surface: pygame.Surface, ways: Sequence[Way]) -> None:
-        """The other runs."""
+        """The other runs; a picture begins."""
+        self._labels.clear()
         if tuple(ways) != self._beside:
             self._beside = tuple(ways)
             self._under.fill((0, 0, 0, 0), self._covered)
@@ -136,7 +138,7 @@ class LevelPaths:
                 x, y = at = _point(positions, tick)
                 canvas.line(surface, palette.outline, at, (x, y - px(14)), px(_THIN))
                 tips = [(x, y - px(14)), (x + px(7), y - px(11)), (x, y - px(8.5))]
-                canvas.polygon(surface, palette.good, tips)
+                self._labels.append(canvas.polygon(surface, palette.good, tips))
                 self._label(surface, name, at, (8.5, -16), palette.text)
 
     def draw_hover(self, surface: pygame.Surface, positions: Positions, tick: int) -> None:
@@ -166,8 +168,13 @@ class LevelPaths:
         w, (width, height) = theme.width(text, LETTERS), surface.get_size()
         x = min(max(1.0, px[0] / scale + beside[0]), width / scale - w - 4)
         y = min(max(1.0, px[1] / scale + beside[1]), height / scale - 13)
-        plate = shaded(theme.palette.background, 200)
-        theme.canvas.fill_rect(surface, plate, x - 1.5, y - 0.5, w + 3, LETTERS + 2.5, 1)
+        plate = theme.canvas.rect(x - 1.5, y - 0.5, w + 3, LETTERS + 2.5)
+        while (hidden := plate.collidelist(self._labels)) >= 0 and self._labels[hidden].bottom < surface.get_height():
+            y += (self._labels[hidden].bottom + 1 - plate.top) / scale
+            plate.top = self._labels[hidden].bottom + 1
+        self._labels.append(plate)
+        ground = shaded(theme.palette.background, 200)
+        theme.canvas.fill_rect(surface, ground, x - 1.5, y - 0.5, w + 3, LETTERS + 2.5, 1)
         theme.text(surface, text, x, y, size=LETTERS, colour=colour)
 
 

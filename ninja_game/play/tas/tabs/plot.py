@@ -113,7 +113,10 @@ def draw_lane(
     share = (high - shown) / span if high > low else np.full(len(shown), 0.5) + 0 * shown
     left, above = canvas.exact(window.left, top)
     px = left + (ticks - window.first) * (window.width * canvas.scale / (window.last - window.first))
-    _draw_line(surface, colour, np.column_stack([px, above + share * (room * canvas.scale)]), canvas.px(1))
+    lane = canvas.rect(*area)
+    inner = surface.subsurface(lane.clip(surface.get_rect()))
+    points = np.column_stack([px, above + share * (room * canvas.scale)]) - inner.get_offset()
+    _draw_line(inner, colour, points, canvas.px(1))
     bounds = ((high, y + 1), (low, y + h - 9)) if high > low else ((middle, y + h / 2 - 4),)
     for value, at in bounds:
         theme.text(surface, f"{value:.4g}", x - 3, at, size=8, colour=colour, align="right")
