@@ -58,6 +58,7 @@ class ReplaysScreen(MenuScreen):
     """One list of all replays. Delete removes one of the records that no best needs. ``hint``: of the list."""
 
     title = "Replays"
+    heads = "Level", "Player", "Result", "From"
     hint = HINT
 
     def __init__(self, app: App) -> None:
@@ -74,13 +75,13 @@ class ReplaysScreen(MenuScreen):
         """The list, the newest records first, then files."""
         if self._files is None:
             self._files = self._file_rows()
-        self.rows = list(filter(self.fits, [*map(_row_of, self.player.records.replays()), *self._files]))
+        self.rows = self.arranged([*map(_row_of, self.player.records.replays()), *self._files])
         self.list.fill(self.rows)
         return [self.list]
 
-    def fits(self, row: ReplayRow) -> bool:
-        """Whether a replay is shown."""
-        return True
+    def arranged(self, rows: list[ReplayRow]) -> list[ReplayRow]:
+        """The rows that are shown."""
+        return rows
 
     def places(self) -> list[tuple[str, Iterable[Path | LeftOut]]]:
         """Where files are looked for, and what that is called."""
@@ -170,8 +171,8 @@ class ReplaysScreen(MenuScreen):
         """The heads of the columns."""
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
-        for x, text, align in ((54, "Level", "left"), (340, "Player", "left"), (598, "Result", "right"),
-                               (734, "From", "right")):  # fmt: skip
+        places = (54, "left"), (340, "left"), (598, "right"), (734, "right")
+        for text, (x, align) in zip(self.heads, places, strict=True):
             theme.text(surface, text, x, 72, size=10.5, colour=palette.faint, align=align)
         message = self.message or unreadable(self.problems)
         theme.text(surface, message, 44, 545, size=10, colour=palette.faint, width=712)

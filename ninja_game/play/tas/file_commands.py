@@ -39,6 +39,10 @@ a plot. With Ctrl the wheel goes tick by tick. Drag what is between the parts to
 """What one has to know to begin."""
 
 
+def _nothing() -> None:
+    """What is done behind saving, as a rule."""
+
+
 class FileCommands:
     """The commands that concern files.
 
@@ -80,12 +84,12 @@ class FileCommands:
 
     # --- saving ---
 
-    def save(self) -> None:
-        """Write the run into its file; of one without a file ask for a name."""
+    def save(self, then: Callable[[], object] = _nothing) -> None:
+        """Write the run into its file, and do ``then``; of one without a file ask for a name."""
         if self.session.file.path:
-            self.save_to(self.session.file.path)
+            self.save_to(self.session.file.path, then)
         else:
-            self.save_as()
+            self.save_as(then)
 
     @property
     def _folder(self) -> Path:
@@ -96,8 +100,8 @@ class FileCommands:
                 return opened.parent
         return self.app.player.folder / REPLAYS
 
-    def save_as(self) -> None:
-        """Ask for the name of the file, and write the run."""
+    def save_as(self, then: Callable[[], object] = _nothing) -> None:
+        """Ask for the name of the file, write the run, and do ``then``."""
         path, folder = self.session.file.path, self._folder
         free = free_path(folder, file_stem(self._name, "run"), SUFFIX)
         name = (path or free).name.removesuffix(SUFFIX)
@@ -105,7 +109,7 @@ class FileCommands:
         def take(texts: list[str]) -> None:
             path = folder / Path(texts[0].strip()).expanduser()
             if path.parent.is_dir():
-                self.save_to(path.with_name(f"{file_stem(path.name.removesuffix(SUFFIX), 'run')}{SUFFIX}"))
+                self.save_to(path.with_name(f"{file_stem(path.name.removesuffix(SUFFIX), 'run')}{SUFFIX}"), then)
             else:
                 self.app.notify(f"Not saved: there is no folder {path.parent}")
 
@@ -113,15 +117,15 @@ class FileCommands:
             Form(self.app, f"Save in {folder.absolute()}", [("Name or path of the file", name, 300)], "Save", take)
         )
 
-    def save_to(self, path: Path, *, replacing: bool = False) -> None:
-        """Write the run; ask before anything is replaced."""
+    def save_to(self, path: Path, then: Callable[[], object] = _nothing, *, replacing: bool = False) -> None:
+        """Write the run, and do ``then``; ask before anything is replaced."""
         try:
             self.session.save(path, replacing=replacing)
         except OccupiedError as error:
             text = str(error)
             rows: list[Row] = [
-                ("Save under another name", self.save_as, ""),
-                ("Replace it", lambda: self.save_to(path, replacing=True), "What it holds now is lost"), STAY,
+                ("Save under another name", lambda: self.save_as(then), ""),
+                ("Replace it", lambda: self.save_to(path, then, replacing=True), "What it holds now is lost"), STAY,
             ]  # fmt: skip
             self.app.push(Menu(self.app, text[0].upper() + text[1:], rows))
         except (NinjaGameError, OSError) as error:
@@ -130,6 +134,7 @@ class FileCommands:
             tail = ", with what is behind its end (Ctrl+E takes that out)" if self.session.has_tail else ""
             beside = " and its branches beside it" * branches_path(path).exists()
             self.app.notify(f"Saved{tail}: {path}{beside}")
+            then()
 
     def keep(self) -> None:
         """Put the run among the player's replays."""
@@ -202,7 +207,11 @@ class FileCommands:
         if self.session.is_saved:
             self._go()
             return
-        rows: list[Row] = [STAY, ("Save first", self.save, ""), ("Leave it unsaved", self._go, "It is lost")]
+        rows: list[Row] = [
+            STAY,
+            ("Save first", lambda: self.save(self._go), ""),
+            ("Leave it unsaved", self._go, "It is lost"),
+        ]
         self.app.push(Menu(self.app, f"{self._name} is not saved", rows))
 
     def _go(self) -> None:

@@ -27,7 +27,8 @@ class Head(Part):
         theme.canvas.fill_rect(surface, palette.tile, *self.area)
         end, outcome = session.timeline.end
         opened = Path(session.about.file).name
-        unsaved = f"{opened}, to be saved as a new file" if opened else "no file yet"
+        where = ", on another level" * session.moved
+        unsaved = f"{opened}{where}, to be saved as a new file" if opened else "no file yet"
         file = session.file.path.name if session.file.path else unsaved
         author = f" - {session.about.author}" if session.about.author else ""
         title = theme.text(
@@ -57,7 +58,8 @@ class Foot(Part):
     def look(self) -> tuple[object, ...]:
         """Cursor, selection, the run's length, the hint."""
         bench = self.bench
-        return bench.cursor, bench.selection, len(bench.take), bench.session.timeline.valid, bench.hint
+        beside = bench.chosen, len(bench.others), bench.ghosts
+        return bench.cursor, bench.selection, len(bench.take), bench.session.timeline.valid, bench.hint, beside
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """One line."""
@@ -67,7 +69,9 @@ class Foot(Part):
         selected = f"   {last - first} selected" if last - first > 1 else ""
         timeline = bench.session.timeline
         known = "" if timeline.complete else f"   simulated up to {timeline.valid}"
-        text = f"tick {bench.cursor} of {len(bench.take)}{selected}{known}"
+        other = bench.others[bench.chosen % len(bench.others)] if bench.others and bench.ghosts else None
+        beside = f"   beside {theme.fit(other.name, 110, 9.5)}" if other else ""
+        text = f"tick {bench.cursor} of {len(bench.take)}{selected}{known}{beside}"
         theme.text(surface, text, 8, y + 5, size=9.5, colour=palette.on_tile)
         hint = bench.hint or "Click L R J to change keys; Enter: take over; F: search; F1: help"
         theme.text(

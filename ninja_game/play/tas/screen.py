@@ -101,7 +101,7 @@ class TasScreen(MenuScreen):
         """Nothing has the focus: keys edit."""
         super().enter()
         self.bench.theme = self.theme  # all parts are in their places before the first of them looks around
-        self.focus = None
+        self.focus = self._dragging = None
         self.await_text()
         self._widgets_stale = True
         # All that there is now (compiled code has much) is left out when memory is cleared up: that took 80 ms.

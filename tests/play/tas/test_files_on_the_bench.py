@@ -128,6 +128,16 @@ def test_leaving_asks_if_the_run_is_not_saved(at: BenchDriver) -> None:
     assert journals(at) == []
 
 
+def test_save_first_saves_and_leaves(at: BenchDriver) -> None:
+    change(at)
+    wanted = at.bench.take.inputs[:30]
+    at.press("escape")
+    at.choose("Leave")
+    at.choose("Save first")
+    assert not at.app.running
+    assert load_replays(at.session.file.path or "")[0].playback(30) == wanted
+
+
 def test_a_closed_window_keeps_what_is_not_saved_and_it_is_offered(at: BenchDriver, tmp_path: Path) -> None:
     change(at)
     at.session.keep_branch("one")

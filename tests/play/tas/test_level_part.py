@@ -184,7 +184,7 @@ def test_the_list_of_other_runs_has_those_of_the_level(at: BenchDriver) -> None:
     listed = at.top()
     assert isinstance(listed, OtherRunScreen)
     assert listed.rows
-    assert all("the works" in row.text.lower() for row in listed.rows)
+    assert all("the-works" in row.text for row in listed.rows), "names of files"
     at.press("return")
     at.frames()
     assert at.top() is screen

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pygame
 
+from ninja_game.formats.load import load_replays
+from ninja_game.formats.n14.level_string import write_level_string
+from ninja_game.play.editor.panels import Menu
+from ninja_game.play.tas.level.other_runs import OtherRunScreen
 from ninja_game.play.tas.roll.differences import compared, different_rows
 from ninja_game.play.tas.roll.facts import row_facts
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, press_jumps
 from ninja_game.tas.take import Take
 from tests.support.bench_driver import BenchDriver
+from tests.support.samples import running, write_records
 
 OURS = Take(press_jumps([KEY_RIGHT] * 60))
 THEIRS = Take(press_jumps([KEY_RIGHT] * 20 + [KEY_LEFT] * 5 + [KEY_RIGHT | JUMP_HELD] * 5 + [KEY_RIGHT] * 34))
@@ -88,3 +95,48 @@ def test_the_bar_shows_where_keys_differ() -> None:
     assert different_rows(OURS.inputs, THEIRS.inputs, 100, 10) == [2, 6]
     assert different_rows(OURS.inputs, OURS.inputs, 100, 10) == []
     assert different_rows(b"", b"", 40, 10) == []
+
+
+def test_undo_selects_again_what_a_key_has_changed(at: BenchDriver) -> None:
+    at.bench.edit(lambda take: OURS)
+    at.bench.select(30, 35)
+    at.press("insert")
+    assert at.bench.selection == (30, 35)
+    at.bench.go(33)
+    at.app.notify("something")
+    at.chord("z", pygame.KMOD_LCTRL)
+    assert (at.bench.selection, at.bench.take.inputs, at.app.notice) == ((30, 35), OURS.inputs, "")
+    at.press("backspace")
+    assert (at.bench.selection, len(at.bench.take)) == ((30, 31), 55)
+    at.chord("z", pygame.KMOD_LCTRL)
+    assert at.bench.selection == (30, 35)
+
+
+def test_runs_of_one_file_of_n_are_told_apart(at: BenchDriver, tmp_path: Path) -> None:
+    """The author in a record of N is that of its level."""
+    level, ticks = at.session.about.level, (30, 10, 20)
+    text = write_level_string(level, exact=True)
+    records = [(f"a level {count}", text, running(count)) for count in ticks]
+    file = write_records(tmp_path / "many.txt", *records)
+    at.screen.level.others.open(load_replays(file))
+    assert [other.name for other in at.bench.others] == ["many.txt", "many.txt 1", "many.txt 2"]
+    at.chord("o", pygame.KMOD_LCTRL)
+    screen = at.top()
+    assert isinstance(screen, OtherRunScreen)
+    rows = [row for row in screen.rows if row.text.startswith("many.txt")]
+    assert [(row.text, row.who) for row in rows] == [
+        ("many.txt 1   test", ""), ("many.txt 2   test", ""), ("many.txt   test", "")
+    ]  # fmt: skip
+    assert screen.rows[:3] == rows, "the fastest first"
+
+
+def test_a_press_that_opens_a_dialog_holds_nothing(at: BenchDriver) -> None:
+    cursor = at.bench.cursor
+    x, _ = at.cell(5, "x")
+    heads = at.screen.theme.canvas.logical((0, at.screen.roll.layout.heads.centery))
+    at.event(pygame.MOUSEBUTTONDOWN, x, heads[1], button=1)
+    assert isinstance(at.top(), Menu)
+    at.event(pygame.MOUSEBUTTONUP, x, heads[1], button=1)
+    at.press("escape")
+    at.choose("Branches")
+    assert (at.bench.tab, at.bench.cursor) == ("Branches", cursor)

@@ -102,16 +102,23 @@ def other_run(bench: Bench, recording: Recording) -> OtherRun:
 
 
 def _free_name(recording: Recording, about: Recording, taken: set[str]) -> str:
-    """What tells a run from the others: its author, or its file, or its name."""
-    author = recording.author if recording.author != about.author else ""
-    name = author or Path(recording.file).name.removesuffix(".replay.txt") or recording.name or "another run"
+    """What tells a run from the others: its author, or its file and number, or its name."""
+    # The author of a record of N is its level's.
+    author = recording.author if recording.replay and recording.author != about.author else ""
+    name = author or _place_of(recording) or recording.name or "another run"
     return next(each for each in (name, *(f"{name} {n}" for n in range(2, len(taken) + 3))) if each not in taken)
+
+
+def _place_of(recording: Recording) -> str:
+    """The name of the file, and which record of it that is where it holds others before."""
+    return Path(recording.file).name.removesuffix(".replay.txt") + f" {recording.record}" * (recording.record > 0)
 
 
 class OtherRunScreen(ReplaysScreen):
     """The replays of the level that is on the bench; the chosen one is shown beside."""
 
     title = "Another run of this level"
+    heads = "Run", "Player", "Result", "From"
     hint = "Enter: show it beside the run on the bench"
 
     def __init__(self, app: App, others: OtherRuns) -> None:
@@ -124,14 +131,17 @@ class OtherRunScreen(ReplaysScreen):
         """The list, and a way to any file."""
         return [*super().build(), Button((622, 14, 134, 26), "From a file ...", self._ask, hint="Any file with runs")]
 
+    def arranged(self, rows: list[ReplayRow]) -> list[ReplayRow]:
+        """Those of the same level, the fastest first; those in files by the names of their files."""
+        return sorted(map(_named, filter(self._is_of_the_level, rows)), key=_ticks)
+
     def places(self) -> list[tuple[str, Iterable[Path | LeftOut]]]:
         """Beside the file of the run, too."""
         file = Path(self.others.bench.session.about.file)
         beside = sorted(each for each in file.parent.glob("*.txt") if each.name != file.name) if file.is_file() else []
         return [("Same folder", beside[:FILES_SHOWN]), *super().places()]
 
-    def fits(self, row: ReplayRow) -> bool:
-        """Whether it is of the same level."""
+    def _is_of_the_level(self, row: ReplayRow) -> bool:
         source = row.source
         return (level_digest(source.level) if isinstance(source, Recording) else source.level) == self._digest
 
@@ -169,3 +179,15 @@ class OtherRunScreen(ReplaysScreen):
         recording = source
         if self.others.bench.attempt(lambda: self.others.open([recording])):
             self.app.pop()
+
+
+def _named(row: ReplayRow) -> ReplayRow:
+    """A row that tells a run from others of its level."""
+    if not isinstance(row.source, Recording):
+        return row
+    text = f"{_place_of(row.source)}   {row.source.comment}".rstrip()
+    return row._replace(text=text, who=row.who if row.source.replay else "")
+
+
+def _ticks(row: ReplayRow) -> int:
+    return row.source.ticks if isinstance(row.source, Recording) else row.source.final_tick + 1
