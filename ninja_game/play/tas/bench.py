@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,6 +45,7 @@ class Bench:
     ``preview``: a result of a search that is looked at. ``tab``: the name of the tab that is to be shown.
     ``against``: the run that the lead is told over; None: the run as it was opened.
     ``theme``: the look of all parts, in the bench's own logical px, which are not those of other screens.
+    ``places``: cursor and anchor when the selected ticks of a run were edited, for undo.
     ``hint``: of what is under the mouse, for the line below. ``ask_to_watch``: proposes a formula to be watched.
     """
 
@@ -61,6 +63,7 @@ class Bench:
         self.against: Take | None = None
         self.hint = ""
         self.ask_to_watch: Callable[[str], object] = lambda _: None
+        self.places: WeakKeyDictionary[Take, tuple[int, int | None]] = WeakKeyDictionary()
 
     @property
     def take(self) -> Take:
@@ -105,3 +108,8 @@ class Bench:
     def edit(self, make: Callable[[Take], Take]) -> bool:
         """Change the run as a function of what it is; a refusal is told. Whether it was done."""
         return self.attempt(lambda: self.session.change(make(self.take)))
+
+    def edit_selected(self, make: Callable[[Take], Take]) -> bool:
+        """Change the selected ticks; undo selects them again. Whether it was done."""
+        self.places[self.take] = self.cursor, self.anchor
+        return self.edit(make)

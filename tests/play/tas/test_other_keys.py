@@ -110,6 +110,12 @@ def test_undo_selects_again_what_a_key_has_changed(at: BenchDriver) -> None:
     assert (at.bench.selection, len(at.bench.take)) == ((30, 31), 55)
     at.chord("z", pygame.KMOD_LCTRL)
     assert at.bench.selection == (30, 35)
+    at.screen.level.others.open([at.session.recording(THEIRS, "theirs")])
+    at.bench.select(20, 30)
+    at.chord("p", pygame.KMOD_LCTRL)
+    at.bench.go(3)
+    at.chord("z", pygame.KMOD_LCTRL)
+    assert at.bench.selection == (20, 30)
 
 
 def test_runs_of_one_file_of_n_are_told_apart(at: BenchDriver, tmp_path: Path) -> None:

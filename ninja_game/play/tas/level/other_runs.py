@@ -73,7 +73,7 @@ class OtherRuns:
         if other is not None:
             first, last = self.bench.selection
             keys = [other.take.keys_at(tick) for tick in range(first, last)]
-            if self.bench.edit(lambda take: take.replaced(first, last, keys)):
+            if self.bench.edit_selected(lambda take: take.replaced(first, last, keys)):
                 self.bench.app.notify(f"Ticks {first} to {last - 1} are those of {other.name}")
 
     def splice_here(self) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from weakref import WeakKeyDictionary
 
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.formats.replay.input_runs import Marker, write_inputs
@@ -28,7 +27,6 @@ class RollCommands:
     def __init__(self, bench: Bench, page: Callable[[], int]) -> None:
         self._bench = bench
         self._page = page
-        self._places: WeakKeyDictionary[Take, tuple[int, int | None]] = WeakKeyDictionary()
 
     def commands(self) -> Commands:
         """By name."""
@@ -117,16 +115,11 @@ class RollCommands:
         first, last = self._bench.selection
         return first, min(last, len(self._bench.take))
 
-    def _edit(self, make: Callable[[Take], Take]) -> bool:
-        """Change the selected ticks; undo selects them again. Whether it was done."""
-        self._places[self._bench.take] = self._bench.cursor, self._bench.anchor
-        return self._bench.edit(make)
-
     def toggle(self, key: int) -> None:
         """A key down in the selected ticks; up where it is down in all of them."""
         first, last = self._bench.selection
         down = not all(self._bench.take.keys_at(tick) & key for tick in range(first, last))
-        self._edit(lambda take: take.with_key(first, last, key, down=down))
+        self._bench.edit_selected(lambda take: take.with_key(first, last, key, down=down))
 
     def clear(self) -> None:
         """All keys up in the selected ticks."""
@@ -134,19 +127,19 @@ class RollCommands:
         if first >= last:
             self._bench.app.notify(BEHIND)
         else:
-            self._edit(lambda take: take.replaced(first, last, bytes(last - first)))
+            self._bench.edit_selected(lambda take: take.replaced(first, last, bytes(last - first)))
 
     def insert(self) -> None:
         """Ticks without a key before the selected ones, as many as they are."""
         first, last = self._bench.selection
-        self._edit(lambda take: take.replaced(first, first, bytes(last - first)))
+        self._bench.edit_selected(lambda take: take.replaced(first, first, bytes(last - first)))
 
     def remove(self) -> None:
         """Take the selected ticks out."""
         first, last = self._filled()
         if first >= last:
             self._bench.app.notify(BEHIND)
-        elif self._edit(lambda take: take.replaced(first, last, b"")):
+        elif self._bench.edit_selected(lambda take: take.replaced(first, last, b"")):
             self._bench.go(first)
 
     def cut_end(self) -> None:
@@ -170,10 +163,10 @@ class RollCommands:
             bench.app.notify(refusal)
             return
         bench.app.notify("")
-        if bench.take in self._places:
-            self._places[before] = place
+        if bench.take in bench.places:
+            bench.places[before] = place
         first = _first_change(before, bench.take)
-        cursor, anchor = self._places.get(bench.take, (first, None))
+        cursor, anchor = bench.places.get(bench.take, (first, None))
         near = abs(cursor - first) < self._page()
         bench.go(first if not near or anchor is None else anchor)
         bench.go(cursor if near else first, select=near and anchor is not None)
@@ -208,7 +201,7 @@ class RollCommands:
             bench.app.notify(f"Not pasted: {error}")
             return
         first, count = bench.selection[0], len(pasted.keys)
-        if self._edit(lambda take: _with_pasted(take, first, pasted, between=between)):
+        if self._bench.edit_selected(lambda take: _with_pasted(take, first, pasted, between=between)):
             bench.select(first, first + count)
             bench.app.notify(f"{count} tick{'s' * (count > 1)} pasted")
 
