@@ -8,8 +8,8 @@ from pathlib import Path
 import pygame
 import pytest
 
-from ninja_game.play.editor.panels import Form
 from ninja_game.play.input.scancodes import SCANCODES
+from ninja_game.play.menus.panels import Form
 from ninja_game.play.ui.edited_text import EditedText
 from ninja_game.play.ui.text_entry import TextEntry
 from tests.support.menu_driver import MenuDriver

@@ -9,9 +9,9 @@ import pygame
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.play.editor.desk import DESK
-from ninja_game.play.editor.panels import Menu
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.input.scancodes import SCANCODES
+from ninja_game.play.menus.panels import Menu
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import Level, ObjectSpec
 from tests.support.menu_driver import MenuDriver

@@ -18,12 +18,12 @@ from ninja_game.editor.stamp import everything
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.shown_text import file_stem
 from ninja_game.formats.ascii.writer import HEADER_KEYS
-from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.desk import Desk
 from ninja_game.play.editor.marks import finding_points
-from ninja_game.play.editor.panels import HELP, STAY, Form, HelpPage, LevelChoice, Menu
+from ninja_game.play.editor.panels import LevelChoice, help_page
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.trying import TryScreen
+from ninja_game.play.menus.panels import STAY, Form, Menu
 from ninja_game.player.catalogue import Entry
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ class EditorCommands:
     def _table(self) -> dict[str, Action]:
         bench, desk = self.session.bench, self.desk
         return {
-            "help": lambda: self.app.push(HelpPage(self.app, "The editor", HELP, COMMANDS)), "menu": self.menu,
+            "help": lambda: self.app.push(help_page(self.app)), "menu": self.menu,
             "test": self.test, "test_here": lambda: self.test(here=True), "certify": self.certify,
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
             "undo": bench.undo, "redo": lambda: bench.undo(again=True),

@@ -2,21 +2,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from ninja_game.editor.brush import FAMILIES, QUARTERS, SORTS
+from ninja_game.play.input.commands import Command, key_text
 from ninja_game.play.input.events import InputEvent
-from ninja_game.play.input.scancodes import chord, key_label
-
-
-class Command(NamedTuple):
-    """``keys``: names of keys, with ``ctrl+`` and ``shift+`` before them; ``pad``: inputs of a standard gamepad."""
-
-    name: str
-    label: str
-    keys: tuple[str, ...] = ()
-    pad: str = ""
-
+from ninja_game.play.input.scancodes import chord
 
 COMMANDS = (
     Command("help", "This page", ("f1",)),
@@ -76,18 +65,6 @@ _FAMILY_OF_KEY = {family.key: family for family in FAMILIES}
 def keys_of(name: str) -> str:
     """What to press for a command of the editor, for people."""
     return key_text(next(command for command in COMMANDS if command.name == name))
-
-
-def key_text(command: Command) -> str:
-    """What to press for a command, for people; '' for nothing."""
-    return "+".join(map(key_label_of, command.keys[0].split("+"))) if command.keys else ""
-
-
-def key_label_of(name: str) -> str:
-    """What a key is called."""
-    return {"ctrl": "Ctrl", "delete": "Del", "minus": "-", "equals": "="}.get(name) or key_label(
-        {"shift": "lshift"}.get(name, name)
-    )
 
 
 def command_of(event: InputEvent) -> str:

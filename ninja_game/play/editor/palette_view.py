@@ -10,8 +10,8 @@ from ninja_game.editor.bench import Bench
 from ninja_game.editor.brush import EMPTY, FAMILIES, FULL, SORTS, Sort, sort_of, tile_key, tile_name, with_switch
 from ninja_game.editor.motion import TILE_IDS
 from ninja_game.editor.records import BODY, points
-from ninja_game.play.editor.controls import key_label_of
 from ninja_game.play.editor.object_pictures import ObjectPictures
+from ninja_game.play.input.commands import key_label_of
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.palette import PALETTES
 from ninja_game.play.ui.theme import Area, Theme

@@ -1,4 +1,4 @@
-"""Panels over another screen: a few buttons, a question."""
+"""Panels over another screen: a few buttons, a question, fields to fill in."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import pygame
 
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
+from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.ui.text_layout import wrapped
 from ninja_game.play.ui.widgets import Button, Widget
 
@@ -18,9 +19,15 @@ if TYPE_CHECKING:
 PANEL_WIDTH = 300
 ROW = 40
 
+Row = tuple[str, Callable[[], object], str]
+"""Text, action, hint."""
+
+STAY: Row = ("Stay", lambda: None, "")
+"""A button that does nothing but close."""
+
 
 class Panel(MenuScreen):
-    """A few buttons in a panel over the screen below. ``rows``: text, action, hint."""
+    """A few buttons in a panel over the screen below."""
 
     see_through = True
 
@@ -28,7 +35,7 @@ class Panel(MenuScreen):
         super().__init__(app)
         self.title = title
 
-    def rows(self) -> list[tuple[str, Callable[[], object], str]]:
+    def rows(self) -> list[Row]:
         """The buttons."""
         raise NotImplementedError
 
@@ -76,10 +83,72 @@ class Question(Panel):
         self._yes = yes
         self._action = action
 
-    def rows(self) -> list[tuple[str, Callable[[], object], str]]:
+    def rows(self) -> list[Row]:
         """No first, so that a hasty key does no harm."""
         return [("Stay", self.back, ""), (self._yes, self._do, "")]
 
     def _do(self) -> None:
         self.app.pop()
         self._action()
+
+
+class Menu(Panel):
+    """Some actions; each of them closes the panel first."""
+
+    def __init__(self, app: App, title: str, rows: Sequence[Row]) -> None:
+        super().__init__(app, title)
+        self._rows = [(text, self._closing(action), hint) for text, action, hint in rows]
+
+    def _closing(self, action: Callable[[], object]) -> Callable[[], object]:
+        def close_and_do() -> None:
+            self.app.pop()
+            action()
+
+        return close_and_do
+
+    def rows(self) -> list[Row]:
+        """The buttons."""
+        return self._rows
+
+
+class Form(Menu):
+    """Fields to fill in above two buttons. ``fields``: prompt, text, how many characters fit in.
+
+    The text of a single field is a proposal.
+    """
+
+    def __init__(
+        self, app: App, title: str, fields: Sequence[tuple[str, str, int]], yes: str,
+        action: Callable[[list[str]], object],
+    ) -> None:  # fmt: skip
+        self.texts = [text for _, text, _ in fields]
+        self._fields = fields
+        super().__init__(app, title, [(yes, lambda: action(self.texts), ""), ("Cancel", lambda: None, "")])
+
+    def rows(self) -> list[Row]:
+        """The buttons, below as many empty rows as there are fields."""
+        return [("", lambda: None, "")] * len(self._fields) + self._rows
+
+    def build(self) -> Sequence[Widget]:
+        """The fields, then the buttons."""
+        x, y, w, _ = self._box
+        alone = len(self._fields) == 1
+        places = [(x + 30, y + 48 + ROW * k, w - 60, 30) for k in range(len(self._fields))]
+        entries = [
+            TextEntry(places[k], prompt, text, self._taker(k), longest=longest, proposed=alone)
+            for k, (prompt, text, longest) in enumerate(self._fields)
+        ]
+        return [*entries, *list(super().build())[len(entries) :]]
+
+    def act(self, action: str, *, held: bool = False) -> None:
+        """Enter in a field means the first button."""
+        if action == "confirm" and isinstance(self.focus, TextEntry):
+            self._rows[0][1]()
+        else:
+            super().act(action, held=held)
+
+    def _taker(self, place: int) -> Callable[[str], None]:
+        def take(text: str) -> None:
+            self.texts[place] = text
+
+        return take

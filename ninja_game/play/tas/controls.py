@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ninja_game.play.editor.controls import Command
+from ninja_game.play.input.commands import Command
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.input.scancodes import chord
 

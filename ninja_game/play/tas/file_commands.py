@@ -18,7 +18,8 @@ from ninja_game.files.shown_text import file_stem
 from ninja_game.files.user_folder import REPLAYS, free_path
 from ninja_game.formats.links.making import replay_link
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.editor.panels import STAY, Form, HelpPage, Menu, Row
+from ninja_game.play.menus.help.commands_page import HelpPage
+from ninja_game.play.menus.panels import STAY, Form, Menu, Row
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.controls import COMMANDS

@@ -13,10 +13,11 @@ from ninja_game.editor.autosave import FOLDER, recovered
 from ninja_game.editor.files import open_source
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
-from ninja_game.play.editor.panels import Form, LevelChoice, Menu
+from ninja_game.play.editor.panels import LevelChoice
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.panels import Form, Menu
 from ninja_game.signals import Terminated
 from tests.support.level_maker import ROOM, Maker
 

@@ -9,7 +9,7 @@ from shutil import copy
 import pygame
 import pytest
 
-from ninja_game.play.editor.panels import Menu
+from ninja_game.play.menus.panels import Menu
 from ninja_game.play.tas.layout import NARROWEST_ROLL, Wishes, bench_canvas, bench_layout
 from ninja_game.play.tas.screen import TasScreen
 from ninja_game.play.ui.theme import Area

@@ -11,7 +11,7 @@ from ninja_game import verify_recording
 from ninja_game.errors import ReplayError
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
-from ninja_game.play.editor.panels import Form, Menu
+from ninja_game.play.menus.panels import Form, Menu
 from ninja_game.sim.inputs import KEY_RIGHT
 from ninja_game.tas.files import RunFile, open_run
 from tests.support.bench_driver import BenchDriver

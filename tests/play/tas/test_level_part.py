@@ -13,7 +13,7 @@ import pytest
 
 from ninja_game.errors import ReplayError
 from ninja_game.formats.load import load_replays
-from ninja_game.play.editor.panels import Form
+from ninja_game.play.menus.panels import Form
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.tas.level.other_runs import OtherRunScreen
 from ninja_game.play.tas.level.paths import shown_span

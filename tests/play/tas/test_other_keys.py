@@ -8,7 +8,7 @@ import pygame
 
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import write_level_string
-from ninja_game.play.editor.panels import Menu
+from ninja_game.play.menus.panels import Menu
 from ninja_game.play.tas.level.other_runs import OtherRunScreen
 from ninja_game.play.tas.roll.differences import compared, different_rows
 from ninja_game.play.tas.roll.facts import row_facts

@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from ninja_game.formats.replay.input_runs import Marker
-from ninja_game.play.editor.panels import Form, Menu
+from ninja_game.play.menus.panels import Form, Menu
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.take import Take
 from tests.support.bench_driver import BenchDriver

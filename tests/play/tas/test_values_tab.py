@@ -9,7 +9,7 @@ import numpy as np
 import pygame
 import pytest
 
-from ninja_game.play.editor.panels import Form
+from ninja_game.play.menus.panels import Form
 from ninja_game.play.tas.tabs.object_list import ObjectList
 from ninja_game.play.tas.tabs.plot import Window
 from ninja_game.play.tas.tabs.values_tab import ValuesTab

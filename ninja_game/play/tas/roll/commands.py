@@ -9,7 +9,7 @@ from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.formats.replay.input_runs import Marker, write_inputs
 from ninja_game.formats.replay.input_text import Inputs
 from ninja_game.play.clipboard import copy_text, pasted_text
-from ninja_game.play.editor.panels import Form
+from ninja_game.play.menus.panels import Form
 from ninja_game.play.tas.bench import Bench, Span
 from ninja_game.play.tas.part import Commands
 from ninja_game.play.tas.roll.differences import changes, compared

@@ -6,7 +6,7 @@ from functools import partial
 
 import pygame
 
-from ninja_game.play.editor.panels import Menu
+from ninja_game.play.menus.panels import Menu
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.part import Commands, Part
 from ninja_game.play.tas.roll.bar import ScrollBar

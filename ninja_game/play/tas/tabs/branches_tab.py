@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.play.editor.panels import Form
-from ninja_game.play.menus.panels import Question
+from ninja_game.play.menus.panels import Form, Question
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.part import Commands
 from ninja_game.play.tas.tabs.tab import NOWHERE, SMALL, Rows, Tab, put_in_a_row

@@ -11,7 +11,7 @@ from ninja_game.directed.expressions import FormulaError
 from ninja_game.directed.methods import ACTIONS, MOST_ENDS
 from ninja_game.directed.span import Found, SpanTask
 from ninja_game.errors import ArgumentError, NinjaGameError
-from ninja_game.play.editor.panels import Menu
+from ninja_game.play.menus.panels import Menu
 from ninja_game.play.tas.bench import Bench, Span
 from ninja_game.play.tas.part import Commands
 from ninja_game.play.tas.tabs.span_results import SpanResults

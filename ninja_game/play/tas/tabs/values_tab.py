@@ -5,7 +5,7 @@ from __future__ import annotations
 import pygame
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.play.editor.panels import Form
+from ninja_game.play.menus.panels import Form
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.part import Commands
 from ninja_game.play.tas.tabs.object_list import ObjectList
