@@ -107,7 +107,7 @@ def count_ways(task: SpanTask, every: int) -> int:
     """How many ways there are through a span. Raises ArgumentError for too many, with how many there may be."""
     choices = -(-task.length // every)
     if len(ACTIONS) ** choices > MOST_ENDS:
-        few = next(each for each in range(every, task.length + 1) if 6 ** -(-task.length // each) <= MOST_ENDS)
+        few = fewest_ticks(task.length)
         what = f"{task.length} ticks with a choice every {every} have over {MOST_ENDS:,} ways through"
         raise ArgumentError(f"{what}; a choice every {few} ticks has few enough")
     return int(len(ACTIONS) ** choices)
@@ -199,3 +199,12 @@ def _different(batch: Batch, orders: list[NDArray[np.intp]], most: int) -> NDArr
             if len(chosen) == most:
                 break
     return np.array(chosen, np.intp)
+
+
+def fewest_ticks(length: int) -> int:
+    """How many ticks each choice of keys must hold so that all ways through a span can be tried.
+
+    >>> fewest_ticks(8), fewest_ticks(40)
+    (1, 5)
+    """
+    return next(each for each in range(1, length + 1) if len(ACTIONS) ** -(-length // each) <= MOST_ENDS)

@@ -11,9 +11,10 @@ import pygame
 import pytest
 
 from ninja_game.directed import background
+from ninja_game.directed.methods import fewest_ticks
 from ninja_game.play.input.scancodes import SCANCODES
 from ninja_game.play.tas.tabs import span_results
-from ninja_game.play.tas.tabs.search_tab import SearchTab, fewest_ticks
+from ninja_game.play.tas.tabs.search_tab import SearchTab
 from ninja_game.play.tas.tabs.span_results import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SpanResults
 from ninja_game.sim.inputs import Input
 from tests.support.bench_driver import BenchDriver
@@ -120,6 +121,24 @@ def test_a_better_end_is_found_and_put_in_as_one_edit(at: BenchDriver, tab: Sear
     at.session.undo()
     at.session.undo()
     assert at.bench.take == before
+
+
+def test_other_ticks_make_the_goal_of_the_menu_anew_and_end_old_results(at: BenchDriver, tab: SearchTab) -> None:
+    wish(at, "Be there sooner")
+    goal = tab.goal.text
+    tab.start()
+    at.wait(lambda: tab.results is not None, "search")
+    results_of(tab).stop()
+    at.wait(lambda: not results_of(tab).running, "end of the search")
+    at.bench.select(50, 90)
+    tab.take_selection()
+    assert tab.span == (50, 90)
+    assert tab.goal.text != goal
+    assert tab.results is None
+    tab.goal.show("x > 400")
+    at.bench.select(100, 130)
+    tab.take_selection()
+    assert tab.goal.text == "x > 400", "what a person has typed stays"
 
 
 def test_results_that_end_alike_are_one(at: BenchDriver, tab: SearchTab) -> None:

@@ -8,7 +8,7 @@ from functools import partial
 import pygame
 
 from ninja_game.directed.expressions import FormulaError
-from ninja_game.directed.methods import ACTIONS, MOST_ENDS
+from ninja_game.directed.methods import fewest_ticks
 from ninja_game.directed.span import Found, SpanTask
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.play.menus.panels import Menu
@@ -56,6 +56,7 @@ class SearchTab(Tab):
         self.rest: object = False
         self.method: object = "auto"
         self.results: SpanResults | None = None
+        self._preset: tuple[Callable[[SearchedSpan], Wanted], Wanted] | None = None
         self.found: tuple[Found, ...] = ()
         self.goal = Field("x > 400, taken(12), distance(300, 200) < 6 ...", self.start, longest=LONGEST, hint=_NAMES)
         self.measure = Field("speed; vx, y, gold ...", self.start, longest=LONGEST, hint=_NAMES)
@@ -100,10 +101,16 @@ class SearchTab(Tab):
         self.wants = self.goal
 
     def take_selection(self) -> None:
-        """Search the selected ticks; where only one is, a second from there on."""
+        """Search the selected ticks; where only one is, a second from there on. A goal out of the menu is made anew."""
         first, last = self.bench.selection
         second = min(first + TICKS_PER_SECOND, max(len(self.bench.take), last))
-        self.span = first, last if last > first + 1 else second
+        before, self.span = self.span, (first, last if last > first + 1 else second)
+        if self.span == before:
+            return
+        if self.results is not None and not self.results.running:
+            self.close()
+        if self._preset is not None and (self.goal.text, self.measure.text) == self._preset[1][:2]:
+            self._fill(self._preset[0])
 
     def propose(self) -> None:
         """A menu of what people want; it fills the fields."""
@@ -116,6 +123,7 @@ class SearchTab(Tab):
         except NinjaGameError as error:
             self.bench.app.notify(str(error))
             return
+        self._preset = make, wanted
         self.goal.show(wanted.goal)
         self.measure.show(wanted.measure)
         self.order = EARLIEST if not wanted.measure else SMALLEST if wanted.least else GREATEST
@@ -239,12 +247,3 @@ class SearchTab(Tab):
                        colour=palette.text if fits else palette.faint)  # fmt: skip
         theme.text(surface, gain, x + w - 6, y + 3, size=SMALL, bold=fits, align="right", width=96,
                    colour=palette.good if fits else palette.faint)  # fmt: skip
-
-
-def fewest_ticks(length: int) -> int:
-    """How many ticks each choice of keys must hold so that all ways through a span can be tried.
-
-    >>> fewest_ticks(8), fewest_ticks(40)
-    (1, 5)
-    """
-    return next(each for each in range(1, length + 1) if len(ACTIONS) ** -(-length // each) <= MOST_ENDS)
