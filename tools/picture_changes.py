@@ -89,7 +89,7 @@ CHANGES = (
     Change("browser-side-panel", "menus/browser.py", "        if entry is None:\n            return\n        self.thumbnails", "        if True:\n            return\n        self.thumbnails"),
     Change("browser-thumbnails", "menus/browser.py", "self.thumbnails.draw(surface, entry, x + 4, y + 4, PICTURE)", "pass"),
     Change("replays-player", "menus/replays.py", "theme.text(surface, row.who", 'theme.text(surface, ""'),
-    Change("replays-head", "menus/replays.py", '(54, "Level", "left"), ', ""),
+    Change("replays-head", "menus/replays.py", 'heads = "Level"', 'heads = ""'),
     Change("episode-score", "menus/episodes/passed.py", "seconds_text(self.run.score), WIDTH / 2", '"", WIDTH / 2'),
     Change("help-keys-lit", "menus/help/screen.py", "lit = bool(keys & bit)", "lit = False"),
     Change("help-text", "menus/help/screen.py", "enumerate(lines):", "enumerate(lines[:1]):"),
