@@ -23,6 +23,9 @@ _ENDING = (signal.SIGINT, signal.SIGTERM)
 told = threading.Event()
 """The command has said itself that it was stopped; what remains may take its time."""
 
+lost: list[BaseException] = []
+"""Signals whose exceptions Python has lost: what fails after one of them fails because of it."""
+
 
 class Terminated(BaseException):
     """SIGTERM has come."""
@@ -50,10 +53,12 @@ def _raise_terminated(*_: object) -> NoReturn:
     raise Terminated
 
 
-def _forget_signals(lost: sys.UnraisableHookArgs) -> None:
+def _forget_signals(ignored: sys.UnraisableHookArgs) -> None:
     """Say nothing of a signal that came where Python loses exceptions: the thread ends the program."""
-    if not isinstance(lost.exc_value, (Terminated, KeyboardInterrupt)):
-        sys.__unraisablehook__(lost)
+    if isinstance(ignored.exc_value, (Terminated, KeyboardInterrupt)):
+        lost.append(ignored.exc_value)
+    else:
+        sys.__unraisablehook__(ignored)
 
 
 @contextmanager

@@ -75,12 +75,21 @@ number = signal.SIGINT; sys.meta_path.insert(0, Finder)
 from ninja_game.__main__ import main
 main()
 """
+FAILING = """
+import ninja_game.cli.main as program
+from ninja_game.signals import end_on_signals
+def compile_without_a_callback(*_): Deep(); raise RuntimeError("no compiled object yet")
+number = signal.SIGTERM; end_on_signals()
+program.Commands.invoke = compile_without_a_callback
+program.cli.main(["info"])
+"""
 
 
 @pytest.mark.parametrize(
     "code, end",
-    [(COMPILING, (143, "terminated")), (SHARING, (143, "terminated")), (LOADING, (130, "interrupted"))],
-)
+    [(COMPILING, (143, "terminated")), (SHARING, (143, "terminated")), (LOADING, (130, "interrupted")),
+     (FAILING, (143, "terminated"))],
+)  # fmt: skip
 def test_a_signal_in_the_depths_of_python_is_neither_lost_nor_a_traceback(code: str, end: tuple[int, str]) -> None:
     """As while Numba compiles or a module is loaded, where C calls functions whose exceptions are lost.
 
