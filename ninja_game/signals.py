@@ -23,8 +23,8 @@ _ENDING = (signal.SIGINT, signal.SIGTERM)
 told = threading.Event()
 """The command has said itself that it was stopped; what remains may take its time."""
 
-lost: list[BaseException] = []
-"""Signals whose exceptions Python has lost: what fails after one of them fails because of it."""
+arrived: list[BaseException] = []
+"""Signals that have come, also those whose exceptions Python has lost: what fails after one fails because of it."""
 
 
 class Terminated(BaseException):
@@ -50,13 +50,14 @@ def end_on_signals() -> None:
 
 
 def _raise_terminated(*_: object) -> NoReturn:
-    raise Terminated
+    arrived.append(Terminated())
+    raise arrived[-1]
 
 
 def _forget_signals(ignored: sys.UnraisableHookArgs) -> None:
     """Say nothing of a signal that came where Python loses exceptions: the thread ends the program."""
     if isinstance(ignored.exc_value, (Terminated, KeyboardInterrupt)):
-        lost.append(ignored.exc_value)
+        arrived.append(ignored.exc_value)
     else:
         sys.__unraisablehook__(ignored)
 

@@ -18,7 +18,7 @@ import click
 from ninja_game import __version__
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
-from ninja_game.signals import Terminated, end_on_signals, lost, told
+from ninja_game.signals import Terminated, arrived, end_on_signals, told
 
 GROUPS = {
     "game": {
@@ -151,7 +151,7 @@ class Commands(click.Group):
         except (click.Abort, KeyboardInterrupt, Terminated) as error:
             code = _stopped(error)
         except Exception as error:  # noqa: BLE001 - nothing may end like a run that failed
-            code = _stopped(error) or _stopped(next(iter(lost), None))
+            code = _stopped(error) or _stopped(next(iter(arrived), None))
             if not code:
                 traceback.print_exc()
                 complain("this is a fault of ninja-game, not of your input; please report it with the lines above")
