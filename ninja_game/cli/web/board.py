@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from datetime import UTC, datetime
 from pathlib import Path
 
 import click
@@ -22,7 +23,7 @@ from ninja_game.cli.run_options import InputPath, jobs_option
 )  # fmt: skip
 @click.option(
     "--json", "data", metavar="FILE", type=click.Path(dir_okay=False, path_type=Path),
-    help="Write the board as data, for --check.",
+    help="Write the board as data, for --check. It is the board's ledger: runs that FILE has already keep their dates.",
 )  # fmt: skip
 @click.option(
     "--check", metavar="FILE", type=click.Path(exists=True, dir_okay=False, path_type=Path),
@@ -51,24 +52,29 @@ def command(
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from ninja_game.files.resources import data_folder
     from ninja_game.files.writing import check_output, write_atomically
-    from ninja_game.web.board.pages import BoardPages
+    from ninja_game.web.board.pages import BoardPages, check_site
     from ninja_game.web.board.ranking import Ranking
-    from ninja_game.web.board.report import board_text, changes, plain, read_board, summary
+    from ninja_game.web.board.report import board_text, changes, dates_of, plain, read_board, summary
     from ninja_game.web.board.runs import judge
     from ninja_game.web.pages.exhibition import exhibition
 
-    before = read_board(check) if check else None
+    if site:
+        check_site(site, folder)
     if data:
         check_output(data, keep=[folder])
-    ranking = Ranking(judge(folder, shown := exhibition(levels or data_folder("levels")), jobs=jobs), shown)
-    judged = ranking.judged
+    now = datetime.now(UTC)
+    ledger = check or data
+    before = read_board(ledger, now) if ledger and ledger.exists() else ({}, {})
+    shown = exhibition(levels or data_folder("levels"))
+    judged = judge(folder, shown, dates=dates_of(before, now) if ledger else None, jobs=jobs)
+    ranking = Ranking(judged, shown)
     if site:
         BoardPages(site, ranking).write()
         if not (site / "index.html").exists():
             click.echo(f"{site} has no page with the game yet: ninja-game site {site}", err=True)
     if data:
         write_atomically(data, board_text(judged), keep=[folder])
-    if before is None:
+    if not check:
         for each in judged.apart:
             click.echo(f"{each.kind}: {plain(each.file)}: {plain(each.why)}")
         click.echo(summary(judged))

@@ -1,16 +1,17 @@
-"""The texts of a folder of runs, as chunks to verify. Nothing outside the folder is read, and nothing large."""
+"""The runs of a folder, as chunks to verify. Nothing outside the folder is read, and nothing large."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ninja_game.errors import NinjaGameError, ReplayError
 from ninja_game.files.reading import LeftOut, decoded, files_below, read_bytes
-from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay.text import is_replay, parse_replay, write_replay
-from ninja_game.runs.recording_reader import Unreadable, recording_of_text, recordings_of, records_of
+from ninja_game.formats.n14.demo import parse_demo
+from ninja_game.formats.recording import holds_recordings
+from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
+from ninja_game.runs.recording_reader import records_of
 from ninja_game.sim.level import Level
 from ninja_game.verification.chunks import Chunk
 
@@ -21,8 +22,20 @@ MOST_RECORDS = 200
 """Of one file with records of N."""
 
 
-def chunks_below(folder: Path, levels: Mapping[str, Level]) -> Iterator[Chunk]:
-    """A chunk for each file of the folder, by its path from there; one that is refused says why.
+@dataclass(frozen=True)
+class Sent:
+    """A run, or what cannot be one, as a chunk with one result. ``replay``: where it is one of ours."""
+
+    chunk: Chunk
+    replay: Replay | None = None
+
+    def inputs(self, ticks: int) -> bytes:
+        """The inputs of its first ticks, where it is a run."""
+        return (self.replay or parse_demo(self.chunk.records[0].demo)).playback(ticks)
+
+
+def sent_below(folder: Path, levels: Mapping[str, Level]) -> Iterator[Sent]:
+    """What the files of the folder hold, by their paths from there; a file that is refused says why.
 
     ``levels``: those that count, by digest; replays that hold no level are given theirs; paths in them are not
     followed.
@@ -32,44 +45,37 @@ def chunks_below(folder: Path, levels: Mapping[str, Level]) -> Iterator[Chunk]:
         path = found.path if isinstance(found, LeftOut) else found
         name = path.relative_to(folder).as_posix()
         if isinstance(found, LeftOut):
-            yield Chunk(name, problem=found.why)
+            yield Sent(Chunk(name, problem=found.why))
         elif path.resolve() != root / path.relative_to(folder):
-            yield Chunk(name, problem="a link; put the file itself here")
+            yield Sent(Chunk(name, problem="a link; put the file itself here"))
         else:
-            yield _chunk(path, name, levels)
+            yield from _sent(path, name, levels)
 
 
-def _chunk(path: Path, name: str, levels: Mapping[str, Level]) -> Chunk:
+def _sent(path: Path, name: str, levels: Mapping[str, Level]) -> list[Sent]:
     try:
         text = decoded(read_bytes(path, MOST_BYTES), name)
         if is_replay(text):
-            return Chunk(name, text=_whole(text, levels))
+            replay = _whole(text, levels)
+            return [Sent(Chunk(name, text=write_replay(replay)), replay)]
         records = records_of(text, name)
+        if not records and holds_recordings(text):
+            raise ReplayError("inputs without a level", hint="send a replay, or a record of N")
     except NinjaGameError as error:
-        return Chunk(name, problem=str(error).removeprefix(f"{path}: "))
+        return [Sent(Chunk(name, problem=str(error).removeprefix(f"{path}: ")))]
     except OSError as error:
-        return Chunk(name, problem=error.strerror or str(error))
+        return [Sent(Chunk(name, problem=error.strerror or str(error)))]
     if len(records) > MOST_RECORDS:
-        return Chunk(name, problem=f"{len(records)} recordings in one file; at most {MOST_RECORDS}")
-    return Chunk(name, records=tuple(records)) if records else Chunk(name, text=text)
+        return [Sent(Chunk(name, problem=f"{len(records)} recordings in one file; at most {MOST_RECORDS}"))]
+    chunks = [Chunk(name, index, records=(record,)) for index, record in enumerate(records)]
+    return [Sent(chunk) for chunk in chunks or [Chunk(name, text=text)]]
 
 
-def _whole(text: str, levels: Mapping[str, Level]) -> str:
-    """The replay's text, with a level inside and everything in it that it takes in. Raises ReplayError, LevelError."""
+def _whole(text: str, levels: Mapping[str, Level]) -> Replay:
+    """The replay, with a level inside and everything in it that it takes in. Raises ReplayError, LevelError."""
     # Without the name of a file nothing in it leads to another one.
     parsed = parse_replay(text)
     level = parsed.level or levels.get(parsed.level_digest)
     if level is None:
         raise ReplayError("it holds no level, and its level-digest is of none that counts")
-    return write_replay(replace(parsed, level=level, level_path="", level_record=0))
-
-
-def recordings_in_chunk(chunk: Chunk) -> list[Recording | None]:
-    """The recordings of a chunk, as many as it has results; None for what cannot be read."""
-    if chunk.problem:
-        return [None]
-    if chunk.records:
-        found = recordings_of(chunk.records, chunk.file)
-    else:
-        found = recording_of_text(chunk.text, chunk.file, named=True)
-    return [None if isinstance(each, Unreadable) else each for each in found]
+    return replace(parsed, level=level, level_path="", level_record=0)

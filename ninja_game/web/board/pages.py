@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from hashlib import sha256
 from pathlib import Path
 
+from ninja_game.errors import FileError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.pack.pars import MARGINS
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.scoring import seconds_text
-from ninja_game.web.board.dates import day
 from ninja_game.web.board.ranking import FASTEST, HIGHEST, Ranked, Ranking
 from ninja_game.web.board.report import summary
 from ninja_game.web.board.runs import Apart, Run
@@ -35,6 +35,20 @@ WHY_APART = {
     "refused": "Runs that do not count",
     "unreadable": "Files that are no runs",
 }
+
+
+def check_site(out: Path, folder: Path) -> None:
+    """Raise FileError where the pages in ``out`` would be written into the folder of runs, or around it."""
+    for written in (out / BOARD, out / REPLAYS):
+        if _is_in(written, folder) or _is_in(folder, written):
+            what = f"the pages would be written into {written.name!r}, and the runs are read there"
+            raise FileError(what, str(out), found=str(folder), hint="choose another folder for the pages")
+
+
+def _is_in(path: Path, folder: Path) -> bool:
+    """Whether a path, of something that may not be there yet, is a folder or leads into it; links are followed."""
+    place = path.resolve()
+    return folder.exists() and any(each.exists() and each.samefile(folder) for each in (place, *place.parents))
 
 
 class BoardPages:
@@ -89,7 +103,7 @@ class BoardPages:
             (
                 self._entry(record.run.entry), self._watch([record.run], "", "Watch"), HEADS[record.kind],
                 self._name(record.run.player), _value(record.kind, record.run),
-                _gain(record.kind, record.run, record.before), day(record.run.added),
+                _gain(record.kind, record.run, record.before), record.run.day,
             )
             for record in self.ranking.records[:NEWEST]
         ]  # fmt: skip
@@ -138,7 +152,7 @@ class BoardPages:
         rows: list[tuple[Content, ...]] = [
             (
                 each.place, self._name(each.run.player, "../"), _value(kind, each.run),
-                self._watch([each.run], "../", "Watch"), medal_mark(each.run.medal), each.run.gold, day(each.run.added),
+                self._watch([each.run], "../", "Watch"), medal_mark(each.run.medal), each.run.gold, each.run.day,
                 each.run.remark,
             )
             for each in ranked

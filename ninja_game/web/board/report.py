@@ -1,10 +1,11 @@
-"""The board as data, and what a change of the folder does to it: for the automatic checks of a repository."""
+"""The board as data, which is its ledger too, and what a change of the folder does to it: for a repository's checks."""
 
 from __future__ import annotations
 
 import json
 from collections import Counter
 from collections.abc import Iterator
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
@@ -14,18 +15,26 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.play.ui.text_layout import counted
 from ninja_game.player.scoring import seconds_text
 from ninja_game.web.board.ranking import ORDERS, Ranking
-from ninja_game.web.board.runs import Apart, Judged, Run
+from ninja_game.web.board.runs import Apart, Dates, Judged, Key, Run
 
-VERSION = 1
+VERSION = 2
+DATE = "%Y-%m-%dT%H:%M:%SZ"
 
 IN_WORDS = {"practice": "of practice", "copy": "copied", "refused": "refused", "unreadable": "unreadable"}
 
-Key = tuple[str, int]
 Rows = dict[Key, dict[str, Any]]
+
+_FIELDS = {
+    "runs": {
+        "file": str, "record": int, "player": str, "level": str, "level_name": str,
+        "tick": int, "gold": int, "score": int, "way": str, "added": str,
+    },
+    "apart": {"file": str, "record": int, "kind": str, "why": str, "way": str, "added": str},
+}  # fmt: skip
 
 
 def board_data(judged: Judged) -> dict[str, Any]:
-    """The board as plain values: nothing in it depends on time or machine."""
+    """The board as plain values: nothing in it but the dates depends on time or machine."""
     runs = sorted(judged.runs, key=lambda run: run.key)
     return {"version": VERSION, "runs": list(map(_run_data, runs)), "apart": list(map(_apart_data, judged.apart))}
 
@@ -34,11 +43,12 @@ def _run_data(run: Run) -> dict[str, Any]:
     return {
         "file": run.file, "record": run.record, "player": run.player, "level": run.entry.digest,
         "level_name": run.entry.title, "tick": run.tick, "gold": run.gold, "score": run.score,
+        "way": run.way, "added": run.added,
     }  # fmt: skip
 
 
 def _apart_data(apart: Apart) -> dict[str, Any]:
-    return {"file": apart.file, "record": apart.record, "kind": apart.kind, "why": apart.why}
+    return {key: getattr(apart, key) for key in _FIELDS["apart"]}
 
 
 def board_text(judged: Judged) -> str:
@@ -48,18 +58,56 @@ def board_text(judged: Judged) -> str:
     return f'{{"version": {VERSION}, "runs": [\n{lines["runs"]}\n], "apart": [\n{lines["apart"]}\n]}}\n'
 
 
-def read_board(path: Path) -> tuple[Rows, Rows]:
+def read_board(path: Path, now: datetime) -> tuple[Rows, Rows]:
     """The runs and what is apart in a file of ``board_text``, by file and record. Raises FormatError, OSError."""
     try:
         data = json.loads(read_utf8(path))
         if data["version"] != VERSION:
-            raise FormatError("a board of an unknown version", str(path), found=str(data["version"])[:20])
-        runs, apart = (
-            {(str(row["file"]), int(row["record"])): dict(row) for row in data[key]} for key in ("runs", "apart")
-        )
-    except (ValueError, TypeError, KeyError, RecursionError, OverflowError):
+            found = f"version {str(data['version'])[:20]}"
+            hint = "to begin anew, remove it: all runs get one date then, and go by the names of their files"
+            raise FormatError("a board of another version", str(path), found=found, expected=str(VERSION), hint=hint)
+        runs, apart = (_rows(path, key, data[key], now) for key in _FIELDS)
+    except (ValueError, TypeError, KeyError, RecursionError):
         raise FormatError("not a board", str(path), expected="a file that `ninja-game board --json` wrote") from None
     return runs, apart
+
+
+def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> Rows:
+    """The rows of a part of a board by file and record. Raises FormatError for one that is not as they are written."""
+    found: Rows = {}
+    for number, row in enumerate(rows, 1):
+        place = f"row {number} of {part!r}"
+        for name, kind in _FIELDS[part].items():
+            if type(row[name]) is not kind:
+                raise FormatError(f"{place}: {name!r} is of the wrong type", str(path), expected=kind.__name__)
+        if row["added"] and not _is_date(row["added"], now):
+            expected = "a date in the past as in 2026-01-31T12:00:00Z"
+            raise FormatError(f"{place}: not a date", str(path), found=repr(row["added"][:40]), expected=expected)
+        key = row["file"], row["record"]
+        if key in found:
+            raise FormatError(f"{place}: given twice", str(path), found=plain(row["file"]))
+        found[key] = row
+    return found
+
+
+def _is_date(text: str, now: datetime) -> bool:
+    """Whether a text is a date of ours, and not of a day that is still to come."""
+    try:
+        date = datetime.strptime(text, DATE).replace(tzinfo=UTC)
+    except ValueError:
+        return False
+    return date.strftime(DATE) == text and date < now + timedelta(days=1)
+
+
+def dates_of(before: tuple[Rows, Rows], now: datetime) -> Dates:
+    """The dates of a ledger. A run that it does not have, or not with this way, is taken in now."""
+    rows, today = before[1] | before[0], now.strftime(DATE)
+
+    def date(key: Key, way: str) -> str:
+        row = rows.get(key)
+        return str(row["added"]) if row and row["way"] == way else today
+
+    return date
 
 
 def changes(ranking: Ranking, before: tuple[Rows, Rows]) -> Iterator[tuple[bool, str]]:

@@ -3,35 +3,38 @@
 from __future__ import annotations
 
 import re
-import unicodedata
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.player.catalogue import Entry
 from ninja_game.runs.recording_reader import Unreadable
+from ninja_game.runs.run import run_level
 from ninja_game.runs.verify import Verdict
-from ninja_game.verification.chunks import Result
+from ninja_game.verification.chunks import Chunk, Result
 from ninja_game.verification.verify_many import verify_all
-from ninja_game.web.board.collect import chunks_below, recordings_in_chunk
-from ninja_game.web.board.dates import dates_of
+from ninja_game.web.board.collect import Sent, sent_below
+from ninja_game.web.board.copies import Course, course_of, nearest
+from ninja_game.web.board.players import Players, player_named
 from ninja_game.web.pages.exhibition import Exhibition
 
-UNNAMED = "unnamed"
+Key = tuple[str, int]
+"""A run's file, as a path in the folder, and its record there."""
+
+Dates = Callable[[Key, str], str]
+"""When the board first took in a run, by its key and way: UTC as in 2026-01-31T12:00:00Z, "" where nobody knows."""
+
 _LINE = re.compile(r"^(?=[0-9])")
-ALIKE = 0.8
-"""Share of a run's inputs that are, from the start, those of somebody else's: more is told."""
 
 
 @dataclass(frozen=True)
 class Run:
     """A run that counts, as the simulation says: ``tick`` of the exit contact, ``gold``, ``score`` (ticks).
 
-    ``file``: path in the folder, ``record`` in it; ``added``: when, in seconds since 1970, 0 where nobody knows;
-    ``way``: digest of the ninja's positions; ``remark``: what a reader should know.
+    ``file``: path in the folder, ``record`` in it; ``added``: as Dates say; ``way``: digest of the ninja's positions;
+    ``remark``: what a reader should know.
     """
 
     file: str
@@ -41,15 +44,20 @@ class Run:
     tick: int
     gold: int
     score: int
-    added: int
+    added: str
     replay: Replay = field(repr=False)
     way: str = field(repr=False)
     remark: str = ""
 
     @property
-    def key(self) -> tuple[str, int]:
+    def key(self) -> Key:
         """Which one it is."""
         return self.file, self.record
+
+    @property
+    def day(self) -> str:
+        """The date of ``added``."""
+        return self.added.partition("T")[0]
 
     @property
     def medal(self) -> str:
@@ -59,7 +67,10 @@ class Run:
 
 @dataclass(frozen=True)
 class Apart:
-    """A run, or a file, that does not count. ``kind``: "practice", "copy", "refused" or "unreadable"."""
+    """A run, or a file, that does not count. ``kind``: "practice", "copy", "refused" or "unreadable".
+
+    ``way``, ``added``: of a copy, as a run has them.
+    """
 
     file: str
     record: int
@@ -67,6 +78,8 @@ class Apart:
     why: str
     player: str = ""
     level: str = ""
+    way: str = ""
+    added: str = ""
 
 
 @dataclass(frozen=True)
@@ -77,54 +90,60 @@ class Judged:
     apart: tuple[Apart, ...]
 
 
-def judge(folder: Path, shown: Exhibition, *, jobs: int | None = None) -> Judged:
-    """Simulate every run below a folder again, on the levels that are shown. Raises OSError."""
-    chunks = list(chunks_below(folder, {digest: entry.named.level for digest, entry in shown.entries.items()}))
-    recordings = [(chunk.file, each) for chunk in chunks for each in recordings_in_chunk(chunk)]
-    levels = [entry.named for entry in shown.entries.values()]
-    results = verify_all((), chunks=chunks, levels=levels, strict=True, jobs=jobs)
-    added = dates_of(folder, {chunk.file for chunk in chunks})
-    found: list[Run] = []
-    apart: list[Apart] = []
-    for (name, recording), result in zip(recordings, results, strict=True):
-        if isinstance(result, Verdict) and recording and result.good:
-            found.append(_run(result, recording, shown.entries, added.get(name, 0)))
-        else:
-            apart.append(_apart(name, result, shown.entries))
-    runs, copies = _without_copies(sorted(found, key=lambda run: (run.added, run.key)))
-    return Judged(tuple(runs), tuple(sorted([*apart, *copies], key=lambda each: (each.file, each.record))))
+def judge(folder: Path, shown: Exhibition, *, dates: Dates | None = None, jobs: int | None = None) -> Judged:
+    """Simulate every run below a folder again, on the levels that are shown. Raises OSError.
 
-
-def player_named(author: str) -> str:
-    """Who an author is on the board: the name in one form, however it was typed.
-
-    >>> player_named("  Ann "), player_named("")
-    ('Ann', 'unnamed')
+    ``dates``: those of the board's ledger; without it runs go by the names of their files.
     """
-    return " ".join(unicodedata.normalize("NFKC", author).split()) or UNNAMED
+    found = list(sent_below(folder, {digest: entry.named.level for digest, entry in shown.entries.items()}))
+    levels = [entry.named for entry in shown.entries.values()]
+    results = verify_all((), chunks=[sent.chunk for sent in found], levels=levels, strict=True, jobs=jobs)
+    runs: list[Run] = []
+    apart: list[Apart] = []
+    for sent, result in zip(found, results, strict=True):
+        if isinstance(result, Verdict) and result.good:
+            runs.append(_run(result, sent, shown.entries, dates))
+        else:
+            apart.append(_apart(sent.chunk, result, shown.entries))
+    counted, copies = _without_copies(_of_players(sorted(runs, key=_first)))
+    return Judged(tuple(counted), tuple(sorted([*apart, *copies], key=lambda each: (each.file, each.record))))
 
 
-def _run(verdict: Verdict, recording: Recording, entries: Mapping[str, Entry], added: int) -> Run:
+def _first(run: Run) -> tuple[str, Key]:
+    """What runs are in order of: the first one owns what it does."""
+    return run.added, run.key
+
+
+def _run(verdict: Verdict, sent: Sent, entries: Mapping[str, Entry], dates: Dates | None) -> Run:
     """A run that counts. What is kept of its text are its inputs alone; all else is what the simulation says."""
-    player, entry = player_named(verdict.author), entries[verdict.level_digest]
+    entry = entries[verdict.level_digest]
     replay = Replay(
-        recording.playback(verdict.ticks), verdict.end_tick, verdict.outcome, verdict.gold,
-        name=entry.title, author=player, level_name=entry.title, level_author=entry.named.author,
-        level=recording.level,
+        sent.inputs(verdict.ticks), verdict.end_tick, verdict.outcome, verdict.gold,
+        name=entry.title, level_name=entry.title, level_author=entry.named.author, level=entry.named.level,
     )  # fmt: skip
-    score = verdict.score_ticks or 0
     key, ended = (verdict.file, verdict.record), (verdict.end_tick, verdict.gold)
-    return Run(*key, player, entry, *ended, score, added, replay, verdict.xy_sha256)
+    added = dates(key, verdict.xy_sha256) if dates else ""
+    return Run(*key, verdict.author, entry, *ended, verdict.score_ticks or 0, added, replay, verdict.xy_sha256)
 
 
-def _apart(name: str, result: Result, entries: Mapping[str, Entry]) -> Apart:
+def _of_players(runs: list[Run]) -> list[Run]:
+    """The runs, each of the player that its author is."""
+    players = Players()
+    found = []
+    for run in runs:
+        player, remark = players.meet(run.player)
+        found.append(replace(run, player=player, remark=remark, replay=replace(run.replay, author=player)))
+    return found
+
+
+def _apart(chunk: Chunk, result: Result, entries: Mapping[str, Entry]) -> Apart:
     """What does not count, and why."""
     if isinstance(result, Unreadable):
-        return Apart(name, 0, "unreadable", _without_name(result.message, name))
+        return Apart(chunk.file, chunk.first, "unreadable", _without_name(result.message, chunk.file))
     entry = entries.get(result.level_digest)
     kind = "practice" if result.practice else "refused"
     why = "; ".join(result.problems)
-    return Apart(name, result.record, kind, why, player_named(result.author), entry.title if entry else "")
+    return Apart(chunk.file, result.record, kind, why, player_named(result.author), entry.title if entry else "")
 
 
 def _without_name(message: str, name: str) -> str:
@@ -139,29 +158,41 @@ def _without_name(message: str, name: str) -> str:
 
 
 def _without_copies(runs: list[Run]) -> tuple[list[Run], list[Apart]]:
-    """The runs without those that do what an earlier one does; one that goes most of an earlier one's way is marked."""
-    kept: list[Run] = []
-    copies: list[Apart] = []
+    """The runs without those that do what an earlier one does; near copies of an earlier one are marked."""
     on_level: dict[str, list[Run]] = defaultdict(list)
+    copies: list[Apart] = []
+    ways: dict[tuple[str, str], Run] = {}
     for run in runs:
-        earlier = on_level[run.entry.digest]
-        first = next((other for other in earlier if other.way == run.way), None)
-        if first:
-            what = "the same run as" if first.player == run.player else f"a copy of the run by {first.player} in"
-            copies.append(Apart(*run.key, "copy", f"{what} {first.file}", run.player, run.entry.title))
-            continue
-        kept.append(_remarked(run, earlier))
-        earlier.append(run)
-    return kept, copies
+        first = ways.setdefault((run.entry.digest, run.way), run)
+        if first is run:
+            on_level[run.entry.digest].append(run)
+        else:
+            stolen = first.player != run.player and first.added < run.added
+            what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
+            why = f"{what} {first.file}"
+            copies.append(Apart(*run.key, "copy", why, run.player, run.entry.title, run.way, run.added))
+    kept = [run for level in on_level.values() for run in _remarked(level)]
+    return sorted(kept, key=_first), copies
 
 
-def _remarked(run: Run, earlier: list[Run]) -> Run:
-    """The run with a remark where most of its inputs are those of somebody else's run."""
-    for other in earlier:
-        if other.player != run.player:
-            pairs = enumerate(zip(run.replay.inputs, other.replay.inputs, strict=False))
-            same = next((tick for tick, (ours, theirs) in pairs if ours != theirs), min(run.tick, other.tick))
-            if same >= ALIKE * run.tick:
-                remark = f"its first {same} of {run.tick + 1} ticks have the inputs of the run by {other.player}"
-                return replace(run, remark=remark)
-    return run
+def _remarked(runs: list[Run]) -> list[Run]:
+    """The runs of a level, in order, with a remark on each that is nearest to an earlier one of somebody else."""
+    if len({run.player for run in runs}) == 1:
+        return runs
+    found: list[Run] = []
+    earlier: list[tuple[Run, Course]] = []
+    near: set[Key] = set()
+    for run in runs:
+        inputs = run.replay.playback(run.tick + 1)
+        course = course_of(inputs, run_level(run.entry.named.level, inputs))
+        # A player's own near copies do not make the next one the player's own.
+        others = [each for each in earlier if each[0].player != run.player or each[0].key not in near]
+        closest = nearest(course, [other for _, other in others])
+        earlier.append((run, course))
+        if closest and (other := others[closest[0]][0]).player != run.player:
+            near.add(run.key)
+            said = f"{closest[1]} the run by {other.player} in {other.file}"
+            found.append(replace(run, remark="; ".join(filter(None, (said, run.remark)))))
+        else:
+            found.append(run)
+    return found

@@ -1,0 +1,78 @@
+"""Who a run belongs to: names as people read them, and names that only look like another one."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from dataclasses import dataclass, field
+
+UNNAMED = "unnamed"
+
+_IGNORED = re.compile(
+    "[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u2065\u2800\u3164\ufe00-\ufe0f\uffa0\U000e0000-\U000e0fff]"
+)
+"""What is not seen, besides the format characters (Cf): fillers, variation selectors, blank Braille."""
+
+_LATIN = str.maketrans(
+    "АВЕЅЈКМНОРСТУХԚԜаеѕјкмнорстухһԁԛԝѵΑΒΕΖΗΚΜΝΟΡΤΥΧαεκνορτυχӏІіΙιıIi1|0",  # noqa: RUF001
+    "ABESJKMHOPCTYXQWaesjkmhopctyxhdqwvABEZHKMNOPTYXaekvoptuxllllllllllo",
+)
+"""Letters that look like a Latin one: Cyrillic, Greek, and those that a font draws alike."""
+
+_TOLD_APART = frozenset({"LATIN", "CYRILLIC", "GREEK"})
+
+
+def player_named(author: str) -> str:
+    """An author's name in one line, as it was typed.
+
+    >>> player_named("  Ann "), player_named("")
+    ('Ann', 'unnamed')
+    """
+    return " ".join(unicodedata.normalize("NFKC", author).split()) or UNNAMED
+
+
+def folded(player: str) -> str:
+    r"""A name as people read it: without case, and without characters that are not seen.
+
+    >>> folded("Ann") == folded("ANN") == folded("a\u200bnn") == folded("\uff21nn")
+    True
+    """
+    folds = unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", player).casefold())
+    seen = "".join(letter for letter in folds if unicodedata.category(letter) != "Cf")
+    return player_named(_IGNORED.sub("", seen))
+
+
+def look(player: str) -> str:
+    r"""What a name looks like: equal for names that a reader may take for one another.
+
+    >>> look("\u0410nn") == look("Ann") == look("\u00c1nn"), look("Bill") == look("Bi1I")
+    (True, True)
+    """
+    plain = "".join(letter for letter in unicodedata.normalize("NFKD", player) if not unicodedata.combining(letter))
+    return folded(plain.translate(_LATIN)).replace("rn", "m").replace("vv", "w")
+
+
+def mixed_word(player: str) -> bool:
+    """Whether a word of a name has letters of scripts that look alike."""
+    for word in player.split():
+        scripts = {unicodedata.name(letter, "").partition(" ")[0] for letter in word if letter.isalpha()}
+        if len(scripts & _TOLD_APART) > 1:
+            return True
+    return False
+
+
+@dataclass
+class Players:
+    """All players met so far, each under the name as it was typed first."""
+
+    _names: dict[str, str] = field(default_factory=dict)
+    _looks: dict[str, str] = field(default_factory=dict)
+
+    def meet(self, author: str) -> tuple[str, str]:
+        """Who an author is, and a remark where the name may be taken for that of somebody who came first."""
+        name = folded(author)
+        player = self._names.setdefault(name, name if name == UNNAMED else player_named(author))
+        first = self._looks.setdefault(look(player), player)
+        if first != player:
+            return player, f"the player's name looks like {first}, who came first, and is another one"
+        return player, "the player's name mixes letters of several scripts" if mixed_word(player) else ""

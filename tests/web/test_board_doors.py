@@ -1,0 +1,325 @@
+"""What a folder of runs may not do to a board: start a command, change its dates, pass a run on as one's own."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import random
+import shutil
+import subprocess
+import zlib
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from ninja_game.cli.main import cli
+from ninja_game.files.resources import bundled_replays, data_folder
+from ninja_game.formats.load import load_replays
+from ninja_game.formats.replay.text import write_replay
+from ninja_game.runs.run import record_replay, run_level
+from ninja_game.web.board.copies import ALIGNED, course_of, edit_distance, nearest
+from ninja_game.web.board.pages import check_site
+from ninja_game.web.board.players import Players, folded
+from ninja_game.web.board.runs import judge
+from ninja_game.web.pages.exhibition import exhibition
+from tests.support.forgeries import WALKING, record, replay
+from tests.support.reference import require_reference
+from tests.web.test_board import levels, put, runs, slow_walk  # noqa: F401
+from tools.measure import near_copies
+
+JSON = "board.json"
+
+
+def board(folder: Path, pack: Path, *words: str) -> tuple[int, str]:
+    """Exit code and output of a command on the board."""
+    result = CliRunner().invoke(cli, ["board", str(folder), "--levels", str(pack), "--jobs", "1", *words])
+    return result.exit_code, result.output
+
+
+def rows(path: Path, part: str = "runs") -> dict[str, dict[str, object]]:
+    """The rows of a board's data by file."""
+    return {row["file"]: row for row in json.loads(path.read_text("utf-8"))[part]}
+
+
+def backdated(path: Path, date: str, *files: str) -> None:
+    """Move files of a ledger to a date."""
+    data = json.loads(path.read_text("utf-8"))
+    for row in (*data["runs"], *data["apart"]):
+        if row["file"] in files:
+            row["added"] = date
+    path.write_text(json.dumps(data), "utf-8")
+
+
+# --- commands of a repository ---
+
+
+def bare_repository(folder: Path, mark: Path) -> None:
+    """Plain files that are a repository, in which a look at the history fetches by a command of its own."""
+    body = b"tree %s\nauthor a <a> 1 +0000\ncommitter a <a> 1 +0000\n\nx\n" % (b"1" * 40)
+    stored = b"commit %d\0" % len(body) + body
+    name = hashlib.sha1(stored, usedforsecurity=False).hexdigest()
+    put(folder, "HEAD", f"{name}\n")
+    put(folder, "refs/heads/main", f"{name}\n")
+    (folder / "objects" / name[:2]).mkdir(parents=True)
+    (folder / "objects" / name[:2] / name[2:]).write_bytes(zlib.compress(stored))
+    upload = f'[remote "x"]\n\turl = {folder}\n\tpromisor = true\n\tuploadpack = touch {mark};\n'
+    extension = "[extensions]\n\tpartialClone = x\n"
+    put(folder, "config", f"[core]\n\trepositoryformatversion = 1\n\tbare = true\n{extension}{upload}")
+
+
+@pytest.mark.skipif(not shutil.which("git"), reason="git is not here")
+@pytest.mark.parametrize("inside", ["", ".git"])
+def test_a_repository_in_the_folder_starts_no_command(inside: str, tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    mark = tmp_path / "touched"
+    put(runs, "ann.txt", replay(author="Ann"))
+    bare_repository(runs / inside, mark)
+    code, text = board(runs, levels, "--check", str(empty_ledger(tmp_path)))
+    assert (code, mark.exists()) == (0, False), text
+    # The trap is one: git falls into it.
+    words = ["git", "-C", str(runs), "-c", "safe.directory=*", "log", "--name-only"]
+    env = os.environ | {"GIT_CONFIG_GLOBAL": os.devnull}
+    subprocess.run(words, capture_output=True, check=False, timeout=60, env=env)
+    assert mark.exists()
+
+
+def test_the_board_asks_no_other_program() -> None:
+    for path in Path("ninja_game/web/board").glob("*.py"):
+        assert "subprocess" not in path.read_text("utf-8")
+
+
+# --- the ledger ---
+
+
+def empty_ledger(folder: Path) -> Path:
+    return put(folder, "empty.json", '{"version": 2, "runs": [], "apart": []}')
+
+
+def test_a_run_keeps_the_date_at_which_the_board_took_it_in(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    data = tmp_path / JSON
+    put(runs, "bea.txt", slow_walk(author="Bea"))
+    board(runs, levels, "--json", str(data))
+    backdated(data, "2026-01-31T12:00:00Z", "bea.txt")
+    put(runs, "ann.txt", slow_walk(9, author="Ann"), day=1)
+    board(runs, levels, "--json", str(data))
+    found = rows(data)
+    assert found["bea.txt"]["added"] == "2026-01-31T12:00:00Z"
+    assert str(found["ann.txt"]["added"]) > "2026-02"
+    # What is another run in the same file is a new one.
+    put(runs, "bea.txt", slow_walk(3, author="Bea"))
+    board(runs, levels, "--json", str(data))
+    assert str(rows(data)["bea.txt"]["added"]) > "2026-02"
+
+
+def test_the_first_one_in_the_ledger_owns_the_run(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    data = tmp_path / JSON
+    put(runs, "zoe.txt", slow_walk(author="Zoe"), day=900)
+    board(runs, levels, "--json", str(data))
+    backdated(data, "2026-01-31T12:00:00Z", "zoe.txt")
+    put(runs, "a-thief.txt", slow_walk(author="Thief"), day=1)
+    code, text = board(runs, levels, "--check", str(data))
+    assert (code, text.splitlines()[0]) == (1, "copy: a-thief.txt: a copy of the run by Zoe in zoe.txt")
+    board(runs, levels, "--json", str(data))
+    assert list(rows(data)) == ["zoe.txt"]
+    assert board(runs, levels, "--check", str(data))[1].startswith("nothing has changed")
+
+
+def test_without_a_ledger_nobody_is_called_a_copier(levels: Path, runs: Path) -> None:  # noqa: F811
+    put(runs, "zoe.txt", slow_walk(author="Zoe"), day=1)
+    put(runs, "ann.txt", slow_walk(author="Ann"), day=9)
+    found = judge(runs, exhibition(levels), jobs=1)
+    assert [(run.player, run.added) for run in found.runs] == [("Ann", "")]
+    assert [each.why for each in found.apart] == ["the same run as ann.txt"]
+
+
+ROW = {
+    "file": "ann.txt", "record": 0, "player": "Ann", "level": "0", "level_name": "Walk", "tick": 1, "gold": 0,
+    "score": 1, "way": "0", "added": "",
+}  # fmt: skip
+BROKEN = {
+    "a date in a hundred thousand years": {"added": "99999-01-01T00:00:00Z"},
+    "a date that is still to come": {"added": "9999-01-01T00:00:00Z"},
+    "a year without its zeros": {"added": "1-01-01T00:00:00Z"},
+    "no date": {"added": "@99999999999999"},
+    "a day that there is not": {"added": "2026-02-30T00:00:00Z"},
+    "a number for a date": {"added": 99999999999999},
+    "a huge record": {"record": 1e400},
+    "a part of a record": {"record": 0.5},
+    "a truth for a record": {"record": True},
+    "no file": {"file": None},
+    "a list for a way": {"way": []},
+}
+
+
+@pytest.mark.parametrize("broken", BROKEN)
+@pytest.mark.parametrize("option", ["--check", "--json"])
+def test_a_broken_ledger_is_named_and_stays(broken: str, option: str, tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    text = json.dumps({"version": 2, "runs": [ROW | {"file": "first.txt"}, ROW | BROKEN[broken]], "apart": []})
+    data = put(tmp_path, JSON, text)
+    put(runs, "ann.txt", replay(author="Ann"))
+    code, said = board(runs, levels, option, str(data), "--site", str(tmp_path / "site"))
+    assert (code, "row 2 of 'runs'" in said) == (2, True), said
+    assert data.read_text("utf-8") == text
+
+
+@pytest.mark.parametrize("text", ['{"version": 1, "runs": [], "apart": []}', "", '{"version": 2, "runs": {}}', "[1]"])
+def test_another_file_is_not_taken_for_a_ledger(text: str, tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    data = put(tmp_path, JSON, text)
+    assert board(runs, levels, "--json", str(data))[0] == 2
+    assert data.read_text("utf-8") == text
+
+
+def test_one_odd_file_does_not_stop_the_others(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    put(runs, "ann.txt", replay(author="Ann"))
+    put(runs, "far.txt", replay(author="Far")).touch()
+    os.utime(runs / "far.txt", (2**40, 2**40))
+    put(runs, "records.txt", record(bytes(11) + WALKING) + "$x#y#z#nothing#23:0#\n" + record())
+    put(runs, "tas.tas", "   1,R\n")
+    put(runs, "a\nb.txt", slow_walk(8, author="Odd"))
+    code, _ = board(runs, levels, "--site", str(tmp_path / "site"), "--json", str(tmp_path / JSON))
+    assert code == 0
+    assert {"ann.txt", "a\nb.txt"} <= set(rows(tmp_path / JSON))
+
+
+def test_a_record_without_a_level_counts_where_one_level_does(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    put(runs, "ann.txt", record(level=""))
+    found = judge(runs, exhibition(levels / "00-0-level.txt"), jobs=1)
+    assert [run.player for run in found.runs] == ["me"]
+
+
+def test_inputs_alone_take_in_no_other_file(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    put(runs, "ann.tas", "Read,part.txt\n   1,R\n")
+    found = judge(runs, exhibition(levels / "00-0-level.txt"), jobs=1)
+    assert [each.why for each in found.apart] == ["inputs without a level; send a replay, or a record of N"]
+
+
+# --- where the pages go ---
+
+
+@pytest.mark.parametrize("out", [".", "replays/..", "replays", "replays/deep", "link", "replays/.", "around"])
+def test_the_pages_are_not_written_into_the_runs(out: str, tmp_path: Path, levels: Path) -> None:  # noqa: F811
+    folder = tmp_path / "replays"
+    put(folder, "ann.txt", replay(author="Ann"))
+    (tmp_path / "link").symlink_to(tmp_path)
+    (tmp_path / "around").mkdir()
+    (tmp_path / "around" / "board").symlink_to(folder)
+    before = sorted(tmp_path.rglob("*"))
+    code, text = board(folder, levels, "--site", str(tmp_path / out))
+    assert (code, "choose another folder for the pages" in text) == (2, True), text
+    assert sorted(tmp_path.rglob("*")) == before
+
+
+def test_runs_that_lie_below_old_pages_are_safe(tmp_path: Path) -> None:
+    (tmp_path / "board" / "levels").mkdir(parents=True)
+    with pytest.raises(Exception, match="the runs are read there"):
+        check_site(tmp_path, tmp_path / "board" / "levels")
+    check_site(tmp_path, tmp_path / "elsewhere")
+
+
+# --- whose a run is ---
+
+
+@pytest.mark.parametrize("name", ["ann", "ANN", "A\u200bnn", "\uff21\uff4e\uff4e", " Ann\t", "An\u2060n", "Ann\ufe0f"])
+def test_a_name_is_one_player_however_it_is_typed(name: str) -> None:
+    players = Players()
+    assert players.meet("Ann") == ("Ann", "")
+    assert players.meet(name) == ("Ann", "")
+
+
+@pytest.mark.parametrize("name", ["\u0410nn", "\u0391nn", "\u00c1nn"])
+def test_a_name_that_looks_like_another_is_told_and_not_merged(name: str) -> None:
+    players = Players()
+    players.meet("Ann")
+    player, remark = players.meet(name)
+    assert (player, "looks like Ann" in remark) == (name, True)
+    assert folded(player) != folded("Ann")
+
+
+@pytest.mark.parametrize(("name", "told"), [("P\u0430ul", True), ("Paul \u0418\u0432\u0430\u043d", False)])
+def test_words_of_mixed_scripts_are_told(name: str, told: bool) -> None:
+    assert bool(Players().meet(name)[1]) == told
+
+
+def test_names_without_a_letter_that_is_seen_are_unnamed() -> None:
+    assert Players().meet("\u200b\u3164")[0] == "unnamed"
+
+
+def test_players_are_shown_as_they_came_first(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
+    data = tmp_path / JSON
+    put(runs, "z.txt", slow_walk(author="Ann"))
+    board(runs, levels, "--json", str(data))
+    backdated(data, "2026-01-31T12:00:00Z", "z.txt")
+    put(runs, "a.txt", slow_walk(9, author="ANN"))
+    put(runs, "b.txt", slow_walk(5, author="aNN"))
+    put(runs, "c.txt", slow_walk(14, author="\u0410nn"))
+    code, text = board(runs, levels, "--check", str(data))
+    assert "new: a.txt: Ann passes" in text
+    assert "copy: b.txt: the same run as z.txt" in text
+    assert "the player's name looks like Ann, who came first" in text
+
+
+# --- near copies ---
+
+
+def certificate() -> tuple[Path, bytes, str]:
+    """A certificate of ours with its inputs, and the same with one key changed early that passes in another way."""
+    for path in (each for each in bundled_replays() if ".exit." in each.name):
+        (found,) = load_replays(path)
+        inputs = found.playback(found.ticks)
+        for tick in range(5, len(inputs) // 5):
+            changed = inputs[:tick] + bytes([inputs[tick] & 12]) + inputs[tick + 1 :]
+            run = record_replay(found.level, changed, body="circle", name="x", author="Mallory")
+            first = record_replay(found.level, inputs, name="x", author="Ann")
+            if changed != inputs and run.outcome == "exit" and run.digest != first.digest:
+                return path, inputs, write_replay(run)
+    raise AssertionError
+
+
+def test_one_key_changed_in_one_tick_is_told(tmp_path: Path) -> None:
+    shown = exhibition(data_folder("levels"))
+    path, inputs, text = certificate()
+    put(tmp_path, "runs/ann.txt", path.read_text("utf-8").replace("author:", "author: Ann #"))
+    put(tmp_path, "runs/mallory.txt", text)
+    found = judge(tmp_path / "runs", shown, jobs=1)
+    remarks = " ".join(run.remark for run in found.runs)
+    assert len(found.runs) == 2
+    assert f"of its {len(inputs)}"[:8] in remarks
+    assert "in ann.txt" in remarks
+
+
+def test_a_table_of_edits_and_honest_pairs_is_as_the_page_says() -> None:
+    require_reference()
+    pairs, _ = near_copies.honest_pairs(60)
+    course = near_copies.course_of_row
+    assert sum(nearest(course(other), [course(one)]) is not None for one, other in pairs) <= 1
+    paths = near_copies.every_nth([path for path in bundled_replays() if ".exit." in path.name], 5)
+    for kind in ("keys changed in a tick", "ticks added or left out"):
+        for path in paths:
+            (recording,) = load_replays(path)
+            assert all(seen for count, seen in near_copies.noticed(recording, kind) if count <= 5), (kind, path)
+
+
+def test_an_edit_distance_is_that_of_the_table() -> None:
+    def table(ours: bytes, theirs: bytes) -> int:
+        row = list(range(len(theirs) + 1))
+        for number, mine in enumerate(ours, 1):
+            new = [number]
+            for place, other in enumerate(theirs, 1):
+                new.append(min(row[place] + 1, new[-1] + 1, row[place - 1] + (mine != other)))
+            row = new
+        return row[-1]
+
+    for seed in range(200):
+        rng = random.Random(seed)
+        ours, theirs = (bytes(rng.choices(range(3), k=rng.randrange(40))) for _ in range(2))
+        assert edit_distance(ours, theirs) == table(ours, theirs)
+
+
+def test_few_of_many_runs_are_aligned(monkeypatch: pytest.MonkeyPatch) -> None:
+    (recording,) = load_replays(bundled_replays()[0])
+    inputs = recording.playback(recording.ticks)
+    course, aligned = course_of(inputs, run_level(recording.level, inputs)), []
+    monkeypatch.setattr("ninja_game.web.board.copies.edit_distance", lambda *both: aligned.append(both) or 10**6)
+    nearest(course, [course] * 500)
+    assert len(aligned) == ALIGNED

@@ -1,0 +1,132 @@
+"""How many honest runs and how many edited ones the board takes for near copies: the table of docs/board.md.
+
+    python3 tools/dev.py tool measure.near_copies
+
+Honest: pairs of runs of the reference on one level, one by a person and one made with tools. Edited: certificates of
+ours, in which changes are made at random places, one after the other, each kept only if the run still passes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import random
+from collections import defaultdict
+from collections.abc import Callable, Iterator
+from itertools import combinations
+
+import numpy as np
+
+from ninja_game.files.resources import bundled_replays
+from ninja_game.formats.load import load_replays
+from ninja_game.formats.n14.demo import parse_demo
+from ninja_game.formats.recording import Recording
+from ninja_game.runs.run import RunResult, run_level
+from ninja_game.sim.inputs import KEYS_DOWN, press_jumps
+from ninja_game.web.board.copies import Course, course_of, nearest
+from tests.support.reference import RunRow, positions, recordings
+
+COUNTS = (1, 2, 5, 10, 20, 50, 100, 200)
+PAIRS, CERTIFICATES = 300, 100
+MOST_TRIES = 1500
+LONGEST_BLOCK = 60
+
+
+def every_nth(found: list, count: int) -> list:  # type: ignore[type-arg]
+    """So many of them, at equal distances."""
+    count = min(count, len(found))
+    return [found[index * len(found) // count] for index in range(count)]
+
+
+def honest_pairs(count: int = PAIRS) -> tuple[list[tuple[RunRow, RunRow]], int]:
+    """Pairs of a person's run and another source's; and how many more of all are equal in every position."""
+    on_level: dict[str, list[RunRow]] = defaultdict(list)
+    for run in recordings():
+        on_level[run.data].append(run)
+    pairs = [pair for runs in on_level.values() for pair in combinations(runs, 2)]
+    mixed = [(one, other) for one, other in pairs if (one.source == "rta") != (other.source == "rta")]
+    different = [(one, other) for one, other in mixed if one.sha256_xy != other.sha256_xy]
+    return every_nth(different, count), len(mixed) - len(different)
+
+
+def course_of_row(row: RunRow) -> Course:
+    """The course of a run of the reference; its positions are known."""
+    places = positions()[row.offset : row.offset + 16 * row.ticks]
+    run = RunResult(row.outcome, row.gold, places, bytes(row.ticks))
+    return course_of(parse_demo(row.demo).playback(row.ticks), run)
+
+
+def change_key(keys: bytearray, rng: random.Random) -> None:
+    """Other keys in a tick."""
+    tick = rng.randrange(len(keys))
+    keys[tick] = rng.choice([each for each in range(KEYS_DOWN + 1) if each != keys[tick]])
+
+
+def shift_ticks(keys: bytearray, rng: random.Random) -> None:
+    """A tick more, or one less."""
+    tick = rng.randrange(len(keys))
+    if rng.random() < 0.5:
+        keys.insert(tick, keys[tick])
+    else:
+        del keys[tick]
+
+
+def change_block(keys: bytearray, rng: random.Random) -> None:
+    """Other keys in up to LONGEST_BLOCK ticks in a row."""
+    first, ticks = rng.randrange(len(keys)), rng.randrange(1, LONGEST_BLOCK)
+    keys[first : first + ticks] = bytes([rng.randrange(KEYS_DOWN + 1)]) * len(keys[first : first + ticks])
+
+
+EDITS: dict[str, Callable[[bytearray, random.Random], None]] = {
+    "keys changed in a tick": change_key,
+    "ticks added or left out": shift_ticks,
+    "spans of ticks changed": change_block,
+}
+
+
+def edited(recording: Recording, kind: str) -> Iterator[tuple[int, bytes, RunResult]]:
+    """A run after each of COUNTS changes, as far as it gets: how many, inputs, what came of them."""
+    rng = random.Random(f"{recording.name} {kind}")
+    keys, done = bytearray(each & KEYS_DOWN for each in recording.playback(recording.ticks)), 0
+    for _ in range(MOST_TRIES):
+        tried = keys.copy()
+        EDITS[kind](tried, rng)
+        inputs = press_jumps(bytes(tried) + bytes(LONGEST_BLOCK))
+        run = run_level(recording.level, inputs)
+        if run.outcome == "exit":
+            keys, done = tried, done + 1
+            if done in COUNTS:
+                yield done, inputs[: run.ticks], run
+        if done == COUNTS[-1]:
+            return
+
+
+def noticed(recording: Recording, kind: str) -> Iterator[tuple[int, bool]]:
+    """For each of COUNTS changes whether the board notices: a copy, or near enough for a remark."""
+    inputs = recording.playback(recording.ticks)
+    run = run_level(recording.level, inputs)
+    first = course_of(inputs[: run.ticks], run)
+    for count, changed, result in edited(recording, kind):
+        yield count, result.places == run.places or nearest(course_of(changed, result), [first]) is not None
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--certificates", type=int, default=CERTIFICATES)
+    arguments = parser.parse_args()
+    pairs, equal = honest_pairs()
+    told = [found for one, other in pairs if (found := nearest(course_of_row(other), [course_of_row(one)]))]
+    print(f"honest pairs: {len(told)} of {len(pairs)} remarked; {equal} more pairs are equal in every position")
+    print("| changes |", " | ".join(map(str, COUNTS)), "|")
+    chosen = every_nth([path for path in bundled_replays() if ".exit." in path.name], arguments.certificates)
+    for kind in EDITS:
+        rows: dict[int, list[bool]] = {count: [] for count in COUNTS}
+        for path in chosen:
+            (recording,) = load_replays(path)
+            for count, seen in noticed(recording, kind):
+                rows[count].append(seen)
+        print(f"| {kind} |", " | ".join(f"{np.mean(row):.0%} of {len(row)}" for row in rows.values()), "|", flush=True)
+
+
+if __name__ == "__main__":
+    main()
