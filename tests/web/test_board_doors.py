@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import zlib
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 from click.testing import CliRunner
@@ -133,11 +134,11 @@ def test_without_a_ledger_nobody_is_called_a_copier(levels: Path, runs: Path) ->
     assert [each.why for each in found.apart] == ["the same run as ann.txt"]
 
 
-ROW = {
+ROW: dict[str, object] = {
     "file": "ann.txt", "record": 0, "player": "Ann", "level": "0", "level_name": "Walk", "tick": 1, "gold": 0,
     "score": 1, "way": "0", "added": "",
 }  # fmt: skip
-BROKEN = {
+BROKEN: dict[str, dict[str, object]] = {
     "a date in a hundred thousand years": {"added": "99999-01-01T00:00:00Z"},
     "a date that is still to come": {"added": "9999-01-01T00:00:00Z"},
     "a year without its zeros": {"added": "1-01-01T00:00:00Z"},
@@ -236,7 +237,7 @@ def test_a_name_that_looks_like_another_is_told_and_not_merged(name: str) -> Non
     assert folded(player) != folded("Ann")
 
 
-@pytest.mark.parametrize(("name", "told"), [("P\u0430ul", True), ("Paul \u0418\u0432\u0430\u043d", False)])
+@pytest.mark.parametrize("name, told", [("P\u0430ul", True), ("Paul \u0418\u0432\u0430\u043d", False)])
 def test_words_of_mixed_scripts_are_told(name: str, told: bool) -> None:
     assert bool(Players().meet(name)[1]) == told
 
@@ -253,7 +254,7 @@ def test_players_are_shown_as_they_came_first(tmp_path: Path, levels: Path, runs
     put(runs, "a.txt", slow_walk(9, author="ANN"))
     put(runs, "b.txt", slow_walk(5, author="aNN"))
     put(runs, "c.txt", slow_walk(14, author="\u0410nn"))
-    code, text = board(runs, levels, "--check", str(data))
+    _, text = board(runs, levels, "--check", str(data))
     assert "new: a.txt: Ann passes" in text
     assert "copy: b.txt: the same run as z.txt" in text
     assert "the player's name looks like Ann, who came first" in text
@@ -319,7 +320,8 @@ def test_an_edit_distance_is_that_of_the_table() -> None:
 def test_few_of_many_runs_are_aligned(monkeypatch: pytest.MonkeyPatch) -> None:
     (recording,) = load_replays(bundled_replays()[0])
     inputs = recording.playback(recording.ticks)
-    course, aligned = course_of(inputs, run_level(recording.level, inputs)), []
-    monkeypatch.setattr("ninja_game.web.board.copies.edit_distance", lambda *both: aligned.append(both) or 10**6)
+    course = course_of(inputs, run_level(recording.level, inputs))
+    aligned = Mock(return_value=10**6)
+    monkeypatch.setattr("ninja_game.web.board.copies.edit_distance", aligned)
     nearest(course, [course] * 500)
-    assert len(aligned) == ALIGNED
+    assert aligned.call_count == ALIGNED

@@ -69,12 +69,12 @@ def test_new_runs_come_in(repository: Repository, names: list[str]) -> None:
 
 def rename(repository: Repository, name: str) -> None:
     repository.put("replays/eve/keep.txt")
-    (repository.folder / "replays" / "eve").mkdir(exist_ok=True)
     repository.git("mv", name, "replays/eve/run.txt")
 
 
-def link(repository: Repository, to: str = "../board.json") -> None:
-    (repository.folder / "replays" / "link.txt").symlink_to(to)
+def link(repository: Repository, name: str) -> None:
+    (repository.folder / name).unlink(missing_ok=True)
+    (repository.folder / name).symlink_to("../../board.json")
 
 
 def executable(repository: Repository) -> None:
@@ -100,8 +100,8 @@ TRICKS: dict[str, Callable[[Repository], object]] = {
     "a run is changed": lambda made: made.put(RUN, "another"),
     "a run becomes executable": lambda made: (made.folder / RUN).chmod(0o755),
     "a new run is executable": executable,
-    "a run becomes a link": lambda made: ((made.folder / RUN).unlink(), (made.folder / RUN).symlink_to("x")),
-    "a new link": link,
+    "a run becomes a link": lambda made: link(made, RUN),
+    "a new link": lambda made: link(made, "replays/eve/run.txt"),
     "a submodule": submodule,
     "a bare repository": bare,
     "attributes": lambda made: made.put("replays/.gitattributes", "* filter=x"),
