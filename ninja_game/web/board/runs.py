@@ -176,7 +176,7 @@ def _without_copies(runs: list[Run]) -> tuple[list[Run], list[Apart]]:
 
 
 def _remarked(runs: list[Run]) -> list[Run]:
-    """The runs of a level, in order, with a remark on each that is nearest to an earlier one of somebody else."""
+    """The runs of a level, in order, with a remark on each that is near to earlier ones of others alone."""
     if len({run.player for run in runs}) == 1:
         return runs
     found: list[Run] = []
@@ -185,12 +185,14 @@ def _remarked(runs: list[Run]) -> list[Run]:
     for run in runs:
         inputs = run.replay.playback(run.tick + 1)
         course = course_of(inputs, run_level(run.entry.named.level, inputs))
-        # A player's own near copies do not make the next one the player's own.
-        others = [each for each in earlier if each[0].player != run.player or each[0].key not in near]
-        closest = nearest(course, [other for _, other in others])
+        others = [each for each in earlier if each[0].player != run.player]
+        # A player's near copies do not make the next one the player's own.
+        own = [its for other, its in earlier if other.player == run.player and other.key not in near]
+        closest = None if nearest(course, own) else nearest(course, [its for _, its in others])
         earlier.append((run, course))
-        if closest and (other := others[closest[0]][0]).player != run.player:
+        if closest:
             near.add(run.key)
+            other = others[closest[0]][0]
             said = f"{closest[1]} the run by {other.player} in {other.file}"
             found.append(replace(run, remark="; ".join(filter(None, (said, run.remark)))))
         else:
