@@ -258,7 +258,7 @@ def test_players_are_shown_as_they_came_first(tmp_path: Path, levels: Path, runs
     _, text = board(runs, levels, "--check", str(data))
     assert "new: a.txt: Ann passes" in text
     assert "copy: b.txt: the same run as z.txt" in text
-    assert "the player's name looks like Ann, who came first" in text
+    assert "the player's name looks like Ann and is another one" in text
 
 
 # --- near copies ---

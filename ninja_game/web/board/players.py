@@ -74,5 +74,5 @@ class Players:
         player = self._names.setdefault(name, name if name == UNNAMED else player_named(author))
         first = self._looks.setdefault(look(player), player)
         if first != player:
-            return player, f"the player's name looks like {first}, who came first, and is another one"
+            return player, f"the player's name looks like {first} and is another one"
         return player, "the player's name mixes letters of several scripts" if mixed_word(player) else ""
