@@ -1,0 +1,526 @@
+"""The doors of the game that can be tried in one process: what reads bytes from elsewhere, and sound inputs for each."""
+
+from __future__ import annotations
+
+import dataclasses
+import io
+import json
+import random
+import re
+import sqlite3
+from collections.abc import Callable, Iterable
+from contextlib import closing, suppress
+from functools import cache, partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, NamedTuple
+from zipfile import ZIP_DEFLATED, ZipFile
+
+import numpy as np
+
+from ninja_game.directed.expressions import parse_truth
+from ninja_game.directed.view import FACTS, SPAN_NAMES
+from ninja_game.editor import autosave
+from ninja_game.editor.draft import Draft
+from ninja_game.editor.files import draft_of_text, new_source
+from ninja_game.errors import NinjaGameError
+from ninja_game.files.reading import read_bytes, read_utf8
+from ninja_game.files.shown_text import file_stem, shown_text
+from ninja_game.files.user_folder import RECORDS
+from ninja_game.formats.ascii.object_writer import same_record
+from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
+from ninja_game.formats.links.fragment import read_link, watched, write_link
+from ninja_game.formats.links.making import level_link, replay_link
+from ninja_game.formats.load import load_levels, load_replays
+from ninja_game.formats.n14.demo import parse_demo, write_demo
+from ninja_game.formats.n14.legacy_demo import write_legacy_demo
+from ninja_game.formats.n14.level_file import read_level_file
+from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
+from ninja_game.formats.named_level import parse_levels
+from ninja_game.formats.numbers import format_exact, parse_number
+from ninja_game.formats.pack.index import parse_index
+from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.pack.pars import parse_pars
+from ninja_game.formats.recording import parse_replays, record_of
+from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
+from ninja_game.formats.tas_lines import write_celeste, write_libtas
+from ninja_game.learn.agents.policy import PolicyAgent, load_policy
+from ninja_game.learn.observations.observation import Observation
+from ninja_game.learn.observations.state_vector import StateVector
+from ninja_game.levels.warnings import level_warnings
+from ninja_game.play.ui.edited_text import EditedText
+from ninja_game.player.backup import read_backup, write_backup
+from ninja_game.player.player_data import PlayerData
+from ninja_game.player.settings import Settings
+from ninja_game.player.settings_file import read_settings, write_changes
+from ninja_game.player.store import Store
+from ninja_game.runs.recording_reader import recordings_of, records_of
+from ninja_game.runs.run_trace import RunTrace, trace_level
+from ninja_game.runs.trace import first_difference, rows, trace_digests
+from ninja_game.runs.trace_files import FiledTrace, read_csv, read_traces, write_csv, write_npz
+from ninja_game.tas import journal
+from ninja_game.tas.branches import DAMAGED
+from ninja_game.tas.files import branches_path, inputs_of_text, open_run, replay_of_take, runs_beside
+from ninja_game.tas.session import Session
+from ninja_game.tas.watch import parse_watch
+from ninja_game.verification.checkpoint_log import CheckpointLog
+from ninja_game.verification.chunks import chunks_in, results_as_text, results_from_text, self_contained, verify_chunk
+from ninja_game.verification.verify_many import verify_all
+from ninja_game.web.board.report import read_board
+from tests.support.bench_edits import edit_at_random
+from tests.support.samples import WALK, WALK_END, loose_replay, replay_of_walk, running, write_records
+from tools import ROOT
+from tools.soak.mutators import as_text
+
+LEVEL = parse_level_string(WALK)
+DEMO = "902:35791394|35791394|115483170|107374182|17895697|0"
+CROWDED = (
+    ("1" * 23 + ("0" * 20 + ":13") * 29 + "1" * 23)
+    + "|5^60,540!0^396,300!1^204,180!2^60,564,0.707106781186547,-0.707106781186547!3^588,108!4^252,570,1"
+    + "!6^252,132,0,1,0,2!7^348,372,3!8^444,84,1!9^468,348,0,0,20,14,1,-1,0!10^636,60!11^708,516,84,60"
+    + "!12^300,561!0^408.15,NaN"
+)
+"""A level with an object of each kind."""
+
+INPUTS = """\
+#start R*3 ; three to the right
+(R*2 RJ)*3 (L*4 (. LJ!)*2
+RJ-*2)*2 #über-allem .*5 R!
+include part.inputs.txt
+#end LRJ*7"""
+PARTS = "--- part.inputs.txt\n; another file\n#part (R*30 .)*2\ninclude deep.inputs.txt\n--- deep.inputs.txt\nR*2"
+CELESTE = """\
+# a comment
+#start
+  30,R,J
+   2,R
+Repeat 4
+   1,L
+  12
+EndRepeat
+Read,part.inputs.txt
+***
+#end
+   7,L,R
+"""
+LIBTAS = "|Kff53:ffe1|\n|Kff53|M0:0:A:.....:0|\n|K|\n|K7a:ff51|\n" * 5
+GOALS = (
+    "distance(400, 300) < 6 and not (dead or vy > 0.5)",
+    "abs(x - 24) + hypot(vx, vy) * -2 / max(1, gold) <= min(object_x(3), 1000.5) or taken(2) and opened(1)",
+    "difference(42) == 0",
+    "abs(vx) + hypot(vx, vy) * -2 / max(1, exit_distance)",
+    "status(3) != 2 and tick >= 100",
+)
+LONGEST_RUN = 300
+"""Ticks of a run that is simulated here; what runs cost is the business of their budgets."""
+
+_FILE = re.compile(r"^--- ([\w-][\w.-]{0,80})\n", re.MULTILINE)
+
+
+class Door(NamedTuple):
+    """``read``: takes bytes, and an empty folder for the files that it wants. ``share``: of the tries it gets."""
+
+    read: Callable[[bytes, Path], object]
+    share: int = 20
+
+
+def _of_text(read: Callable[[str], object]) -> Door:
+    """A door for a text."""
+    return Door(lambda data, _: read(as_text(data)))
+
+
+def _of_file(read: Callable[[Path], object], name: str = "file", share: int = 20) -> Door:
+    """A door for a file of such a name."""
+
+    def look(data: bytes, folder: Path) -> object:
+        path = folder / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(data)
+        return read(path)
+
+    return Door(look, share)
+
+
+def _of_files(read: Callable[[Path], object]) -> Door:
+    """A door for a text file with others beside it: what stands behind lines ``--- name`` are their texts."""
+
+    def look(data: bytes, folder: Path) -> object:
+        first, *others = _FILE.split(as_text(data))
+        for name, text in [("file.txt", first), *zip(others[::2], others[1::2], strict=True)]:
+            (folder / name).write_bytes(text.encode("utf-8", "surrogatepass"))
+        return read(folder / "file.txt")
+
+    return Door(look)
+
+
+# --- what is done with what was read: all that a program does with it before it is played ---
+
+
+def _same(what: str, first: object, second: object) -> None:
+    if first != second:
+        raise AssertionError(f"{what} changes when it is written and read")
+
+
+def _level_string(text: str) -> None:
+    level = parse_level_string(text)
+    level_digest(level)
+    if len(text) % 8 == 0:
+        level_warnings(level)
+    again = parse_ascii_level(write_ascii_level(level)).level
+    _same("a level", again.tiles, level.tiles)
+    if len(again.objects) != len(level.objects) or not all(map(same_record, again.objects, level.objects)):
+        raise AssertionError("objects change when they are written as an ASCII level")
+    _same("an exact string", parse_level_string(write_level_string(level, exact=True)), level)
+
+
+def _demo(text: str) -> None:
+    demo = parse_demo(text)
+    _same("a demo", parse_demo(write_demo(demo)).playback(1000), demo.playback(1000))
+
+
+def _ascii(text: str) -> None:
+    read = parse_ascii_level(text)
+    again = parse_ascii_level(write_ascii_level(read.level, name=read.name, author=read.author, comment=read.comment))
+    for part in ("name", "author"):
+        _same(f"the {part} of an ASCII level", getattr(again, part), getattr(read, part))
+    _same("an ASCII level", level_digest(again.level), level_digest(read.level))
+
+
+def _replay(text: str) -> None:
+    replay = parse_replay(text)
+    _same("a replay", parse_replay(write_replay(replay)), replay)
+
+
+def _recordings(text: str) -> None:
+    list(recordings_of(records_of(text), ""))
+    for recording in parse_replays(text):
+        record_of(recording)
+
+
+def _archive(path: Path) -> None:
+    for named in load_levels(path)[:5]:
+        level_warnings(named.level)
+    load_replays(path)
+
+
+def _verified(path: Path) -> None:
+    """Short runs, as `verify` and the page judge them."""
+    for chunk in map(self_contained, chunks_in([path])):
+        if all(each.ticks <= LONGEST_RUN for each in _loaded(path)):
+            results = verify_chunk(chunk, "plain")
+            _same("results", results_from_text(results_as_text([results])), [results])
+
+
+def _loaded(path: Path) -> list[Any]:
+    with suppress(NinjaGameError):
+        return load_replays(path)
+    return []
+
+
+def _run(path: Path) -> None:
+    """A run as the bench opens it: beside itself, and in all notations that can say it."""
+    opened = open_run(path, level=LEVEL)
+    runs_beside(path, opened.recording)
+    if len(opened.take) <= LONGEST_RUN:
+        if len(opened.take):
+            write_replay(replay_of_take(opened.recording, opened.take))
+        notations: list[Callable[[bytes], str]] = [partial(write_celeste, markers=opened.take.markers), write_libtas]
+        for write in notations:
+            with suppress(NinjaGameError):
+                write(opened.take.inputs)
+
+
+def _traces(found: Iterable[FiledTrace]) -> None:
+    for trace in found:
+        first_difference(known_run(), trace.run)
+        trace_digests(trace.run)
+        list(rows(trace.run))
+
+
+def _pack(pack: Pack) -> None:
+    _ = pack.pars
+    for name in [level.file for levels in pack.episodes.values() for level in levels]:
+        if certificate := pack.certificate(name, "exit"):
+            parse_replays(pack.files.text(certificate))
+
+
+def _link(text: str) -> None:
+    watched(text)
+    kind = read_link(text).kind
+    _pack(Pack(Path(text))) if kind == "pack" else load_replays(text) if kind == "replay" else load_levels(text)
+
+
+def _settings(path: Path) -> None:
+    before, _ = read_settings(path)
+    after = before.changed(volume=(before.volume + 10) % 100)
+    write_changes(before, after, path)
+    _same("a setting", read_settings(path)[0].volume, after.volume)
+
+
+def _log(path: Path) -> None:
+    with CheckpointLog(path) as log:
+        for key in list(log._places):  # noqa: SLF001 - the verification asks for those that it knows
+            log[key]
+
+
+def _goal(text: str) -> None:
+    parsed = parse_truth(text, SPAN_NAMES, FACTS)
+    with np.errstate(all="ignore"):
+        view = {name: lambda *places: np.zeros(3) + sum(places) for name in SPAN_NAMES}
+        parsed.value(view), parsed.margin(view)
+
+
+def _name(text: str) -> None:
+    shown = shown_text(text)
+    if not shown.isprintable() or len(shown) > 2100 or len(file_stem(text).encode()) > 200:
+        raise AssertionError("a name that cannot be shown")
+    edited = EditedText(text[:40], 60)
+    edited.put(text)
+    edited.select_word(len(text) // 2)
+
+
+def _journal(path: Path) -> None:
+    journal.read_journal(path)
+    for found in journal.recovered(path.parent.parent):
+        if len(found.opened.take) <= LONGEST_RUN and all(len(take) <= LONGEST_RUN for take in found.takes):
+            Session(found.opened, path.parent.parent, memory="plain").recover(found)
+
+
+def _branches(data: bytes, folder: Path) -> None:
+    path = folder / "kept.replay.txt"
+    path.write_text(replay_of_walk(), "utf-8")
+    branches_path(path).write_bytes(data)
+    open_run(path)
+
+
+def _backup(data: bytes, folder: Path) -> None:
+    player = PlayerData(folder / "player")
+    try:
+        read_backup(player, data)
+    finally:
+        player.close()
+
+
+def _player_looks(folder: Path) -> None:
+    """All that the menus ask of the records; then something is kept, which must be there at the next start."""
+    data = PlayerData(folder)
+    for saved in [*data.records.replays(), *data.records.level_bests().values()]:
+        data.records.replay(saved.id)
+    data.records.episode_best("x")
+    _ = (data.progress.columns, data.statistics.deaths(), data.statistics.played(), data.columns_complete, data.marks.all())
+    data.progress.level_passed((0, 0), legitimate=True)
+    kept = data.records.keep_replay(parse_replay(replay_of_walk()))
+    data.close()
+    data = PlayerData(folder)
+    there = data.records.replay(kept)
+    data.close()
+    if there is None:
+        raise AssertionError("a kept replay is gone")
+
+
+def _database(data: bytes, folder: Path) -> None:
+    (folder / RECORDS).write_bytes(data)
+    _player_looks(folder)
+
+
+def _rows(data: bytes, folder: Path) -> None:
+    """Rows that anybody can put into a sound database: ``{table: [row, …]}``."""
+    try:
+        tables = {str(name): list(found) for name, found in dict(json.loads(data)).items()}
+    except (ValueError, TypeError, RecursionError):
+        return
+    (folder / RECORDS).write_bytes(empty_database())
+    with closing(sqlite3.connect(folder / RECORDS)) as db:
+        db.execute("PRAGMA foreign_keys = OFF")
+        for table, found in tables.items():
+            for row in found:
+                if re.fullmatch("[a-z_]+", table) and isinstance(row, list):
+                    with suppress(sqlite3.Error, OverflowError, ValueError):
+                        db.execute(f"INSERT INTO {table} VALUES ({', '.join('?' * len(row))})", [*map(_cell, row)])
+        db.commit()
+    _player_looks(folder)
+
+
+def _cell(value: object) -> object:
+    return value.encode("utf-8", "replace") if isinstance(value, str) and value.startswith("\0") else value
+
+
+DOORS: dict[str, Door] = {
+    "level string": _of_text(_level_string),
+    "level file": _of_text(read_level_file),
+    "ascii level": _of_text(_ascii),
+    "demo": _of_text(_demo),
+    "replay": _of_text(_replay),
+    "any levels": _of_text(parse_levels),
+    "any recordings": _of_text(_recordings),
+    "archive": _of_file(_archive),
+    "verified": _of_file(_verified, share=6),
+    "run with includes": _of_files(_run),
+    "clipboard inputs": _of_text(lambda text: inputs_of_text(text, "clipboard")),
+    "clipboard level": _of_text(lambda text: draft_of_text(text, Draft(LEVEL))),
+    "number": _of_text(lambda text: format_exact(parse_number(text[:60]))),
+    "name": _of_text(_name),
+    "goal": _of_text(_goal),
+    "watched formula": _of_text(parse_watch),
+    "trace csv": _of_text(lambda text: _traces(read_csv(text.splitlines(keepends=True)))),
+    "trace file": _of_file(lambda path: _traces(read_traces(path))),
+    "link": _of_text(_link),
+    "level in a link": _of_text(lambda text: load_levels(write_link("level", [text]))),
+    "replay in a link": _of_text(lambda text: load_replays(write_link("replay", [text]))),
+    "pack in a link": _of_text(lambda text: _pack(Pack(Path(write_link("pack", [text]))))),
+    "pack index": _of_file(lambda path: parse_index(read_utf8(path), file=path.name)),
+    "pars": _of_file(lambda path: parse_pars(read_utf8(path), file=path.name)),
+    "pack zip": _of_file(lambda path: _pack(Pack(path)), "pack.zip"),
+    "settings": _of_file(_settings),
+    "checkpoint log": _of_file(_log),
+    "cluster message": _of_text(results_from_text),
+    "board": _of_file(read_board),
+    "journal": _of_file(_journal, "tas/odd.jsonl", 6),
+    "branches": Door(_branches),
+    "autosave": _of_file(lambda path: list(autosave.recovered(path.parent.parent)), "editing/odd.json"),
+    "agent": _of_file(load_policy),
+    "backup": Door(_backup, 2),
+    "database": Door(_database, 1),
+    "database rows": Door(_rows, 1),
+}
+"""By name. A door may raise NinjaGameError, and nothing else."""
+
+OTHER_ERRORS: dict[str, tuple[type[Exception], ...]] = {"journal": DAMAGED, "backup": (sqlite3.Error, OSError)}
+"""What a door's own callers catch besides."""
+
+
+# --- sound inputs ---
+
+
+@cache
+def known_run() -> RunTrace:
+    """The run that the traces hold."""
+    return trace_level(LEVEL, bytes([2] * 6), memory="plain", events=True)
+
+
+@cache
+def empty_database() -> bytes:
+    """The records of a new player."""
+    with TemporaryDirectory() as place:
+        Store(Path(place) / RECORDS).connection.close()
+        return (Path(place) / RECORDS).read_bytes()
+
+
+def seeds(folder: Path, *, reference: bool = False) -> dict[str, list[bytes]]:
+    """Sound inputs for each door, from the project's own files and writers; ``reference``: also of ``../shared/n14``."""
+    crowded, demo = parse_level_string(CROWDED), parse_demo(DEMO)
+    replay = Replay(demo.inputs[:60], 99, "dead", 3, "0f" * 32, level=crowded, name="walk")
+    odd_names = dataclasses.replace(replay, name='"two\nlines"\ud800', author=" me\0", level_name="\ud800")
+    levels = [path.read_text("utf-8") for path in sorted(ROOT.glob("levels/*.txt"))[::9]]
+    runs = [path.read_text("utf-8") for path in sorted(ROOT.glob("levels/certificates/*.txt"))[::19]]
+    strings = [WALK, CROWDED, *[write_level_string(parse_ascii_level(text).level, exact=True) for text in levels[:4]]]
+    demos = [DEMO, write_legacy_demo(demo), running(9), "0:"]
+    files = [
+        f"free text\n$a hill#us#x#{CROWDED}#\n-- ep01 --\n$###{WALK}#{DEMO}#\n",
+        f"free text\n&userdata=\n$a+hill%21#us#x#{CROWDED}#\n$###{WALK[:300]}\n{WALK[300:]}#{DEMO}",
+        f"##{DEMO}#",
+    ]
+    readable = [*levels, write_ascii_level(crowded, name="A hill", author="us", legend=True)]
+    loose = loose_replay(WALK, *INPUTS.splitlines(), headers="name: mine\nauthor: me\n; words\n")
+    beside = replay_of_walk(level=None, level_path="level.txt")
+    replays = [replay_of_walk(), write_replay(replay), write_replay(odd_names), *runs]
+    if reference:
+        from tests.support import reference as data
+
+        strings += [*{each.data: None for rows in (data.levels(), data.scenes(), data.fuzz()) for each in rows}]
+        files += [f"$###{run.data}#{run.demo}#" for run in data.random_runs()]
+    index = (ROOT / "levels" / "pack.toml").read_text("utf-8")
+    pars = (ROOT / "levels" / "pars.toml").read_text("utf-8")[:900].rpartition("\n")[0]
+    small = 'name = "p"\nauthor = "x"\ncomment = ""\ncolumns = ["a", "b"]\n[[episode]]\nnumber = 0\nname = "e"\nlevels = ["00-0-walk.txt"]\n'
+    packed = {"pack.toml": small, "00-0-walk.txt": WALK, "pars.toml": pars}
+    links = [
+        "https://example.org/game/" + level_link(crowded, name="A hill"), replay_link([replay, replay]),
+        write_link("pack", [json.dumps(packed)]), "#watch=0123456789abcdef,0123456789abcdee",
+    ]  # fmt: skip
+    found = {
+        "level string": strings, "level file": files, "ascii level": readable, "demo": demos, "replay": [*replays, loose.replace("include part.inputs.txt", "")],
+        "any levels": [*strings, *files, *readable, *replays], "any recordings": [*files, *replays, *demos],
+        "archive": [*files, *readable, *replays], "verified": [replay_of_walk(), f"$a#b##{WALK}#{running(WALK_END)}#\n$###{WALK}#{running(9)}#"],
+        "run with includes": [f"{text}\n{PARTS}" for text in (loose, CELESTE, LIBTAS, replay_of_walk())] + [f"{beside}\n--- level.txt\n{WALK}"],
+        "clipboard inputs": [INPUTS.replace("include part.inputs.txt", ""), CELESTE.replace("Read,part.inputs.txt\n", ""), LIBTAS, *replays[:2]],
+        "clipboard level": [*strings[:2], *files[:1], *readable[-1:], *links[:1]],
+        "number": [" -0x1.5e+2", "1e21", "NaN", "-0"], "name": ["Über - the hill?", "two\nlines", "\x1b[31mred\u202e"],
+        "goal": list(GOALS), "watched formula": list(GOALS), "link": links, "level in a link": [*strings[:2], *readable[-1:], *files[:1]],
+        "replay in a link": [*replays, *files[:2]], "pack in a link": [json.dumps(packed)],
+        "pack index": [index, small], "pars": [pars],
+    }  # fmt: skip
+    texts = {name: [text.encode("utf-8", "surrogatepass") for text in each] for name, each in found.items()}
+    return texts | _files(folder, packed)
+
+
+def _files(folder: Path, packed: dict[str, str]) -> dict[str, list[bytes]]:
+    """Sound inputs of the doors that take files."""
+    write_changes(Settings(), Settings().changed(volume=10), folder / "settings")
+    write_records(folder / "archive.txt", ("a", WALK, running(WALK_END)), ("b", WALK, running(9)))
+    (folder / "run.replay.txt").write_text(replay_of_walk())
+    places = [folder / "archive.txt", folder / "run.replay.txt"]
+    list(verify_all(places, memory="plain", jobs=1, processes=False, resume=folder / "log"))
+    traces = [FiledTrace(k, "walk", known_run(), "a.txt", bytes([2] * 6)) for k in range(2)]
+    table, arrays, pack = io.StringIO(), io.BytesIO(), io.BytesIO()
+    write_csv(traces, table)
+    write_npz(traces, arrays)
+    with ZipFile(pack, "w", ZIP_DEFLATED) as target:
+        for name, text in [*packed.items(), ("certificates/00-0-walk.exit.replay.txt", replay_of_walk())]:
+            target.writestr(name, text)
+    size = Observation(StateVector(), flat=True).space.shape[0]
+    zeros = partial(np.zeros, dtype=np.float32)
+    agent = PolicyAgent([(zeros((size, 6)), zeros(6))], zeros(size), zeros(size), {"observation": [StateVector()]})
+    agent.save(folder / "agent")
+    results = [verify_chunk(chunk, "plain") for chunk in chunks_in(places)]
+    row = {"file": "a.txt", "record": 0, "player": "x", "level": "0f", "level_name": "y", "tick": 9, "gold": 1, "score": 1}
+    apart = {"file": "b.txt", "record": 1, "kind": "copy", "why": "z"}
+    drafts = [{"path": path, "digest": "0f", "level": WALK} for path in ("", "x.txt")]
+    found = {
+        "trace csv": [table.getvalue()], "settings": [(folder / "settings").read_text("utf-8")],
+        "checkpoint log": [(folder / "log").read_text("utf-8")], "cluster message": [results_as_text(results)],
+        "board": [json.dumps({"version": 1, "runs": [row, row], "apart": [apart]})],
+        "autosave": [json.dumps(each) for each in drafts],
+    }  # fmt: skip
+    (journal_text, branches), database = _bench(folder), _player(folder)
+    return {
+        **{name: [text.encode() for text in texts] for name, texts in found.items()},
+        "trace file": [arrays.getvalue(), table.getvalue().encode()], "pack zip": [pack.getvalue()],
+        "agent": [(folder / "agent").read_bytes()], "journal": [journal_text], "branches": [branches],
+        "backup": [read_bytes(folder / "backup.zip")], "database": [database],
+        "database rows": [json.dumps(_table_rows(folder / "player" / RECORDS)).encode()],
+    }  # fmt: skip
+
+
+def _bench(folder: Path) -> tuple[bytes, bytes]:
+    """A journal, and branches."""
+    session = Session(open_run(folder / "run.replay.txt"), folder, memory="plain")
+    chance = random.Random(1)
+    for _ in range(30):
+        edit_at_random(session, chance)
+    session.journal.close(keep=True)
+    (kept,) = (folder / journal.FOLDER).glob("*.jsonl")
+    noted = kept.read_bytes()
+    session.save(folder / "kept.replay.txt")
+    return noted, branches_path(folder / "kept.replay.txt").read_bytes()
+
+
+def _player(folder: Path) -> bytes:
+    """A player's database; the player's backup lies in the folder then."""
+    player = PlayerData(folder / "player")
+    player.records.level_passed(parse_replay(replay_of_walk()))
+    player.progress.level_passed((0, 0), legitimate=True)
+    (folder / "player" / "levels" / "walk.txt").write_text(WALK)
+    write_backup(player, folder / "backup.zip")
+    player.close()
+    return (folder / "player" / RECORDS).read_bytes()
+
+
+def _table_rows(path: Path) -> dict[str, list[list[Any]]]:
+    """The rows of a database's tables, as JSON can say them."""
+    with closing(sqlite3.connect(path)) as db:
+        tables = [name for (name,) in db.execute("SELECT name FROM sqlite_master WHERE type = 'table'")]
+        return {
+            table: [["" if isinstance(cell, bytes) else cell for cell in row] for row in db.execute(f"SELECT * FROM {table}")]
+            or [[0] * len(db.execute(f"PRAGMA table_info({table})").fetchall())]
+            for table in tables
+        }
