@@ -4,9 +4,9 @@
     python3 tools/dev.py tool soak.doors --coverage --minutes 480 --findings found --corpus kept
     python3 tools/dev.py tool soak.doors --door "pack zip" --read found/pack-zip-1f2e3d4c
 
-The doors stand in `door_table.py`. With ``--coverage`` inputs that reach new code are kept and mutated further: by Atheris
-where it is installed (`pip install atheris`, Linux), else by a slower loop of our own. Exit code 0: nothing found; 1:
-something was; each finding is a file of ``--findings``, printed with its traceback and the command that repeats it.
+The doors stand in `door_table.py`. With ``--coverage`` inputs that reach new code are kept and mutated further: by
+Atheris where it is installed (`pip install atheris`, Linux), else by a slower loop of our own. Exit code 0: nothing
+found; 1: something was; each finding is a file of ``--findings``, printed with its traceback and what repeats it.
 """
 
 from __future__ import annotations
@@ -36,9 +36,18 @@ from tools.soak.mutators import MOST, mutated
 
 SLOW_S, HANGS_S = 2.0, 20.0
 """Processor time of an input that is a finding, and after which its reading is ended; a busy machine does not count."""
+WATCHED = 5
+"""How much longer code takes that tells where it is."""
 
 MEMORY = 4 * 2**30
 """Of the whole process, address space."""
+
+OWN = {
+    "levels/*.txt": {"ascii level", "any levels", "archive"},
+    "levels/certificates/*.txt": {"replay", "any recordings", "replay in a link", "run with includes"},
+    "levels/*.toml": {"pack index", "pars"},
+}
+"""Files of the game, and the doors that read them."""
 
 PACKAGE = str(ROOT / "ninja_game")
 
@@ -54,13 +63,12 @@ def _end_hang(*_: object) -> NoReturn:
 class Trial:
     """Tries inputs on doors. ``findings``: where what is wrong is kept; ``wrong``: how often each was seen."""
 
-    def __init__(self, table: ModuleType, place: Path, findings: Path) -> None:
-        self.doors, self.others = table.DOORS, table.OTHER_ERRORS
-        self.errors = table.NinjaGameError
+    def __init__(self, table: ModuleType, place: Path, findings: Path, slow: float) -> None:
+        self.doors, self._errors_of = table.DOORS, table.errors_of
         self.outcomes: Counter[str] = Counter()
         self.wrong: Counter[str] = Counter()
         self.slowest = 0.0, ""
-        self._place, self._findings = place / "door", findings
+        self._place, self._findings, self._slow = place / "door", findings, slow
         self._place.mkdir()
         self.started = self._told = time.monotonic()
 
@@ -71,7 +79,7 @@ class Trial:
         signal.setitimer(signal.ITIMER_PROF, HANGS_S)
         try:
             self.doors[name].read(data, self._place)
-        except (self.errors, *self.others.get(name, ())) as error:
+        except self._errors_of(name) as error:
             outcome = "refused"
             str(error)
         except (Exception, HangError) as error:  # noqa: BLE001 - foreign errors are what is searched
@@ -80,7 +88,7 @@ class Trial:
             signal.setitimer(signal.ITIMER_PROF, 0)
         taken = time.process_time() - began
         self.slowest = max(self.slowest, (taken, name))
-        if not problem and taken > SLOW_S:
+        if not problem and taken > self._slow:
             problem, where = f"{taken:.1f} s of processor time", "slow"
         self.outcomes[f"{name}: {outcome if not problem else 'wrong'}"] += 1
         if problem:
@@ -96,7 +104,10 @@ class Trial:
         file = self._findings / f"{name.replace(' ', '-')}-{sha256(data).hexdigest()[:8]}"
         self._findings.mkdir(parents=True, exist_ok=True)
         file.write_bytes(data)
-        print(f"{problem}\n{kind}\nagain: python3 tools/dev.py tool soak.doors --door '{name}' --read {file}\n", flush=True)
+        print(
+            f"{problem}\n{kind}\nagain: python3 tools/dev.py tool soak.doors --door '{name}' --read {file}\n",
+            flush=True,
+        )
 
     def tell_progress(self, seconds: float = 60) -> None:
         """Print now and then how many inputs were read."""
@@ -112,7 +123,8 @@ class Trial:
             print(f"{times:9d}  WRONG: {kind}")
         used = resource.getrusage(resource.RUSAGE_SELF)
         print(f"slowest: {self.slowest[0]:.2f} s ({self.slowest[1]}), peak memory {used.ru_maxrss >> 10} MiB")
-        print(f"{self.outcomes.total()} inputs in {used.ru_utime + used.ru_stime:.0f} s of processor time, {len(self.wrong)} findings")
+        seconds = used.ru_utime + used.ru_stime
+        print(f"{self.outcomes.total()} inputs in {seconds:.0f} s of processor time, {len(self.wrong)} findings")
         sys.stdout.flush()
         return 1 if self.wrong else 0
 
@@ -176,10 +188,8 @@ def loop(trial: Trial, pool: Pool, rng: random.Random, lines: Lines | None) -> I
         yield
 
 
-def guided(trial: Trial, pool: Pool, seed: int, corpus: Path, over: Callable[[], bool]) -> NoReturn:
+def guided(atheris: Any, trial: Trial, pool: Pool, seed: int, corpus: Path, over: Callable[[], bool]) -> NoReturn:
     """The same by Atheris, whose corpus of new inputs lies in a folder: the name of a door, a line end, the input."""
-    import atheris
-
     for name, inputs in pool.items():
         for data in inputs:
             (corpus / sha256(name.encode() + data).hexdigest()).write_bytes(name.encode() + b"\n" + data)
@@ -187,7 +197,11 @@ def guided(trial: Trial, pool: Pool, seed: int, corpus: Path, over: Callable[[],
 
     def parts(data: bytes) -> tuple[str, bytes]:
         name, _, inside = data.partition(b"\n")
-        return (name.decode("latin-1"), inside) if name.decode("latin-1") in pool else (names[len(data) % len(names)], data)
+        return (
+            (name.decode("latin-1"), inside)
+            if name.decode("latin-1") in pool
+            else (names[len(data) % len(names)], data)
+        )
 
     def read(data: bytes) -> None:
         trial.read(*parts(data))
@@ -210,16 +224,23 @@ def guided(trial: Trial, pool: Pool, seed: int, corpus: Path, over: Callable[[],
     raise AssertionError("Atheris has ended")
 
 
-def kept_inputs(folder: Path, names: list[str]) -> Pool:
-    """The inputs in a folder: those of Atheris, which begin with the name of a door, and a folder for each door."""
+def sound_inputs(names: list[str], kept: Path | None, *, reference: bool) -> Pool:
+    """What is mutated: tests/corpus, a folder for each door, our own levels and runs, and what Atheris has kept."""
     found: Pool = {name: [] for name in names}
-    for file in sorted(folder.rglob("*")) if folder.is_dir() else []:
-        name = file.parent.name.replace("-", " ")
-        if file.is_file() and name in found:
-            found[name].append(file.read_bytes())
-        elif file.is_file():
-            head, _, inside = file.read_bytes().partition(b"\n")
-            found.get(head.decode("latin-1"), []).append(inside)
+    for file in sorted((ROOT / "tests" / "corpus").glob("*/*")):
+        found.get(file.parent.name.replace("-", " "), []).append(file.read_bytes())
+    for file in sorted(kept.iterdir()) if kept and kept.is_dir() else []:
+        head, _, inside = file.read_bytes().partition(b"\n")
+        found.get(head.decode("latin-1"), []).append(inside)
+    for place, doors in OWN.items():
+        texts = [file.read_bytes() for file in sorted(ROOT.glob(place))[::9]]
+        for name in found.keys() & doors:
+            found[name] += texts
+    if reference:
+        from tests.support import reference as data
+
+        every = (data.levels(), data.scenes(), data.fuzz(), data.random_runs())
+        found.get("level string", []).extend({each.data.encode(): None for rows in every for each in rows})
     return found
 
 
@@ -257,7 +278,9 @@ def options_of(words: list[str] | None = None) -> argparse.Namespace:
     parser.add_argument("--corpus", type=Path, help="folder of inputs to begin with; Atheris keeps its own there too")
     parser.add_argument("--findings", type=Path, default=Path("findings"), help="folder of what is wrong (./findings)")
     parser.add_argument("--read", type=Path, help="read this one file, through the --door")
-    parser.add_argument("--smallest", type=Path, help="write few short inputs of the corpus here that reach the same code")
+    parser.add_argument(
+        "--smallest", type=Path, help="write few short inputs of the corpus here that reach the same code"
+    )
     parser.add_argument("--longest", type=int, default=4000, help="bytes of those (default 4000)")
     parser.add_argument("--reference", action="store_true", help="begin with the texts of ../shared/n14 too")
     return parser.parse_args(words)
@@ -279,17 +302,14 @@ def main() -> int:
         instrumented = atheris.instrument_imports(include=["ninja_game"])
     with instrumented:
         from tools.soak import door_table
-    ram = Path("/dev/shm")  # noqa: S108 - what is written there is gone with the block
+    ram = Path("/dev/shm")
     with TemporaryDirectory(dir=ram if ram.is_dir() else None) as place:
-        trial = Trial(door_table, Path(place), options.findings)
+        trial = Trial(door_table, Path(place), options.findings, SLOW_S * (WATCHED if options.coverage else 1))
         if options.read:
             trial.read(options.door[0], options.read.read_bytes())
             return trial.summary()
-        (Path(place) / "seeds").mkdir()
-        pool = door_table.seeds(Path(place) / "seeds", reference=options.reference)
-        for name, inputs in kept_inputs(options.corpus or ROOT / "tests" / "corpus", list(pool)).items():
-            pool[name] += inputs
-        pool = {name: inputs for name, inputs in pool.items() if not options.door or name in options.door}
+        wanted = [name for name in door_table.DOORS if name in (options.door or door_table.DOORS)]
+        pool = sound_inputs(wanted, options.corpus, reference=options.reference)
         if options.smallest:
             write_smallest(trial, pool, options.smallest, options.longest)
             return trial.summary()
@@ -304,7 +324,7 @@ def main() -> int:
             pool = {name: inputs for name, inputs in pool.items() if options.door or trial.doors[name].share > 1}
             corpus = options.corpus or Path(place) / "corpus"
             corpus.mkdir(exist_ok=True)
-            guided(trial, pool, options.seed, corpus, over)
+            guided(atheris, trial, pool, options.seed, corpus, over)
         for name, inputs in pool.items():
             for data in inputs:
                 trial.read(name, data)
@@ -318,7 +338,7 @@ def main() -> int:
 def _atheris() -> Any:
     """The library Atheris; None where it is not installed."""
     try:
-        import atheris
+        import atheris  # type: ignore[import-not-found,import-untyped,unused-ignore]
     except ImportError:
         return None
     return atheris

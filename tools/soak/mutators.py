@@ -229,7 +229,10 @@ def _json(text: str, other: bytes, rng: random.Random) -> str:
         lines = text.split("\n")
         place = rng.randrange(len(lines))
         whole = json.loads(lines[place])
-        before, after = "".join(f"{line}\n" for line in lines[:place]), "".join(f"\n{line}" for line in lines[place + 1 :])
+        before, after = (
+            "".join(f"{line}\n" for line in lines[:place]),
+            "".join(f"\n{line}" for line in lines[place + 1 :]),
+        )
     places: list[tuple[Any, Any]] = []
     waiting = [whole]
     while waiting:
@@ -271,7 +274,9 @@ def _zip(data: bytes, other: bytes, rng: random.Random) -> bytes:
         if what == 0:
             files.pop(place)
         elif what == 1:
-            new = rng.choice((f"a/{name}", f"../{name}", f"/{name}", name.upper(), rng.choice(WORDS), rng.choice(files)[0]))
+            new = rng.choice(
+                (f"a/{name}", f"../{name}", f"/{name}", name.upper(), rng.choice(WORDS), rng.choice(files)[0])
+            )
             files[place] = new, inside
         elif what == 2:
             files += [(f"{number}-{name}", inside[:99]) for number in range(rng.choice((1, 5, 300)))]
@@ -290,7 +295,11 @@ def _array(data: bytes, rng: random.Random) -> bytes:
     if rng.random() < 0.3:
         return data[: 10 + length] + _bytes(content, content, rng)
     header = io.BytesIO()
-    about: dict[str, Any] = {"descr": rng.choice(KINDS), "fortran_order": rng.random() < 0.1, "shape": rng.choice(SHAPES)}
+    about: dict[str, Any] = {
+        "descr": rng.choice(KINDS),
+        "fortran_order": rng.random() < 0.1,
+        "shape": rng.choice(SHAPES),
+    }
     with suppress(ValueError, SyntaxError, TypeError):
         shape, _, kind = np.lib.format.read_array_header_1_0(io.BytesIO(data[8:]))
         about |= rng.choice(({"shape": shape}, {"descr": np.lib.format.dtype_to_descr(kind)}, {}))
