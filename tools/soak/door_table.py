@@ -13,6 +13,7 @@ from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
 import numpy as np
+import pygame
 
 from ninja_game.directed.expressions import parse_truth
 from ninja_game.directed.view import FACTS, SPAN_NAMES
@@ -26,6 +27,7 @@ from ninja_game.files.user_folder import RECORDS
 from ninja_game.formats.ascii.object_writer import same_record
 from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
 from ninja_game.formats.links.fragment import read_link, watched, write_link
+from ninja_game.formats.links.making import recordings_of as watched_recordings
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import read_level_file
@@ -41,6 +43,7 @@ from ninja_game.formats.tas_lines import write_celeste, write_libtas
 from ninja_game.learn.agents.policy import load_policy
 from ninja_game.levels.warnings import level_warnings
 from ninja_game.play.ui.edited_text import EditedText
+from ninja_game.play.ui.stroke_font import StrokeFont
 from ninja_game.player.backup import read_backup
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings_file import read_settings, write_changes
@@ -239,6 +242,8 @@ def _name(text: str) -> None:
     shown = shown_text(text)
     if not shown.isprintable() or len(shown) > 2100 or len(file_stem(text).encode()) > 200:
         raise AssertionError("a name that cannot be shown")
+    pygame.font.init()
+    StrokeFont(12, bold=False).render(shown, "white")
     edited = EditedText(text[:40], 60)
     edited.put(text)
     edited.select_word(len(text) // 2)
@@ -338,6 +343,7 @@ DOORS: dict[str, Door] = {
     "link": _of_text(_link),
     "level in a link": _of_text(lambda text: load_levels(write_link("level", [text]))),
     "replay in a link": _of_text(lambda text: load_replays(write_link("replay", [text]))),
+    "watched run": _of_text(lambda text: watched_recordings([text])),
     "pack in a link": _of_text(lambda text: _pack(Pack(Path(write_link("pack", [text]))))),
     "pack index": _of_file(lambda path: parse_index(read_utf8(path), file=path.name)),
     "pars": _of_file(lambda path: parse_pars(read_utf8(path), file=path.name)),
