@@ -32,12 +32,14 @@ from types import FrameType, ModuleType
 from typing import Any, NoReturn
 
 from tools import ROOT
-from tools.soak.mutators import MOST, mutated
+from tools.soak.mutators import mutated
 
 SLOW_S, HANGS_S = 2.0, 20.0
 """Processor time of an input that is a finding, and after which its reading is ended; a busy machine does not count."""
 WATCHED = 5
 """How much longer code takes that tells where it is."""
+GUIDED_MOST = 2**14
+"""Longest input with coverage, bytes: short ones reach the same code in less time."""
 
 MEMORY = 4 * 2**30
 """Of the whole process, address space."""
@@ -218,7 +220,14 @@ def guided(atheris: Any, trial: Trial, pool: Pool, seed: int, corpus: Path, over
             inside = mutated(inside, rng.choice(pool[name if rng.random() < 0.8 else rng.choice(names)]), rng)
         return (name.encode() + b"\n" + inside)[:most]
 
-    options = [f"-seed={seed}", f"-max_len={MOST}", "-timeout=600", "-rss_limit_mb=0", "-len_control=0", "-verbosity=0"]
+    options = [
+        f"-seed={seed}",
+        f"-max_len={GUIDED_MOST}",
+        "-timeout=600",
+        "-rss_limit_mb=0",
+        "-len_control=0",
+        "-verbosity=0",
+    ]
     atheris.Setup([sys.argv[0], str(corpus), *options], read, custom_mutator=mutator)
     atheris.Fuzz()
     raise AssertionError("Atheris has ended")
