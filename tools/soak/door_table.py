@@ -64,7 +64,7 @@ from tests.support.samples import WALK, replay_of_walk
 from tools.soak.mutators import as_text
 
 LEVEL = parse_level_string(WALK)
-LONGEST_RUN = 300
+LONGEST_RUN = 100
 """Ticks of a run that is simulated here; what runs cost is the business of their budgets."""
 
 _FILE = re.compile(r"^--- ([\w-][\w.-]{0,80})\n", re.MULTILINE)

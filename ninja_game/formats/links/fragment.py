@@ -40,7 +40,7 @@ _AROUND = "\0 \t\r\n.,;:!?)>]}\"'"
 
 @dataclass(frozen=True)
 class Link:
-    """What a link carries: one text, or several of replays, as untrusted as any file of a stranger."""
+    """What a link carries: one text, or several of replays, as untrusted as any file."""
 
     kind: Kind
     texts: tuple[str, ...]
