@@ -290,7 +290,7 @@ def options_of(words: list[str] | None = None) -> argparse.Namespace:
     parser.add_argument(
         "--smallest", type=Path, help="write few short inputs of the corpus here that reach the same code"
     )
-    parser.add_argument("--longest", type=int, default=4000, help="bytes of those (default 4000)")
+    parser.add_argument("--longest", type=int, default=900, help="bytes of those (default 900)")
     parser.add_argument("--reference", action="store_true", help="begin with the texts of ../shared/n14 too")
     return parser.parse_args(words)
 
