@@ -24,7 +24,7 @@ OWN = {kind.number: {field.name for field in fields_of(kind.fields)} for kind in
 def own_fields_only() -> Iterator[None]:
     """For a while reading a foreign field of any plain object raises AttributeError; save-states read all of them."""
 
-    def read(o: Object, name: str) -> Any:
+    def read(o: object, name: str) -> Any:
         kind = object.__getattribute__(o, "kind")
         if name in FIELDS and name not in OWN[kind]:
             raise AttributeError(f"a {name} of an object of kind {kind}")
