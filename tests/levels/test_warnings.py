@@ -15,7 +15,7 @@ from ninja_game.levels.findings import LEVEL_RULES, PACK_RULES, Rule
 from ninja_game.levels.reach import Ground
 from ninja_game.levels.warnings import level_findings, level_warnings, object_name
 from ninja_game.sim import kinds
-from ninja_game.sim.level import TILES, Level, ObjectSpec
+from ninja_game.sim.level import ROWS, TILES, Level, ObjectSpec
 from tests.support.reference import levels
 
 PROPER = (ObjectSpec(kinds.NINJA, (36.0, 564.0)), ObjectSpec(kinds.EXIT, (700.0, 564.0, 300.0, 564.0)))
@@ -384,3 +384,12 @@ def test_published_levels_are_mostly_proper() -> None:
     found = [warning for row in levels() for warning in level_warnings(parse_level_string(row.data))]
     assert len(found) <= 32
     assert not [warning for warning in found if "exit" in warning or "ninja at" in warning]
+
+
+def test_the_ninja_reaches_a_disc_in_a_wall_as_far_as_its_own_radius_goes() -> None:
+    # One open row at the bottom; what lies in the rock above it is touched from up to 10 + 6 px away.
+    tiles = tuple(0 if cell % ROWS == ROWS - 1 else 1 for cell in range(TILES))
+    ground = Ground(Level(tiles, PROPER))
+    top = 23 * 24.0
+    assert ground.touchable(300.0, top - 15.5, 6.0)
+    assert not ground.touchable(300.0, top - 16.5, 6.0)

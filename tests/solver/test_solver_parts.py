@@ -7,6 +7,7 @@ import pytest
 
 from ninja_game.compile_cache import compiled, compiled_available
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
 
 if not compiled_available():
@@ -17,7 +18,7 @@ from ninja_game.sim.memory.plain import PlainMemory
 from ninja_game.solver.distance_field import POINTS, UNREACHED, point_at
 from ninja_game.solver.heuristics import Heuristics
 from ninja_game.solver.legs.tour import short_tour
-from ninja_game.solver.local_search import LocalCounters
+from ninja_game.solver.local_search import LocalCounters, score_of
 from ninja_game.solver.macro_actions import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_inputs
 from ninja_game.solver.mutations import cut, mutate, overwrite, shift_boundary, shift_pulse, stretch
 from ninja_game.solver.search_memory import UNKNOWN, Entry, Link, Resolution, back_up_values, open_start, zeroed
@@ -223,3 +224,15 @@ def test_a_tour_heeds_what_lies_only_downhill() -> None:
     steps = heights[None, :] - heights[:, None]
     between = np.where(steps > 0, 100.0 * steps, -1.0 * steps)
     assert short_tour(np.array([5.0, 5.0, 5.0]), between, np.zeros(3)) == [0, 2, 1]
+
+
+def test_of_two_runs_to_the_exit_in_the_same_tick_the_deeper_one_scores_better() -> None:
+    world = PlainMemory(parse_level_string(OPEN + "5^100,300!11^400,300,200,300"), box=False).world()
+    exit_ = next(o for o in world.objects if o.kind == EXIT)
+    exit_.is_open = 1
+    world.tick = 100
+    scores = []
+    for distance in (0.0, 11.0, 22.0):
+        world.ninja.x = exit_.x - distance
+        scores.append(score_of(world))
+    assert scores == [100.0 - 0.99, 100.0 - 0.99 / 2, 100.0]
