@@ -39,7 +39,7 @@ class Watch:
     def values(self, timeline: Timeline) -> Numbers:
         """Its value after each simulated tick, float64 (valid,); a truth is 1 or 0, what has no value is NaN.
 
-        Objects that are not recorded yet are recorded from now on. Raises ArgumentError for one that there is not.
+        Objects that are not recorded yet are recorded from now on. Raises ArgumentError for an unknown one.
         """
         while True:
             try:

@@ -41,11 +41,11 @@ def test_a_simulation_says_what_it_is_and_how_far(memory: str) -> None:
 
 
 @pytest.mark.parametrize("memory", BOTH)
-def test_keys_that_there_are_not_are_refused_at_the_entry(memory: str) -> None:
+def test_unknown_keys_are_refused_at_the_entry(memory: str) -> None:
     for keys in (16, 200, -1):
         with pytest.raises(ArgumentError, match="sum of Input flags"):
             Simulation(LEVEL, memory=memory).step_keys(keys)
-    with pytest.raises(DemoError, match="tick 1 has keys that there are not; found 16"):
+    with pytest.raises(DemoError, match="tick 1 has unknown keys; found 16"):
         run_level(LEVEL, bytes([0, 16]), memory=memory)
     with pytest.raises(DemoError, match="tick 0"):
         trace_level(LEVEL, bytes([99]), memory=memory)
