@@ -7,6 +7,7 @@ from typing import Any
 
 from ninja_game.formats.replay.text import Replay
 from ninja_game.player.scoring import level_score
+from ninja_game.runs.run import record_replay
 from ninja_game.sim.inputs import MAX_DEMO_TICKS, Demo, pressed
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
@@ -130,9 +131,6 @@ class Attempt:
 
     def replay(self, name: str = "", author: str = "") -> Replay:
         """The recording in our form: run again from its inputs, so that it holds what really comes of them."""
-        # It imports NumPy, which playing does without.
-        from ninja_game.runs.run import record_replay
-
         ticks = max(1, len(self.inputs) + (self.outcome != "running"))
         level, body = self.simulation.level, self.simulation.body
         replay = record_replay(level, bytes(self.inputs), ticks=ticks, body=body, name=name, author=author)

@@ -19,7 +19,7 @@ SPLIT_EVENTS = ("gold-taken", "exit-opened", "lock-opened", "trap-closed", "door
 """The events that are splits (`ninja_game/sim/events.py`)."""
 
 Key = tuple[str, int | None, int]
-"""What makes splits of two runs the same: event, id of the object, and the how manieth of these, from 0."""
+"""What makes splits of two runs the same: event, id of the object, and which occurrence of it, from 0."""
 
 
 class Split(NamedTuple):

@@ -37,7 +37,7 @@ def trace_recording(
 ) -> RunTrace:
     """The trace of a recording: of exactly ``ticks`` ticks, else until its end as ``verify`` has it and ``after`` more.
 
-    ``events`` runs on the plain memory. Raises LevelError naming file and record for a level that cannot be played.
+    Raises LevelError naming file and record for a level that cannot be played.
     """
     body = recording.body
     with named_errors(recording):

@@ -52,11 +52,11 @@ class Branches:
         return self.current
 
     def rename(self, number: int, name: str) -> None:
-        """Give a branch another name. Raises ArgumentError for one that there is not."""
+        """Give a branch another name. Raises ArgumentError for an unknown one."""
         self.all[self.checked(number)] = replace(self.all[number], name=name)
 
     def go_on_from(self, number: int) -> Take:
-        """Make a branch the current one; its take. Raises ArgumentError for one that there is not."""
+        """Make a branch the current one; its take. Raises ArgumentError for an unknown one."""
         self.current = self.checked(number)
         return self.all[number].take
 
@@ -72,7 +72,7 @@ class Branches:
         self.all = [replace(each, parent=moved(each.parent)) for at, each in enumerate(self.all) if at != number]
 
     def checked(self, number: int) -> int:
-        """The number of a branch. Raises ArgumentError for one that there is not."""
+        """The number of a branch. Raises ArgumentError for an unknown one."""
         if not 0 <= number < len(self.all):
             raise ArgumentError(f"there is no branch {number}")
         return number

@@ -63,7 +63,7 @@ def edited(take: Take, change: dict[str, Any]) -> Take:
     """A take after an edit of a journal. Raises one of DAMAGED for what is none."""
     at, to = int(change["at"]), int(change["to"])
     if not 0 <= at <= to <= len(take):
-        raise ValueError("an edit of ticks that there are not")
+        raise ValueError("an edit outside the run's ticks")
     markers = markers_of_json(change["markers"]) if "markers" in change else take.markers
     new = checked_take(take.inputs[:at] + inputs_of_json(change["keys"]) + take.inputs[to:], markers)
     if _sum(new) != change["sum"]:

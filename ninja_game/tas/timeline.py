@@ -75,7 +75,7 @@ class Timeline:
     def watch(self, ids: Collection[int]) -> None:
         """Record these objects besides the ninja, instead of those before; for others all is simulated anew.
 
-        Raises ArgumentError for an object that there is not.
+        Raises ArgumentError for an unknown object.
         """
         for id_ in ids:
             self.first_look(id_)
@@ -159,7 +159,7 @@ class Timeline:
         return [(id_, kind, x, y) for id_, (kind, x, y, _) in seen if KIND_OF[kind].traced]
 
     def first_look(self, id_: float) -> tuple[int, float, float, int]:
-        """Kind, x, y (px) and status of an object at the start. Raises ArgumentError for one that there is not."""
+        """Kind, x, y (px) and status of an object at the start. Raises ArgumentError for an unknown one."""
         if not 0 <= id_ < len(self._seen) or id_ != int(id_) or not KIND_OF[self._seen[int(id_)][0]].traced:
             raise ArgumentError(f"there is no object {id_:g}; ids are those that `ninja-game splits` shows")
         return self._seen[int(id_)]

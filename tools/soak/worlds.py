@@ -144,7 +144,7 @@ def _grid_problems(heads: NDArray[np.int16], objects: NDArray[np.void], there: N
     worlds, slots = np.nonzero(there)
     filed = objects[worlds, slots]
     if (filed["cell"] >= heads.shape[1]).any():
-        yield "an object is filed in a cell that there is not"
+        yield "an object is filed in a cell outside the grid"
         return
     followed = np.where(filed["next"] > 0, objects["prev"][worlds, filed["next"]], slots)
     leading = np.where(
