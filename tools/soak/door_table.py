@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pygame
 
-from ninja_game.directed.expressions import parse_truth
+from ninja_game.directed.formula import parse_truth
 from ninja_game.directed.view import FACTS, SPAN_NAMES
 from ninja_game.editor import autosave
 from ninja_game.editor.draft import Draft
