@@ -175,7 +175,9 @@ class Records:
         Joins an equal row only if that can be read: one with a damaged cell would be left out at the next start.
         """
         assert replay.level is not None  # noqa: S101 - attempts give replays with their levels
+        # The digest first: it tells most rows apart, and all of them are looked through.
         values = {
+            "digest": replay.digest,
             "level": _digest(replay),
             "level_text": write_level_string(replay.level, exact=True),
             "body": replay.body,
@@ -183,7 +185,6 @@ class Records:
             "final_tick": replay.final_tick,
             "gold": replay.gold,
             "score": level_score(replay.gold, replay.final_tick) if replay.outcome == "exit" else 0,
-            "digest": replay.digest,
             "inputs": replay.inputs,
             "practice": int(replay.practice),
         }

@@ -31,7 +31,7 @@ from ninja_game.tas.branches import (
     markers_of_json,
     take_of_json,
 )
-from ninja_game.tas.files import OpenedRun, RunFile
+from ninja_game.tas.files import OpenedRun, RunFile, home_of
 from ninja_game.tas.take import Take
 
 FOLDER = "tas"
@@ -153,7 +153,7 @@ def read_journal(file: Path) -> Recovered:
         said = json.loads(lines.readline())
         (recording,) = parse_replays(said["replay"])
         record_table(recording.level)
-        home = RunFile(Path(str(said["path"])), str(said["digest"]), str(said["beside"])) if said["path"] else RunFile()
+        home = home_of(Path(str(said["path"])), str(said["digest"]), str(said["beside"])) if said["path"] else RunFile()
         takes = [take_of_json(said["take"])]
         branches = branches_of_json(said["branches"])
         for line in lines:

@@ -34,7 +34,8 @@ def export(file: Path) -> None:
     from ninja_game.player.backup import write_backup
 
     with _player() as player:
-        write_backup(player, file)
+        for line in write_backup(player, file):
+            click.echo(line, err=True)
 
 
 @command.command("import")

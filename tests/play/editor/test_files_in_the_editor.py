@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
+from hashlib import sha256
 from pathlib import Path
+from zipfile import ZipFile
 
 import pygame
 import pytest
 
 from ninja_game.cli.main import cli
+from ninja_game.editor.ascii_text import ascii_text
 from ninja_game.editor.autosave import FOLDER, recovered
 from ninja_game.editor.files import open_source
 from ninja_game.formats.load import load_levels
@@ -18,6 +22,7 @@ from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.panels import Form, Menu
+from ninja_game.player.backup import read_backup, write_backup
 from ninja_game.signals import Terminated
 from tests.support.level_maker import ROOM, Maker
 
@@ -115,6 +120,38 @@ def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_pa
     assert not room.editor.session.is_saved
     room.chord("s", pygame.KMOD_LCTRL)
     room.wait(lambda: not list((tmp_path / FOLDER).glob("*.json")), "end of the autosave")
+
+
+@pytest.mark.parametrize("there", [False, True])
+def test_what_a_backup_brings_is_never_saved_where_it_says(there: bool, maker: Maker, tmp_path: Path) -> None:
+    victim = tmp_path / "profile"
+    if there:
+        victim.write_text("mine")
+    text = ascii_text(replace(ROOM, comment="$(touch marker)"))
+    kept = {"path": str(victim), "digest": sha256(b"mine").hexdigest(), "level": text}
+    write_backup(maker.app.player, tmp_path / "all.zip")
+    with ZipFile(tmp_path / "all.zip", "a") as archive:
+        archive.writestr(f"{FOLDER}/a.json", json.dumps(kept))
+    read_backup(maker.app.player, (tmp_path / "all.zip").read_bytes())
+    maker.open("Editor")
+    maker.choose("Go on with it")
+    maker.chord("s", pygame.KMOD_LCTRL)
+    assert maker.editor.session.source.path == tmp_path / "levels" / "room.txt"
+    assert victim.exists() == there
+    assert not there or victim.read_text() == "mine"
+
+
+def test_a_path_that_somebody_put_among_the_autosaves_by_hand_counts_for_nothing(maker: Maker, tmp_path: Path) -> None:
+    victim = tmp_path / "profile"
+    victim.write_text("mine")
+    (tmp_path / FOLDER).mkdir()
+    kept = {"path": str(victim), "digest": sha256(b"mine").hexdigest(), "level": ascii_text(ROOM)}
+    (tmp_path / FOLDER / "a.json").write_text(json.dumps(kept))
+    maker.open("Editor")
+    maker.choose("Go on with it")
+    maker.chord("s", pygame.KMOD_LCTRL)
+    assert victim.read_text() == "mine"
+    assert (tmp_path / "levels" / "room.txt").is_file()
 
 
 def test_what_is_drawn_when_a_signal_ends_the_program_is_kept(
