@@ -14,6 +14,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import run_level
@@ -34,17 +35,21 @@ def trace_recording(
     memory: str = "auto",
     objects: bool = True,
     events: bool = False,
+    budget: int = RUN_BUDGET,
 ) -> RunTrace:
     """The trace of a recording: of exactly ``ticks`` ticks, else until its end as ``verify`` has it and ``after`` more.
 
-    ``events`` runs on the plain memory. Raises LevelError naming file and record for a level that cannot be played.
+    ``events`` runs on the plain memory. Raises, naming file and record, LevelError for a level that cannot be played,
+    BudgetError for a run that costs more work than its ``budget``.
     """
     body = recording.body
     with named_errors(recording):
         if ticks is None:
             inputs = recording.playback(recording.ticks)
-            ticks = run_level(recording.level, inputs, body=body, memory=memory).ticks + after
+            ticks = run_level(recording.level, inputs, body=body, memory=memory, budget=budget).ticks + after
         inputs = recording.playback(ticks)
+        if ticks > affordable_ticks(recording.level, budget):
+            raise over_budget(recording.level, ticks, budget)
         return trace_level(recording.level, inputs, body=body, memory=memory, with_objects=objects, events=events)
 
 

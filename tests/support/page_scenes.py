@@ -62,7 +62,11 @@ def replay(number: int, tick: int, *overlays: str) -> Callable[[App], object]:
         app.push(screen)
         for overlay in overlays:
             screen.overlays.toggle(overlay)
+        while not screen.settled:
+            frames(app, 1, 0)
         screen.seek(tick)
+        while not screen.settled:
+            frames(app, 1, 0)
         screen.toggle_pause()
         frames(app, 2)
 
