@@ -124,7 +124,7 @@ class Playback:
         return len(self.inputs) if run.tick > len(self.inputs) else None
 
     def beside(self) -> Playback:
-        """Another playback of the same inputs at the same moment, in a world of its own; both use the same save-states."""
+        """A playback of the same inputs at the same moment in a world of its own; both use the same save-states."""
         run = self.simulation
         other = Simulation(run.level, body=run.body)
         other.restore(run.save())

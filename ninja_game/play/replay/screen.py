@@ -65,7 +65,7 @@ class ReplayScreen(Screen):
         inputs = run.inputs[: affordable_ticks(run.level)]
         if len(inputs) < len(run.inputs):
             self.app.notify(f"This run costs too much work: it is shown up to tick {len(inputs):,}")
-        self._turn = max(1, TURN_WORK // tick_cost(run.level))
+        self._turn = self._left = max(1, TURN_WORK // tick_cost(run.level))
         self._way: tuple[int, int] | None = None
         self.playback = Playback(Simulation(run.level, body=run.body), inputs)
         self._scout: Playback | None = self.playback
@@ -77,9 +77,8 @@ class ReplayScreen(Screen):
         self.view = LevelView(self.app, self.playback.simulation)
         self.view.overlays = self.overlays
         others = [other for other in self.runs if other is not run and other.level == run.level]
-        shared = len(others[:8])
         self.ghosts = [
-            Ghost(GhostRun(other.title, other.inputs), other.level, other.body, others=shared) for other in others[:8]
+            Ghost(GhostRun(other.title, other.inputs), other.level, other.body, alone=False) for other in others[:8]
         ]
         self.view.ghosts = self.ghosts
         self.paused = False
@@ -105,8 +104,8 @@ class ReplayScreen(Screen):
 
     @property
     def settled(self) -> bool:
-        """Whether the end of the run is known, and the moment sought is reached."""
-        return self._scout is None and self._way is None
+        """Whether the end of the run is known, and the moment sought is reached, by ghosts too."""
+        return self._scout is None and self._way is None and not any(ghost.behind for ghost in self.ghosts)
 
     # --- moving in time ---
 
@@ -133,24 +132,25 @@ class ReplayScreen(Screen):
 
     def _go_on(self) -> None:
         """Go on towards the moment sought."""
-        assert self._way  # noqa: S101 - for the type checker
+        if self._way is None or not self._left:
+            return
         start, tick = self._way
-        left = self._turn
         if start >= 0:
-            left = self.playback.seek(start, left)
+            self._left = self.playback.seek(start, self._left)
             self.view.on_seek()
             # The rest is run with its animations, never back.
             self._way = -1 if self.tick == start else start, tick
         self.view.audible = False
         try:
-            while self._way[0] < 0 and self.tick < tick and left:
+            while self._way[0] < 0 and self.tick < tick and self._left:
                 self.playback.step()
                 self.view.on_tick()
-                left -= 1
+                self._left -= 1
         finally:
             self.view.audible = True
         if self.tick == tick:
             self._way = None
+        self._gather_ghosts()
         self.clock.reset()
         self.redraw = True
 
@@ -169,28 +169,35 @@ class ReplayScreen(Screen):
             self.export = None
         if self._way:
             self._go_on()
-            return
+        else:
+            if not self._gather_ghosts():
+                self._play(real_ms)
+            self._look_ahead(max(1, self._left))
+        self._left = self._turn
+
+    def _gather_ghosts(self) -> bool:
+        """Let ghosts catch up after a leap; whether there were any that had to."""
         late = [ghost for ghost in self.ghosts if ghost.behind]
         for ghost in late:
-            ghost.catch_up()
+            self._left -= ghost.catch_up(self._left)
             self.redraw = True
-        played = 0 if late else self._play(real_ms)
-        self._look_ahead(max(1, self._turn - played))
+        return bool(late)
 
-    def _play(self, real_ms: int) -> int:
-        """Play the ticks that are due, and no more than the work of a turn; how many it was, with those of ghosts."""
+    def _play(self, real_ms: int) -> None:
+        """Play the ticks that are due, and no more than the work of a turn."""
         if self.paused or self.bar.dragging:
-            return 0
+            return
         if self.still_ms > 0:
             self.still_ms -= real_ms
             self.clock.reset()
-            return 0
+            return
         tick_ms = max(1, round(25 / SPEEDS[self.speed]))
         runs = 1 + len(self.ghosts)
-        due = min(self.clock.ticks_due(real_ms, tick_ms), max(1, self._turn // runs))
+        due = min(self.clock.ticks_due(real_ms, tick_ms), max(1, self._left // runs))
         for _ in range(due):
-            self._play_tick()
-        return due * runs
+            if not self._way:
+                self._play_tick()
+        self._left = max(0, self._left - due * runs)
 
     # --- keys and mouse ---
 
