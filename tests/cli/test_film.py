@@ -59,9 +59,14 @@ def test_film_of_a_run_without_an_end_wants_its_last_tick_named(
 ) -> None:
     monkeypatch.setattr(film, "MOST_PICTURES", 30)
     file = write_records(tmp_path / "long.txt", ("long", "0" * 713 + "|5^100,566", running(1000)))
-    steps = []
+    steps: list[int] = []
     step = Playback.step
-    monkeypatch.setattr(Playback, "step", lambda playback: steps.append(playback.tick) or step(playback))
+
+    def noted(playback: Playback) -> None:
+        steps.append(playback.tick)
+        step(playback)
+
+    monkeypatch.setattr(Playback, "step", noted)
     assert "more than 30 pictures; name its last tick: --to" in str(film_of(file).exception)
     assert len(steps) <= 32, "no more of the run is simulated than a film would show"
     assert film_of(file, "--to", 40, "-o", tmp_path / "film", "--size", "132x100").exit_code == 0

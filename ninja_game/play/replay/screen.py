@@ -145,7 +145,7 @@ class ReplayScreen(Screen):
             while self._way[0] < 0 and self.tick < tick and self._left:
                 self.playback.step()
                 self.view.on_tick()
-                self._left -= 1
+                self._left = max(0, self._left - 1 - len(self.ghosts))
         finally:
             self.view.audible = True
         if self.tick == tick:
