@@ -40,8 +40,8 @@ def trace_recording(
 ) -> RunTrace:
     """The trace of a recording: of exactly ``ticks`` ticks, else until its end as ``verify`` has it and ``after`` more.
 
-    ``events`` runs on the plain memory. Raises, naming file and record, LevelError for a level that cannot be played,
-    BudgetError for a run that costs more work than its ``budget``.
+    Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that costs more
+    work than its ``budget``.
     """
     body = recording.body
     with named_errors(recording):
