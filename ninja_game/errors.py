@@ -65,6 +65,10 @@ class ReplayError(FormatError):
     """A replay text of ours that cannot be read, or does not fit its level."""
 
 
+class BudgetError(FormatError):
+    """A run that costs more work than its budget."""
+
+
 class LinkError(FormatError):
     """A link to a level, a pack or a replay that was cut or changed, or that carries too much."""
 

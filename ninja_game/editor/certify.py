@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ninja_game.compile_cache import compiled_available
 from ninja_game.editor.background import NewestJob
-from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.errors import BudgetError, LevelError, NinjaGameError
 from ninja_game.files.resources import how_to_install
 from ninja_game.runs.run import run_level
 from ninja_game.sim.level import Level
@@ -28,10 +28,10 @@ Route = tuple[tuple[float, float], ...]
 
 
 def route_of(level: Level, inputs: bytes, body: Body = "circle") -> Route:
-    """The way of the ninja to the end of the run or of the inputs; () for a level that cannot be played."""
+    """The way of the ninja to the end of the run or of the inputs; () where it cannot be played, or costs too much."""
     try:
         return tuple(iter_unpack("<2d", run_level(level, inputs, body=body, memory="plain").places))
-    except LevelError:
+    except (BudgetError, LevelError):
         return ()
 
 

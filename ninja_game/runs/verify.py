@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ninja_game.budget import RUN_BUDGET
 from ninja_game.compile_cache import open_memory
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
@@ -80,10 +81,11 @@ class Verdict:
         return fields | ({"problems": list(self.problems)} if self.problems else {})
 
 
-def verify_recording(recording: Recording, memory: str = "auto") -> Verdict:
+def verify_recording(recording: Recording, memory: str = "auto", budget: int = RUN_BUDGET) -> Verdict:
     """Run a recording and judge it. ``memory``: "plain", "compiled", "auto", or "both" to compare the two.
 
-    Raises LevelError naming file and record for a level that cannot be played.
+    Raises, naming file and record, LevelError for a level that cannot be played, and BudgetError for a run that is not
+    over when its ``budget`` of work is (``ninja_game.budget``).
     """
     body = recording.body
     replay = recording.replay if recording.replay and not recording.replay.loose else None
@@ -91,11 +93,11 @@ def verify_recording(recording: Recording, memory: str = "auto") -> Verdict:
     with named_errors(recording):
         claims_digest = bool(replay and replay.digest)
         inputs = recording.playback(recording.ticks)
-        run = run_level(recording.level, inputs, body=body, memory=one_memory, digest=claims_digest)
+        run = run_level(recording.level, inputs, body=body, memory=one_memory, digest=claims_digest, budget=budget)
         in_time = _in_time(recording, run, one_memory)
         problems = list(_broken_claims(replay, run)) if replay else []
         if memory == "both":
-            problems += filter(None, [memory_difference(recording)])
+            problems += filter(None, [memory_difference(recording, run.ticks)])
     if not replay and run.outcome != "exit":
         problems.append(f"does not reach the exit: {_ending(recording, run)}")
     sampled = run.ticks - 1 if run.outcome != "running" else min(run.ticks, len(recording.demo.inputs))
@@ -158,10 +160,12 @@ def _in_time(recording: Recording, run: RunResult, memory: str) -> bool:
     """Whether the lifetime lasted until the run's end (game.md §1.1): it begins full, as in a level played alone."""
     if run.ticks <= LIFETIME:
         return True
-    inputs = recording.playback(run.ticks)
-    record = open_memory(memory, recording.level, box=is_box(recording.body)).trace(inputs, [], events=False)
     # After each tick but that of the end one tick of lifetime is gone; none may be the last.
     lived = run.ticks - (run.outcome != "running")
+    if LIFETIME + GOLD_BONUS * run.gold <= lived:
+        return False
+    inputs = recording.playback(run.ticks)
+    record = open_memory(memory, recording.level, box=is_box(recording.body)).trace(inputs, [], events=False)
     width, at = len(TRACED_NUMBERS), TRACED_NUMBERS.index("gold")
     gold = map(int, record.numbers[at : width * lived : width])
     return all(LIFETIME + GOLD_BONUS * got > tick for tick, got in enumerate(gold, 1))
@@ -200,15 +204,15 @@ def _missed_waypoint(replay: Replay, run: RunResult) -> Iterator[str]:
         passed = f"up to tick {waypoint.tick}"
 
 
-def memory_difference(recording: Recording) -> str:
-    """The first tick and field in which the two memories differ, '' if they never do.
+def memory_difference(recording: Recording, ticks: int) -> str:
+    """The first of so many ticks, and the field, in which the two memories differ, '' if they never do.
 
     Raises MemoryUnavailableError without Numba.
     """
     plain, compiled = (
         Simulation(recording.level, body=recording.body, memory=memory) for memory in ("plain", "compiled")
     )
-    for keys in recording.playback(recording.ticks):
+    for keys in recording.playback(ticks):
         plain.step_keys(keys)
         compiled.step_keys(keys)
         difference = plain.first_difference(compiled)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.budget import tick_cost
 from ninja_game.compile_cache import open_memory
 from ninja_game.errors import ArgumentError
 from ninja_game.runs.run_trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
@@ -41,7 +42,7 @@ class Timeline:
         self.memory = self._memory.name
         self._seen = [self._memory.observe(id_ + 1) for id_ in range(self._memory.id_count)]
         self.watched: tuple[int, ...] = ()
-        self._states: SaveStates[Any] = SaveStates(0, self._memory.save())
+        self._states: SaveStates[Any] = SaveStates(0, self._memory.save(), values=tick_cost(level))
         self._columns: dict[str, NDArray[Any]] = {
             **{name: np.zeros(0) for name in TRACED_PLACES},
             **{name: np.zeros(0, np.int32) for name in TRACED_NUMBERS},

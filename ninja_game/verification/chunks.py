@@ -14,6 +14,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any, get_type_hints
 
+from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.named_level import level_of_replay
@@ -88,10 +89,12 @@ def self_contained(chunk: Chunk) -> Chunk:
         return replace(chunk, problem=str(error))
 
 
-def verify_chunk(chunk: Chunk, memory: str = "auto", level: Level | None = None) -> list[Result]:
+def verify_chunk(
+    chunk: Chunk, memory: str = "auto", level: Level | None = None, budget: int = RUN_BUDGET
+) -> list[Result]:
     """A verdict on every recording of a chunk, in order; what cannot be read is said and stops nothing.
 
-    ``level``: what recordings that do not hold their level are played on.
+    ``level``: what recordings that do not hold their level are played on. ``budget``: of each run.
     """
     if chunk.problem:
         return [Unreadable(chunk.problem)]
@@ -103,7 +106,7 @@ def verify_chunk(chunk: Chunk, memory: str = "auto", level: Level | None = None)
     result: Result
     for recording in recordings:
         try:
-            result = recording if isinstance(recording, Unreadable) else verify_recording(recording, memory)
+            result = recording if isinstance(recording, Unreadable) else verify_recording(recording, memory, budget)
         except NinjaGameError as error:
             result = Unreadable(str(error))
         results.append(result)

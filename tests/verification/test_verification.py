@@ -141,9 +141,9 @@ def test_a_journal_lets_a_stopped_run_go_on_where_it_was(
     assert 1 < done < 8
     ran: list[str] = []
 
-    def spy(chunk: Chunk, memory: str, level: Level | None) -> list[Result]:
+    def spy(chunk: Chunk, memory: str, level: Level | None, budget: int) -> list[Result]:
         ran.append(chunk.digest)
-        return verify_chunk(chunk, memory, level)
+        return verify_chunk(chunk, memory, level, budget)
 
     monkeypatch.setattr(verification, "verify_chunk", spy)
     assert list(verify_plainly([archive], jobs=1, processes=False, resume=path)) == expected(archive)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ninja_game.cli.run_options import LevelPath, level_given, level_option
+from ninja_game.cli.run_options import LevelPath, budget_option, level_given, level_option, with_progress
 from ninja_game.errors import FileError, LevelError
 from ninja_game.files.tree import Tree
 from ninja_game.formats.links.fragment import is_link
@@ -35,10 +35,12 @@ FORM_OF_NAME = {
 @click.option("--to", "form", type=click.Choice(FORMS), help="The form to write, whatever OUT is called.")
 @click.option("--legend", is_flag=True, help="End readable levels with the meaning of all characters, as comments.")
 @level_option
+@budget_option
 @click.option("--force", is_flag=True, help="Replace files that exist. IN is never replaced.")
 def command(
-    sources: Sequence[Path], target: str, form: str | None, legend: bool, level_path: Path | None, force: bool
-) -> None:
+    sources: Sequence[Path], target: str, form: str | None, legend: bool, level_path: Path | None, budget: int,
+    force: bool,
+) -> None:  # fmt: skip
     """Turn levels and recordings from one format into the other.
 
     IN is a file, folder or link in any format; OUT a file, a folder, or - for the terminal. What is written:
@@ -78,8 +80,8 @@ def command(
         found = recordings = [recording for source in sources for recording in load_replays(source, level=level)]
         form = form or "file"
         if form in RUN_FORMS:
-            written = replay_texts(recordings) if form == "replay" else input_texts(recordings, form)
-            output.write_each(list(written), recordings, RUN_FORMS[form])
+            written = replay_texts(recordings, budget) if form == "replay" else input_texts(recordings, form)
+            output.write_each(list(with_progress(written, "recording")), recordings, RUN_FORMS[form])
     else:
         found = levels = [named for source in sources for named in load_levels(source)]
         form = form or ("file" if all(named.ascii for named in levels) else "ascii")
