@@ -70,7 +70,7 @@ def test_a_run_that_ends_in_time_passes_whatever_its_text_goes_on_to_say() -> No
 @pytest.mark.parametrize(
     "path",
     [
-        lambda each: verify_recording(each, "plain", 1000),
+        lambda each: verify_recording(each, "plain", budget=1000),
         lambda each: trace_recording(each, memory="plain", budget=1000),
         lambda each: trace_recording(each, ticks=40, memory="plain", budget=1000),
         lambda each: run_splits(each, budget=1000),

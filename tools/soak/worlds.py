@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from ninja_game.batch.batch import Batch
 from ninja_game.kernel_cache import keep
+from ninja_game.numba_import import import_numba
 from ninja_game.sim.kinds import GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS
 from ninja_game.sim.level import TILES, Level, ObjectSpec
 from ninja_game.sim.memory.compiled import CompiledMemory
@@ -64,7 +65,7 @@ def _number(rng: random.Random) -> float:
 
 def out_of_range(count: int, seed: int) -> Iterator[str]:
     """Reports of hostile levels that lead out of range, or to any other error."""
-    checked = Compiler(checked=True, keep=keep)
+    checked = Compiler(import_numba(), checked=True, keep=keep)
     for number in range(seed, seed + count):
         rng = random.Random(number)
         try:
