@@ -16,6 +16,7 @@ from typing import Any, NoReturn
 import click
 
 from ninja_game import __version__
+from ninja_game.cli.terminal import guard_terminal
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.signals import Terminated, arrived, end_on_signals, told
@@ -195,9 +196,7 @@ def cli() -> None:
 
 def main() -> NoReturn:
     """The program `ninja-game`."""
-    for stream in (sys.stdout, sys.stderr):
-        # Names of levels may hold what the terminal's encoding has not.
-        getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")
+    guard_terminal()
     end_on_signals()
     cli.main(prog_name="ninja-game")
 

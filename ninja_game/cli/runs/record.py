@@ -8,6 +8,7 @@ import click
 
 from ninja_game.cli.levels.convert import Output
 from ninja_game.cli.run_options import choose, level_given, other_level_option
+from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
@@ -47,4 +48,4 @@ def command(inputs: Path, output: Path | None, record: int | None, level_path: P
     Output(str(path), [inputs], force=force).write(text)
     new = parse_replay(text)
     when = f"tick {new.final_tick} ({new.ticks / TICKS_PER_SECOND:.3f} s)"
-    click.echo(f"{path}: {new.outcome} in {when}, {new.gold} gold")
+    click.echo(f"{shown_text(str(path))}: {new.outcome} in {when}, {new.gold} gold")
