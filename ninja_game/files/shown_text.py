@@ -29,10 +29,11 @@ def shown_text(text: str, longest: int = LONGEST) -> str:
     """
     if len(text) > longest:
         return shown_text(text[:longest]) + "..."
-    return text if text.isprintable() else "".join(map(_shown_character, text))
+    return text if text.isprintable() else "".join(map(shown_character, text))
 
 
-def _shown_character(character: str) -> str:
+def shown_character(character: str) -> str:
+    """One character of ``shown_text``."""
     if character.isprintable():
         return character
     return " " if character.isspace() else character.encode("unicode_escape").decode("ascii")

@@ -11,6 +11,7 @@ import click
 from ninja_game.cli.game.play import pixels
 from ninja_game.cli.run_options import InputPath, heartbeat, level_given, level_option
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.links.fragment import is_link
 
 
@@ -90,4 +91,4 @@ def command(
             write_film(film, path, report)
     except OSError as error:
         raise NinjaGameError(f"{path}: the film cannot be written: {error.strerror}") from None
-    click.echo(f"{path}: {count} ticks")
+    click.echo(f"{shown_text(str(path))}: {count} ticks")

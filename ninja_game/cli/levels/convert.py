@@ -106,7 +106,7 @@ class Output:
     def write(self, text: str) -> None:
         """Write one file, or to the terminal."""
         if self.target == STANDARD_STREAM:
-            click.echo(text, nl=False)
+            click.echo(text, nl=False, color=True)  # else a pipe loses what looks like a colour
         else:
             self._put([(Path(self.target), text)])
 

@@ -8,6 +8,7 @@ import click
 
 from ninja_game.cli.levels.convert import Output
 from ninja_game.cli.run_options import budget_option, choose, heartbeat, level_given, other_level_option
+from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
@@ -51,4 +52,4 @@ def command(
     Output(str(path), [inputs], force=force).write(text)
     new = parse_replay(text)
     when = f"tick {new.final_tick} ({new.ticks / TICKS_PER_SECOND:.3f} s)"
-    click.echo(f"{path}: {new.outcome} in {when}, {new.gold} gold")
+    click.echo(f"{shown_text(str(path))}: {new.outcome} in {when}, {new.gold} gold")

@@ -138,7 +138,9 @@ def titles(recordings: Sequence[Recording]) -> list[str]:
     """What tells recordings apart: their names, or file and record where there is no name or two are the same."""
     names = [shown_text(each.name) for each in recordings]
     return [
-        name if name and names.count(name) == 1 else f"{Path(each.file).name.removesuffix('.replay.txt')}:{each.record}"
+        name
+        if name and names.count(name) == 1
+        else f"{shown_text(Path(each.file).name.removesuffix('.replay.txt'))}:{each.record}"
         for name, each in zip(names, recordings, strict=True)
     ]
 

@@ -185,7 +185,7 @@ def _compare(traces: Traces, expected: Iterator[FiledTrace], against: Path, reco
         if difference:
             different += 1
             click.echo(f"{shown_text(file)}:{trace.record} {shown_text(trace.name)}: {difference}")
-    click.echo(f"{traces.count - different} of {traces.count} equal to {against}")
+    click.echo(f"{traces.count - different} of {traces.count} equal to {shown_text(str(against))}")
     return different
 
 
