@@ -24,6 +24,7 @@ from ninja_game.play.menus.settings.screen import PAGES
 from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.level import ObjectSpec
 from tests.support.draw_log import DrawLog
+from tests.support.level_maker import examine
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import instead_of_ours
 
@@ -285,7 +286,7 @@ def _editor(driver: MenuDriver) -> Iterator[str]:
         draft, Stamp({(8, 12): 7, (9, 12): 1, (10, 12): 6, (12, 17): 1}, (*gold, ObjectSpec(MINE, (300.0, 420.0))))
     )
     screen.commands.edit(Source(draft))
-    screen.session.finish_checks()
+    examine(screen)
     driver.frames(3)
     yield "editor"
     driver.press("grave", "o", "m")
