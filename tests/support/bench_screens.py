@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from shutil import copy
 from typing import Any
-from unittest.mock import patch
+from unittest.mock import Mock, patch
 
 import numpy as np
 import pygame
@@ -156,7 +156,7 @@ def tas_editor(driver: MenuDriver) -> Iterator[str]:
         at.choose("Leave it unsaved")
     waiting = OpeningScreen(driver.app, at.session.recording(at.bench.take, "Locksmith"), lambda: at.screen)
     waiting._thread.join()
-    waiting.update = lambda _: None  # type: ignore[method-assign]
+    waiting.update = Mock()  # type: ignore[method-assign]
     driver.app.push(waiting)
     yield "tas-opening"
     waiting._waited_ms = 3000
