@@ -79,9 +79,13 @@ DATE = "2026-02-03T04:05:06+00:00"
 
 
 def always_alike() -> list[object]:
-    """Patches that take chance, the date and our levels out of the screens; start them before the program."""
+    """Patches that take chance, the date, our levels and threads out of the screens; start them before the program."""
     patches = [patch(name, lambda seed=None: Random(seed or 1)) for name in WITHOUT_CHANCE]
-    return [instead_of_ours(), *patches, patch("ninja_game.player.records.now_text", lambda: DATE)]
+    return [
+        instead_of_ours(), *patches, patch("ninja_game.player.records.now_text", lambda: DATE),
+        patch("ninja_game.editor.background.beside", lambda work, _: work()),
+        patch("ninja_game.play.editor.session.CHECK_SPACING", 0.0),
+    ]  # fmt: skip
 
 
 def tour(driver: MenuDriver) -> Iterator[str]:
