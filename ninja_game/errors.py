@@ -13,6 +13,20 @@ class NinjaGameError(Exception):
     """The root of all errors that this package raises on purpose."""
 
 
+def reason(error: BaseException) -> str:
+    """What went wrong, in words for the user.
+
+    >>> reason(FileNotFoundError(2, "No such file", "a.txt")), reason(MemoryError()), reason(KeyError("x"))
+    ('No such file', 'there is not enough memory', "a fault of the program, KeyError: 'x'")
+    """
+    if isinstance(error, MemoryError):
+        return "there is not enough memory"
+    expected = isinstance(error, (NinjaGameError, OSError))
+    return getattr(error, "strerror", "") or (
+        str(error) if expected else f"a fault of the program, {type(error).__name__}: {error}"
+    )
+
+
 class ArgumentError(NinjaGameError, ValueError):
     """An argument of the public API that is none of those it takes; says which are."""
 

@@ -253,7 +253,7 @@ class ReplayScreen(Screen):
         self.app.change_settings(show_ghost=not self.app.settings.show_ghost)
 
     def start_export(self) -> None:
-        """Make a film of this take beside the player's replays."""
+        """Make a film of this run among the player's exports."""
         if self.export is None:
             self.export = FilmJob(self.run, self.app.settings, self.app.player.folder)
             self.export.start()

@@ -14,7 +14,7 @@ import pytest
 from ninja_game.cli.main import cli
 from ninja_game.editor.ascii_text import ascii_text
 from ninja_game.editor.autosave import FOLDER, recovered
-from ninja_game.editor.files import open_source
+from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.play.editor.panels import LevelChoice
@@ -102,6 +102,47 @@ def test_leaving_asks_about_what_is_not_saved(room: Maker, tmp_path: Path) -> No
     room.choose("Leave it unsaved")
     assert isinstance(room.top(), MainMenu)
     assert not list((tmp_path / "levels").iterdir())
+
+
+@pytest.mark.parametrize("asked", ["Leave the editor", "Open...", "New"])
+@pytest.mark.parametrize("named", [True, False])
+def test_saving_first_goes_on_with_what_was_asked(maker: Maker, tmp_path: Path, asked: str, *, named: bool) -> None:
+    maker.open("Editor")
+    maker.editor.commands.edit(Source(ROOM if named else replace(ROOM, name="")))
+    maker.drag((300, 300))
+    drawn = maker.draft
+    maker.press("escape")
+    maker.choose(asked)
+    maker.choose("Save first")
+    if not named:
+        assert isinstance(maker.top(), Form)
+        maker.choose("Save")
+    assert len(list((tmp_path / "levels").iterdir())) == 1
+    if asked == "New":
+        assert maker.draft == new_source("").draft
+        assert isinstance(maker.top(), EditorScreen)
+    else:
+        assert isinstance(maker.top(), MainMenu if asked == "Leave the editor" else LevelChoice)
+    assert load_levels(next((tmp_path / "levels").iterdir()))[0].level == drawn.level
+
+
+def test_saving_first_stays_where_it_was_not_saved(room: Maker, tmp_path: Path) -> None:
+    room.chord("s", pygame.KMOD_LCTRL)
+    path = tmp_path / "levels" / "room.txt"
+    path.write_text(path.read_text("utf-8") + "; by hand\n", "utf-8")
+    room.drag((300, 300))
+    room.press("escape")
+    room.choose("Leave the editor")
+    room.choose("Save first")
+    assert "changed by another program" in room.top().title  # type: ignore[attr-defined]
+    room.choose("Stay")
+    assert isinstance(room.top(), EditorScreen)
+    room.press("escape")
+    room.choose("Leave the editor")
+    room.choose("Save first")
+    room.choose("Replace it")
+    assert isinstance(room.top(), MainMenu)
+    assert load_levels(path)[0].level.tile(12, 12) == 1
 
 
 def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_path: Path) -> None:
