@@ -89,3 +89,7 @@ class LinkError(FormatError):
 
 class PackError(FormatError):
     """A pack of levels whose index is missing or wrong."""
+
+
+DAMAGED = (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError, NinjaGameError)
+"""What reading JSON raises that is not as the program wrote it."""

@@ -15,7 +15,7 @@ from ninja_game.editor.ascii_text import ascii_text
 from ninja_game.editor.background import NewestJob
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, draft_of, new_source, open_source
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import DAMAGED, NinjaGameError
 from ninja_game.files.locking import LOCK_SUFFIX, forget, hold, left_behind
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.writing import write_atomically
@@ -100,8 +100,7 @@ class Recovered:
 
 def recovered(folder: Path) -> Iterator[Recovered]:
     """What editors that have died were editing, the newest first; those of running editors are left out."""
-    damaged = (ValueError, KeyError, TypeError, RecursionError, NinjaGameError)
-    return left_behind(folder / FOLDER, "*.json", _read, damaged)
+    return left_behind(folder / FOLDER, "*.json", _read, DAMAGED)
 
 
 def _read(file: Path) -> Recovered:

@@ -20,7 +20,7 @@ from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from ninja_game.errors import FileError, NinjaGameError
+from ninja_game.errors import DAMAGED, FileError, NinjaGameError
 from ninja_game.files.reading import files_in, read_bytes
 from ninja_game.files.shown_text import LONGEST, name_key, name_problem, shown_text
 from ninja_game.files.tree import Tree
@@ -126,7 +126,7 @@ def _unpacked(data: bytes) -> tuple[dict[str, bytes], list[str]]:
         if not (problem := _problem(name)):
             content = unpacked(archive, entry)
             files[name] = _without_home(content) if name.startswith(f"{EDITING}/") else content
-        elif not entry.is_dir():
+        elif not name.endswith("/"):
             left_out.append(_left_out(name, problem))
     if RECORDS not in files:
         raise ValueError(f"no {RECORDS} in a zip")
@@ -136,7 +136,7 @@ def _unpacked(data: bytes) -> tuple[dict[str, bytes], list[str]]:
 def _without_home(autosave: bytes) -> bytes:
     """A level under edit as one that has no file: the path of another machine means nothing here."""
     level = ""
-    with suppress(ValueError, TypeError, LookupError, RecursionError):
+    with suppress(*DAMAGED):
         level = str(json.loads(autosave)["level"])
     return json.dumps({"path": "", "digest": "", "level": level}, indent=1).encode()
 

@@ -6,14 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ninja_game.errors import ArgumentError, NinjaGameError
+from ninja_game.errors import ArgumentError
 from ninja_game.formats.replay.input_runs import Marker, is_marker_name
 from ninja_game.sim.inputs import check_inputs
 from ninja_game.sim.states import OUTCOME_NAMES
 from ninja_game.tas.take import Take
-
-DAMAGED = (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError, NinjaGameError)
-"""What reading JSON raises that is not as it was written."""
 
 
 @dataclass(frozen=True)

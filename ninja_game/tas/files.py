@@ -10,7 +10,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from ninja_game.editor.files import check_free, digest_of
-from ninja_game.errors import NinjaGameError, ReplayError
+from ninja_game.errors import DAMAGED, NinjaGameError, ReplayError
 from ninja_game.files.reading import read_bytes, read_utf8
 from ninja_game.files.resources import data_folder
 from ninja_game.files.tree import Tree
@@ -27,7 +27,7 @@ from ninja_game.runs.conversion import on_level
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.inputs import MAX_TICKS, Demo
 from ninja_game.sim.level import Level
-from ninja_game.tas.branches import DAMAGED, Branches, branches_of_json
+from ninja_game.tas.branches import Branches, branches_of_json
 from ninja_game.tas.take import Take
 from ninja_game.tas.timeline import AFTERMATH
 

@@ -16,14 +16,13 @@ from pathlib import Path
 from typing import Any
 from zlib import crc32
 
-from ninja_game.errors import FileError, NinjaGameError
+from ninja_game.errors import DAMAGED, FileError, NinjaGameError
 from ninja_game.files.locking import LOCK_SUFFIX, forget, hold, left_behind
 from ninja_game.files.reading import open_regular
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import parse_replays
 from ninja_game.sim.loader import record_table
 from ninja_game.tas.branches import (
-    DAMAGED,
     Branches,
     branches_of_json,
     checked_take,

@@ -20,7 +20,7 @@ from ninja_game.directed.view import FACTS, SPAN_NAMES
 from ninja_game.editor import autosave
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import draft_of_text
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import DAMAGED, NinjaGameError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import file_stem, shown_text
 from ninja_game.files.user_folder import RECORDS

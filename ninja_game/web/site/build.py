@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ninja_game import __version__
-from ninja_game.errors import FileError
+from ninja_game.errors import DAMAGED, FileError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.resources import PACKAGE
 from ninja_game.files.tree import Tree, leads_below
@@ -71,7 +71,7 @@ def _own_files(out: Path) -> set[str]:
     hint = "name a new folder, or remove that one yourself"
     try:
         names = json.loads(read_utf8(out / MARK))["files"]
-    except (OSError, ValueError, LookupError, TypeError, RecursionError):
+    except (OSError, *DAMAGED):
         raise FileError(
             "this is no site of ninja-game", str(out), expected="a new or empty folder", hint=hint
         ) from None
