@@ -53,7 +53,6 @@ from ninja_game.runs.run_trace import RunTrace, trace_level
 from ninja_game.runs.trace import first_difference, rows, trace_digests
 from ninja_game.runs.trace_files import FiledTrace, read_csv, read_traces
 from ninja_game.tas import journal
-from ninja_game.tas.branches import DAMAGED
 from ninja_game.tas.files import branches_path, inputs_of_text, open_run, replay_of_take, runs_beside
 from ninja_game.tas.session import Session
 from ninja_game.tas.watch import parse_watch
