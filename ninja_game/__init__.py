@@ -16,15 +16,16 @@ docs/python-api.md describes them all.
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
 from ninja_game.environments import register_with_gymnasium
-from ninja_game.errors import ArgumentError, DemoError, FormatError, LevelError, NinjaGameError, ReplayError
 
+# Every import here is time in which the program does not handle signals yet; `typing` is the longest of them.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any
+
     from ninja_game.batch.batch import Batch, BatchState
     from ninja_game.compile_cache import MemoryUnavailableError
+    from ninja_game.errors import ArgumentError, DemoError, FormatError, LevelError, NinjaGameError, ReplayError
     from ninja_game.formats.load import load_level, load_levels, load_replays, parse_level
     from ninja_game.formats.n14.demo import parse_demo, write_demo
     from ninja_game.formats.named_level import NamedLevel
@@ -39,35 +40,23 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"
 
-_HOMES = {
-    "Batch": ("ninja_game.batch.batch", "Batch"),
-    "BatchState": ("ninja_game.batch.batch", "BatchState"),
-    "Demo": ("ninja_game.sim.inputs", "Demo"),
-    "Input": ("ninja_game.sim.inputs", "Input"),
-    "Level": ("ninja_game.sim.level", "Level"),
-    "MemoryUnavailableError": ("ninja_game.compile_cache", "MemoryUnavailableError"),
-    "NamedLevel": ("ninja_game.formats.named_level", "NamedLevel"),
-    "ObjectSpec": ("ninja_game.sim.level", "ObjectSpec"),
-    "Recording": ("ninja_game.formats.recording", "Recording"),
-    "Replay": ("ninja_game.formats.replay.text", "Replay"),
-    "RunResult": ("ninja_game.runs.run", "RunResult"),
-    "RunTrace": ("ninja_game.runs.run_trace", "RunTrace"),
-    "SaveState": ("ninja_game.simulation", "SaveState"),
-    "Simulation": ("ninja_game.simulation", "Simulation"),
-    "Verdict": ("ninja_game.runs.verify", "Verdict"),
-    "load_level": ("ninja_game.formats.load", "load_level"),
-    "load_levels": ("ninja_game.formats.load", "load_levels"),
-    "load_replays": ("ninja_game.formats.load", "load_replays"),
-    "parse_demo": ("ninja_game.formats.n14.demo", "parse_demo"),
-    "parse_level": ("ninja_game.formats.load", "parse_level"),
-    "parse_replay": ("ninja_game.formats.replay.text", "parse_replay"),
-    "record_replay": ("ninja_game.runs.run", "record_replay"),
-    "run_level": ("ninja_game.runs.run", "run_level"),
-    "trace_level": ("ninja_game.runs.run_trace", "trace_level"),
-    "verify_recording": ("ninja_game.runs.verify", "verify_recording"),
-    "write_demo": ("ninja_game.formats.n14.demo", "write_demo"),
-    "write_replay": ("ninja_game.formats.replay.text", "write_replay"),
+_NAMES = {
+    "batch.batch": ("Batch", "BatchState"),
+    "compile_cache": ("MemoryUnavailableError",),
+    "errors": ("ArgumentError", "DemoError", "FormatError", "LevelError", "NinjaGameError", "ReplayError"),
+    "formats.load": ("load_level", "load_levels", "load_replays", "parse_level"),
+    "formats.n14.demo": ("parse_demo", "write_demo"),
+    "formats.named_level": ("NamedLevel",),
+    "formats.recording": ("Recording",),
+    "formats.replay.text": ("Replay", "parse_replay", "write_replay"),
+    "runs.run": ("RunResult", "record_replay", "run_level"),
+    "runs.run_trace": ("RunTrace", "trace_level"),
+    "runs.verify": ("Verdict", "verify_recording"),
+    "sim.inputs": ("Demo", "Input"),
+    "sim.level": ("Level", "ObjectSpec"),
+    "simulation": ("SaveState", "Simulation"),
 }
+_HOMES = {name: module for module, names in _NAMES.items() for name in names}
 
 __all__ = [
     "ArgumentError",
@@ -111,8 +100,9 @@ def __getattr__(name: str) -> Any:
     """Import a public name when it is first asked for, so that the program's help does not load NumPy."""
     if name not in _HOMES:
         raise AttributeError(f"module 'ninja_game' has no attribute {name!r}")
-    module, attribute = _HOMES[name]
-    value = getattr(import_module(module), attribute)
+    from importlib import import_module
+
+    value = getattr(import_module(f"ninja_game.{_HOMES[name]}"), name)
     globals()[name] = value
     return value
 

@@ -8,7 +8,10 @@ imported yet, its import is watched.
 from __future__ import annotations
 
 import sys
-from typing import Any
+
+TYPE_CHECKING = False  # as in the package's first file
+if TYPE_CHECKING:
+    from typing import Any
 
 ENVIRONMENTS: dict[str, dict[str, Any]] = {
     "Ninja-v0": {},

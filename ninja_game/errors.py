@@ -13,6 +13,20 @@ class NinjaGameError(Exception):
     """The root of all errors that this package raises on purpose."""
 
 
+def reason(error: BaseException) -> str:
+    """What went wrong, in words for the user.
+
+    >>> reason(FileNotFoundError(2, "No such file", "a.txt")), reason(MemoryError()), reason(KeyError("x"))
+    ('No such file', 'there is not enough memory', "a fault of the program, KeyError: 'x'")
+    """
+    if isinstance(error, MemoryError):
+        return "there is not enough memory"
+    expected = isinstance(error, (NinjaGameError, OSError))
+    return getattr(error, "strerror", "") or (
+        str(error) if expected else f"a fault of the program, {type(error).__name__}: {error}"
+    )
+
+
 class ArgumentError(NinjaGameError, ValueError):
     """An argument of the public API that is none of those it takes; says which are."""
 
@@ -65,9 +79,17 @@ class ReplayError(FormatError):
     """A replay text of ours that cannot be read, or does not fit its level."""
 
 
+class BudgetError(FormatError):
+    """A run that costs more work than its budget."""
+
+
 class LinkError(FormatError):
     """A link to a level, a pack or a replay that was cut or changed, or that carries too much."""
 
 
 class PackError(FormatError):
     """A pack of levels whose index is missing or wrong."""
+
+
+DAMAGED = (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError, NinjaGameError)
+"""What reading JSON raises that is not as the program wrote it."""

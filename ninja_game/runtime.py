@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import sys
+import traceback
 from collections.abc import Callable
 from threading import Thread
 from typing import TypeVar
 
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import NinjaGameError, reason
 
 Key = TypeVar("Key")
 Value = TypeVar("Value")
@@ -29,9 +30,22 @@ def require_desktop() -> None:
         raise NinjaGameError(ONLY_ON_A_DESKTOP)
 
 
-def beside(work: Callable[[], object]) -> Thread:
-    """Do some work in a thread of its own. Where there are none, it is done when this comes back."""
-    thread = Thread(target=work, daemon=True)
+def beside(work: Callable[[], object], failed: Callable[[str], object]) -> Thread:
+    """Do some work in a thread of its own. Where there are none, it is done when this comes back.
+
+    ``failed``: called there with a sentence for the user if the work raises anything at all; nobody waits for what has
+    ended. The traceback of a fault of ours is on stderr.
+    """
+
+    def attempt() -> None:
+        try:
+            work()
+        except BaseException as error:  # noqa: BLE001 - also what a library calls no Exception
+            failed(reason(error))
+            if not isinstance(error, (NinjaGameError, OSError, MemoryError)):
+                traceback.print_exc()
+
+    thread = Thread(target=attempt, daemon=True)
     if IN_PAGE:
         thread.run()
     else:

@@ -1,7 +1,8 @@
 """How a command ends on Ctrl-C and SIGTERM: by an exception, so that it can clean up; by force if that takes too long.
 
-Python handles a signal only between two of its own instructions. Compiled code, and threads that a leaving process
-waits for, can hold that up for long; a thread of ours then ends the process.
+Before a command begins and after it is done there is nothing to clean up, and an exception would come where nobody
+catches it: a signal then ends the process at once. Python handles a signal only between two of its own instructions.
+Compiled code, and threads that a leaving process waits for, can hold that up for long; a thread of ours then ends it.
 """
 
 from __future__ import annotations
@@ -12,11 +13,10 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any, NoReturn
+from typing import Any
 
 GRACE = 1.2
 """Seconds that a command has to end by itself after a signal."""
-
 
 _ENDING = (signal.SIGINT, signal.SIGTERM)
 
@@ -24,7 +24,10 @@ told = threading.Event()
 """The command has said itself that it was stopped; what remains may take its time."""
 
 arrived: list[BaseException] = []
-"""Signals that have come, also those whose exceptions Python has lost: what fails after one fails because of it."""
+"""What the first signal has raised; Python may have lost it, or made another error of it."""
+
+raising = threading.Event()
+"""A command is at work: a signal raises an exception in it."""
 
 
 class Terminated(BaseException):
@@ -36,29 +39,41 @@ def end_on_signals() -> None:
 
     For the main thread of a program that is ours alone; a second call does nothing.
     """
-    if sys.platform == "win32" or signal.getsignal(signal.SIGTERM) is _raise_terminated:
+    if sys.platform == "win32" or signal.getsignal(signal.SIGTERM) is _on_signal:
         return
     # What a process that is ended by force shared with its workers is cleaned up by one of Python's, without a word.
     sys.warnoptions.append("ignore:resource_tracker:UserWarning")
-    signal.signal(signal.SIGTERM, _raise_terminated)
     sys.unraisablehook = _forget_signals
     arrivals, announce = os.pipe()
     os.set_blocking(announce, False)
+    for number in _ENDING:
+        # What a shell starts in the background ignores Ctrl-C.
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, _on_signal)
     # Written by the handler in C, also while the main thread is in compiled code.
     signal.set_wakeup_fd(announce, warn_on_full_buffer=False)
     threading.Thread(target=_end_by_force, args=(arrivals,), name="ninja-game signals", daemon=True).start()
 
 
-def _raise_terminated(*_: object) -> NoReturn:
-    arrived.append(Terminated())
-    raise arrived[-1]
+def leave_signals() -> None:
+    """From now on they end the process by themselves: a leaving Python runs nothing of ours any more."""
+    for number in _ENDING:
+        if signal.getsignal(number) is _on_signal:
+            signal.signal(number, signal.SIG_DFL)
+
+
+def _on_signal(number: int, _: object) -> None:
+    """The first signal raises an exception in the command that is at work; the next ones leave it to clean up."""
+    if not raising.is_set():
+        _end(number)
+    if not arrived:
+        arrived.append(KeyboardInterrupt() if number == signal.SIGINT else Terminated())
+        raise arrived[0]
 
 
 def _forget_signals(ignored: sys.UnraisableHookArgs) -> None:
-    """Say nothing of a signal that came where Python loses exceptions: the thread ends the program."""
-    if isinstance(ignored.exc_value, (Terminated, KeyboardInterrupt)):
-        arrived.append(ignored.exc_value)
-    else:
+    """Say nothing of a signal that came where Python loses exceptions, nor of what fails because of it."""
+    if not arrived:
         sys.__unraisablehook__(ignored)
 
 
@@ -92,13 +107,20 @@ def _end_by_force(arrivals: int) -> None:
     while number not in _ENDING:
         number = os.read(arrivals, 1)[0]
     threading.Event().wait(GRACE)
-    # What is not loaded has nothing to end; to load it now might wait for the main thread.
-    for child in _known("multiprocessing", "active_children")() or ():
-        child.kill()
-    _known("ninja_game.files.writing", "discard_unfinished")()
-    if not told.is_set():
-        os.write(2, b"ninja-game: interrupted\n" if number == signal.SIGINT else b"ninja-game: terminated\n")
-    os._exit(128 + number)
+    _end(number)
+
+
+def _end(number: int) -> None:
+    """End this process and its workers at once; unfinished files go."""
+    try:
+        # What is not loaded has nothing to end; to load it now might wait for the main thread.
+        for child in _known("multiprocessing", "active_children")() or ():
+            child.kill()
+        _known("ninja_game.files.writing", "discard_unfinished")()
+        if not told.is_set():
+            os.write(2, b"ninja-game: interrupted\n" if number == signal.SIGINT else b"ninja-game: terminated\n")
+    finally:
+        os._exit(128 + number)
 
 
 def _known(module: str, name: str) -> Callable[[], Any]:

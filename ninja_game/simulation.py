@@ -88,13 +88,17 @@ class EventView:
 
 @dataclass(frozen=True)
 class SaveState:
-    """A moment of a run, from ``Simulation.save``: only good for runs of an equal level, body and memory."""
+    """A moment of a run, from ``Simulation.save``: only good for runs of an equal level, body and memory.
+
+    Equal states have an equal level, body, memory and the same past: ``inputs``, and ``kills`` (tick and arguments).
+    """
 
     level: Level = field(repr=False)
     body: Body
     memory: MemoryName
     inputs: bytes = field(repr=False)
     data: Any = field(repr=False, compare=False)
+    kills: tuple[tuple[int, int, float, float], ...] = field(default=(), repr=False)
 
     @property
     def tick(self) -> int:
@@ -116,6 +120,7 @@ class Simulation:
         self.body = body
         self._memory = open_memory(memory, level, box=is_box(body))
         self._inputs = bytearray()
+        self._kills: list[tuple[int, int, float, float]] = []
 
     def __repr__(self) -> str:
         return f"<Simulation in tick {self.tick}: {self.outcome}, {self.gold} gold, {self.body}, {self.memory}>"
@@ -140,6 +145,7 @@ class Simulation:
     def reset(self) -> None:
         """Start afresh from the loaded level, as at first."""
         self._inputs.clear()
+        self._kills.clear()
         self._memory.load()
 
     def step(self, *, left: bool = False, right: bool = False, jump: bool = False) -> None:
@@ -158,8 +164,12 @@ class Simulation:
         """Kill the ninja where it is, as the game does when its time is over or the player gives up.
 
         ``cause``: one of those in sim/states.py; (dx, dy): its corpse's impulse, px/tick. It is part of no recording.
+        Raises ArgumentError for another cause.
         """
+        if not 0 <= cause < len(CAUSE_NAMES):
+            raise ArgumentError(f"cause is {cause!r}; expected 0 to {len(CAUSE_NAMES) - 1}, as in sim/states.py")
         self._memory.kill(cause, dx, dy)
+        self._kills.append((self.tick, cause, dx, dy))
 
     # --- looking ---
 
@@ -210,13 +220,16 @@ class Simulation:
 
     def save(self) -> SaveState:
         """This moment, to come back to. The state is never changed by later steps."""
-        return SaveState(self.level, self.body, self.memory, bytes(self._inputs), self._memory.save())
+        return SaveState(
+            self.level, self.body, self.memory, bytes(self._inputs), self._memory.save(), tuple(self._kills)
+        )
 
     def restore(self, state: SaveState) -> None:
         """Go back to a saved moment. Raises ArgumentError for a state of another level, body or memory."""
         if (state.level, state.body, state.memory) != (self.level, self.body, self.memory):
             raise ArgumentError("this save-state is of another level, body or memory")
         self._inputs = bytearray(state.inputs)
+        self._kills = list(state.kills)
         self._memory.restore(state.data)
 
     def digest(self) -> str:
@@ -238,7 +251,7 @@ class Simulation:
 
 
 def is_box(body: str) -> bool:
-    """Whether a body is the box. Raises ArgumentError for one that there is not."""
+    """Whether a body is the box. Raises ArgumentError for any other word."""
     if body not in BODIES:
         raise ArgumentError(f"body is {body!r}; expected 'circle' or 'box'")
     return body == "box"

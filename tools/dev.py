@@ -24,6 +24,12 @@ import sys
 if sys.version_info < (3, 11):  # noqa: UP036 - the one file that an older Python may meet
     sys.exit(f"tools/dev.py: Python 3.11 or newer is needed, this is {sys.version.split()[0]} ({sys.executable}).")
 
+import signal
+
+if __name__ == "__main__":
+    # Ctrl-C while the rest is loaded: no traceback.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
 import ast
 import hashlib
 import os
@@ -48,8 +54,8 @@ USES = {
     "learn": ("fast", "learn", "minari"),
 }  # fmt: skip
 """The extras that commands of the game use; those that are not here use Numba."""
-DRAWINGS = ("draw.how_it_works", "draw.legend")
-PICTURE_TESTS = ("tests/play/test_recorded_screens.py", "tests/play/test_pictures.py")
+DRAWINGS = ("draw.how_it_works", "draw.legend", "draw.screens")
+PICTURE_TESTS = ("tests/play/test_recorded_screens.py", "tests/play/test_pictures.py", "tests/play/test_sound.py")
 
 
 def program(name: str) -> str:
@@ -72,6 +78,9 @@ def become(*words: str) -> int:
     """Run the environment's Python in the place of this process, so that signals and exit codes are its own."""
     sys.stdout.flush()
     if os.name != "nt":
+        if words[:2] == ("-m", "ninja_game"):
+            # It waits until the program has begun, which lets it come; Python's own start would show a traceback.
+            signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         os.execv(program("python"), [program("python"), *words])
     return subprocess.run([program("python"), *words], check=False).returncode
 
@@ -215,6 +224,7 @@ def main(words: Sequence[str]) -> int:
 
 if __name__ == "__main__":
     try:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         sys.exit(main(sys.argv[1:]))
     except KeyboardInterrupt:
         sys.exit(130)

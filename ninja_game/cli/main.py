@@ -16,9 +16,10 @@ from typing import Any, NoReturn
 import click
 
 from ninja_game import __version__
+from ninja_game.cli.terminal import guard_terminal
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
-from ninja_game.signals import Terminated, arrived, end_on_signals, told
+from ninja_game.signals import Terminated, arrived, end_on_signals, leave_signals, raising, told
 
 GROUPS = {
     "game": {
@@ -98,6 +99,7 @@ class Commands(click.Group):
         assert isinstance(command, click.Command)  # noqa: S101 - for the type checker
         if cmd_name in COMPILING:
             _announce_compiling()
+        raising.set()
         return command
 
     def resolve_command(
@@ -128,49 +130,61 @@ class Commands(click.Group):
             # What Python flushes at exit must not fail again.
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             return BROKEN_PIPE
+        except KeyboardInterrupt as error:
+            # click would write an empty line for one.
+            raise click.Abort from error
         return code
 
     def main(self, args: Sequence[str] | None = None, *more: Any, **named: Any) -> NoReturn:
         """Run, then leave with an exit code; errors that are the caller's end as a line on stderr."""
         named["standalone_mode"] = False
+        failed: BaseException | None = None
+        code: Any = None
         try:
-            code = super().main(args, *more, **named)
-        except click.exceptions.NoArgsIsHelpError as error:
-            click.echo(error.format_message(), err=True)
-            code = BAD_INPUT
-        except click.UsageError as error:
-            code = complain(error.format_message())
-            if error.ctx:
-                click.echo(f"Try '{error.ctx.command_path} --help'.", err=True)
-        except click.ClickException as error:
-            code = complain(error.format_message())
-        except NinjaGameError as error:
-            code = complain(str(error))
-        except OSError as error:
-            code = complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
-        except (click.Abort, KeyboardInterrupt, Terminated) as error:
-            code = _stopped(error)
-        except Exception as error:  # noqa: BLE001 - nothing may end like a run that failed
-            code = _stopped(error) or _stopped(next(iter(arrived), None))
-            if not code:
-                traceback.print_exc()
-                complain("this is a fault of ninja-game, not of your input; please report it with the lines above")
-                code = INTERNAL_ERROR
-        sys.exit(code)
+            try:
+                code = super().main(args, *more, **named)
+            finally:
+                raising.clear()
+        except SystemExit as error:
+            code = error.code
+        except BaseException as error:  # noqa: BLE001 - nothing may end like a run that failed
+            failed = error
+        sys.exit(_stopped(failed) or (_failed(failed) if failed else code))
 
 
 def _stopped(error: BaseException | None) -> int:
-    """Say that a signal has stopped the command, and its exit code; 0 where no signal is behind the error.
+    """Say that a signal has stopped the command, and its exit code; 0 where none has come.
 
-    Python makes another error of one that comes while it makes a class.
+    Python makes another error of one that comes while it makes a class, and others lose it.
     """
     while error and not isinstance(error, (click.Abort, KeyboardInterrupt, Terminated)):
         error = error.__cause__ or error.__context__
-    if error:
-        complain("terminated" if isinstance(error, Terminated) else "interrupted")
-        told.set()
-        return TERMINATED if isinstance(error, Terminated) else INTERRUPTED
-    return 0
+    error = next(iter(arrived), error)
+    if not error:
+        return 0
+    told.set()
+    complain("terminated" if isinstance(error, Terminated) else "interrupted")
+    return TERMINATED if isinstance(error, Terminated) else INTERRUPTED
+
+
+def _failed(error: BaseException) -> int:
+    """Tell what a command has raised, and its exit code."""
+    match error:
+        case click.exceptions.NoArgsIsHelpError():
+            click.echo(error.format_message(), err=True)
+        case click.ClickException():
+            complain(error.format_message())
+            if isinstance(error, click.UsageError) and error.ctx:
+                click.echo(f"Try '{error.ctx.command_path} --help'.", err=True)
+        case NinjaGameError():
+            complain(str(error))
+        case OSError():
+            complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
+        case _:
+            traceback.print_exception(error)
+            complain("this is a fault of ninja-game, not of your input; please report it with the lines above")
+            return INTERNAL_ERROR
+    return BAD_INPUT
 
 
 def complain(message: str) -> int:
@@ -195,11 +209,12 @@ def cli() -> None:
 
 def main() -> NoReturn:
     """The program `ninja-game`."""
-    for stream in (sys.stdout, sys.stderr):
-        # Names of levels may hold what the terminal's encoding has not.
-        getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")
+    guard_terminal()
     end_on_signals()
-    cli.main(prog_name="ninja-game")
+    try:
+        cli.main(prog_name="ninja-game")
+    finally:
+        leave_signals()
 
 
 def _announce_compiling() -> None:

@@ -5,13 +5,16 @@ from __future__ import annotations
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from difflib import get_close_matches
 from pathlib import Path
+from threading import Event, Thread
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 from click.shell_completion import CompletionItem
+
+from ninja_game.budget import RUN_BUDGET
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
@@ -24,8 +27,8 @@ N = TypeVar("N", "NamedLevel", "Recording")
 PATIENCE = 1.0
 """Seconds after which work is long enough for a progress bar."""
 
-EVERY = 15.0
-"""Seconds between two lines of progress where nobody watches."""
+LONG, EVERY = 5.0, 15.0
+"""Seconds until the first line of progress, and between two of them, where no bar tells it."""
 
 
 class InputPath(click.Path):
@@ -89,6 +92,12 @@ other_level_option = click.option(
 )  # fmt: skip
 
 
+budget_option = click.option(
+    "--budget", type=click.IntRange(1), default=RUN_BUDGET, show_default=True,
+    help="Most work of one run: ticks times objects. A run that is not over by then is refused.",
+)  # fmt: skip
+
+
 def window_options(command: Callable[..., T]) -> Callable[..., T]:
     """The options of commands that open a window: its size in px, how many pictures, where the last one goes."""
     for option in (
@@ -129,20 +138,44 @@ def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
     ``label``: what one of them is.
     """
     if not sys.stderr.isatty():
-        log = ProgressLog()
-        for number, item in enumerate(items, 1):
-            yield item
-            log.say(f"{number:,} {label}{'s' * (number != 1)}")
+        done = 0
+        with heartbeat(lambda: f"{done:,} {label}{'s' * (done != 1)} done"):
+            for done, item in enumerate(items, 1):  # noqa: B007 - the line tells it
+                yield item
         return
     start = time.monotonic()
     with ExitStack() as stack:
         advance: Callable[[], object] | None = None
+        over = stack.enter_context(heartbeat(lambda: f"at work on {label}s"))
         for number, item in enumerate(items, 1):
             yield item
             if advance is None and time.monotonic() - start > PATIENCE:
+                over.set()
                 advance = stack.enter_context(_Counter(f"{label}s", number))
             elif advance:
                 advance()
+
+
+@contextmanager
+def heartbeat(text: Callable[[], str]) -> Iterator[Event]:
+    """Say on stderr now and then what is done meanwhile, for work that may take long and tells nothing by itself.
+
+    Gives what ends it early.
+    """
+    over = Event()
+    start = time.monotonic()
+
+    def beat() -> None:
+        pause = LONG
+        while not over.wait(pause):
+            click.echo(f"ninja-game: {time.monotonic() - start:,.0f} s: {text()}", err=True)
+            pause = EVERY
+
+    Thread(target=beat, daemon=True).start()
+    try:
+        yield over
+    finally:
+        over.set()
 
 
 class ProgressLog:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ninja_game.cli.run_options import ProgressLog
+from ninja_game.files.shown_text import shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
@@ -116,7 +117,7 @@ class ShownProgress:
 
     def of_level(self, name: str, progress: Progress) -> None:
         """Show how one of several searches stands."""
-        self._show(f"{name}: {progress_text(progress)}")
+        self._show(f"{shown_text(name)}: {progress_text(progress)}")
 
 
 @contextmanager

@@ -7,7 +7,7 @@ from time import monotonic
 
 from ninja_game.directed.methods import METHODS, search_span
 from ninja_game.directed.span import Found, SpanTask
-from ninja_game.errors import ArgumentError, NinjaGameError
+from ninja_game.errors import ArgumentError
 from ninja_game.runtime import beside, require_desktop
 
 
@@ -45,7 +45,7 @@ class SpanSearch:
     def start(self) -> None:
         """Begin; a second call does nothing."""
         if self._thread is None:
-            self._thread = beside(self._work)
+            self._thread = beside(self._work, self._fail)
 
     def cancel(self) -> None:
         """End the search soon, within the time of one round of trials; what was found stays. Does not wait."""
@@ -71,12 +71,11 @@ class SpanSearch:
         return (self._ended or monotonic()) - self._began if self._began else 0.0
 
     def _work(self) -> None:
-        try:
-            search_span(self.task, self._report, **self._options)  # type: ignore[arg-type]
-        except NinjaGameError as error:
-            self.problem = str(error)
-        finally:
-            self._ended = monotonic()
+        search_span(self.task, self._report, **self._options)  # type: ignore[arg-type]
+        self._ended = monotonic()
+
+    def _fail(self, why: str) -> None:
+        self.problem, self._ended = why, monotonic()
 
     def _report(self, ticks: int, found: tuple[Found, ...]) -> bool:
         if not self._began:

@@ -1,16 +1,22 @@
-"""What a formula such as ``x > 400 and vy < 0`` says of many worlds at once.
+"""Goals and measures as short formulas, ``x > 400 and vy < 0``, of many worlds at once: Python's grammar, never run.
 
 A truth has a margin too: how far it is from false (or from true, negative), so that a search knows what is nearer.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import ast
+import re
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from ninja_game.errors import FormatError
 
 Numbers = NDArray[np.float64]
 """One number a world; 1 and 0 are true and false."""
@@ -21,28 +27,24 @@ View = Mapping[str, Callable[..., Numbers]]
 UNTRUE = -1000.0
 """The margin of a fact that is not so, such as ``dead``: nothing is near to it."""
 
+LONGEST, DEEPEST = 1000, 40
+"""Of a formula: characters, and parts in parts."""
 
-@dataclass(frozen=True)
-class Formula:
-    """A formula that was read. ``truth``: whether it is true or false, not a number."""
+_FOREIGN = re.compile(r"[^\w\s.+\-*/<>=!(),]", re.ASCII)
 
-    text: str
-    truth: bool
-    value: Callable[[View], Numbers]
-    margin: Callable[[View], Numbers]
-
-
-COMPARISONS: dict[str, tuple[Callable[..., Any], Callable[[Any, Any], Any]]] = {
-    "<": (np.less, lambda a, b: b - a),
-    "<=": (np.less_equal, lambda a, b: b - a),
-    ">": (np.greater, lambda a, b: a - b),
-    ">=": (np.greater_equal, lambda a, b: a - b),
-    "==": (np.equal, lambda a, b: -np.abs(a - b)),
-    "!=": (np.not_equal, lambda a, b: np.abs(a - b)),
+COMPARISONS: dict[type[ast.cmpop], tuple[Callable[..., Any], Callable[[Any, Any], Any]]] = {
+    ast.Lt: (np.less, lambda a, b: b - a),
+    ast.LtE: (np.less_equal, lambda a, b: b - a),
+    ast.Gt: (np.greater, lambda a, b: a - b),
+    ast.GtE: (np.greater_equal, lambda a, b: a - b),
+    ast.Eq: (np.equal, lambda a, b: -np.abs(a - b)),
+    ast.NotEq: (np.not_equal, lambda a, b: np.abs(a - b)),
 }
 """What comparisons say, and their margins."""
 
-ARITHMETIC: dict[str, Callable[..., Any]] = {"+": np.add, "-": np.subtract, "*": np.multiply, "/": np.divide}
+ARITHMETIC: dict[type[ast.operator], Callable[..., Any]] = {
+    ast.Add: np.add, ast.Sub: np.subtract, ast.Mult: np.multiply, ast.Div: np.divide
+}  # fmt: skip
 
 FUNCTIONS: dict[str, tuple[int, Callable[..., Any]]] = {
     "abs": (1, np.abs), "min": (2, np.minimum), "max": (2, np.maximum), "hypot": (2, np.hypot)
@@ -50,45 +52,173 @@ FUNCTIONS: dict[str, tuple[int, Callable[..., Any]]] = {
 """Functions of numbers, with how many arguments they take."""
 
 
-def number(text: str, value: Callable[[View], Any]) -> Formula:
-    """A number; its margin is itself."""
-    return Formula(text, False, value, value)
+class FormulaError(FormatError):
+    """A formula that cannot be read. ``file``: what it is for, such as "goal", if that is known."""
+
+    def __str__(self) -> str:
+        """As of other texts, with the column in words."""
+        place = ", ".join(filter(None, (self.file, f"column {self.column}" if self.column else "")))
+        return str(FormatError(self.what, place, found=self.found, expected=self.expected, hint=self.hint))
 
 
-def arithmetic(sign: str, left: Formula, right: Formula) -> Formula:
-    """``left sign right`` of numbers."""
-    do = ARITHMETIC[sign]
-    return number(left.text, lambda view: do(left.value(view), right.value(view)))
+@dataclass(frozen=True)
+class Formula:
+    """A formula that was read. ``truth``: whether it is true or false, not a number, whose margin is itself."""
+
+    truth: bool
+    value: Callable[[View], Any]
+    margin: Callable[[View], Any]
 
 
-def comparison(sign: str, left: Formula, right: Formula) -> Formula:
-    """``left sign right``: a truth."""
-    compare, margin = COMPARISONS[sign]
+def parse_truth(text: str, names: Mapping[str, int], facts: Sequence[str]) -> Formula:
+    """A formula that is true or false, such as a goal. Raises FormulaError.
 
-    def value(view: View) -> Numbers:
-        return np.asarray(compare(left.value(view), right.value(view)), np.float64)
-
-    return Formula(left.text, True, value, lambda view: margin(left.value(view), right.value(view)))
+    ``names``: how many numbers each name takes in brackets; ``facts``: those of them that are true or false.
+    """
+    return _parse(text, names, facts, truth=True)
 
 
-def negation(part: Formula) -> Formula:
-    """``not part``."""
-    return Formula(part.text, True, lambda view: 1.0 - part.value(view), lambda view: -part.margin(view))
+def parse_number(text: str, names: Mapping[str, int], facts: Sequence[str]) -> Formula:
+    """A formula that is a number, such as what is to be greatest. Raises FormulaError."""
+    return _parse(text, names, facts, truth=False)
 
 
-def fact(text: str, value: Callable[[View], Any]) -> Formula:
-    """Something that is so or not."""
-    return Formula(text, True, value, lambda view: np.where(value(view) > 0, 0.0, UNTRUE))
+def _parse(text: str, names: Mapping[str, int], facts: Sequence[str], *, truth: bool) -> Formula:
+    if len(text) > LONGEST:
+        raise FormulaError("a formula that is too long", found=f"{len(text)} characters", expected=str(LONGEST))
+    if foreign := _FOREIGN.search(text):
+        expected = "names, numbers, + - * / ( ) < <= > >= == !="
+        raise FormulaError("a character that no formula has", "", 0, foreign.start() + 1, repr(foreign[0]), expected)
+    start = len(text) - len(text.lstrip())
+    try:
+        tree = ast.parse(re.sub(r"\s", " ", text.strip()), mode="eval").body
+    except SyntaxError as error:
+        column = min(start + (error.offset or LONGEST), len(text) + 1)
+        found = repr(text[column - 1 :][:30]) if column <= len(text) else "the end"
+        raise FormulaError("not a formula", "", 0, column, found, "one such as x > 400 and vy < 0") from None
+    except (RecursionError, MemoryError):
+        raise FormulaError("too many brackets in brackets", expected=f"at most {DEEPEST}") from None
+    formula = _Reader(text, names, facts, start).formula(tree)
+    if formula.truth != truth:
+        what = "a number, neither true nor false" if truth else "true or false, no number"
+        expected = "a comparison or a fact, such as x > 400" if truth else "a number, such as vx or distance(x, y)"
+        raise FormulaError(what, found=repr(text[:60]), expected=expected)
+    return formula
 
 
-JOINS: dict[str, Any] = {"and": np.minimum, "or": np.maximum}
+@dataclass
+class _Reader:
+    """Turns the parts of a syntax tree that formulas have into formulas; ``start``: where the tree's text begins."""
+
+    text: str
+    names: Mapping[str, int]
+    facts: Sequence[str]
+    start: int
+    depth: int = 0
+
+    def error(self, node: ast.expr, what: str, expected: str, hint: str = "") -> FormulaError:
+        column = self.start + node.col_offset + 1
+        found = self.text[column - 1 : self.start + (node.end_col_offset or 0)]
+        return FormulaError(what, "", 0, column, repr(found[:30]), expected, hint)
+
+    def formula(self, node: ast.expr) -> Formula:
+        """Of any part of the tree."""
+        self.depth += 1
+        if self.depth > DEEPEST:
+            raise self.error(node, "too many brackets in brackets", f"at most {DEEPEST}")
+        try:
+            match node:
+                case ast.BoolOp(op, parts):
+                    return reduce(_both if isinstance(op, ast.And) else _either, map(self.truth, parts))
+                case ast.UnaryOp(ast.Not(), part):
+                    return _negation(self.truth(part))
+                case ast.UnaryOp(ast.USub(), part):
+                    value = self.number(part)
+                    return _number(lambda view: -value(view))
+                case ast.Compare(first, signs, rest):
+                    return self.comparison(node, [first, *rest], signs)
+                case ast.BinOp(left, sign, right) if type(sign) in ARITHMETIC:
+                    do, a, b = ARITHMETIC[type(sign)], self.number(left), self.number(right)
+                    return _number(lambda view: do(a(view), b(view)))
+                case ast.Constant(int() | float() as value) if not isinstance(value, bool):
+                    constant = np.float64(value if value < 10**308 else np.inf)
+                    return _number(lambda _: constant)
+                case ast.Name(name):
+                    return self.named(node, name, [])
+                case ast.Call(ast.Name(name), parts, []):
+                    return self.named(node, name, parts)
+        finally:
+            self.depth -= 1
+        raise self.error(node, "not a part of a formula", "names, numbers, + - * /, comparisons, and, or, not")
+
+    def truth(self, node: ast.expr) -> Formula:
+        """Of a part that must be true or false."""
+        found = self.formula(node)
+        if not found.truth:
+            raise self.error(node, "a number beside 'and', 'or' or 'not'", "a comparison, such as x > 400")
+        return found
+
+    def number(self, node: ast.expr) -> Callable[[View], Any]:
+        """The value of a part that must be a number."""
+        found = self.formula(node)
+        if found.truth:
+            raise self.error(node, "true or false where a number belongs", "numbers, such as x + 5")
+        return found.value
+
+    def comparison(self, node: ast.expr, parts: Sequence[ast.expr], signs: Sequence[ast.cmpop]) -> Formula:
+        """``a < b``, and ``a < b < c`` as Python has it."""
+        if not {*map(type, signs)} <= COMPARISONS.keys():
+            raise self.error(node, "an unknown comparison", "< <= > >= == !=")
+        pairs = zip(pairwise(map(self.number, parts)), signs, strict=True)
+        return reduce(_both, (_comparison(a, b, *COMPARISONS[type(sign)]) for (a, b), sign in pairs))
+
+    def named(self, node: ast.expr, name: str, parts: Sequence[ast.expr]) -> Formula:
+        """A name with its numbers."""
+        count, function = FUNCTIONS.get(name, (self.names.get(name), None))
+        if count is None:
+            raise self.error(node, "an unknown name", ", ".join([*self.names, *FUNCTIONS]))
+        if len(parts) != count:
+            wanted = f"{name}({', '.join(['number'] * count)})" if count else name
+            raise self.error(node, f"'{name}' with {len(parts)} numbers", wanted)
+        numbers = [self.number(part) for part in parts]
+
+        def value(view: View) -> Any:
+            return (function or view[name])(*(number(view) for number in numbers))
+
+        if name not in self.facts:
+            return _number(value)
+        return Formula(True, value, lambda view: np.where(value(view) > 0, 0.0, UNTRUE))
 
 
-def joined(word: str, left: Formula, right: Formula) -> Formula:
-    """``left and right``, ``left or right``."""
-    join = JOINS[word]
+def _number(value: Callable[[View], Any]) -> Formula:
+    return Formula(False, value, value)
+
+
+def _comparison(
+    a: Callable[[View], Any], b: Callable[[View], Any], compare: Callable[..., Any], margin: Callable[[Any, Any], Any]
+) -> Formula:
     return Formula(
-        left.text, True,
+        True,
+        lambda view: np.asarray(compare(a(view), b(view)), np.float64),
+        lambda view: margin(a(view), b(view)),
+    )
+
+
+def _negation(part: Formula) -> Formula:
+    return Formula(True, lambda view: 1.0 - part.value(view), lambda view: -part.margin(view))
+
+
+def _both(left: Formula, right: Formula) -> Formula:
+    return _joined(np.minimum, left, right)
+
+
+def _either(left: Formula, right: Formula) -> Formula:
+    return _joined(np.maximum, left, right)
+
+
+def _joined(join: Callable[..., Any], left: Formula, right: Formula) -> Formula:
+    return Formula(
+        True,
         lambda view: join(left.value(view), right.value(view)),
         lambda view: join(left.margin(view), right.margin(view)),
-    )  # fmt: skip
+    )

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.batch.batch import Batch
-from ninja_game.directed.expressions import FormulaError, parse_number, parse_truth
-from ninja_game.directed.formula import Formula, Numbers
+from ninja_game.directed.formula import Formula, FormulaError, Numbers, parse_number, parse_truth
 from ninja_game.directed.view import FACTS, SPAN_NAMES, difference_from, view_of
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.inputs import KEYS_DOWN, press_jumps

@@ -32,7 +32,7 @@ FACTS = ("dead", "won", "in_air", "near_wall", "taken", "opened")
 def view_of(batch: Batch) -> dict[str, Callable[..., NDArray[np.float64]]]:
     """Functions for all names, of the worlds as they are when they are called.
 
-    They raise ArgumentError for an object that there is not.
+    They raise ArgumentError for an unknown object.
     """
     ninja = batch.records["ninja"]
     place, before = batch.positions, batch.previous

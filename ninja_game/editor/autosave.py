@@ -8,14 +8,14 @@ import secrets
 import time
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ninja_game.editor.ascii_text import ascii_text
 from ninja_game.editor.background import NewestJob
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, draft_of, new_source, open_source
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import DAMAGED, NinjaGameError
 from ninja_game.files.locking import LOCK_SUFFIX, forget, hold, left_behind
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.writing import write_atomically
@@ -68,7 +68,8 @@ class Autosave:
                 self._folder.mkdir(parents=True, exist_ok=True)
                 self._handle = hold(self._file.with_suffix(LOCK_SUFFIX))
             draft, source = job
-            kept = {"path": str(source.path or ""), "digest": source.digest, "level": ascii_text(draft)}
+            path = str(source.path.absolute()) if source.path else ""
+            kept = {"path": path, "digest": source.digest, "level": ascii_text(draft)}
             write_atomically(self._file, json.dumps(kept, indent=1))
             self.problem = ""
         except (OSError, NinjaGameError) as error:
@@ -99,18 +100,16 @@ class Recovered:
 
 def recovered(folder: Path) -> Iterator[Recovered]:
     """What editors that have died were editing, the newest first; those of running editors are left out."""
-    return left_behind(folder / FOLDER, "*.json", _read, (ValueError, KeyError, TypeError, NinjaGameError))
+    return left_behind(folder / FOLDER, "*.json", _read, DAMAGED)
 
 
 def _read(file: Path) -> Recovered:
-    """What an autosave holds. Raises ValueError, KeyError, TypeError, NinjaGameError for one that is damaged."""
+    """What an autosave holds; its path counts only for a level that is still there. Raises what ``recovered`` names."""
     kept = json.loads(read_utf8(file))
     draft = draft_of(parse_levels(kept["level"])[0])
     source = new_source()
     if kept["path"]:
         with suppress(OSError, NinjaGameError):
-            source = open_source(Path(kept["path"]))
-        if source.digest != kept["digest"]:
-            # Somebody else has changed it since: saving will ask.
-            source = Source(source.draft, Path(kept["path"]), source.text, kept["digest"])
+            # Where somebody else has changed it since, saving will ask.
+            source = replace(open_source(Path(kept["path"])), digest=str(kept["digest"]))
     return Recovered(draft, source, file)

@@ -15,7 +15,7 @@ Result = TypeVar("Result")
 class NewestJob(Generic[Job, Result]):
     """Calls ``work`` with the newest job, in a thread that ends when there is none.
 
-    ``result``: of the job that was finished last, None so far.
+    ``result``: of the job that was finished last, None so far. ``problem``: why the last one failed, "" if it did not.
     """
 
     def __init__(self, work: Callable[[Job], Result]) -> None:
@@ -24,6 +24,7 @@ class NewestJob(Generic[Job, Result]):
         self._waiting: list[Job] = []
         self._busy = False
         self.result: Result | None = None
+        self.problem = ""
 
     def ask(self, job: Job) -> None:
         """Do this job next, instead of any that still waits."""
@@ -31,7 +32,7 @@ class NewestJob(Generic[Job, Result]):
             self._waiting[:] = [job]
             if not self._busy:
                 self._busy = True
-                beside(self._run)
+                beside(self._run, self._fail)
 
     @property
     def idle(self) -> bool:
@@ -46,22 +47,18 @@ class NewestJob(Generic[Job, Result]):
 
     def _run(self) -> None:
         while job := self._next():
-            try:
-                self.result = self._work(job[0])
-            except BaseException:
-                self._rest()
-                raise
+            self.result, self.problem = self._work(job[0]), ""
+
+    def _fail(self, why: str) -> None:
+        """Go on with a newer job, if there is one."""
+        self.problem = why
+        beside(self._run, self._fail)
 
     def _next(self) -> list[Job]:
         """The job that waits, in a list; with an empty one the thread is over."""
         with self._news:
             job, self._waiting[:] = self._waiting[:], []
             if not job:
-                self._rest()
+                self._busy = False
+                self._news.notify_all()
             return job
-
-    def _rest(self) -> None:
-        """The thread ends here; the next job begins another."""
-        with self._news:
-            self._busy = False
-            self._news.notify_all()

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ninja_game.compile_cache import compiled_available
 from ninja_game.editor.background import NewestJob
-from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.errors import BudgetError, LevelError
 from ninja_game.files.resources import how_to_install
 from ninja_game.runs.run import run_level
 from ninja_game.sim.level import Level
@@ -28,10 +28,10 @@ Route = tuple[tuple[float, float], ...]
 
 
 def route_of(level: Level, inputs: bytes, body: Body = "circle") -> Route:
-    """The way of the ninja to the end of the run or of the inputs; () for a level that cannot be played."""
+    """The way of the ninja to the end of the run or of the inputs; () where it cannot be played, or costs too much."""
     try:
         return tuple(iter_unpack("<2d", run_level(level, inputs, body=body, memory="plain").places))
-    except LevelError:
+    except (BudgetError, LevelError):
         return ()
 
 
@@ -56,8 +56,8 @@ class Certifier:
     @property
     def text(self) -> str:
         """How it stands, in a line, "" before the first start; while the solver is made ready, for how long."""
-        if self.level is None or self._said:
-            return self._said
+        if self.level is None or self._said or self._job.problem:
+            return self._job.problem or self._said
         return f"Getting ready, {monotonic() - self._began:.0f} s: minutes the first time. Go on editing"
 
     @property
@@ -104,9 +104,6 @@ class Certifier:
             solve(Task(level, seconds=self.seconds), report=report, on_better=better)
         except _StoppedError:
             pass
-        except NinjaGameError as error:
-            self._said = str(error)
-            return
         self.share = 1.0
         self._said = self._found() if self.run else "No run found in the time; that proves nothing"
 

@@ -73,14 +73,10 @@ def save(source: Source, draft: Draft, path: Path, *, replacing: bool = False) -
     ``replacing``; FileError, OSError for what cannot be written.
     """
     own = source.path is not None and path == source.path
-    there = _digest(read_bytes(path)) if path.exists() else ""
+    there = digest_of(path)
     if own and draft == source.draft and there == source.digest:
         return source
-    if there and not replacing:
-        if not own:
-            raise OccupiedError(f"there is a file {path.name} already")
-        if there != source.digest:
-            raise OccupiedError(f"{path.name} was changed by another program")
+    check_free(path, there, source.digest if own else None, replacing=replacing)
     text = updated_text(source.text, source.draft, draft) if own and source.text else ascii_text(draft)
     data = (text.replace("\n", "\r\n") if own and source.windows else text).encode("utf-8", "replace")
     if _digest(data) != there:
@@ -90,6 +86,23 @@ def save(source: Source, draft: Draft, path: Path, *, replacing: bool = False) -
 
 def _digest(data: bytes) -> str:
     return sha256(data).hexdigest()
+
+
+def digest_of(path: Path) -> str:
+    """The digest of a file's bytes; '' where there is none."""
+    return _digest(read_bytes(path)) if path.exists() else ""
+
+
+def check_free(path: Path, there: str, known: str | None, *, replacing: bool) -> None:
+    """Raise OccupiedError where writing would surprise: over another file, through a link to nothing, or again.
+
+    ``there``: the digest of the file at ``path``; ``known``: that of the document's own, None for another's.
+    """
+    if replacing or (there == (known or "") and (there or not path.is_symlink())):
+        return
+    if known is None:
+        raise OccupiedError(f"there is a file {path.name} already")
+    raise OccupiedError(f"{path.name} was {'changed' if there else 'removed'} by another program")
 
 
 def draft_of_text(text: str, about: Draft) -> Draft:

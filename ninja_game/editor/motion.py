@@ -68,7 +68,7 @@ class Motion(NamedTuple):
 
 FLIP, MIRROR = Motion(yy=-1), Motion(xx=-1)
 """Up-down and left-right."""
-CLOCKWISE, COUNTER_CLOCKWISE, HALF_TURN = Motion(0, -1, 1, 0), Motion(0, 1, -1, 0), Motion(-1, 0, 0, -1)
+CLOCKWISE, HALF_TURN = Motion(0, -1, 1, 0), Motion(-1, 0, 0, -1)
 
 _MIDDLE = WORLD_WIDTH / 2, WORLD_HEIGHT / 2
 SYMMETRIES: dict[str, tuple[Motion, ...]] = {

@@ -1,14 +1,21 @@
-"""Names are data: texts of strangers made safe to show in one line, and to name files with."""
+"""Names are data: untrusted texts made safe to show in one line, and to name files with."""
 
 from __future__ import annotations
 
 import re
+from unicodedata import category, normalize
 
 LONGEST = 200
 """How many characters of a text are shown; no name of a level or player comes near."""
 
+MOST_NAME_BYTES = 200
+"""Of a file's name in UTF-8: systems take 255, and a number, a suffix or ``.lock`` may follow."""
+
 _LONGEST_STEM = 50
 _NOT_IN_NAMES = re.compile(r"[^\w.]+")
+_NOWHERE = '/\\:*?"<>|'
+_RESERVED = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[1-9¹²³]) *(\..*)?", re.IGNORECASE | re.DOTALL)
+"""Names that mean devices on Windows, whatever their suffix."""
 
 
 def shown_text(text: str, longest: int = LONGEST) -> str:
@@ -22,10 +29,11 @@ def shown_text(text: str, longest: int = LONGEST) -> str:
     """
     if len(text) > longest:
         return shown_text(text[:longest]) + "..."
-    return text if text.isprintable() else "".join(map(_shown_character, text))
+    return text if text.isprintable() else "".join(map(shown_character, text))
 
 
-def _shown_character(character: str) -> str:
+def shown_character(character: str) -> str:
+    """One character of ``shown_text``."""
     if character.isprintable():
         return character
     return " " if character.isspace() else character.encode("unicode_escape").decode("ascii")
@@ -34,7 +42,30 @@ def _shown_character(character: str) -> str:
 def file_stem(text: str, otherwise: str = "") -> str:
     """The text as the first part of a file's name: small letters, digits, ``_ . -``; ``otherwise`` if none is left.
 
-    >>> file_stem("Über - the hill?"), file_stem("../..", "replay")
-    ('über-the-hill', 'replay')
+    >>> file_stem("Über - the hill?"), file_stem("../..", "replay"), file_stem("AUX.1")
+    ('über-the-hill', 'replay', '_aux.1')
     """
-    return _NOT_IN_NAMES.sub("-", text[:LONGEST].lower())[:_LONGEST_STEM].strip("-.") or otherwise
+    stem = _NOT_IN_NAMES.sub("-", normalize("NFC", text[:LONGEST].lower()))[:_LONGEST_STEM].strip("-.")
+    return "_" * (_RESERVED.fullmatch(stem) is not None) + stem or otherwise
+
+
+def name_problem(name: str) -> str:
+    """Why a file should not have this name, which an untrusted file gives it, on every system; "" for a good name.
+
+    >>> name_problem("Größe 2.txt"), name_problem("aux.txt"), name_problem("a.txt ")
+    ('', 'a name that Windows reserves', 'it ends in a dot or a blank')
+    """
+    if not name or any(sign in _NOWHERE for sign in name):
+        return f"not one of {_NOWHERE} may be in it" if name else "it is empty"
+    if any(not sign.isprintable() and category(sign) != "Zs" for sign in name):
+        return "a control or format character"
+    if name[-1] == "." or name[-1].isspace():
+        return "it ends in a dot or a blank"
+    if _RESERVED.fullmatch(name):
+        return "a name that Windows reserves"
+    return f"more than {MOST_NAME_BYTES} bytes" if len(name.encode()) > MOST_NAME_BYTES else ""
+
+
+def name_key(name: str) -> str:
+    """The same for names that are one file on some system: only case, or how letters are coded, is different."""
+    return normalize("NFC", normalize("NFC", name).casefold())

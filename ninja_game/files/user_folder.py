@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+from contextlib import suppress
+from itertools import count
 from pathlib import Path
 
 from ninja_game.errors import FileError
-from ninja_game.files.shown_text import file_stem
+from ninja_game.files.shown_text import file_stem, name_key
 
 HOME_VARIABLE = "NINJA_GAME_HOME"
 """Environment variable that moves the folder."""
@@ -58,13 +60,16 @@ def quarantine(path: Path, why: str) -> Path:
     return target
 
 
-def free_path(folder: Path, stem: str, suffix: str) -> Path:
-    """The first of ``stem.txt``, ``stem-2.txt``, … in a folder, for the suffix ``.txt``, that no file has."""
-    path, number = folder / f"{stem}{suffix}", 1
-    while path.exists():
-        number += 1
-        path = folder / f"{stem}-{number}{suffix}"
-    return path
+def free_path(folder: Path, stem: str, suffix: str, first: int = 1) -> Path:
+    """The first of ``stem.txt``, ``stem-2.txt``, … (for ``.txt``) that is no file of a folder on any system.
+
+    ``first``: how many names have no number; with 0 the first one is ``stem-1.txt``.
+    """
+    there: set[str] = set()
+    with suppress(OSError):
+        there = {name_key(each.name) for each in folder.iterdir()}
+    names = (f"{stem}-{number}{suffix}" if number > first else f"{stem}{suffix}" for number in count(1))
+    return folder / next(name for name in names if name_key(name) not in there)
 
 
 def export_path(folder: Path, title: str, suffix: str) -> Path:
@@ -74,8 +79,4 @@ def export_path(folder: Path, title: str, suffix: str) -> Path:
     """
     exports = folder / EXPORTS
     exports.mkdir(parents=True, exist_ok=True)
-    stem = file_stem(title, "replay")
-    number = 1
-    while (exports / f"{stem}-{number}{suffix}").exists():
-        number += 1
-    return exports / f"{stem}-{number}{suffix}"
+    return free_path(exports, file_stem(title, "replay"), suffix, first=0)

@@ -1,7 +1,7 @@
 """Files that are whole or not there: written beside their place, brought to the disk, then moved into it.
 
-Only regular files are written. A symbolic link stays, and the file that it leads to is replaced; an existing file
-keeps its mode. Other hard links to it keep the old content.
+Only regular files are written. A symbolic link that the user has named stays, and the file that it leads to is
+replaced (``files.tree`` follows none); an existing file keeps its mode. Other hard links to it keep the old content.
 """
 
 from __future__ import annotations
@@ -34,14 +34,19 @@ def write_atomically(
 ) -> None:
     """Put a file at ``path``, whole or not at all; when this returns it is on the disk.
 
-    ``fill`` is the content (text becomes UTF-8, lone surrogates question marks) or a function that writes it into a
-    binary file. ``keep``: as in ``open_atomically``, with the same errors.
+    ``fill`` is the content, as for ``as_bytes``, or a function that writes it into a binary file. ``keep``: as in
+    ``open_atomically``, with the same errors.
     """
     with open_atomically(path, keep=keep) as file:
         if callable(fill):
             fill(file)
         else:
-            file.write(fill.encode("utf-8", "replace") if isinstance(fill, str) else fill)
+            file.write(as_bytes(fill))
+
+
+def as_bytes(content: bytes | str) -> bytes:
+    """A file's content: text becomes UTF-8, lone surrogates question marks."""
+    return content.encode("utf-8", "replace") if isinstance(content, str) else content
 
 
 @contextmanager
@@ -53,32 +58,50 @@ def open_atomically(path: Path, *, keep: Iterable[Path] = ()) -> Iterator[IO[byt
     Raises FileError for a path that cannot be written on principle, OSError with the name ``path`` for the rest.
     """
     target, about = _target(path, keep)
-    remove_leftovers(target.parent)
+    with replaced(target, about, shown=path) as file:
+        yield file
+
+
+@contextmanager
+def replaced(
+    target: Path, about: os.stat_result | None, at: int | None = None, *, shown: Path | None = None
+) -> Iterator[IO[bytes]]:
+    """A binary file that takes the place of ``target`` when the block ends, and never if it ends in an exception.
+
+    ``about``: the file that is there, None: none; ``at``: a handle of its folder, None: the folder is found by its
+    path; ``shown``: what OSErrors call the file, None: ``target``.
+    """
+    remove_leftovers(target.parent, at)
     part = None
     try:
-        handle, part = _new_part(target.parent)
+        handle, part = _new_part(target.parent, at)
         _unfinished.add(part)
         with os.fdopen(handle, "wb") as file:
             yield file
             file.flush()
             if about is not None:
-                _keep_rights(part, about)
-            os.fsync(file.fileno())
+                _keep_rights(part, handle, about)
+            os.fsync(handle)
             if sys.platform != "win32":
                 # While it is open and locked, so that no other process takes it for a leftover.
-                part.replace(target)
+                os.replace(named(part, at), named(target, at), src_dir_fd=at, dst_dir_fd=at)
         if sys.platform == "win32":
             part.replace(target)
-        _sync_folder(target.parent)
+        _sync_folder(target.parent, at)
     except BaseException as error:
         if part is not None:
             with suppress(OSError):
-                part.unlink(missing_ok=True)
+                os.unlink(named(part, at), dir_fd=at)
         if isinstance(error, OSError) and _is_about_the_file(error):
-            raise OSError(error.errno, error.strerror or str(error), str(path)) from None
+            raise OSError(error.errno, error.strerror or str(error), str(shown or target)) from None
         raise
     finally:
         _unfinished.discard(part or target)
+
+
+def named(path: Path, at: int | None) -> str:
+    """What the system is to be told of a path: its name where ``at`` is a handle of its folder, else all of it."""
+    return str(path) if at is None else path.name
 
 
 def discard_unfinished() -> None:
@@ -93,20 +116,23 @@ def check_output(path: Path, keep: Iterable[Path] = ()) -> None:
     _target(path, keep)
 
 
-def remove_leftovers(folder: Path) -> None:
-    """Remove the temporary files of killed writers from a folder; once for each folder and process."""
+def remove_leftovers(folder: Path, at: int | None = None) -> None:
+    """Remove the temporary files of killed writers from a folder; once for each folder and process.
+
+    ``at``: a handle of it.
+    """
     if folder in _tidied:
         return
     _tidied.add(folder)
     try:
-        with os.scandir(folder) as entries:
-            parts = [each.path for each in entries if each.name.startswith(PART_PREFIX)]
+        with os.scandir(folder if at is None else at) as entries:
+            parts = [folder / each.name for each in entries if each.name.startswith(PART_PREFIX)]
     except OSError:
         return
     for part in parts:
-        if part.endswith(PART_SUFFIX):
+        if part.name.endswith(PART_SUFFIX):
             with suppress(OSError):
-                _remove_unlocked(Path(part))
+                _remove_unlocked(part, at)
 
 
 def _target(path: Path, keep: Iterable[Path]) -> tuple[Path, os.stat_result | None]:
@@ -130,12 +156,14 @@ def _target(path: Path, keep: Iterable[Path]) -> tuple[Path, os.stat_result | No
     return target, about
 
 
-def _keep_rights(part: Path, about: os.stat_result) -> None:
+def _keep_rights(part: Path, handle: int, about: os.stat_result) -> None:
     """Give the new file the mode and, where that is allowed, the owner of the one it replaces."""
-    if sys.platform != "win32":
+    if sys.platform == "win32":
+        part.chmod(stat.S_IMODE(about.st_mode))
+    else:
         with suppress(OSError):
-            os.chown(part, about.st_uid, about.st_gid)
-    part.chmod(stat.S_IMODE(about.st_mode))
+            os.fchown(handle, about.st_uid, about.st_gid)
+        os.fchmod(handle, stat.S_IMODE(about.st_mode))
 
 
 def _reads(source: Path, target: Path) -> bool:
@@ -152,11 +180,11 @@ def _is_about_the_file(error: OSError) -> bool:
     return Path(os.fsdecode(error.filename)).name.startswith(PART_PREFIX)
 
 
-def _sync_folder(folder: Path) -> None:
+def _sync_folder(folder: Path, at: int | None) -> None:
     """Bring a folder's list of names to the disk, where the system can do that."""
     if sys.platform != "win32":
         with suppress(OSError):
-            handle = os.open(folder, os.O_RDONLY)
+            handle = os.open(folder if at is None else ".", os.O_RDONLY, dir_fd=at)
             try:
                 os.fsync(handle)
             finally:
@@ -165,22 +193,23 @@ def _sync_folder(folder: Path) -> None:
 
 if sys.platform == "win32":
 
-    def _new_part(folder: Path) -> tuple[int, Path]:
+    def _new_part(folder: Path, _: int | None) -> tuple[int, Path]:
         """A new temporary file. Windows itself refuses to remove it while it is open."""
         part = folder / f"{PART_PREFIX}{secrets.token_hex(8)}{PART_SUFFIX}"
         return os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY | os.O_BINARY, 0o666), part
 
-    def _remove_unlocked(part: Path) -> None:
+    def _remove_unlocked(part: Path, _: int | None) -> None:
         part.unlink()
 
 else:
     import fcntl
 
-    def _new_part(folder: Path) -> tuple[int, Path]:
+    def _new_part(folder: Path, at: int | None) -> tuple[int, Path]:
         """A new temporary file, locked for as long as it is open; the system's mask decides on its mode."""
         while True:
             part = folder / f"{PART_PREFIX}{secrets.token_hex(8)}{PART_SUFFIX}"
-            handle = os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY | os.O_CLOEXEC, 0o666)
+            flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY | os.O_CLOEXEC
+            handle = os.open(named(part, at), flags, 0o666, dir_fd=at)
             with suppress(OSError):
                 # Some network disks have no locks.
                 fcntl.flock(handle, fcntl.LOCK_EX)
@@ -189,11 +218,11 @@ else:
             # Between its making and its locking another process took it for a leftover.
             os.close(handle)
 
-    def _remove_unlocked(part: Path) -> None:
+    def _remove_unlocked(part: Path, at: int | None) -> None:
         """Remove a temporary file unless a process still writes it. Raises OSError."""
-        handle = os.open(part, os.O_RDONLY | os.O_NONBLOCK | os.O_NOFOLLOW)
+        handle = os.open(named(part, at), os.O_RDONLY | os.O_NONBLOCK | os.O_NOFOLLOW, dir_fd=at)
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            part.unlink()
+            os.unlink(named(part, at), dir_fd=at)
         finally:
             os.close(handle)

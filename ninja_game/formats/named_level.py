@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from ninja_game.errors import LevelError, ReplayError
-from ninja_game.files.reading import path_below, read_text
+from ninja_game.files.beside import read_beside
 from ninja_game.formats.ascii.places import shown
 from ninja_game.formats.ascii.reader import is_ascii_level, parse_ascii_level
 from ninja_game.formats.lines import numbered_lines
@@ -122,28 +121,29 @@ def level_of_replay(replay: Replay, file: str, level: Level | None = None, *, ch
         return replay.level
     source = "the given level"
     if replay.level_path:
-        path = path_below(Path(file).parent, replay.level_path)
-        source = str(path)
-        if path is not None and os.path.isfile(path):  # noqa: PTH113 - Path.is_file() fails on long names
-            level = _level_at(path, replay.level_record, file)
+        found = read_beside(file, replay.level_path)
+        source = found.path
+        if found.problem:
+            raise ReplayError("the replay's level cannot be read", file, found=source, hint=found.problem)
+        if found.text is not None:
+            level = _level_in(found.text, source, replay.level_record, file)
     if level is None:
         hint = "give it with --level, or record the replay with its level inside"
-        found = shown(replay.level_path) if replay.level_path else f"level-digest {replay.level_digest[:12]}…"
-        if replay.level_path and path is None:
+        named = shown(replay.level_path) if replay.level_path else f"level-digest {replay.level_digest[:12]}…"
+        if not source:
             hint = "'level:' leads to a file in the replay's folder or below it only"
-        raise ReplayError("the replay's level is not here", file, found=found, hint=hint)
+        raise ReplayError("the replay's level is not here", file, found=named, hint=hint)
     if replay.level_digest and not changed and level_digest(level) != replay.level_digest:
         hint = "the level was changed after the recording; `ninja-game tas` opens the run on the changed level"
         raise ReplayError("not the level of this replay", file, found=source, expected=replay.level_digest, hint=hint)
     return level
 
 
-def _level_at(path: Path, record: int, file: str) -> Level:
-    """One level of a level file that a replay names."""
-    text = read_text(path)
+def _level_in(text: str, place: str, record: int, file: str) -> Level:
+    """One level of the text of a level file that a replay names."""
     if is_replay(text):
-        raise ReplayError("a replay as the level of a replay", file, found=str(path), expected="a level file")
-    for level in parse_levels(text, file=str(path)):
+        raise ReplayError("a replay as the level of a replay", file, found=place, expected="a level file")
+    for level in parse_levels(text, file=place):
         if level.record == record:
             return level.level
-    raise ReplayError("the replay's level is not in its file", file, found=str(path), expected=f"a record {record}")
+    raise ReplayError("the replay's level is not in its file", file, found=place, expected=f"a record {record}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import groupby
+from itertools import accumulate, groupby
 
 from ninja_game.errors import ReplayError
 from ninja_game.formats.lines import Line, numbered_lines
@@ -108,13 +108,16 @@ def write_celeste(inputs: bytes, markers: Sequence[Marker] = ()) -> str:
     _check_keyboard(inputs)
     names = {marker.tick: marker.name for marker in markers}
     lines = []
-    for part, ticks in groupby(enumerate(inputs), lambda tick: (_part(names, tick[0]), tick[1] & KEYS_DOWN)):
-        found = list(ticks)
-        if found[0][0] in names:
-            lines.append(f"#{names[found[0][0]]}")
-        for first in range(0, len(found), MOST_FRAMES):
-            frames = len(found[first : first + MOST_FRAMES])
-            lines.append(",".join([f"{frames:>4}", *KEY_NAMES[part[1]].strip(".")]))
+    # How many markers there are up to each tick: a line never goes on over one.
+    parts = accumulate(tick in names for tick in range(len(inputs)))
+    at = 0
+    for (_, keys), ticks in groupby(zip(parts, (each & KEYS_DOWN for each in inputs), strict=True)):
+        if at in names:
+            lines.append(f"#{names[at]}")
+        count = sum(1 for _ in ticks)
+        frames = (min(MOST_FRAMES, count - first) for first in range(0, count, MOST_FRAMES))
+        lines += [",".join([f"{each:>4}", *KEY_NAMES[keys].strip(".")]) for each in frames]
+        at += count
     return "".join(f"{line}\n" for line in lines)
 
 
@@ -127,11 +130,6 @@ def write_libtas(inputs: bytes) -> str:
 
 def _letters(keys: int) -> str:
     return KEY_NAMES[keys & KEYS_DOWN].strip(".")
-
-
-def _part(names: dict[int, str], tick: int) -> int:
-    """How many markers there are up to a tick: a line never goes on over one."""
-    return sum(each <= tick for each in names)
 
 
 def _check_keyboard(inputs: bytes) -> None:

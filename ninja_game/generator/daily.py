@@ -9,7 +9,7 @@ from threading import Event
 from typing import TYPE_CHECKING
 
 from ninja_game.files.reading import read_text
-from ninja_game.files.writing import write_atomically
+from ninja_game.files.tree import Tree
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.files import CERTIFICATES, INDEX, PARS
 from ninja_game.formats.pack.pars import Pars, parse_pars, write_pars
@@ -66,16 +66,15 @@ def _keep(file: Path, made: Generated) -> None:
     from ninja_game.runs.verify import verify_recording
     from ninja_game.solver.certificate import replay_of
 
-    pack = file.parent
-    (pack / CERTIFICATES).mkdir(parents=True, exist_ok=True)
+    pack, tree = file.parent, Tree(file.parent)
     if not (pack / INDEX).exists():
-        write_atomically(pack / INDEX, _INDEX)
+        tree.write(INDEX, _INDEX)
     replay = write_replay(replay_of(made.run, name=made.name, author=AUTHOR, level_author=AUTHOR))
-    write_atomically(pack / CERTIFICATES / f"{file.stem}.exit.replay.txt", replay)
+    tree.write(f"{CERTIFICATES}/{file.stem}.exit.replay.txt", replay)
     verdict = verify_recording(parse_replays(replay, file=file.stem, level=made.level)[0])
     level, run = level_digest(made.level)[:_DIGITS], verdict.xy_sha256[:_DIGITS]
     table = pack / PARS
     pars = parse_pars(read_text(table), file=str(table)) if table.exists() else {}
     pars[file.name] = Pars(level, run, made.run.end_tick, None, made.difficulty)
-    write_atomically(table, write_pars(pars))
-    write_atomically(file, made.text)
+    tree.write(PARS, write_pars(pars))
+    tree.write(file.name, made.text)

@@ -17,6 +17,7 @@ from typing import Any, Protocol, TypeAlias, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.levels import LevelSource, Origin, level_source
@@ -105,10 +106,11 @@ class Evaluation:
             ticks = "-" if isnan(each.ticks) else f"{each.ticks:.0f}"
             passed = f"{each.passed}/{each.episodes}"
             ends = f"{passed:>11} {each.dead:>6} {each.late:>6}"
-            lines.append(f"{each.level:<26.26} {ends} {ticks:>7} {each.gold:>6.1f} {each.reward:>8.2f}")
+            lines.append(f"{shown_text(each.level):<26.26} {ends} {ticks:>7} {each.gold:>6.1f} {each.reward:>8.2f}")
         passed, episodes = (sum(getattr(each, name) for each in self.results) for name in ("passed", "episodes"))
         often = f"{self.often_passed()} of {len(self.results)} levels in 90 % of their episodes or more"
-        lines.append(f"{self.agent}: {passed} of {episodes} episodes passed ({passed / episodes:.1%}), {often}")
+        who, rate = shown_text(self.agent), passed / episodes
+        lines.append(f"{who}: {passed} of {episodes} episodes passed ({rate:.1%}), {often}")
         return "\n".join(lines)
 
     def json(self) -> str:

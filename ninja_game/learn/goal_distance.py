@@ -14,10 +14,10 @@ import numpy as np
 from ninja_game.batch.worlds import Numbers, make_worlds
 from ninja_game.compile_cache import choose_memory
 from ninja_game.learn.observations.part import Ragged, Setting, clamp
-from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.traces import is_open
 from ninja_game.solver.distance_field import POINTS, point_at
 from ninja_game.solver.heuristics import Heuristics
 
@@ -119,8 +119,7 @@ def measure_distance(
         w = worlds[index]
         state = 0
         for bit in range(starts[level], starts[level + 1]):
-            o = w.objects[int(switches[bit])]
-            if o.is_open if o.kind == EXIT else o.switched:
+            if is_open(w, int(switches[bit])):
                 state |= 1 << (bit - starts[level])
         if state != states[index]:
             states[index] = state

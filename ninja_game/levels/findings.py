@@ -1,4 +1,4 @@
-"""What an examination of a level finds: the words, the places, and how to mend it."""
+"""What an examination of a level or a pack can find, by code: what it says, and how to mend it (docs/findings.md)."""
 
 from __future__ import annotations
 
@@ -7,42 +7,112 @@ from typing import NamedTuple
 Cell = tuple[int, int]
 """Column 1…31, row 1…23."""
 
-MENDS = {
-    "more than": "Take some away.",
-    "there is no ninja": "Put one where the run begins.",
-    "there is no exit": "Put an exit and its switch.",
-    "ninjas: the last one plays": "Delete all but one.",
-    "dies at once": "Move the mine or the ninja.",
-    "create nothing": "Delete them, or keep them as they are.",
-    "a tile id": "Draw another tile there.",
-    "look at the ninja in turn": "Take some of them away, or expect slow ones.",
-    "values where its kind needs": "Delete it and place it again.",
-    "not a number": "Delete it and place it again.",
-    "outside the grid": "Move it into the level, or delete it.",
-    "in the border": "Move it into the level.",
-    "inside a tile": "Move it, or clear the tile.",
-    "inside a full tile": "Move it, or clear the tile.",
-    "cannot reach": "Open a way to it, or move it.",
-    "normal has length": "Choose one of the eight directions.",
-    "direction is not": "Choose a direction.",
-    "hangs the original game": "Move it into the level.",
-    "does not stand on a solid floor": "Put it on a floor, or a tile below it.",
-    "its weapon is not": "Choose a weapon.",
-    "its movement is not": "Choose how it moves.",
-    "its seeker flag": "Make it a zap drone, or no seeker.",
-    "seeker flag is not": "Choose whether it seeks.",
-    "closed in on all sides": "Clear a cell beside it.",
-    "vertical flag is not": "Choose the side of its cell.",
-    "trap or locked flag": "Choose what sort of door it is.",
-    "locked and as trap": "Choose what sort of door it is.",
-    "not between two cells": "Move it between two cells of the level.",
-    "on the same side": "Delete one of the two.",
-    "the tiles close this side": "Clear the tiles on both sides, or move the door.",
-    "in this place already": "Delete one of the two.",
-    "the tiles hide it": "Move it, or clear the tile.",
-    "over a piece of gold": "Move one of the two.",
+
+class Rule(NamedTuple):
+    """``text``: what is odd, with {values}; ``mend``: a sentence. ``about_switch``: it is about the object's switch."""
+
+    text: str
+    mend: str
+    about_switch: bool = False
+
+
+LEVEL_RULES = {
+    "too-many-objects": Rule(
+        "there are {count} objects, more than {most}: the level cannot be played", "Take some away."
+    ),
+    "many-objects": Rule("there are {count} objects, more than {most}: the game may be slow", "Take some away."),
+    "no-ninja": Rule("there is no ninja: the level cannot be played", "Put one where the run begins."),
+    "several-ninjas": Rule(
+        "there are {count} ninjas: the last one plays, {last}; the others only stand there", "Delete all but one."
+    ),
+    "no-exit": Rule("there is no exit: the level cannot be passed", "Put an exit and its switch."),
+    "deadly-start": Rule(
+        "{mine}: the ninja touches it where it starts and dies at once", "Move the mine or the ninja."
+    ),
+    "slow-thinkers": Rule(
+        "{count} enemies look at the ninja in turn: each one only every {seconds:.1f} s",
+        "Take some of them away, or expect slow ones.",
+    ),
+    "unknown-type": Rule(
+        "{count} records create nothing (unknown type), the first is {first!r}",
+        "Delete them, or keep them as they are.",
+    ),
+    "odd-tile": Rule("a tile id {what}", "Draw another tile there."),
+    "value-count": Rule(
+        "it has {count} values where its kind needs {needed}: it {does}", "Delete it and place it again."
+    ),
+    "not-a-number": Rule("one of its values is not a number", "Delete it and place it again."),
+    "outside-grid": Rule("it is outside the grid", "Move it into the level, or delete it."),
+    "in-border": Rule("it is in the border of the level, inside the rock", "Move it into the level."),
+    "in-tile": Rule("it {what}", "Move it, or clear the tile."),
+    "in-full-tile": Rule("it is inside a full tile", "Move it, or clear the tile."),
+    "unreachable": Rule("the ninja cannot reach it", "Open a way to it, or move it."),
+    "unreachable-switch": Rule("the ninja cannot reach its switch at {place}", "Open a way to it, or move it.", True),
+    "hidden-gold": Rule("the tiles hide it", "Move it, or clear the tile."),
+    "pad-normal": Rule(
+        "its normal has length {length:.3g} instead of 1 and its strength changes with it",
+        "Choose one of the eight directions.",
+    ),
+    "direction": Rule("its direction is not 0 to 3{but}", "Choose a direction."),
+    "guard-in-border": Rule(
+        "a guard in the left or right border or outside hangs the original game; here it does nothing",
+        "Move it into the level.",
+    ),
+    "guard-without-floor": Rule(
+        "it does not stand on a solid floor: it cannot run to the left", "Put it on a floor, or a tile below it."
+    ),
+    "weapon": Rule("its weapon is not 0 to 2: it is harmless", "Choose a weapon."),
+    "movement": Rule("its movement is not 0 to 5: it gets stuck", "Choose how it moves."),
+    "seeker-flag": Rule("its seeker flag is not 0 or 1", "Choose whether it seeks."),
+    "seeker-with-weapon": Rule(
+        "only zap drones seek: its seeker flag does nothing", "Make it a zap drone, or no seeker."
+    ),
+    "closed-in": Rule("it is closed in on all sides: it never moves", "Clear a cell beside it."),
+    "vertical-flag": Rule(
+        "its vertical flag is not 0 or 1: it closes another side than it is drawn on", "Choose the side of its cell."
+    ),
+    "door-flags": Rule("its trap or locked flag is not 0 or 1", "Choose which kind of door it is."),
+    "locked-trap": Rule("it is flagged as locked and as trap: it is a locked door", "Choose which kind of door it is."),
+    "door-outside": Rule("it is not between two cells of the grid", "Move it between two cells of the level."),
+    "doors-on-one-side": Rule(
+        "another door is on the same side: the later one may never open", "Delete one of the two."
+    ),
+    "closed-anyway": Rule(
+        "the tiles close this side anyway: the door changes nothing",
+        "Clear the tiles on both sides, or move the door.",
+    ),
+    "duplicate": Rule("the same object is in this place already", "Delete one of the two."),
+    "mine-over-gold": Rule("it is drawn over a piece of gold", "Move one of the two."),
 }
-"""How to mend a finding, by words of its text."""
+"""Of levels, by code."""
+
+_MAKE_PARS = "Make it with `ninja-game levels pars`."
+PACK_RULES = {
+    "unreadable": Rule("{why}", "Mend the file as the message says, or take it out of the pack."),
+    "no-author": Rule("no author", "Name one."),
+    "no-name": Rule("no name", "Give it one."),
+    "column-without-name": Rule(
+        "column {column} has episodes and no name; expected {needed} names in columns", "Name every column."
+    ),
+    "episode-name": Rule("episode {number} has no name", "Give it one."),
+    "same-episode-name": Rule("episode {number} has the name of episode {other}", "Choose another name."),
+    "empty-episode": Rule("episode {number} has no levels; expected files {number:02d}-….txt", "Add levels to it."),
+    "no-episodes": Rule("no episodes; expected a table [[episode]] for each", "Add a table for each episode."),
+    "single-level": Rule("in no episode; it can be played as a single level", "Add it to an episode, if it belongs."),
+    "same-name": Rule("the same name as {other}", "Choose another name."),
+    "same-content": Rule("the same content as {other}", "Delete one of the two."),
+    "same-place": Rule("the place {number} is that of {other} too", "Rename one of the two."),
+    "stray-certificate": Rule(
+        "of no level here; expected LEVEL.exit.replay.txt or LEVEL.gold.replay.txt", "Rename it, or delete it."
+    ),
+    "no-certificate": Rule(
+        "no certificate, so nobody knows whether it can be passed", "Find one with `ninja-game check --replays`."
+    ),
+    "certificate": Rule("{why}", "Make it anew with `ninja-game check --replays`."),
+    "no-pars": Rule("no table of par times", _MAKE_PARS),
+    "old-pars": Rule("made from other levels or certificates", _MAKE_PARS),
+}
+"""Of packs; what is odd about their levels has the codes of levels."""
 
 
 class Finding(NamedTuple):
@@ -51,6 +121,7 @@ class Finding(NamedTuple):
     ``names``: how a text calls what it is about, '' where ``text`` says it.
     """
 
+    code: str
     text: str
     records: tuple[int, ...] = ()
     cells: tuple[Cell, ...] = ()
@@ -64,9 +135,35 @@ class Finding(NamedTuple):
     @property
     def mend(self) -> str:
         """How to mend it, a sentence."""
-        return next((advice for words, advice in MENDS.items() if words in self.text), "")
+        return LEVEL_RULES[self.code].mend
 
     @property
     def about_switch(self) -> bool:
         """Whether it is about the objects' switches rather than about themselves."""
-        return "its switch" in self.text
+        return LEVEL_RULES[self.code].about_switch
+
+
+class PackFinding(NamedTuple):
+    """Something odd about a pack. ``place``: the file, with a line where one is known; '' where ``text`` names it."""
+
+    place: str
+    code: str
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.place}: {self.text}" if self.place else self.text
+
+    @property
+    def mend(self) -> str:
+        """How to mend it, a sentence."""
+        return (PACK_RULES | LEVEL_RULES)[self.code].mend
+
+
+def in_pack(code: str, place: str = "", **values: object) -> PackFinding:
+    """A finding of this code about a pack; ``values``: what its text names."""
+    return PackFinding(place, code, PACK_RULES[code].text.format(**values))
+
+
+def found(code: str, records: tuple[int, ...] = (), cells: tuple[Cell, ...] = (), **values: object) -> Finding:
+    """A finding of this code; ``values``: what its text names."""
+    return Finding(code, LEVEL_RULES[code].text.format(**values), records, cells)

@@ -1,4 +1,4 @@
-"""What is legal but odd about a single object, kind by kind: each oddity is one sentence for the level's maker."""
+"""What is legal but odd about a single object, kind by kind: each oddity is a finding for the level's maker."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator
 from math import isnan, sqrt
 
 from ninja_game.formats.ascii.places import place_text
+from ninja_game.levels.findings import Finding, found
 from ninja_game.levels.reach import Ground, edges_of
 from ninja_game.sim import kinds
 from ninja_game.sim.arithmetic import is_set
@@ -24,22 +25,22 @@ _HIDDEN = 2 / 3
 _UNIT_TOLERANCE = 0.02  # pads of other editors have 0.7 for both parts of a diagonal
 
 
-def oddities(record: ObjectSpec, ground: Ground) -> Iterator[str]:
+def oddities(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     """What is odd about an object of the level that ``ground`` describes; nothing for a proper one."""
     if not well_formed(record):
         count, needed = len(record.values), VALUE_COUNTS[record.kind]
         does = "starts at 45,70px" if record.kind == kinds.NINJA else "does nothing"
-        yield f"it has {count} values where its kind needs {needed}: it {does}"
+        yield found("value-count", count=count, needed=needed, does=does)
         return
     if any(map(isnan, record.values)):
-        yield "one of its values is not a number"
+        yield found("not-a-number")
     if record.kind != kinds.DOOR:
         yield from _place_oddities(record, ground)
     if record.kind in _CHECKS:
         yield from _CHECKS[record.kind](record, ground)
 
 
-def _place_oddities(record: ObjectSpec, ground: Ground) -> Iterator[str]:
+def _place_oddities(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     x, y = record.values[:2]
     if isnan(x) or isnan(y):
         return
@@ -47,20 +48,20 @@ def _place_oddities(record: ObjectSpec, ground: Ground) -> Iterator[str]:
     if record.kind == kinds.FLOOR_GUARD:
         return
     if not cell:
-        yield "it is outside the grid"
+        yield found("outside-grid")
     elif record.kind in _IN_TILE and _deep(ground, x, y):
         border = COLUMN[cell] in (0, COLUMNS + 1) or ROW[cell] in (0, ROWS + 1)
-        yield "it is in the border of the level, inside the rock" if border else _IN_TILE[record.kind]
+        yield found("in-border") if border else found("in-tile", what=_IN_TILE[record.kind])
     elif record.kind in (kinds.DRONE, kinds.THWUMP) and SHAPE[ground.level.tiles[cell]] == FULL:
-        yield "it is inside a full tile"
+        yield found("in-full-tile")
 
 
 _IN_TILE = {
-    kinds.NINJA: "it starts inside a tile",
-    kinds.TURRET: "it is inside a tile: what it sees and hits is odd",
-    kinds.MINE: "it is inside a tile",
-    kinds.LAUNCH_PAD: "it is inside a tile",
-    kinds.LAUNCHER: "it is inside a tile: its rockets explode at once",
+    kinds.NINJA: "starts inside a tile",
+    kinds.TURRET: "is inside a tile: what it sees and hits is odd",
+    kinds.MINE: "is inside a tile",
+    kinds.LAUNCH_PAD: "is inside a tile",
+    kinds.LAUNCHER: "is inside a tile: its rockets explode at once",
 }
 
 
@@ -69,90 +70,90 @@ def _deep(ground: Ground, x: float, y: float) -> bool:
     return all(solid_at(ground.level, x + dx, y + dy) for dx in (-0.5, 0.5) for dy in (-0.5, 0.5))
 
 
-def _exit(record: ObjectSpec, ground: Ground) -> Iterator[str]:
+def _exit(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     x, y, switch_x, switch_y = record.values
     if cell_at(x, y) and not ground.touchable(x, y, EXIT_RADIUS):
-        yield "the ninja cannot reach it"
+        yield found("unreachable")
     if not ground.touchable(switch_x, switch_y, SWITCH_RADIUS):
-        yield f"the ninja cannot reach its switch at {place_text(switch_x, switch_y)}"
+        yield found("unreachable-switch", place=place_text(switch_x, switch_y))
 
 
-def _gold(record: ObjectSpec, ground: Ground) -> Iterator[str]:
+def _gold(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     x, y = record.values
     if not cell_at(x, y):
         return
     places = [(x + a * GOLD_RADIUS, y + b * GOLD_RADIUS) for a in _SAMPLES for b in _SAMPLES]
     if not ground.touchable(x, y, GOLD_RADIUS):
-        yield "the ninja cannot reach it"
+        yield found("unreachable")
     elif sum(solid_at(ground.level, *place) for place in places) >= _HIDDEN * len(places):
-        yield "the tiles hide it"
+        yield found("hidden-gold")
 
 
-def _launch_pad(record: ObjectSpec, ground: Ground) -> Iterator[str]:  # noqa: ARG001 - all checks have one signature
+def _launch_pad(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:  # noqa: ARG001 - all checks have one signature
     _, _, a, b = record.values
     length = sqrt(a * a + b * b)
     if abs(length - 1.0) > _UNIT_TOLERANCE:
-        yield f"its normal has length {length:.3g} instead of 1 and its strength changes with it"
+        yield found("pad-normal", length=length)
 
 
-def _one_way(record: ObjectSpec, ground: Ground) -> Iterator[str]:  # noqa: ARG001
+def _one_way(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:  # noqa: ARG001
     if record.values[2] not in _DIRECTIONS:
-        yield "its direction is not 0 to 3: it faces down"
+        yield found("direction", but=": it faces down")
 
 
-def _thwump(record: ObjectSpec, ground: Ground) -> Iterator[str]:  # noqa: ARG001
+def _thwump(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:  # noqa: ARG001
     if record.values[2] not in _DIRECTIONS:
-        yield "its direction is not 0 to 3: it never moves, its right side kills"
+        yield found("direction", but=": it never moves, its right side kills")
 
 
-def _floor_guard(record: ObjectSpec, ground: Ground) -> Iterator[str]:
+def _floor_guard(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     cell = cell_at(*record.values[:2])
     if COLUMN[cell] in (0, 32):
-        yield "a guard in the left or right border or outside hangs the original game; here it does nothing"
+        yield found("guard-in-border")
     elif SHAPE[ground.level.tiles[cell]] == FULL:
-        yield "it is inside a full tile"
+        yield found("in-full-tile")
     elif ground.edges[4 * cell + 1] != SOLID:
-        yield "it does not stand on a solid floor: it cannot run to the left"
+        yield found("guard-without-floor")
 
 
-def _drone(record: ObjectSpec, ground: Ground) -> Iterator[str]:
+def _drone(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     x, y, movement, seeker, weapon, direction = record.values
     if weapon not in (0, 1, 2):
-        yield "its weapon is not 0 to 2: it is harmless"
+        yield found("weapon")
     if movement not in range(6):
-        yield "its movement is not 0 to 5: it gets stuck"
+        yield found("movement")
     if direction not in _DIRECTIONS:
-        yield "its direction is not 0 to 3"
+        yield found("direction", but="")
     if seeker not in (0, 1):
-        yield "its seeker flag is not 0 or 1"
+        yield found("seeker-flag")
     elif seeker and weapon != 0:
-        yield "only zap drones seek: its seeker flag does nothing"
+        yield found("seeker-with-weapon")
     cell = cell_at(x, y)
     sides = range(4 * cell, 4 * cell + 4)
     if cell and all(ground.edges[side] != OFF or side in ground.closed_edges for side in sides):
-        yield "it is closed in on all sides: it never moves"
+        yield found("closed-in")
 
 
-def _door(record: ObjectSpec, ground: Ground) -> Iterator[str]:
+def _door(record: ObjectSpec, ground: Ground) -> Iterator[Finding]:
     x, y, vertical, trap, _, _, locked, _, _ = record.values
     edges = edges_of(ground.doors[record])
     if vertical not in (0, 1):
-        yield "its vertical flag is not 0 or 1: it closes another side than it is drawn on"
+        yield found("vertical-flag")
     if trap not in (0, 1) or locked not in (0, 1):
-        yield "its trap or locked flag is not 0 or 1"
+        yield found("door-flags")
     elif trap and locked:
-        yield "it is flagged as locked and as trap: it is a locked door"
+        yield found("locked-trap")
     if 0 in edges:
-        yield "it is not between two cells of the grid"
+        yield found("door-outside")
     elif ground.doors_on_side[edges] > 1:
-        yield "another door is on the same side: the later one may never open"
+        yield found("doors-on-one-side")
     elif any(ground.edges[edge] == SOLID or SHAPE[ground.level.tiles[edge // 4]] == FULL for edge in edges):
-        yield "the tiles close this side anyway: the door changes nothing"
+        yield found("closed-anyway")
     if (is_set(trap) or is_set(locked)) and not ground.touchable(x, y, DOOR_SWITCH_RADIUS):
-        yield f"the ninja cannot reach its switch at {place_text(x, y)}"
+        yield found("unreachable-switch", place=place_text(x, y))
 
 
-_CHECKS: dict[int, Callable[[ObjectSpec, Ground], Iterator[str]]] = {
+_CHECKS: dict[int, Callable[[ObjectSpec, Ground], Iterator[Finding]]] = {
     kinds.DOOR: _door,
     kinds.DRONE: _drone,
     kinds.EXIT: _exit,

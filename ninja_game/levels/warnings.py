@@ -7,7 +7,7 @@ from math import dist
 
 from ninja_game.formats.ascii.object_writer import best_form
 from ninja_game.formats.ascii.places import place_text
-from ninja_game.levels.findings import Finding
+from ninja_game.levels.findings import Finding, found
 from ninja_game.levels.object_checks import oddities
 from ninja_game.levels.reach import Ground
 from ninja_game.sim import kinds
@@ -20,8 +20,6 @@ MANY_OBJECTS = 2000
 MANY_THINKERS = 30
 """With more enemies than these that think in turn, one waits more than three seconds for its turn."""
 _NAMES_SHOWN = 3
-_AGAIN = "the same object is in this place already"
-_OVER_GOLD = "it is drawn over a piece of gold"
 _OVER = 8.0
 """Nearer than this, px, a mine covers a piece of gold."""
 
@@ -39,22 +37,23 @@ def level_findings(level: Level) -> list[Finding]:
     numbers = [number for number, record in enumerate(level.objects) if makes_object(record)]
     objects = [level.objects[number] for number in numbers]
     if len(objects) >= CAPACITY:
-        return [Finding(f"there are {len(objects)} objects, more than {CAPACITY - 1}: the level cannot be played")]
+        return [found("too-many-objects", count=len(objects), most=CAPACITY - 1)]
     ground = Ground(level)
-    odd: dict[str, list[int]] = {}
+    odd: dict[Finding, list[int]] = {}
     first: dict[ObjectSpec, int] = {}
     covering = _mines_over_gold(objects)
     for id_, record in enumerate(objects):
-        again = [_AGAIN] if first.setdefault(record, id_) != id_ else []
-        over = [_OVER_GOLD] if record in covering else []
-        for text in (*oddities(record, ground), *again, *over):
-            odd.setdefault(text, []).append(id_)
-    found = []
-    for text, ids in odd.items():
+        again = [found("duplicate")] if first.setdefault(record, id_) != id_ else []
+        over = [found("mine-over-gold")] if record in covering else []
+        for finding in (*oddities(record, ground), *again, *over):
+            odd.setdefault(finding, []).append(id_)
+    of_objects = []
+    for finding, ids in odd.items():
         names = _some([object_name(objects[id_], id_) for id_ in ids[:_NAMES_SHOWN]], len(ids))
-        found.append(Finding(text, tuple(numbers[id_] for id_ in ids), names=names))
-    whole = (Finding(text, tuple(numbers[id_] for id_ in ids)) for text, ids in _level_oddities(level, objects))
-    return [*whole, *_odd_tiles(level), *found]
+        of_objects.append(finding._replace(records=tuple(numbers[id_] for id_ in ids), names=names))
+    whole = _level_oddities(level, objects)
+    of_level = [each._replace(records=tuple(numbers[id_] for id_ in each.records)) for each in whole]
+    return [*of_level, *_odd_tiles(level), *of_objects]
 
 
 def object_name(record: ObjectSpec, number: int) -> str:
@@ -83,29 +82,29 @@ def _odd_tiles(level: Level) -> Iterator[Finding]:
     for what, some in odd.items():
         places = [(cell // ROWS + 1, cell % ROWS + 1) for cell in some]
         names = [f"tile {level.tile(*place)} at {place[0]},{place[1]}" for place in places[:_NAMES_SHOWN]]
-        yield Finding(f"a tile id {what}", cells=tuple(places), names=_some(names, len(places)))
+        yield found("odd-tile", cells=tuple(places), what=what)._replace(names=_some(names, len(places)))
 
 
-def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[tuple[str, list[int]]]:
-    """What concerns the level as a whole, and the ids of the objects to look at."""
+def _level_oddities(level: Level, objects: Sequence[ObjectSpec]) -> Iterator[Finding]:
+    """What concerns the level as a whole, with the ids of the objects to look at."""
     ninjas = [id_ for id_, record in enumerate(objects) if record.kind == kinds.NINJA]
     if not ninjas:
-        yield "there is no ninja: the level cannot be played", []
+        yield found("no-ninja")
     elif len(ninjas) > 1:
         last = object_name(objects[ninjas[-1]], ninjas[-1])
-        yield f"there are {len(ninjas)} ninjas: the last one plays, {last}; the others only stand there", ninjas[:-1]
+        yield found("several-ninjas", tuple(ninjas[:-1]), count=len(ninjas), last=last)
     yield from _deadly_start(objects)
     if not any(record.kind == kinds.EXIT and well_formed(record) for record in objects):
-        yield "there is no exit: the level cannot be passed", []
+        yield found("no-exit")
     if len(objects) > MANY_OBJECTS:
-        yield f"there are {len(objects)} objects, more than {MANY_OBJECTS}: the game may be slow", []
+        yield found("many-objects", count=len(objects), most=MANY_OBJECTS)
     waiting = [id_ for id_, record in enumerate(objects) if _waits_for_its_turn(record)]
     if len(waiting) > MANY_THINKERS:
         seconds = len(waiting) * (THINK_PAUSE + 1) / TICKS_PER_SECOND
-        yield f"{len(waiting)} enemies look at the ninja in turn: each one only every {seconds:.1f} s", waiting
+        yield found("slow-thinkers", tuple(waiting), count=len(waiting), seconds=seconds)
     ignored = [record.text or str(record.kind) for record in level.objects if not makes_object(record)]
     if ignored:
-        yield f"{len(ignored)} records create nothing (unknown type), the first is {ignored[0][:40]!r}", []
+        yield found("unknown-type", count=len(ignored), first=ignored[0][:40])
 
 
 def _waits_for_its_turn(record: ObjectSpec) -> bool:
@@ -122,21 +121,21 @@ def _mines_over_gold(objects: Sequence[ObjectSpec]) -> set[ObjectSpec]:
         if record.kind == kinds.GOLD and well_formed(record):
             x, y = record.values
             gold.setdefault((x // _OVER, y // _OVER), []).append(record.values)
-    found = set()
+    covering = set()
     for record in objects:
         if gold and record.kind == kinds.MINE and well_formed(record):
             column, row = (value // _OVER for value in record.values)
             places = [(column + a, row + b) for a in (-1, 0, 1) for b in (-1, 0, 1)]
             if any(dist(record.values, piece) < _OVER for place in places for piece in gold.get(place, ())):
-                found.add(record)
-    return found
+                covering.add(record)
+    return covering
 
 
-def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[tuple[str, list[int]]]:
+def _deadly_start(objects: Sequence[ObjectSpec]) -> Iterator[Finding]:
     """The mine that the ninja touches where it starts."""
     starts = [record.values for record in objects if record.kind == kinds.NINJA and well_formed(record)]
     for id_, record in enumerate(objects):
         mine = record.kind == kinds.MINE and well_formed(record)
         if mine and starts and dist(record.values, starts[-1]) < MINE_RADIUS + RADIUS:
-            yield f"{object_name(record, id_)}: the ninja touches it where it starts and dies at once", [id_]
+            yield found("deadly-start", (id_,), mine=object_name(record, id_))
             return

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.editor.draft import Draft
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.user_folder import export_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.links.making import level_link
@@ -64,6 +64,6 @@ def write_export(app: App, title: str, suffix: str, content: str | Callable[[Pat
         else:
             write_atomically(path, content)
     except (OSError, NinjaGameError) as error:
-        app.notify(f"Not written: {getattr(error, 'strerror', '') or error}")
+        app.notify(f"Not written: {reason(error)}")
     else:
         app.notify(f"Saved: {path}")

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from ninja_game.budget import NO_LIMIT
 from ninja_game.formats.replay.text import Replay
 from ninja_game.player.scoring import level_score
+from ninja_game.runs.run import record_replay
 from ninja_game.sim.inputs import MAX_DEMO_TICKS, Demo, pressed
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
@@ -130,10 +132,7 @@ class Attempt:
 
     def replay(self, name: str = "", author: str = "") -> Replay:
         """The recording in our form: run again from its inputs, so that it holds what really comes of them."""
-        # It imports NumPy, which playing does without.
-        from ninja_game.runs.run import record_replay
-
         ticks = max(1, len(self.inputs) + (self.outcome != "running"))
-        level, body = self.simulation.level, self.simulation.body
-        replay = record_replay(level, bytes(self.inputs), ticks=ticks, body=body, name=name, author=author)
+        level, body, inputs = self.simulation.level, self.simulation.body, bytes(self.inputs)
+        replay = record_replay(level, inputs, ticks=ticks, body=body, name=name, author=author, budget=NO_LIMIT)
         return replace(replay, practice=self.assisted)

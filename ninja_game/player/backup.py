@@ -1,38 +1,56 @@
 """All data of a player as one file, and back: a zip that the game in a window and the one in a page exchange.
 
 Taking one in merges it: a best is replaced only by a better one, progress only moves forward, of two counts the larger
-stays, and no file of the player's is overwritten. So it may be taken in twice.
+stays, and no file of the player's is overwritten. So it may be taken in twice. It may be anybody's: all of it is looked
+at first, and taken in whole or not at all.
 """
 
 from __future__ import annotations
 
 import io
+import json
 import re
 import sqlite3
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import ExitStack, closing, suppress
+from dataclasses import replace
+from functools import cache
+from itertools import count
 from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from ninja_game.errors import FileError
+from ninja_game.errors import DAMAGED, FileError, NinjaGameError
 from ninja_game.files.reading import files_in, read_bytes
+from ninja_game.files.shown_text import LONGEST, name_key, name_problem, shown_text
+from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import EXPORTS, LEVELS, RECORDS, REPLAYS, SETTINGS, quarantine
 from ninja_game.files.writing import write_atomically
 from ninja_game.files.zips import open_zip, unpacked
+from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.player.player_data import PlayerData
+from ninja_game.player.progress import is_place
 from ninja_game.player.records import Records
+from ninja_game.player.statistics import KILLERS
 from ninja_game.player.store import Store
+from ninja_game.player.store.migrations import TABLES
 from ninja_game.sim.memory.interface import BODIES
 
 MOST_FILES, MOST_BYTES = 4096, 256 * 2**20
 """Of a backup: files, and bytes when they are unpacked."""
 
-FOLDERS = (LEVELS, REPLAYS, EXPORTS, "editing")
+MOST_REPLAYS, MOST_ROWS = 5_000, 100_000
+"""Of its records: replays, and rows of any other table."""
+
+FOLDERS = (LEVELS, REPLAYS, EXPORTS, EDITING := "editing")
 """What of the player's folder goes along, besides the settings and the records."""
 
-_SAFE = re.compile(r"[^\x00-\x1f/\\:*?\"<>|.][^\x00-\x1f/\\:*?\"<>|]{0,199}")
-"""Names that are plain files on every system; hidden ones are not."""
+_PARTS = {("saved_replay", "view"), *((table, "table") for table in TABLES)}
+"""What may stand in records; a trigger, or the expression of an index, would work when they are opened."""
+
+_COUNT_LIMIT = 2**53
+_DIGEST = re.compile("[0-9a-f]{64}")
 
 _COUNTS = (
     ("played", ("level",), ("attempts", "passes", "deaths", "ticks", "gold"), "max"),
@@ -43,8 +61,8 @@ _COUNTS = (
 """Tables whose rows are joined by number: keys, columns, and which of two numbers stays."""
 
 
-def write_backup(player: PlayerData, path: Path) -> None:
-    """Write everything of a player's into a zip. Raises FileError, OSError, sqlite3.Error."""
+def write_backup(player: PlayerData, path: Path) -> list[str]:
+    """Write everything of a player's into a zip; what was left out. Raises FileError, OSError, sqlite3.Error."""
     player.store.flush()
     with TemporaryDirectory() as scratch:
         copy = Path(scratch) / RECORDS
@@ -54,90 +72,178 @@ def write_backup(player: PlayerData, path: Path) -> None:
         with ZipFile(packed, "w", ZIP_DEFLATED) as archive:
             archive.writestr(ZipInfo(RECORDS), copy.read_bytes(), ZIP_DEFLATED)
             for name in _own_files(player.folder):
-                if player.folder / name != path:
+                if player.folder / name != path and not _problem(name):
                     archive.writestr(ZipInfo(name), read_bytes(player.folder / name), ZIP_DEFLATED)
     write_atomically(path, packed.getvalue())
+    return [_left_out(name, problem) for name in _own_files(player.folder) if (problem := _problem(name))]
 
 
 def _own_files(folder: Path) -> Iterator[str]:
     """The names of the files that go along, but the records."""
     yield from (name for name in files_in(folder) if name == SETTINGS)
     for part in FOLDERS:
-        yield from (f"{part}/{name}" for name in files_in(folder / part) if _SAFE.fullmatch(name))
+        yield from (f"{part}/{name}" for name in files_in(folder / part) if part != EDITING or name.endswith(".json"))
+
+
+def _problem(name: str) -> str:
+    """Why a file of this name, seen from the player's folder, does not go along; '' if it does."""
+    folder, _, file = name.rpartition("/")
+    if name in {SETTINGS, RECORDS}:
+        return ""
+    if folder not in FOLDERS or file.startswith("."):
+        return "no file of a player's"
+    return name_problem(file)
+
+
+def _left_out(name: str, problem: str) -> str:
+    return f"left out: {shown_text(name)}: {problem}"
 
 
 def read_backup(player: PlayerData, data: bytes) -> list[str]:
     """Take a backup in; what came of it, in words. The settings count from the next start on.
 
-    Raises FileError for what is no backup: then nothing has changed. OSError, sqlite3.Error.
+    Raises FileError for what is no backup, or too much of one; OSError, sqlite3.Error. Then nothing has changed.
     """
-    files = _unpacked(data)
     with TemporaryDirectory() as scratch:
         path = Path(scratch) / RECORDS
-        path.write_bytes(files.pop(RECORDS))
-        store = Store(path)
         try:
-            if store.messages:
-                raise FileError("this is no backup of a player's data", found=" ".join(store.messages))
-            replays = _merge(player, store)
-        finally:
-            store.connection.close()
-    taken = [name for name, content in files.items() if _taken(player.folder, name, content)]
-    return [f"{replays} new replays in the records", f"{len(taken)} new files", *taken]
+            files, left_out = _unpacked(data)
+            path.write_bytes(files.pop(RECORDS))
+            store = _opened(path)
+        except ValueError as error:
+            raise FileError("this is no backup of a player's data", found=shown_text(str(error))) from None
+        with closing(store.connection):
+            replays, taken = _take(player, store, files)
+    return [f"{replays} new replays in the records", f"{len(taken)} new files", *taken, *left_out, *store.messages]
 
 
-def _unpacked(data: bytes) -> dict[str, bytes]:
-    """The files of a backup that belong into a player's folder, by name. Raises FileError."""
-    try:
-        archive = open_zip(io.BytesIO(data), most_files=MOST_FILES, most_bytes=MOST_BYTES)
-        files = {entry.filename: unpacked(archive, entry) for entry in archive.infolist() if _belongs(entry.filename)}
-    except ValueError as error:
-        raise FileError("this is no backup of a player's data", found=str(error)) from None
+def _unpacked(data: bytes) -> tuple[dict[str, bytes], list[str]]:
+    """The files of a backup that belong into a player's folder, by name, and which do not. Raises ValueError."""
+    files, left_out = {}, []
+    archive = open_zip(io.BytesIO(data), most_files=MOST_FILES, most_bytes=MOST_BYTES)
+    for entry in archive.infolist():
+        name = entry.filename
+        if not (problem := _problem(name)):
+            content = unpacked(archive, entry)
+            files[name] = _without_home(content) if name.startswith(f"{EDITING}/") else content
+        elif not name.endswith("/"):
+            left_out.append(_left_out(name, problem))
     if RECORDS not in files:
-        raise FileError("this is no backup of a player's data", expected=f"a zip with {RECORDS} in it")
-    return files
+        raise ValueError(f"no {RECORDS} in a zip")
+    return files, left_out
 
 
-def _belongs(name: str) -> bool:
-    folder, _, file = name.rpartition("/")
-    return name in {SETTINGS, RECORDS} or (folder in FOLDERS and _SAFE.fullmatch(file) is not None)
+def _without_home(autosave: bytes) -> bytes:
+    """A level under edit as one that has no file: the path of another machine means nothing here."""
+    level = ""
+    with suppress(*DAMAGED):
+        level = str(json.loads(autosave)["level"])
+    return json.dumps({"path": "", "digest": "", "level": level}, indent=1).encode()
 
 
-def _taken(folder: Path, name: str, content: bytes) -> bool:
-    """Put a file into the player's folder, beside any other of its name; whether it was not there yet."""
-    path = folder / name
-    if path.exists() and read_bytes(path) == content:
-        return False
-    if name == SETTINGS and path.exists():
-        quarantine(path, "before")
-    number = 2
-    while path.exists():
-        path = folder / PurePosixPath(name).with_stem(f"{PurePosixPath(name).stem}-{number}")
-        if path.exists() and read_bytes(path) == content:
-            return False
-        number += 1
-    path.parent.mkdir(parents=True, exist_ok=True)
-    write_atomically(path, content)
-    return True
+def _opened(path: Path) -> Store:
+    """The records of a backup. Raises ValueError where they hold too much, or a trigger, which would do something."""
+    try:
+        with closing(sqlite3.connect(path)) as db:
+            there = set(db.execute("SELECT name, type FROM sqlite_master WHERE sql IS NOT NULL"))
+            for name, kind in there:
+                if (name, kind) not in _PARTS:
+                    raise ValueError(f"the {kind} {name} is not ours")
+            for table in TABLES & {name for name, _ in there}:
+                ((rows,),) = db.execute(f"SELECT count(*) FROM {table}")
+                if rows > (most := MOST_REPLAYS if table == "replay" else MOST_ROWS):
+                    raise ValueError(f"{rows:,} rows in the table {table}, of which at most {most:,} are taken in")
+        store = Store(path)
+    except sqlite3.Error as error:
+        raise ValueError(str(error)) from None
+    if store.messages:
+        store.connection.close()
+        raise ValueError(" ".join(store.messages))
+    return store
 
 
-def _merge(player: PlayerData, store: Store) -> int:
-    """Join other records into the player's, in one transaction; how many more replays there are now."""
+def _take(player: PlayerData, store: Store, files: dict[str, bytes]) -> tuple[int, list[str]]:
+    """Take in records and files; how many more replays there are now, and which files are new."""
+    opened = cache(lambda folder: _Folder(player.folder / folder))
+    with ExitStack() as undo:
+        with player.store.change() as db:
+            replays = _merge(player, store, db)
+            paths = map(PurePosixPath, files)
+            taken = [str(path) for path in paths if opened(path.parent).takes(path, files[str(path)], undo)]
+        undo.pop_all()
+    return replays, taken
+
+
+class _Folder:
+    """A folder of the player's that takes files in, beside others of their names."""
+
+    def __init__(self, path: Path) -> None:
+        self._tree = Tree(path)
+        self._names = {name_key(name): name for name in self._tree.names()}
+        self._content = cache(self._read)
+
+    def _read(self, name: str) -> bytes:
+        """What a file says; for one that cannot be read what no file says."""
+        with suppress(FileError, OSError):
+            content = read_bytes(self._tree.root / name, MOST_BYTES)
+            return _without_home(content) if self._tree.root.name == EDITING else content
+        return b"\0"
+
+    def takes(self, name: PurePosixPath, content: bytes, undo: ExitStack) -> bool:
+        """Put a file there if it is not there yet; whether it was not. ``undo``: gets what takes it back."""
+        for number in count(1):
+            new = name.with_stem(f"{name.stem}-{number}").name if number > 1 else name.name
+            there = self._names.get(name_key(new))
+            if there is None:
+                break
+            if self._content(there) == content:
+                return False
+            if new == SETTINGS:
+                aside = quarantine(self._tree.root / new, "before")
+                undo.callback(aside.replace, self._tree.root / new)
+                break
+        undo.callback(self._tree.remove, new)
+        self._tree.write(new, content)
+        self._names[name_key(new)] = new
+        return True
+
+
+def _merge(player: PlayerData, store: Store, db: sqlite3.Connection) -> int:
+    """Join other records into the player's, within a transaction; how many more replays there are now."""
     theirs = Records(store)
-    with player.store.change() as db:
-        before = _count(db)
-        for row in store.rows("SELECT id FROM replay WHERE kept", (), (int,)):
-            if replay := theirs.replay(row[0]):
-                player.records.keep_replay(replay)
-        for body in BODIES:
-            for best in theirs.level_bests(body).values():
-                if replay := theirs.replay(best.id):
-                    player.records.level_passed(replay)
-        _merge_episodes(player.records, theirs)
-        for table, keys, columns, chosen in _COUNTS:
-            _merge_numbers(db, store, table, keys, columns, chosen)
-        _merge_progress(db, store)
-        return _count(db) - before
+    before = _count(db)
+    for row in store.rows("SELECT id FROM replay WHERE kept", (), (int,)):
+        if replay := _replay(theirs, row[0]):
+            player.records.keep_replay(replay)
+    for body in BODIES:
+        for best in theirs.level_bests(body).values():
+            if replay := _replay(theirs, best.id):
+                player.records.level_passed(replay)
+    _merge_episodes(player.records, theirs)
+    for table, keys, columns, chosen in _COUNTS:
+        _merge_numbers(db, store, table, keys, columns, chosen)
+    _merge_progress(db, store)
+    return _count(db) - before
+
+
+def _replay(theirs: Records, number: int) -> Replay | None:
+    """A replay of other records; None if it is of another level than it says, or could not be written as a text."""
+    replay = theirs.replay(number)
+    try:
+        if replay and replay.level and replay.level_digest == level_digest(replay.level):
+            write_replay(replace(replay, level=None))
+            return replace(replay, name=replay.name[:LONGEST], author=replay.author[:LONGEST])
+    except NinjaGameError as error:
+        theirs.store.tell(f"A replay in the records is damaged ({error}).")
+    return None
+
+
+def _sound(column: str, value: str | int) -> bool:
+    """Whether records hold such a value in a column."""
+    if isinstance(value, int):
+        return 0 <= value < _COUNT_LIMIT
+    words = {"killer": KILLERS, "body": BODIES}.get(column)
+    return value in words if words else _DIGEST.fullmatch(value) is not None
 
 
 def _count(db: sqlite3.Connection) -> int:
@@ -149,9 +255,9 @@ def _merge_episodes(mine: Records, theirs: Records) -> None:
     rows = theirs.store.rows("SELECT episode, body, score FROM episode_best", (), (str, str, int))
     for episode, body, score in rows:
         best = theirs.episode_best(episode, body)
-        replays = [theirs.replay(number) for number in best.replays] if best else []
+        replays = [_replay(theirs, number) for number in best.replays] if best else []
         whole = [replay for replay in replays if replay is not None]
-        if whole and len(whole) == len(replays):
+        if whole and len(whole) == len(replays) and _sound("episode", episode) and _sound("score", score):
             mine.episode_passed(episode, score, whole)
 
 
@@ -160,11 +266,12 @@ def _merge_numbers(
 ) -> None:
     names = [name for _, name, *_ in store.connection.execute(f"PRAGMA table_info({table})")]
     kinds = [str if name in {"level", "body", "killer"} else int for name in names]
+    rows = store.rows(f"SELECT {', '.join(names)} FROM {table}", (), kinds)
     joined = ", ".join(f"{name} = {chosen}({table}.{name}, excluded.{name})" for name in columns)
     db.executemany(
         f"INSERT INTO {table} ({', '.join(names)}) VALUES ({', '.join('?' * len(names))}) "
         f"ON CONFLICT ({', '.join(keys)}) DO UPDATE SET {joined}",
-        store.rows(f"SELECT {', '.join(names)} FROM {table}", (), kinds),
+        [row for row in rows if all(map(_sound, names, row))],
     )
 
 
@@ -173,6 +280,8 @@ def _merge_progress(db: sqlite3.Connection, store: Store) -> None:
     query = "SELECT pack, grid_column, reached_episode, reached_level, beaten_episode, beaten_level FROM progress"
     mine = {row[:2]: row[2:] for row in db.execute(query)}
     for row in store.rows(query, (), (str, *[int] * 5)):
+        if row[0] != shown_text(row[0]) or not (is_place(row[2:4], row[1]) and is_place(row[4:], row[1])):
+            continue
         here = mine.get(row[:2], row[2:])
         merged = max(row[2:4], here[:2]) + max(row[4:], here[2:])
         db.execute("REPLACE INTO progress VALUES (?, ?, ?, ?, ?, ?)", (*row[:2], *merged))

@@ -59,7 +59,7 @@ class Progress:
             query = f"SELECT {_COLUMN_NAMES} FROM progress WHERE pack = ?"
             for number, *places in self.store.rows(query, (self.pack,), [int] * 5):
                 column = ColumnProgress((places[0], places[1]), (places[2], places[3]))
-                if all(_is_place(place, number) for place in column):
+                if all(is_place(place, number) for place in column):
                     self._columns[number] = column
             self._epoch = self.store.epoch
         return self._columns
@@ -142,7 +142,7 @@ def new_unlocks(store: Store, columns: int, present: int) -> list[str]:
     return messages
 
 
-def _is_place(place: Place, column: int) -> bool:
+def is_place(place: Place, column: int) -> bool:
     """Whether a place is one of a column's."""
     return place[0] // EPISODES_PER_COLUMN == column in range(COLUMNS) and place[1] in range(LEVELS_PER_EPISODE)
 

@@ -109,7 +109,7 @@ class Records:
             return db.execute(f"DELETE FROM replay WHERE id = ? AND {_UNNEEDED}", (number,)).rowcount > 0
 
     def _saved(self, condition: str, *values: object) -> list[SavedReplay]:
-        """Replays that meet a condition in SQL, but for those with an outcome or body that there is not."""
+        """Replays that meet a condition in SQL, but for those with an unknown outcome or body."""
         query = f"SELECT {_SAVED} FROM replay {condition}"
         found = (SavedReplay(*row) for row in self.store.rows(query, values, _SAVED_KINDS))
         return [saved for saved in found if saved.outcome in OUTCOMES and saved.body in BODIES]
@@ -175,7 +175,9 @@ class Records:
         Joins an equal row only if that can be read: one with a damaged cell would be left out at the next start.
         """
         assert replay.level is not None  # noqa: S101 - attempts give replays with their levels
+        # The digest first: it tells most rows apart, and all of them are looked through.
         values = {
+            "digest": replay.digest,
             "level": _digest(replay),
             "level_text": write_level_string(replay.level, exact=True),
             "body": replay.body,
@@ -183,7 +185,6 @@ class Records:
             "final_tick": replay.final_tick,
             "gold": replay.gold,
             "score": level_score(replay.gold, replay.final_tick) if replay.outcome == "exit" else 0,
-            "digest": replay.digest,
             "inputs": replay.inputs,
             "practice": int(replay.practice),
         }

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
@@ -19,6 +20,9 @@ NEAR = CELL
 
 MAX_PAIRS = 100_000_000
 """Most pairs of ticks that are looked at: two runs of four minutes."""
+
+MAX_TOGETHER = 60_000
+"""Most ticks of both: each costs some work by itself."""
 
 
 class Lead(NamedTuple):
@@ -56,15 +60,15 @@ class Comparison:
     positions: tuple[NDArray[np.float64], NDArray[np.float64]] = field(repr=False)
 
 
-def compare_runs(ours: Recording, theirs: Recording) -> Comparison:
+def compare_runs(ours: Recording, theirs: Recording, budget: int = RUN_BUDGET) -> Comparison:
     """Compare two recordings of one level, each until its end as ``verify`` has it.
 
     Raises ArgumentError for recordings of different levels, and for runs that are too long to be compared place by
-    place; LevelError for a level that cannot be played.
+    place; what ``run_splits`` raises.
     """
     if level_digest(ours.level) != level_digest(theirs.level):
         raise ArgumentError(f"{ours.file} and {theirs.file} are recordings of different levels")
-    here, there = run_splits(ours), run_splits(theirs)
+    here, there = run_splits(ours, budget=budget), run_splits(theirs, budget=budget)
     first_keys = _first_unequal(*(np.frombuffer(each.playback(each.ticks), np.uint8) for each in (ours, theirs)))
     first_place = _first_unequal(here.positions, there.positions)
     other_splits = there.by_key
@@ -91,23 +95,24 @@ def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[n
     """For each position of one run, float64 (ticks, 2), the tick at which the other is at the same place; -1: nowhere.
 
     Dynamic time warping: of all ways to go through both runs in step, forwards only, the one whose sum of distances is
-    smallest. Raises ArgumentError for more than MAX_PAIRS pairs of ticks.
+    smallest. Raises ArgumentError for more than MAX_PAIRS pairs of ticks, or MAX_TOGETHER ticks.
     """
     n, m = len(ours), len(theirs)
-    if n * m > MAX_PAIRS:
+    if n * m > MAX_PAIRS or n + m > MAX_TOGETHER:
         raise ArgumentError(f"runs of {n} and {m} ticks are too long to be compared place by place")
     came_from = np.zeros((n, m), np.uint8)
     # Costs of the last two diagonals, by the tick of ours plus one; all paths begin in front of both first ticks.
-    last, before = np.full(n + 1, np.inf), np.full(n + 1, np.inf)
+    costs, last, before = (np.full(n + 1, np.inf) for _ in range(3))
     before[0] = 0.0
     for diagonal in range(n + m - 1):
         i = np.arange(max(0, diagonal - m + 1), min(n, diagonal + 1))
         j = diagonal - i
         ways = np.stack([before[i], last[i], last[i + 1]])
         came_from[i, j] = way = np.argmin(ways, axis=0)
-        costs = np.full(n + 1, np.inf)
         costs[i + 1] = ways[way, np.arange(len(i))] + np.hypot(*(ours[i] - theirs[j]).T)
-        last, before = costs, last
+        # What the oldest holds beyond the next diagonal is never read, but for the place in front of the first ticks.
+        before[0] = np.inf
+        costs, last, before = before, costs, last
     return _nearest_on_path(came_from, ours, theirs)
 
 

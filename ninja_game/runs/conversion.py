@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
+from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import ReplayError
 from ninja_game.formats.ascii.legend import legend_text
 from ninja_game.formats.ascii.reader import is_ascii_level
@@ -24,15 +25,15 @@ _COMMENT = re.compile(r"(?![^;]*:)[^|;]*;.*")
 """A line of an ASCII level, neither of its header nor of its picture, with a comment."""
 
 
-def replay_texts(recordings: Iterable[Recording]) -> Iterator[str]:
+def replay_texts(recordings: Iterable[Recording], budget: int = RUN_BUDGET) -> Iterator[str]:
     """Each recording as a replay text of ours with its level inside, run to see what comes of it.
 
-    Raises LevelError for a level that cannot be played.
+    Raises LevelError for a level that cannot be played, BudgetError for a run that is not over when its ``budget`` is.
     """
     for each in recordings:
         with named_errors(each):
             inputs = each.playback(each.ticks)
-            new = record_replay(each.level, inputs, body=each.body, name=each.name, author=each.author)
+            new = record_replay(each.level, inputs, body=each.body, name=each.name, author=each.author, budget=budget)
         old = each.replay or replace(new, level_name=each.name)
         markers = tuple(marker for marker in old.markers if marker.tick <= len(new.inputs))
         new = replace(new, level_name=old.level_name, level_author=old.level_author)

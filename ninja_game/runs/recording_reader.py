@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
-from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.errors import BudgetError, LevelError, NinjaGameError
 from ninja_game.files.reading import LeftOut, files_below
 from ninja_game.formats.ascii.reader import is_ascii_level
 from ninja_game.formats.links.fragment import is_link
@@ -122,9 +122,9 @@ def _holds_levels(text: str, file: str) -> bool:
 
 @contextmanager
 def named_errors(recording: Recording) -> Iterator[None]:
-    """Levels that cannot be played name their file and record."""
+    """Levels that cannot be played, and runs that cost too much, name their file and record."""
     try:
         yield
-    except LevelError as error:
+    except (BudgetError, LevelError) as error:
         what = f"record {recording.record}: {error.what}"
         raise replace(error, file=recording.file, line=recording.line, what=what) from None

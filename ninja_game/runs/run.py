@@ -15,6 +15,7 @@ from array import array
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget
 from ninja_game.compile_cache import open_memory
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
@@ -98,19 +99,28 @@ class RunResult:
 
 
 def run_level(
-    level: Level, inputs: bytes, *, body: Body = "circle", memory: str = "auto", digest: bool = False
+    level: Level,
+    inputs: bytes,
+    *,
+    body: Body = "circle",
+    memory: str = "auto",
+    digest: bool = False,
+    budget: int = RUN_BUDGET,
 ) -> RunResult:
     """Run a level with one input a tick until the first exit contact or death, or to the end of ``inputs``.
 
     ``inputs``: one byte a tick, the sum of its ``Input`` flags (``Recording.playback`` gives them). ``memory``: as of
-    ``Simulation``. ``digest``: tell the digest at the end too, as replays have it.
+    ``Simulation``. ``digest``: tell the digest at the end too, as replays have it. ``budget``: of work
+    (``ninja_game.budget``).
 
     Raises LevelError for a level that cannot be played, DemoError for more than a million inputs or for one that there
-    is not, ArgumentError for another body or memory.
+    is not, ArgumentError for another body or memory, BudgetError for a run that is not over when its budget is.
     """
     check_inputs(inputs)
     world = open_memory(memory, level, box=is_box(body))
-    run = world.run(inputs)
+    run = world.run(inputs[: affordable_ticks(level, budget)])
+    if not world.outcome and len(run.states) < len(inputs):
+        raise over_budget(level, len(inputs), budget)
     places = _little_endian(array("d", _bytes(run.places))).tobytes()
     end = replay_digest(world.world()) if digest else ""
     return RunResult(OUTCOME_NAMES[world.outcome], world.gold, places, _bytes(run.states), end)
@@ -136,16 +146,18 @@ def record_replay(
     body: Body = "circle",
     name: str = "",
     author: str = "",
+    budget: int = RUN_BUDGET,
 ) -> Replay:
     """A replay of ours, with its level in it: what comes of these inputs in that many ticks (None: as many as inputs).
 
     Ends with the first exit contact or death. Always runs on the plain memory, so that what it claims is what anybody
-    can check. Raises LevelError for a level that cannot be played, ArgumentError for a run without ticks.
+    can check. Raises LevelError for a level that cannot be played, ArgumentError for a run without ticks, BudgetError
+    as ``run_level`` does.
     """
     played = first_ticks(inputs, ticks) if ticks is not None else inputs
     if not played:
         raise ArgumentError("a replay has at least one tick")
-    run = run_level(level, played, body=body, memory="plain", digest=True)
+    run = run_level(level, played, body=body, memory="plain", digest=True, budget=budget)
     waypoints = [run.waypoint(tick) for tick in range(WAYPOINT_TICKS - 1, run.ticks, WAYPOINT_TICKS)]
     return Replay(
         inputs=inputs[: run.ticks],

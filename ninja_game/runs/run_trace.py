@@ -26,8 +26,8 @@ NINJA_RECORD = np.dtype(
 OBJECT_RECORD = np.dtype([("x", "<f8"), ("y", "<f8"), ("s", "<i4")])
 """An object after a tick: position (px) and status number, both by kind."""
 
-MAX_CELLS = 50_000_000
-"""Most objects times ticks in a trace: a gigabyte."""
+MAX_CELLS = 8_000_000
+"""Most objects times ticks in a trace: some 330 MB while it is made."""
 
 
 @dataclass(frozen=True)

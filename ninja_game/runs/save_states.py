@@ -12,12 +12,19 @@ SPACING = 60
 MOST_STATES = 300
 """With more save-states than this every second one is dropped, so that a run of any length fits into the memory."""
 
+MOST_VALUES, FEWEST_STATES = 300_000, 10
+"""In all save-states together, some 100 MB; and how many there may be of the largest level and run."""
+
 
 class SaveStates(Generic[State]):
-    """The save-states of one run, by tick. ``first``: its start, always kept. ``spacing`` 0: nothing else is kept."""
+    """The save-states of one run, by tick. ``first``: its start, always kept. ``spacing`` 0: nothing else is kept.
 
-    def __init__(self, tick: int, first: State, *, spacing: int = SPACING) -> None:
+    ``values``: about how many numbers a state holds; of large ones there are fewer.
+    """
+
+    def __init__(self, tick: int, first: State, *, spacing: int = SPACING, values: int = 0) -> None:
         self.spacing = spacing
+        self._most = min(MOST_STATES, max(FEWEST_STATES, MOST_VALUES // max(1, values)))
         self._ticks = [tick]
         self._states = [first]
 
@@ -35,7 +42,7 @@ class SaveStates(Generic[State]):
         at = self._at(tick) + 1
         self._ticks.insert(at, tick)
         self._states.insert(at, state)
-        if len(self._ticks) > MOST_STATES:
+        if len(self._ticks) > self._most:
             self.spacing *= 2
             del self._ticks[1::2], self._states[1::2]
 

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.recording_reader import named_errors
@@ -19,7 +20,7 @@ SPLIT_EVENTS = ("gold-taken", "exit-opened", "lock-opened", "trap-closed", "door
 """The events that are splits (`ninja_game/sim/events.py`)."""
 
 Key = tuple[str, int | None, int]
-"""What makes splits of two runs the same: event, id of the object, and the how manieth of these, from 0."""
+"""What makes splits of two runs the same: event, id of the object, and which occurrence of it, from 0."""
 
 
 class Split(NamedTuple):
@@ -74,17 +75,18 @@ class RunSplits:
         return {split.key: split for split in self.splits}
 
 
-def run_splits(recording: Recording, events: Sequence[str] = SPLIT_EVENTS) -> RunSplits:
+def run_splits(recording: Recording, events: Sequence[str] = SPLIT_EVENTS, budget: int = RUN_BUDGET) -> RunSplits:
     """Run a recording on the plain memory and note its splits, of these events only.
 
-    Raises LevelError naming file and record for a level that cannot be played.
+    Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that is not over
+    when its ``budget`` of work is.
     """
     with named_errors(recording):
         run = Simulation(recording.level, body=recording.body)
     splits: list[Split] = []
     positions: list[tuple[float, float]] = []
     counts: dict[tuple[str, int | None], int] = {}
-    for keys in recording.playback(recording.ticks):
+    for keys in recording.playback(min(recording.ticks, affordable_ticks(recording.level, budget))):
         run.step_keys(keys)
         positions.append((run.ninja.x, run.ninja.y))
         for event in run.events:
@@ -96,6 +98,9 @@ def run_splits(recording: Recording, events: Sequence[str] = SPLIT_EVENTS) -> Ru
                 splits.append(Split(run.tick - 1, event.name, id_, number, event.x, event.y))
         if run.outcome != "running":
             break
+    if run.outcome == "running" and run.tick < recording.ticks:
+        with named_errors(recording):
+            raise over_budget(recording.level, recording.ticks, budget)
     places = np.array(positions, np.float64).reshape(-1, 2)
     return RunSplits(recording, run.outcome, run.gold, tuple(splits), places)
 

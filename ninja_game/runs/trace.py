@@ -9,11 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from hashlib import sha256
+from itertools import chain
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import run_level
@@ -34,17 +36,21 @@ def trace_recording(
     memory: str = "auto",
     objects: bool = True,
     events: bool = False,
+    budget: int = RUN_BUDGET,
 ) -> RunTrace:
     """The trace of a recording: of exactly ``ticks`` ticks, else until its end as ``verify`` has it and ``after`` more.
 
-    ``events`` runs on the plain memory. Raises LevelError naming file and record for a level that cannot be played.
+    Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that costs more
+    work than its ``budget``.
     """
     body = recording.body
     with named_errors(recording):
         if ticks is None:
             inputs = recording.playback(recording.ticks)
-            ticks = run_level(recording.level, inputs, body=body, memory=memory).ticks + after
+            ticks = run_level(recording.level, inputs, body=body, memory=memory, budget=budget).ticks + after
         inputs = recording.playback(ticks)
+        if ticks > affordable_ticks(recording.level, budget):
+            raise over_budget(recording.level, ticks, budget)
         return trace_level(recording.level, inputs, body=body, memory=memory, with_objects=objects, events=events)
 
 
@@ -135,7 +141,9 @@ def _first_unequal(
 def rows(trace: RunTrace) -> Iterator[dict[str, Any]]:
     """Every record of a trace as a row: the ninja of a tick with its velocity (px/tick), then that tick's objects."""
     names = NINJA_RECORD.names or ()
-    for tick, ninja in enumerate(trace.ninja.tolist()):
+    # As Python's numbers a whole run would take ten times the memory.
+    blocks = (trace.ninja[first : first + 4096].tolist() for first in range(0, len(trace.ninja), 4096))
+    for tick, ninja in enumerate(chain.from_iterable(blocks)):
         row: dict[str, Any] = dict(zip(names, ninja, strict=True))
         row |= {"vx": row["x"] - row["prev_x"], "vy": row["y"] - row["prev_y"]}
         yield {"tick": tick, "kind": NINJA_NAME, **row, "events": trace.events[tick] if trace.events else ""}

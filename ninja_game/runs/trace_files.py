@@ -7,9 +7,7 @@ from __future__ import annotations
 
 import csv
 import os
-import re
 import struct
-import sys
 from collections.abc import Iterable, Iterator, Mapping
 from io import TextIOWrapper
 from itertools import groupby, pairwise
@@ -21,8 +19,9 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ninja_game.errors import FileError, FormatError
+from ninja_game.files.arrays import MOST_ARRAYS, UNREADABLE, read_array
 from ninja_game.files.reading import open_regular
-from ninja_game.files.zips import open_zip, unpacked
+from ninja_game.files.zips import open_zip
 from ninja_game.runs.run_trace import NINJA_RECORD, OBJECT_RECORD, RunTrace
 from ninja_game.runs.trace import NINJA_NAME, rows
 from ninja_game.sim.inputs import MAX_TICKS, Input
@@ -36,26 +35,12 @@ COLUMNS = (
 MOST_BYTES = 2**28
 """Of a CSV, or of all arrays in a .npz: a million ticks of the ninja are a seventh of it."""
 
-MOST_ARRAYS = 2**16
-"""In a .npz; a trace has nine."""
-
-_HEADER = re.compile(
-    rb"\x93NUMPY(?:\x01\x00..|\x02\x00....)"
-    rb"\{'descr': (.{1,400}), 'fortran_order': (True|False), 'shape': \(([0-9, ]{0,60})\), \} *\n",
-    re.DOTALL,
-)
-"""Of an array, as NumPy writes it; NumPy's own reader would evaluate what a stranger wrote."""
-
-_TEXT = re.compile(r"'<U\d{1,9}'")
 _KEYS = (("L", Input.LEFT), ("R", Input.RIGHT), ("J", Input.JUMP_HELD), ("!", Input.JUMP_PRESSED))
 
 ZIPPED = b"PK"
 """What a .npz begins with."""
 
-_UNREADABLE = (
-    ValueError, KeyError, TypeError, AttributeError, EOFError, OverflowError, MemoryError, struct.error, csv.Error,
-)  # fmt: skip
-"""What odd files make the standard library and NumPy raise."""
+_UNREADABLE = (*UNREADABLE, csv.Error)
 
 
 class FiledTrace(NamedTuple):
@@ -181,7 +166,8 @@ def _read_arrays(archive: ZipFile, found: Mapping[str, ZipInfo], number: int) ->
     """One run. Raises an error of ``_UNREADABLE`` where its arrays are none or do not fit each other."""
 
     def array(name: str, dtype: DTypeLike = np.str_) -> NDArray[Any]:
-        return _array(archive, found[f"{name}_{number}"], np.dtype(dtype))
+        dimensions = 1 + (dtype is OBJECT_RECORD)
+        return read_array(archive, found[f"{name}_{number}"], np.dtype(dtype), most=MAX_TICKS, dimensions=dimensions)
 
     run = _checked(
         ninja=array("ninja", NINJA_RECORD),
@@ -192,24 +178,6 @@ def _read_arrays(archive: ZipFile, found: Mapping[str, ZipInfo], number: int) ->
     )
     inputs = array("keys", np.uint8).tobytes()
     return FiledTrace(int(array("record", np.int64)), str(array("name")), run, str(array("file")), inputs)
-
-
-def _array(archive: ZipFile, info: ZipInfo, wanted: np.dtype[Any]) -> NDArray[Any]:
-    """An array of the wanted kind, which claims no more than its file holds and than a run can have."""
-    data = unpacked(archive, info)
-    header = _HEADER.match(data)
-    if not header:
-        raise ValueError("an array with a header that NumPy does not write")
-    kind, by_columns, sizes = (part.decode("latin-1") for part in header.groups())
-    dtype = np.dtype(kind[1:-1]) if wanted.kind == "U" and _TEXT.fullmatch(kind) else wanted
-    if kind != repr(np.lib.format.dtype_to_descr(dtype)):
-        raise ValueError(f"an array of {kind} instead of {wanted}")
-    shape = tuple(int(size) for size in sizes.split(",") if size.strip())
-    if len(shape) > 1 + (wanted == OBJECT_RECORD) or max(shape, default=0) > MAX_TICKS:
-        raise ValueError(f"an array of the shape {shape}")
-    if wanted.kind == "U" and (np.frombuffer(data[header.end() :], np.uint32) > sys.maxunicode).any():
-        raise ValueError("a text of numbers that are no characters")
-    return np.ndarray(shape, dtype, data, header.end(), order="F" if by_columns == "True" else "C")
 
 
 def _too_large(path: Path) -> FileError:

@@ -6,11 +6,13 @@ final tick, gold and the digest of the world after that tick. Inputs alone are t
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ninja_game.compile_cache import open_memory
+from ninja_game.budget import RUN_BUDGET
+from ninja_game.compile_cache import open_memory, proven_memory
+from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import RULES_VERSION, Replay
@@ -32,6 +34,13 @@ STRICT = {
 }
 """What a strict verdict demands of its fields, besides a level that counts."""
 
+NOT_RUN = "not run"
+"""The outcome of a run that was not simulated, since its level does not count."""
+
+
+class OutOfRangeError(NinjaGameError):
+    """A run led out of the arrays of its world: it is not judged, and the program is at fault."""
+
 
 @dataclass(frozen=True)
 class Verdict:
@@ -47,6 +56,8 @@ class Verdict:
     ``possible_by_keyboard``: the jump triggers exactly in the first tick of being held; ``in_time``: the lifetime of a
     level that is played alone never ran out; ``complete``: the demo's text holds all frames that it claims.
     ``problems``: every claim that does not hold.
+
+    A run whose level does not count is not simulated: its ``outcome`` is "not run", the first two of these are None.
     """
 
     file: str
@@ -63,8 +74,8 @@ class Verdict:
     score_ticks: int | None
     ticks: int
     xy_sha256: str
-    possible_by_keyboard: bool
-    in_time: bool
+    possible_by_keyboard: bool | None
+    in_time: bool | None
     practice: bool
     complete: bool
     problems: tuple[str, ...] = ()
@@ -80,46 +91,56 @@ class Verdict:
         return fields | ({"problems": list(self.problems)} if self.problems else {})
 
 
-def verify_recording(recording: Recording, memory: str = "auto") -> Verdict:
+def verify_recording(
+    recording: Recording, memory: str = "auto", counting: Container[str] | None = None, budget: int = RUN_BUDGET
+) -> Verdict:
     """Run a recording and judge it. ``memory``: "plain", "compiled", "auto", or "both" to compare the two.
 
-    Raises LevelError naming file and record for a level that cannot be played.
+    ``counting``: digests of the levels that count, None for all; a run on any other is not simulated. Compiled runs are
+    judged with every index checked.
+
+    Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that is not over
+    when its ``budget`` of work is (``ninja_game.budget``), OutOfRangeError for a run that leads out
+    of its world, KnownRunError where no run can be judged.
     """
-    body = recording.body
     replay = recording.replay if recording.replay and not recording.replay.loose else None
-    one_memory = "plain" if memory == "both" else memory
+    verdict = Verdict(
+        recording.file, recording.record, recording.name, recording.author, level_digest(recording.level),
+        level_name="", body=recording.body, rules=replay.rules if replay else RULES_VERSION,
+        outcome=NOT_RUN, end_tick=-1, gold=0, score_ticks=None, ticks=0, xy_sha256="",
+        possible_by_keyboard=None, in_time=None,
+        practice=bool(recording.replay and recording.replay.practice), complete=not recording.demo.missing,
+    )  # fmt: skip
+    if counting is not None and verdict.level_digest not in counting:
+        return verdict
+    one_memory = proven_memory("plain" if memory == "both" else memory)
     with named_errors(recording):
-        claims_digest = bool(replay and replay.digest)
         inputs = recording.playback(recording.ticks)
-        run = run_level(recording.level, inputs, body=body, memory=one_memory, digest=claims_digest)
-        in_time = _in_time(recording, run, one_memory)
+        try:
+            run = run_level(
+                recording.level,
+                inputs,
+                body=recording.body,
+                memory=one_memory,
+                digest=bool(replay and replay.digest),
+                budget=budget,
+            )
+            in_time = _in_time(recording, run, one_memory)
+        except IndexError as error:
+            what = "the run leads out of its world's arrays and is not judged: a fault of this program, worth a report"
+            raise OutOfRangeError(f"{recording.file}: record {recording.record}: {what}") from error
         problems = list(_broken_claims(replay, run)) if replay else []
         if memory == "both":
-            problems += filter(None, [memory_difference(recording)])
+            problems += filter(None, [memory_difference(recording, run.ticks)])
     if not replay and run.outcome != "exit":
         problems.append(f"does not reach the exit: {_ending(recording, run)}")
     sampled = run.ticks - 1 if run.outcome != "running" else min(run.ticks, len(recording.demo.inputs))
-    return Verdict(
-        file=recording.file,
-        record=recording.record,
-        name=recording.name,
-        author=recording.author,
-        level_digest=level_digest(recording.level),
-        level_name="",
-        body=body,
-        rules=replay.rules if replay else RULES_VERSION,
-        outcome=run.outcome,
-        end_tick=run.end_tick,
-        gold=run.gold,
-        score_ticks=run.score_ticks if run.outcome == "exit" else None,
-        ticks=run.ticks,
-        xy_sha256=run.xy_sha256,
-        possible_by_keyboard=press_jumps(inputs[:sampled]) == inputs[:sampled],
-        in_time=in_time,
-        practice=bool(recording.replay and recording.replay.practice),
-        complete=not recording.demo.missing,
+    return replace(
+        verdict, outcome=run.outcome, end_tick=run.end_tick, gold=run.gold,
+        score_ticks=run.score_ticks if run.outcome == "exit" else None, ticks=run.ticks, xy_sha256=run.xy_sha256,
+        possible_by_keyboard=press_jumps(inputs[:sampled]) == inputs[:sampled], in_time=in_time,
         problems=tuple(problems),
-    )
+    )  # fmt: skip
 
 
 def judged(verdict: Verdict, levels: Mapping[str, str], *, only_these: bool, strict: bool) -> Verdict:
@@ -131,9 +152,10 @@ def judged(verdict: Verdict, levels: Mapping[str, str], *, only_these: bool, str
     demanded = []
     if (only_these or strict) and verdict.level_digest not in levels:
         demanded.append(f"level_digest is {verdict.level_digest}, which is none of the levels that count")
+    unknown = (None, NOT_RUN) if demanded else ()
     for field, expected in STRICT.items() if strict else ():
         found = getattr(verdict, field)
-        if found != expected:
+        if found != expected and found not in unknown:
             demanded.append(f"{field} is {_word(found)}, --strict expects {_word(expected)}")
     name = levels.get(verdict.level_digest, "")
     return replace(verdict, level_name=name, problems=verdict.problems + tuple(demanded))
@@ -158,10 +180,12 @@ def _in_time(recording: Recording, run: RunResult, memory: str) -> bool:
     """Whether the lifetime lasted until the run's end (game.md §1.1): it begins full, as in a level played alone."""
     if run.ticks <= LIFETIME:
         return True
-    inputs = recording.playback(run.ticks)
-    record = open_memory(memory, recording.level, box=is_box(recording.body)).trace(inputs, [], events=False)
     # After each tick but that of the end one tick of lifetime is gone; none may be the last.
     lived = run.ticks - (run.outcome != "running")
+    if LIFETIME + GOLD_BONUS * run.gold <= lived:
+        return False
+    inputs = recording.playback(run.ticks)
+    record = open_memory(memory, recording.level, box=is_box(recording.body)).trace(inputs, [], events=False)
     width, at = len(TRACED_NUMBERS), TRACED_NUMBERS.index("gold")
     gold = map(int, record.numbers[at : width * lived : width])
     return all(LIFETIME + GOLD_BONUS * got > tick for tick, got in enumerate(gold, 1))
@@ -200,15 +224,15 @@ def _missed_waypoint(replay: Replay, run: RunResult) -> Iterator[str]:
         passed = f"up to tick {waypoint.tick}"
 
 
-def memory_difference(recording: Recording) -> str:
-    """The first tick and field in which the two memories differ, '' if they never do.
+def memory_difference(recording: Recording, ticks: int) -> str:
+    """The first of so many ticks, and the field, in which the two memories differ, '' if they never do.
 
     Raises MemoryUnavailableError without Numba.
     """
     plain, compiled = (
         Simulation(recording.level, body=recording.body, memory=memory) for memory in ("plain", "compiled")
     )
-    for keys in recording.playback(recording.ticks):
+    for keys in recording.playback(ticks):
         plain.step_keys(keys)
         compiled.step_keys(keys)
         difference = plain.first_difference(compiled)

@@ -107,4 +107,4 @@ def check_inputs(inputs: bytes) -> None:
     wrong = inputs.translate(None, _VALID)
     if wrong:
         tick = inputs.index(wrong[:1])
-        raise DemoError(f"tick {tick} has keys that there are not", found=str(wrong[0]), expected=f"0 to {ALL_KEYS}")
+        raise DemoError(f"tick {tick} has unknown keys", found=str(wrong[0]), expected=f"0 to {ALL_KEYS}")

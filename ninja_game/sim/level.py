@@ -10,6 +10,7 @@ from ninja_game.sim.kinds import VALUE_COUNTS
 COLUMNS = 31
 ROWS = 23
 TILES = COLUMNS * ROWS
+NOT_A_NUMBER = float("nan")
 
 
 class ObjectSpec(NamedTuple):
@@ -46,6 +47,19 @@ class Level:
 
     tiles: tuple[int, ...] = field(default=(0,) * TILES, repr=False)
     objects: tuple[ObjectSpec, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Give every NaN one identity, by which tuples compare it: a level equals its copy from another process."""
+        if any(value != value for record in self.objects for value in record.values):
+            objects = [
+                record._replace(values=tuple(NOT_A_NUMBER if value != value else value for value in record.values))
+                for record in self.objects
+            ]
+            object.__setattr__(self, "objects", tuple(objects))
+
+    def __reduce__(self) -> tuple[type[Level], tuple[tuple[int, ...], tuple[ObjectSpec, ...]]]:
+        """Copies and pickles are made anew, so that they are as ``__post_init__`` leaves them."""
+        return type(self), (self.tiles, self.objects)
 
     def tile(self, column: int, row: int) -> int:
         """Tile id at interior cell ``column`` 1…31, ``row`` 1…23 (indices of the full 33 x 25 grid)."""

@@ -40,7 +40,7 @@ class RecordTable(NamedTuple):
 def record_table(data: Level) -> RecordTable:
     """The records that make an object: the door through which every level comes, whatever its origin.
 
-    What comes through it no rule can stumble over. A record of a kind that there is not creates nothing (objects.md
+    What comes through it no rule can stumble over. A record of an unknown kind creates nothing (objects.md
     §2.1). Raises LevelError for a level that is none, without a ninja or with too many objects.
     """
     _check(data)

@@ -32,6 +32,13 @@ def is_switched(w: World, slot: int) -> int:
 
 
 @fast
+def is_open(w: World, slot: int) -> int:
+    """Whether a switch was used: 1 for an exit that is open, and for a door that is not as it began."""
+    o = w.objects[slot]
+    return o.is_open if o.kind == kinds.EXIT else is_switched(w, slot)
+
+
+@fast
 def status_of(w: World, slot: int) -> int:
     """What an object is doing, as one number (the table is in docs/replay-format.md)."""
     o = w.objects[slot]

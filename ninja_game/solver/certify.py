@@ -13,11 +13,13 @@ from typing import Any
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.reading import read_text
+from ninja_game.files.tree import Tree
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.recording import parse_replays
+from ninja_game.formats.replay.text import write_replay
 from ninja_game.sim.kinds import GOLD
-from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, replay_of, save_replay, verified_run
+from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, replay_of, verified_run
 from ninja_game.solver.solve import Progress, Task, solve
 
 AUTHOR = "ninja-game check"
@@ -154,5 +156,5 @@ def kept_run(level: NamedLevel, path: Path, task: Task) -> tuple[VerifiedRun, bo
 
 def _write(level: NamedLevel, path: Path | None, run: VerifiedRun) -> None:
     if path:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        save_replay(path, replay_of(run, name=level.name, author=AUTHOR, level_author=level.author))
+        replay = replay_of(run, name=level.name, author=AUTHOR, level_author=level.author)
+        Tree(path.parent).write(path.name, write_replay(replay))

@@ -105,7 +105,8 @@ class Heuristics:
 
     def opened(self, world: Any) -> int:
         """The switch state of a world."""
-        bits = world["objects"]["is_open"][self.slots] != 0
+        switches = world["objects"][self.slots]
+        bits = np.where(switches["kind"] == kinds.EXIT, switches["is_open"], switches["switched"]) != 0
         return sum(1 << k for k in np.flatnonzero(bits).tolist())
 
     def routines(self, world: Any) -> bytes:

@@ -13,6 +13,7 @@ from ninja_game.sim.kinds import LAUNCHER
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import JUMPING, LAUNCHER_FLIGHT, SLIDING
+from ninja_game.sim.traces import is_open
 from ninja_game.solver.search_memory import Counters, Entry, Resolution
 
 MIX = 0x2545F4914F6CDD1D
@@ -108,12 +109,19 @@ def is_news(entry: Entry, tick: int, resolution: Resolution) -> bool:
 
 
 @fast
+def open_mask(w: World, switch_slots: NDArray[np.int64]) -> int:
+    """What is open, a bit a switch: exits that are open, doors that are not as they began."""
+    mask = 0
+    for k in range(len(switch_slots)):
+        if is_open(w, switch_slots[k]):
+            mask |= 1 << k
+    return mask
+
+
+@fast
 def switch_state_of(w: World, goals: Goals, counters: Counters, guess: int) -> int:
     """Index of the present switch state, -1: too many. One without a field wants it."""
-    mask = 0
-    for k in range(len(goals.switch_slots)):
-        if w.objects[goals.switch_slots[k]].is_open:
-            mask |= 1 << k
+    mask = open_mask(w, goals.switch_slots)
     index = guess
     if goals.masks[guess] != mask:
         index = 0

@@ -6,14 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ninja_game.errors import ArgumentError, NinjaGameError
+from ninja_game.errors import ArgumentError
 from ninja_game.formats.replay.input_runs import Marker, is_marker_name
 from ninja_game.sim.inputs import check_inputs
 from ninja_game.sim.states import OUTCOME_NAMES
 from ninja_game.tas.take import Take
-
-DAMAGED = (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError, NinjaGameError)
-"""What reading JSON raises that is not as it was written."""
 
 
 @dataclass(frozen=True)
@@ -52,11 +49,11 @@ class Branches:
         return self.current
 
     def rename(self, number: int, name: str) -> None:
-        """Give a branch another name. Raises ArgumentError for one that there is not."""
+        """Give a branch another name. Raises ArgumentError for an unknown one."""
         self.all[self.checked(number)] = replace(self.all[number], name=name)
 
     def go_on_from(self, number: int) -> Take:
-        """Make a branch the current one; its take. Raises ArgumentError for one that there is not."""
+        """Make a branch the current one; its take. Raises ArgumentError for an unknown one."""
         self.current = self.checked(number)
         return self.all[number].take
 
@@ -72,7 +69,7 @@ class Branches:
         self.all = [replace(each, parent=moved(each.parent)) for at, each in enumerate(self.all) if at != number]
 
     def checked(self, number: int) -> int:
-        """The number of a branch. Raises ArgumentError for one that there is not."""
+        """The number of a branch. Raises ArgumentError for an unknown one."""
         if not 0 <= number < len(self.all):
             raise ArgumentError(f"there is no branch {number}")
         return number

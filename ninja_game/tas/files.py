@@ -9,10 +9,11 @@ from functools import partial
 from hashlib import sha256
 from pathlib import Path
 
-from ninja_game.editor.files import OccupiedError
-from ninja_game.errors import NinjaGameError, ReplayError
+from ninja_game.editor.files import check_free, digest_of
+from ninja_game.errors import DAMAGED, NinjaGameError, ReplayError
 from ninja_game.files.reading import read_bytes, read_utf8
 from ninja_game.files.resources import data_folder
+from ninja_game.files.tree import Tree
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.links.fragment import is_link
@@ -26,7 +27,7 @@ from ninja_game.runs.conversion import on_level
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.inputs import MAX_TICKS, Demo
 from ninja_game.sim.level import Level
-from ninja_game.tas.branches import DAMAGED, Branches, branches_of_json
+from ninja_game.tas.branches import Branches, branches_of_json
 from ninja_game.tas.take import Take
 from ninja_game.tas.timeline import AFTERMATH
 
@@ -86,9 +87,12 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
     return OpenedRun(recording, take, file, read_branches(path))
 
 
-def digest_of(path: Path) -> str:
-    """The digest of a file's bytes; '' where there is none."""
-    return sha256(read_bytes(path)).hexdigest() if path.exists() else ""
+def home_of(path: Path, digest: str, beside: str) -> RunFile:
+    """Where a run of a journal is at home: in a file that ``open_run`` would have given it, else nowhere."""
+    with suppress(OSError, NinjaGameError):
+        if _written_by_us(read_bytes(path)):
+            return RunFile(path, digest, beside)
+    return RunFile()
 
 
 def open_recording(recording: Recording) -> OpenedRun:
@@ -207,15 +211,12 @@ def save_run(
     """
     own, beside = path == file.path, branches_path(path)
     for each, known in ((path, file.digest), (beside, file.beside)):
-        there = digest_of(each)
-        if there and not replacing and not (own and there == known):
-            what = f"{each.name} was changed by another program" if own else f"there is a file {each.name} already"
-            raise OccupiedError(what)
+        check_free(each, digest_of(each), known if own else None, replacing=replacing)
     if not own or take != file.take or digest_of(path) != file.digest:
         replay = replay_of_take(about, take)
         write_atomically(path, write_replay(_with_old_path(replay, about) if own else replay))
     if len(branches) or branches.watched or beside.exists():
-        write_atomically(beside, json.dumps(branches.as_json(), indent=1))
+        Tree(path.parent).write(beside.name, json.dumps(branches.as_json(), indent=1))
     return RunFile(path, digest_of(path), digest_of(beside), take)
 
 

@@ -16,14 +16,13 @@ from pathlib import Path
 from typing import Any
 from zlib import crc32
 
-from ninja_game.errors import FileError, NinjaGameError
+from ninja_game.errors import DAMAGED, FileError, NinjaGameError
 from ninja_game.files.locking import LOCK_SUFFIX, forget, hold, left_behind
 from ninja_game.files.reading import open_regular
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import parse_replays
 from ninja_game.sim.loader import record_table
 from ninja_game.tas.branches import (
-    DAMAGED,
     Branches,
     branches_of_json,
     checked_take,
@@ -31,7 +30,7 @@ from ninja_game.tas.branches import (
     markers_of_json,
     take_of_json,
 )
-from ninja_game.tas.files import OpenedRun, RunFile
+from ninja_game.tas.files import OpenedRun, RunFile, home_of
 from ninja_game.tas.take import Take
 
 FOLDER = "tas"
@@ -63,7 +62,7 @@ def edited(take: Take, change: dict[str, Any]) -> Take:
     """A take after an edit of a journal. Raises one of DAMAGED for what is none."""
     at, to = int(change["at"]), int(change["to"])
     if not 0 <= at <= to <= len(take):
-        raise ValueError("an edit of ticks that there are not")
+        raise ValueError("an edit outside the run's ticks")
     markers = markers_of_json(change["markers"]) if "markers" in change else take.markers
     new = checked_take(take.inputs[:at] + inputs_of_json(change["keys"]) + take.inputs[to:], markers)
     if _sum(new) != change["sum"]:
@@ -153,7 +152,7 @@ def read_journal(file: Path) -> Recovered:
         said = json.loads(lines.readline())
         (recording,) = parse_replays(said["replay"])
         record_table(recording.level)
-        home = RunFile(Path(str(said["path"])), str(said["digest"]), str(said["beside"])) if said["path"] else RunFile()
+        home = home_of(Path(str(said["path"])), str(said["digest"]), str(said["beside"])) if said["path"] else RunFile()
         takes = [take_of_json(said["take"])]
         branches = branches_of_json(said["branches"])
         for line in lines:

@@ -6,12 +6,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from ninja_game.editor.files import digest_of
 from ninja_game.editor.history import History
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.tas.branches import Branch, Branches, branch_as_json, take_as_json
 from ninja_game.tas.course import NOWHERE, Course
-from ninja_game.tas.files import OpenedRun, RunFile, digest_of, has_tail, loose_replay, recording_of, save_run
+from ninja_game.tas.files import OpenedRun, RunFile, has_tail, loose_replay, recording_of, save_run
 from ninja_game.tas.journal import Journal, Recovered, edit_as_json
 from ninja_game.tas.take import Take
 from ninja_game.tas.timeline import Timeline

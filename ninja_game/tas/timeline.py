@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.budget import tick_cost
 from ninja_game.compile_cache import open_memory
 from ninja_game.errors import ArgumentError
 from ninja_game.runs.run_trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
@@ -41,7 +42,7 @@ class Timeline:
         self.memory = self._memory.name
         self._seen = [self._memory.observe(id_ + 1) for id_ in range(self._memory.id_count)]
         self.watched: tuple[int, ...] = ()
-        self._states: SaveStates[Any] = SaveStates(0, self._memory.save())
+        self._states: SaveStates[Any] = SaveStates(0, self._memory.save(), values=tick_cost(level))
         self._columns: dict[str, NDArray[Any]] = {
             **{name: np.zeros(0) for name in TRACED_PLACES},
             **{name: np.zeros(0, np.int32) for name in TRACED_NUMBERS},
@@ -75,7 +76,7 @@ class Timeline:
     def watch(self, ids: Collection[int]) -> None:
         """Record these objects besides the ninja, instead of those before; for others all is simulated anew.
 
-        Raises ArgumentError for an object that there is not.
+        Raises ArgumentError for an unknown object.
         """
         for id_ in ids:
             self.first_look(id_)
@@ -159,7 +160,7 @@ class Timeline:
         return [(id_, kind, x, y) for id_, (kind, x, y, _) in seen if KIND_OF[kind].traced]
 
     def first_look(self, id_: float) -> tuple[int, float, float, int]:
-        """Kind, x, y (px) and status of an object at the start. Raises ArgumentError for one that there is not."""
+        """Kind, x, y (px) and status of an object at the start. Raises ArgumentError for an unknown one."""
         if not 0 <= id_ < len(self._seen) or id_ != int(id_) or not KIND_OF[self._seen[int(id_)][0]].traced:
             raise ArgumentError(f"there is no object {id_:g}; ids are those that `ninja-game splits` shows")
         return self._seen[int(id_)]

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.directed.expressions import parse_number, parse_truth
-from ninja_game.directed.formula import Formula, Numbers
+from ninja_game.directed.formula import Formula, Numbers, parse_number, parse_truth
 from ninja_game.directed.view import FACTS, FLAGS, NAMES, id_of
 from ninja_game.errors import ArgumentError, FormatError
 from ninja_game.sim.kinds import DOOR, KIND_NAMES
@@ -39,7 +38,7 @@ class Watch:
     def values(self, timeline: Timeline) -> Numbers:
         """Its value after each simulated tick, float64 (valid,); a truth is 1 or 0, what has no value is NaN.
 
-        Objects that are not recorded yet are recorded from now on. Raises ArgumentError for one that there is not.
+        Objects that are not recorded yet are recorded from now on. Raises ArgumentError for an unknown one.
         """
         while True:
             try:

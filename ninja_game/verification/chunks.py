@@ -1,29 +1,30 @@
 """Recordings cut into chunks that can be verified anywhere: some files, or some records of a large one.
 
-A chunk carries its text, so that it can be sent to a machine that does not see the files, as JSON. Only what a
-replay of ours names by path is read where the chunk is verified; ``self_contained`` puts it inside first.
+A chunk carries its text, so that it can be sent to a machine that does not see the files, as JSON. Files that a text
+takes in are read where the chunk is verified, unless ``self_contained`` has put them inside first.
 """
 
 from __future__ import annotations
 
 import json
-import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
+from contextlib import nullcontext
 from dataclasses import asdict, dataclass, field, replace
 from hashlib import sha256
 from pathlib import Path
-from typing import Any, get_type_hints
+from typing import Any, get_args, get_type_hints
 
+from ninja_game.budget import RUN_BUDGET
+from ninja_game.compile_cache import MemoryUnavailableError
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.beside import Beside, known_files
 from ninja_game.formats.n14.level_file import LevelRecord
-from ninja_game.formats.named_level import level_of_replay
-from ninja_game.formats.replay.text import is_replay, parse_replay, write_replay
+from ninja_game.formats.recording import Recording
+from ninja_game.known_run import KnownRunError
 from ninja_game.runs.recording_reader import Unreadable, recording_of_text, recordings_of, records_of, texts_in
 from ninja_game.runs.verify import Verdict, verify_recording
 from ninja_game.sim.level import Level
 from ninja_game.verification.workers import ClusterError
-
-_INCLUDE = re.compile(r"^[ \t]+include[ \t]", re.MULTILINE)
 
 RECORDS = 64
 """Records a chunk at most: enough that sending it is cheap beside running it."""
@@ -35,7 +36,8 @@ Result = Verdict | Unreadable
 class Chunk:
     """A file, or records ``first`` … of one.
 
-    ``text``: of the whole file, if ``records`` is empty; ``problem``: why the file cannot be read, '' if it can;
+    ``text``: of the whole file, if ``records`` is empty; ``beside``: all files that it takes in, None while they are
+    read where they are needed; ``problem``: why the file cannot be read, '' if it can;
     ``named``: whether the caller named the file, or it was found in a folder; ``key``: by which the checkpoint log
     knows it, ``done``: whether that has its results.
     """
@@ -43,6 +45,7 @@ class Chunk:
     file: str
     first: int = 0
     text: str = field(default="", repr=False)
+    beside: dict[str, Beside] | None = field(default=None, repr=False)
     records: tuple[LevelRecord, ...] = field(default=(), repr=False)
     problem: str = ""
     named: bool = True
@@ -56,7 +59,7 @@ class Chunk:
 
     @property
     def digest(self) -> str:
-        """Sha256 (hex) of its content and its file's name: of everything that its results tell of."""
+        """Sha256 (hex) of its content and its file's name: of everything in it that its results tell of."""
         return sha256(json.dumps(asdict(self)).encode()).hexdigest()
 
 
@@ -74,40 +77,46 @@ def chunks_in(paths: Iterable[Path]) -> Iterator[Chunk]:
             yield Chunk(file, first, records=tuple(records[first : first + RECORDS]), named=named)
 
 
-def self_contained(chunk: Chunk) -> Chunk:
-    """The same chunk with the level inside, where a replay of ours names it by path; what is wrong stays as it is."""
-    if not is_replay(chunk.text):
-        return chunk
-    try:
-        parsed = parse_replay(chunk.text, file=chunk.file)
-        if not (parsed.level_path or _INCLUDE.search(chunk.text)):
-            return chunk
-        level = level_of_replay(parsed, chunk.file) if parsed.level_path else parsed.level
-        return replace(chunk, text=write_replay(replace(parsed, level=level, level_path="")))
-    except NinjaGameError as error:
-        return replace(chunk, problem=str(error))
+def self_contained(chunk: Chunk, level: Level | None = None) -> Chunk:
+    """The same chunk with all files inside that its text takes in; what is wrong with it stays as it is."""
+    beside: dict[str, Beside] = {}
+    if not chunk.records and not chunk.problem:
+        with known_files(beside, no_more=False):
+            list(recording_of_text(chunk.text, chunk.file, level, named=chunk.named))
+    return replace(chunk, beside=beside)
 
 
-def verify_chunk(chunk: Chunk, memory: str = "auto", level: Level | None = None) -> list[Result]:
+def verify_chunk(
+    chunk: Chunk,
+    memory: str = "auto",
+    level: Level | None = None,
+    counting: Container[str] | None = None,
+    budget: int = RUN_BUDGET,
+) -> list[Result]:
     """A verdict on every recording of a chunk, in order; what cannot be read is said and stops nothing.
 
-    ``level``: what recordings that do not hold their level are played on.
+    ``level``: what recordings that do not hold theirs are played on; the rest as for ``verify_recording``.
+    Raises KnownRunError, MemoryUnavailableError where nothing can be judged.
     """
     if chunk.problem:
         return [Unreadable(chunk.problem)]
-    if chunk.records:
-        recordings = recordings_of(chunk.records, chunk.file, level)
-    else:
-        recordings = recording_of_text(chunk.text, chunk.file, level, named=chunk.named)
-    results: list[Result] = []
-    result: Result
-    for recording in recordings:
-        try:
-            result = recording if isinstance(recording, Unreadable) else verify_recording(recording, memory)
-        except NinjaGameError as error:
-            result = Unreadable(str(error))
-        results.append(result)
-    return results
+    with nullcontext() if chunk.beside is None else known_files(chunk.beside, no_more=True):
+        if chunk.records:
+            recordings = recordings_of(chunk.records, chunk.file, level)
+        else:
+            recordings = recording_of_text(chunk.text, chunk.file, level, named=chunk.named)
+        return [_result(recording, memory, counting, budget) for recording in recordings]
+
+
+def _result(recording: Recording | Unreadable, memory: str, counting: Container[str] | None, budget: int) -> Result:
+    if isinstance(recording, Unreadable):
+        return recording
+    try:
+        return verify_recording(recording, memory, counting, budget)
+    except (KnownRunError, MemoryUnavailableError):
+        raise
+    except NinjaGameError as error:
+        return Unreadable(str(error))
 
 
 # --- as plain data ---
@@ -121,7 +130,11 @@ def chunks_as_text(chunks: Sequence[Chunk]) -> str:
 def chunks_from_text(text: str) -> list[Chunk]:
     """The chunks that ``chunks_as_text`` wrote."""
     return [
-        Chunk(**(fields | {"records": tuple(LevelRecord(**record) for record in fields["records"])}))
+        Chunk(
+            **fields
+            | {"records": tuple(LevelRecord(**record) for record in fields["records"])}
+            | {"beside": {name: Beside(*each) for name, each in (fields["beside"] or {}).items()}}
+        )
         for fields in json.loads(text)
     ]
 
@@ -155,7 +168,7 @@ def result_from_data(data: object) -> Result:
         raise ValueError("not the fields of a result")
     for name, kind in _TYPES.items():
         value = data[name]
-        if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
+        if not isinstance(value, kind) or (isinstance(value, bool) and bool not in (kind, *get_args(kind))):
             raise ValueError(f"{name} is {value!r}"[:80])
     problems = data["problems"]
     if not isinstance(problems, (list, tuple)) or not all(isinstance(problem, str) for problem in problems):

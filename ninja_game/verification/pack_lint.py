@@ -1,4 +1,4 @@
-"""What is odd about a pack, in lines for its maker: index, names, levels, certificates, pars."""
+"""What is odd about a pack, for its maker: index, names, levels, certificates, pars."""
 
 from __future__ import annotations
 
@@ -11,20 +11,21 @@ from ninja_game.formats.pack.files import CERTIFICATES, INDEX, PARS
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import parse_pars
-from ninja_game.levels.warnings import level_warnings
+from ninja_game.levels.findings import PackFinding, in_pack
+from ninja_game.levels.warnings import level_findings
 from ninja_game.verification.pack_checks import certificate, make_pars
 
 KINDS = ("exit", "gold")
 
 
-def lint(pack: Pack) -> Iterator[str]:
-    """Every finding as "place: what"; none for a proper pack."""
+def lint(pack: Pack) -> Iterator[PackFinding]:
+    """Every finding; none for a proper pack."""
     in_episodes = {level.file for levels in pack.episodes.values() for level in levels}
-    yield from pack.problems
+    yield from (in_pack("unreadable", why=problem) for problem in pack.problems)
     yield from _about_index(pack)
     for file, named in pack.levels.items():
         if named.file not in in_episodes:
-            yield f"{pack.files.place(file)}: in no episode; it can be played as a single level"
+            yield in_pack("single-level", pack.files.place(file))
     yield from _about_levels(pack)
     sound = True
     for finding in _about_certificates(pack):
@@ -34,77 +35,76 @@ def lint(pack: Pack) -> Iterator[str]:
         yield from _about_pars(pack)
 
 
-def _about_index(pack: Pack) -> Iterator[str]:
+def _about_index(pack: Pack) -> Iterator[PackFinding]:
     place, index = pack.files.place(INDEX), pack.index
     if not index.author:
-        yield f"{place}: no author"
+        yield in_pack("no-author", place)
     used = {episode.number // EPISODES_PER_COLUMN for episode in index.episodes}
     if used and index.columns and max(used) >= len(index.columns):
-        yield f"{place}: column {max(used)} has episodes and no name; expected {max(used) + 1} names in columns"
+        yield in_pack("column-without-name", place, column=max(used), needed=max(used) + 1)
     names: dict[str, int] = {}
     for episode in index.episodes:
-        where = f"{place}:{episode.line}: episode {episode.number}"
+        where, number = f"{place}:{episode.line}", episode.number
         if not episode.name:
-            yield f"{where} has no name"
+            yield in_pack("episode-name", where, number=number)
         elif episode.name in names:
-            yield f"{where} has the name of episode {names[episode.name]}"
-        names[episode.name] = episode.number
+            yield in_pack("same-episode-name", where, number=number, other=names[episode.name])
+        names[episode.name] = number
         if episode not in pack.episodes:
-            yield f"{where} has no levels; expected files {episode.number:02d}-….txt"
+            yield in_pack("empty-episode", where, number=number)
     if not index.episodes:
-        yield f"{place}: no episodes; expected a table [[episode]] for each"
+        yield in_pack("no-episodes", place)
 
 
-def _about_levels(pack: Pack) -> Iterator[str]:
+def _about_levels(pack: Pack) -> Iterator[PackFinding]:
     names: dict[str, str] = {}
     levels: dict[str, str] = {}
     places: dict[str, str] = {}
     for file, named in pack.levels.items():
         place = pack.files.place(file)
         if named.form == "ascii" and named.name == PurePath(file).stem:
-            yield f"{place}: no name"
+            yield in_pack("no-name", place)
         if not named.author:
-            yield f"{place}: no author"
+            yield in_pack("no-author", place)
         digest = level_digest(named.level)
-        for what, key, seen in (("name", named.name, names), ("content", digest, levels)):
+        for code, key, seen in (("same-name", named.name, names), ("same-content", digest, levels)):
             if key in seen:
-                yield f"{place}: the same {what} as {seen[key]}"
+                yield in_pack(code, place, other=seen[key])
             seen.setdefault(key, file)
         if file[:2].isdecimal() and file[2:3] == "-" and file[4:5] == "-":
             if file[:4] in places:
-                yield f"{place}: the place {file[:4]} is that of {places[file[:4]]} too"
+                yield in_pack("same-place", place, number=file[:4], other=places[file[:4]])
             places.setdefault(file[:4], file)
-        for warning in level_warnings(named.level):
-            yield f"{place}: {warning}"
+        for finding in level_findings(named.level):
+            yield PackFinding(place, finding.code, finding.sentence)
 
 
-def _about_certificates(pack: Pack) -> Iterator[str]:
+def _about_certificates(pack: Pack) -> Iterator[PackFinding]:
     named = {pack.certificate(file, kind) for file in pack.levels for kind in KINDS}
     for name in pack.files.names:
         if name.startswith(CERTIFICATES) and name not in named:
-            yield f"{pack.files.place(name)}: of no level here; expected LEVEL.exit.replay.txt or LEVEL.gold.replay.txt"
+            yield in_pack("stray-certificate", pack.files.place(name))
     for file in pack.levels:
         for kind in KINDS:
             try:
                 found = certificate(pack, file, kind)
                 if found:
-                    yield from (f"{found.place}: {problem}" for problem in found.problems)
+                    yield from (in_pack("certificate", found.place, why=problem) for problem in found.problems)
                 elif kind == "exit":
-                    yield f"{pack.files.place(file)}: no certificate, so nobody knows whether it can be passed"
+                    yield in_pack("no-certificate", pack.files.place(file))
             except NinjaGameError as error:
-                yield str(error)
+                yield in_pack("unreadable", why=error)
 
 
-def _about_pars(pack: Pack) -> Iterator[str]:
+def _about_pars(pack: Pack) -> Iterator[PackFinding]:
     place = pack.files.place(PARS)
-    how = "`ninja-game levels pars` makes it"
     if PARS not in pack.files.names:
-        yield f"{place}: not there; {how}"
+        yield in_pack("no-pars", place)
         return
     try:
         known = parse_pars(pack.files.text(PARS), file=place)
     except NinjaGameError as error:
-        yield str(error)
+        yield in_pack("unreadable", why=error)
         return
     if known != dict(make_pars(pack, tries=0)):
-        yield f"{place}: made from other levels or certificates; {how} anew"
+        yield in_pack("old-pars", place)

@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import IO, Any, TypeAlias
 
 from ninja_game.batch.thread_pool import cores
+from ninja_game.budget import RUN_BUDGET
 from ninja_game.compile_cache import choose_memory
 from ninja_game.files.resources import bundled_levels
 from ninja_game.formats.load import NamedLevel, load_levels
@@ -63,6 +64,7 @@ def verify_all(
     levels: Sequence[NamedLevel] = (),
     strict: bool = False,
     chunks: Iterable[Chunk] = (),
+    budget: int = RUN_BUDGET,
 ) -> Iterator[Result]:
     """A verdict on every recording in files and folders, then in ``chunks``, in order.
 
@@ -73,24 +75,53 @@ def verify_all(
     Dask scheduler whose workers do it instead. ``resume``: a checkpoint log; what it has is not run again.
     ``levels``: those that count, by default the game's own where it matters; a single one is also the level of
     recordings that do not hold theirs. ``strict``: what docs/verification.md demands must hold too.
+    ``budget``: of each run (``ninja_game.budget``).
 
-    Results never depend on who computed them, nor on workers that died meanwhile. Raises ClusterError, FormatError for
-    a file that is no checkpoint log, OSError.
+    Results never depend on who computed them, nor on workers that died meanwhile. Where only some levels count, runs on
+    others are not simulated. Raises ClusterError, FormatError for a file that is no checkpoint log, KnownRunError and
+    MemoryUnavailableError where nothing can be judged, OSError.
     """
     counting = levels or [level for path in bundled_levels() for level in load_levels(path)]
     names = {level_digest(each.level): each.name or f"{each.file}:{each.record}" for each in counting}
-    level = levels[0].level if len(levels) == 1 else None
-    for result in _verify_all(chain(chunks_in(paths), chunks), memory, level, jobs, processes, cluster, resume):
+    asked = Asked(
+        memory, levels[0].level if len(levels) == 1 else None, (*names,) if levels or strict else None, budget
+    )
+    for result in _verify_all(chain(chunks_in(paths), chunks), asked, jobs, processes, cluster, resume):
         if isinstance(result, Unreadable):
             yield result
         else:
             yield judged(result, names, only_these=bool(levels), strict=strict)
 
 
+@dataclass(frozen=True)
+class Asked:
+    """What results depend on besides their chunks: ``verify_chunk``'s arguments."""
+
+    memory: str
+    level: Level | None
+    counting: tuple[str, ...] | None
+    budget: int
+
+    def context(self) -> str:
+        """A text that is another one where results may be; both memories give the same."""
+        level = level_digest(self.level) if self.level else ""
+        return json.dumps([self.memory == "both", level, self.counting and sorted(self.counting), self.budget])
+
+    def as_text(self) -> str:
+        """The same for another machine."""
+        level = write_level_string(self.level, exact=True) if self.level else ""
+        return json.dumps([self.memory, level, self.counting, self.budget])
+
+    @classmethod
+    def from_text(cls, text: str) -> Asked:
+        """What ``as_text`` wrote."""
+        memory, level, counting, budget = json.loads(text)
+        return cls(memory, parse_level_string(level) if level else None, counting, budget)
+
+
 def _verify_all(
     chunks: Iterable[Chunk],
-    memory: str,
-    level: Level | None,
+    asked: Asked,
     jobs: int | None,
     processes: bool | None,
     cluster: str,
@@ -98,28 +129,26 @@ def _verify_all(
 ) -> Iterator[Result]:
     """The results as the recordings alone give them."""
     if processes is None:
-        processes = memory == "both" or choose_memory(memory) == "plain"
+        processes = asked.memory == "both" or choose_memory(asked.memory) == "plain"
     with ExitStack() as stack:
         log = stack.enter_context(CheckpointLog(resume)) if resume else None
-        if cluster or log:
-            chunks = map(self_contained, chunks)
-        context = f"{memory == 'both'} {level_digest(level) if level else ''} "
-        batches = batched(chunks, log, context)
+        if cluster or log is not None:  # an empty log counts as false
+            chunks = (self_contained(chunk, asked.level) for chunk in chunks)
+        batches = batched(chunks, log, asked.context())
         # Few recordings are done before a second worker has started.
         first = next(batches, ())
         second = next(batches, ())
         if not cluster and not second:
-            yield from _record_results(zip([first], [_verify(memory, level, first)], strict=True), log)
+            yield from _record_results(zip([first], [_verify(asked, first)], strict=True), log)
             return
         pool: Workers = stack.enter_context(workers(jobs or cores(), processes=processes, cluster=cluster))
         all_jobs = chain(filter(None, (first, second)), batches)
         try:
             if cluster:
-                text = write_level_string(level, exact=True) if level else ""
-                run = partial(_verify_text, memory, text)
+                run = partial(_verify_text, asked.as_text())
                 done = _isolate_failing(pool, run, all_jobs, chunks_as_text, results_from_text)
             else:
-                done = _isolate_failing(pool, partial(_verify, memory, level), all_jobs, tuple, list)
+                done = _isolate_failing(pool, partial(_verify, asked), all_jobs, tuple, list)
             yield from _record_results(done, log)
         except (CancelledError, ConnectionError) as error:
             if not cluster:
@@ -148,15 +177,17 @@ def _looked_up(chunk: Chunk, log: CheckpointLog, context: str) -> Chunk:
     return Chunk(chunk.file, key=key, done=True) if key in log else replace(chunk, key=key)
 
 
-def _verify(memory: str, level: Level | None, job: Job) -> list[list[Result]]:
+def _verify(asked: Asked, job: Job) -> list[list[Result]]:
     """Verdicts on every chunk of a job that is not done yet."""
-    return [[] if chunk.done else verify_chunk(chunk, memory, level) for chunk in job]
+    counting = None if asked.counting is None else frozenset(asked.counting)
+    return [
+        [] if chunk.done else verify_chunk(chunk, asked.memory, asked.level, counting, asked.budget) for chunk in job
+    ]
 
 
-def _verify_text(memory: str, level: str, job: str) -> str:
+def _verify_text(asked: str, job: str) -> str:
     """The same on another machine: nothing but text goes there and comes back."""
-    given = parse_level_string(level) if level else None
-    return results_as_text(_verify(memory, given, tuple(chunks_from_text(job))))
+    return results_as_text(_verify(Asked.from_text(asked), tuple(chunks_from_text(job))))
 
 
 def _isolate_failing(

@@ -11,11 +11,13 @@ import logging
 import os
 import signal
 import threading
+import time
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from functools import partial
 from itertools import islice
 from multiprocessing import get_context, parent_process
 from typing import Any, Protocol, TypeVar
@@ -33,6 +35,9 @@ AHEAD = 4
 TRIES = 3
 """How often a job may take a process with it before it is given up; a cluster's scheduler counts by itself."""
 
+
+WORKER_BYTES, JOB_SECONDS = 2 << 30, 3600
+"""Memory of a worker process, and processor time that one job may take there, where the system has such limits."""
 
 PATIENCE = 30
 """Seconds to wait for a cluster's first worker."""
@@ -75,7 +80,7 @@ class Workers(Protocol):
 class Local:
     """Threads or processes of this machine."""
 
-    lost: tuple[type[BaseException], ...] = (BrokenProcessPool,)
+    lost: tuple[type[BaseException], ...] = (BrokenProcessPool, MemoryError)
     tries = TRIES
 
     def __init__(self, count: int, *, processes: bool = False) -> None:
@@ -98,6 +103,8 @@ class Local:
 
     def submit(self, function: Callable[[J], R], job: J) -> Any:
         """A future of ``function(job)``. This starts processes."""
+        if self._processes:
+            function = partial(_in_limits, function)
         with held_back():
             try:
                 return self._executor.submit(function, job)
@@ -127,8 +134,24 @@ def _begin_worker() -> None:
     Ctrl-C goes to all processes of a terminal; one that it hits between two jobs would keep the pool from ending, so
     only the parent listens to it. When that is gone, however it ended, the worker ends too.
     """
+    _set_limit("RLIMIT_DATA", WORKER_BYTES)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, name="ninja-game parent", daemon=True).start()
+
+
+def _in_limits(function: Callable[[J], R], job: J) -> R:
+    """``function(job)`` in a worker process, which ends where that takes too long."""
+    _set_limit("RLIMIT_CPU", int(time.process_time()) + JOB_SECONDS)
+    return function(job)
+
+
+def _set_limit(name: str, most: int) -> None:
+    """Lower a limit of this process for good or for a job, where the system has it; the hard limit stays."""
+    with suppress(ImportError, AttributeError, OSError, ValueError):
+        import resource
+
+        which = getattr(resource, name)
+        resource.setrlimit(which, (most, resource.getrlimit(which)[1]))
 
 
 def _end_with_parent() -> None:
@@ -234,7 +257,8 @@ def _retry(pool: Workers, function: Callable[[J], R], job: J) -> R | WorkerLostE
             continue
         return result
     pool.renew()
-    return WorkerLostError("the worker died again and again")
+    limits = f"{WORKER_BYTES >> 30} GiB of memory and {JOB_SECONDS // 60} minutes"
+    return WorkerLostError(f"the worker died again and again; it may take {limits}")
 
 
 def _kept(pool: Workers, function: Callable[[J], R], job: J, future: Any) -> Any:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 
-from ninja_game.batch.difficulty import difficulty
+from ninja_game.batch.difficulty import _failing, difficulty
 from ninja_game.formats.n14.level_string import parse_level_string
 from tests.support.memories import BOTH
 
@@ -34,3 +37,11 @@ def test_mines_along_the_way_make_a_level_harder() -> None:
 def test_run_that_dies_whatever_is_tried_has_a_finite_number() -> None:
     level = parse_level_string(FLAT + "".join(f"!12^{x},564" for x in range(200, 700, 8)))
     assert 1 < difficulty(level, RUN, tries=32) < 100
+
+
+def test_a_try_that_lost_the_run_counts_a_quarter_of_one_that_died() -> None:
+    # The true run first; then one that died, one far away, one near, one that passed far away.
+    batch = SimpleNamespace(
+        outcomes=np.array([0, 2, 0, 0, 1]), positions=np.array([[0, 0], [0, 0], [80, 0], [60, 0], [80, 0]])
+    )
+    assert _failing(batch, slice(1, None)) == (1 + 0.25) / 4  # type: ignore[arg-type]

@@ -10,6 +10,8 @@ from PIL import Image, ImageSequence
 
 from ninja_game.cli.game.film import command
 from ninja_game.formats.n14.demo import write_demo
+from ninja_game.play.replay import film
+from ninja_game.play.replay.playback import Playback
 from ninja_game.sim.inputs import Demo
 from tests.support.samples import SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
 
@@ -50,6 +52,25 @@ def test_record_of_a_file_becomes_a_folder_of_pictures(tmp_path: Path) -> None:
     assert len(list((tmp_path / "film").glob("*.png"))) == 5 + 1 + 1 + 40
     found = film_of(file, "--record", 2)
     assert "no record 2" in str(found.exception)
+
+
+def test_film_of_a_run_without_an_end_wants_its_last_tick_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(film, "MOST_PICTURES", 30)
+    file = write_records(tmp_path / "long.txt", ("long", "0" * 713 + "|5^100,566", running(1000)))
+    steps: list[int] = []
+    step = Playback.step
+
+    def noted(playback: Playback) -> None:
+        steps.append(playback.tick)
+        step(playback)
+
+    monkeypatch.setattr(Playback, "step", noted)
+    assert "more than 30 pictures; name its last tick: --to" in str(film_of(file).exception)
+    assert len(steps) <= 32, "no more of the run is simulated than a film would show"
+    assert film_of(file, "--to", 40, "-o", tmp_path / "film", "--size", "132x100").exit_code == 0
+    assert len(list((tmp_path / "film").glob("*.png"))) == 41
 
 
 def test_film_never_replaces_its_replay_and_needs_a_known_form(replay: Path, tmp_path: Path) -> None:

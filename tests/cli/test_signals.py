@@ -100,6 +100,38 @@ def test_a_signal_in_the_depths_of_python_is_neither_lost_nor_a_traceback(code: 
     assert (done.returncode, done.stderr) == (end[0], f"ninja-game: {end[1]}\n")
 
 
+MOMENTS = {
+    "nothing": ("--help", 400),
+    "bad usage": ("fly", 400),
+    "a short command": ("info far.txt", 1500),
+    "on threads": ("verify walk.replay.txt --memory plain --jobs 2 -q", 15000),
+    "with libraries": ("splits walk.replay.txt", 5000),
+}
+"""A command, and one of how many calls of functions is a moment."""
+
+
+@pytest.mark.parametrize("name", MOMENTS)
+@pytest.mark.parametrize("number", ["SIGTERM", "SIGINT"])
+def test_a_signal_at_any_moment_ends_the_program_with_a_line_at_most(number: str, name: str, work: Path) -> None:
+    """From the first line of the program to the end of its process: no other exit code, no traceback."""
+    words, every = MOMENTS[name]
+    program = [sys.executable, "-m", "tests.support.stopped_everywhere", number, str(every), *words.split()]
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}
+    done = subprocess.run(program, cwd=work, env=environment, capture_output=True, text=True, timeout=600, check=False)
+    ends = done.stdout.splitlines()
+    assert len(ends) > 50, done.stderr
+    assert [end for end in ends if not end.startswith("right ")] == []
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_that_waits_while_python_starts_ends_the_program(number: signal.Signals) -> None:
+    """As tools/dev.py starts it."""
+    waiting = f"import os, signal; signal.pthread_sigmask(signal.SIG_BLOCK, [2]); os.kill(os.getpid(), {number:d})"
+    start = f"{waiting}; os.execv({sys.executable!r}, [{sys.executable!r}, '-m', 'ninja_game', '--help'])"
+    done = subprocess.run([sys.executable, "-c", start], capture_output=True, text=True, timeout=200, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (-number, "", "")
+
+
 def test_a_signal_waits_until_processes_have_started() -> None:
     done = []
     with pytest.raises(KeyboardInterrupt), held_back():  # noqa: PT012 - it is raised behind the block

@@ -16,7 +16,7 @@ from ninja_game import ArgumentError, Simulation, parse_level
 from ninja_game.compile_cache import compiled_available
 from ninja_game.directed import background
 from ninja_game.directed.background import SpanSearch
-from ninja_game.directed.expressions import FormulaError
+from ninja_game.directed.formula import FormulaError
 from ninja_game.directed.span import Found, SpanTask
 from tests.support.waiting import LONGEST
 

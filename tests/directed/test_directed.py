@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from ninja_game import ArgumentError, Simulation, parse_level
 from ninja_game.batch.batch import Batch
 from ninja_game.cli.main import cli
-from ninja_game.directed.expressions import FormulaError, parse_number, parse_truth
+from ninja_game.directed.formula import FormulaError, parse_number, parse_truth
 from ninja_game.directed.methods import count_ways, search_span
 from ninja_game.directed.span import Found, SpanTask
 from ninja_game.directed.view import FACTS, NAMES, SPAN_NAMES, difference_from, view_of
@@ -96,20 +96,23 @@ def test_names_mean_what_a_simulation_shows() -> None:
 @pytest.mark.parametrize(
     "text, column, message",
     [
-        ("x >", 4, "an unfinished formula; found the end"),
-        ("", 1, "an unfinished formula"),
-        ("x > 3 4", 7, "something after the end; found '4'"),
-        ("__import__('os')", 1, "an unknown name"),
-        ("import os", 1, "an unknown name; found 'import'"),
+        ("x >", 4, "not a formula; found the end"),
+        ("", 1, "not a formula; found the end"),
+        ("x > 3 4", 7, "not a formula; found '4'"),
+        ("__import__(x)", 1, "an unknown name; found '__import__(x)'"),
+        ("import os", 1, "not a formula"),
         ("x > 1; y", 6, "a character that no formula has; found ';'"),
-        ("taken(2", 8, "an unfinished formula"),
-        ("taken", 6, "'taken' without its numbers"),
-        ("taken(1, 2)", 8, "an unfinished formula; found ','; expected ')'"),
-        ("1 < 2 < 3", 7, "two comparisons in a row"),
-        ("x and y > 1", 3, "a number beside"),
-        ("(x > 1) + 2", 9, "a truth where a number belongs"),
-        ("-" * 50 + "x > 1", 42, "too many brackets"),
-        ("(" * 50, 42, "too many brackets"),
+        ("taken(2", 6, "not a formula; found '(2'"),
+        ("taken", 1, "'taken' with 0 numbers; found 'taken'; expected taken(number)"),
+        ("taken(1, 2)", 1, "'taken' with 2 numbers"),
+        ("x and y > 1", 1, "a number beside"),
+        ("(x > 1) + 2", 2, "true or false where a number belongs"),
+        ("  x.real > 1", 3, "not a part of a formula; found 'x.real'"),
+        ("x in y", 1, "an unknown comparison"),
+        ("1j > x", 1, "not a part of a formula; found '1j'"),
+        ("True", 1, "not a part of a formula"),
+        ("-" * 50 + "x > 1", 40, "too many brackets"),
+        ("(" * 500, 201, "not a formula"),
         ("x", 0, "a number, neither true nor false; found 'x'"),
         ("x" * 2000, 0, "a formula that is too long"),
     ],
@@ -119,6 +122,13 @@ def test_what_is_no_formula_is_named_with_its_place(text: str, column: int, mess
         parse_truth(text, NAMES, FACTS)
     assert message in str(caught.value)
     assert caught.value.column == column
+
+
+def test_comparisons_in_a_row_hold_together() -> None:
+    view = view_of(at_ten_ticks())
+    chained, joined = (parse_truth(text, NAMES, FACTS) for text in ("90 < x < 110", "90 < x and x < 110"))
+    assert chained.value(view).tolist() == joined.value(view).tolist() == [1, 1, 1]
+    assert chained.margin(view).tolist() == joined.margin(view).tolist()
 
 
 @given(st.text("xyvtick<>=!()+-*/ 0123.andornot,_$", max_size=40))
@@ -132,7 +142,7 @@ def test_any_text_is_a_formula_or_an_error_of_ours(text: str) -> None:
             formula.value(view_of(at_ten_ticks()))
 
 
-def test_an_object_that_there_is_not_is_named() -> None:
+def test_an_unknown_object_is_named() -> None:
     view = view_of(at_ten_ticks())
     wrong = {"taken(9)": "no object 9", "taken(1)": "object 1 is of kind exit", "opened(0.5)": "no object 0.5"}
     for text, message in wrong.items():
@@ -312,7 +322,7 @@ def test_command_says_what_is_wrong(run: Path) -> None:
     )
     wrong = called(run, "--from", 0, "--to", 9, "--goal", "x >")
     assert wrong.exit_code == 2
-    assert "ninja-game: goal, column 4: an unfinished" in wrong.stderr
+    assert "ninja-game: goal, column 4: not a formula; found the end" in wrong.stderr
     number = called(run, "--from", 0, "--to", 9, "--maximise", "x > 3")
     assert "ninja-game: measure: true or false, no number; found 'x > 3'" in number.stderr
     assert "say what is wanted" in called(run, "--from", 0, "--to", 9).stderr

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 import time
@@ -15,6 +16,7 @@ from ninja_game.editor.autosave import FOLDER, Autosave, recovered
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import (
     OccupiedError,
+    digest_of,
     draft_of,
     draft_of_text,
     new_source,
@@ -231,6 +233,57 @@ def test_an_autosave_is_found_only_after_its_editor_has_died(tmp_path: Path) -> 
     assert not list((tmp_path / FOLDER).iterdir())
 
 
+def kept(folder: Path, path: Path | str, digest: str, name: str = "a") -> None:
+    """An autosave that names a path, whoever wrote it."""
+    (folder / FOLDER).mkdir(exist_ok=True)
+    level = ascii_text(new_source().draft.with_tiles({(9, 9): 1}))
+    (folder / FOLDER / f"{name}.json").write_text(json.dumps({"path": str(path), "digest": digest, "level": level}))
+
+
+def test_an_autosave_knows_no_file_but_a_level_that_is_there(tmp_path: Path) -> None:
+    other = tmp_path / "profile"
+    other.write_text("# what every machine has, of a known digest\n")
+    (tmp_path / "dangling").symlink_to(tmp_path / "nothing")
+    for path in (tmp_path / "missing", other, tmp_path / "dangling", tmp_path, "/dev/null", "a\0b"):
+        kept(tmp_path, path, digest_of(other))
+        (found,) = recovered(tmp_path)
+        assert found.source.path is None
+    path = hand_written(tmp_path)
+    kept(tmp_path, path, "0" * 64)
+    (found,) = recovered(tmp_path)
+    assert found.source.path == path
+    with pytest.raises(OccupiedError, match="changed by another program"):
+        save(found.source, found.draft, path)
+
+
+def test_a_file_that_has_gone_meanwhile_is_not_made_again_without_asking(tmp_path: Path) -> None:
+    path = hand_written(tmp_path)
+    source = open_source(path)
+    path.unlink()
+    with pytest.raises(OccupiedError, match=r"cave\.txt was removed by another program"):
+        save(source, source.draft.with_tiles({(9, 9): 1}), path)
+    assert save(source, source.draft, path, replacing=True).path == path
+    link = tmp_path / "link.txt"
+    link.symlink_to(tmp_path / "nothing")
+    with pytest.raises(OccupiedError, match=r"there is a file link\.txt already"):
+        save(new_source(), source.draft, link)
+
+
+def test_an_autosave_names_its_file_wherever_the_next_editor_starts(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    hand_written(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    source = open_source(Path("cave.txt"))
+    autosave = Autosave(tmp_path)
+    autosave.flush(source.draft.with_tiles({(9, 9): 1}), source)
+    autosave.close(keep=True)
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    hand_written(tmp_path / "elsewhere")
+    assert [found.source.path for found in recovered(tmp_path)] == [tmp_path / "cave.txt"]
+
+
 def test_an_autosave_goes_when_the_draft_is_saved_or_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("ninja_game.editor.autosave.SPACING", 0.0)
     source = new_source()
@@ -249,7 +302,7 @@ def test_an_autosave_goes_when_the_draft_is_saved_or_left(tmp_path: Path, monkey
 
 def test_a_damaged_autosave_and_a_folder_that_cannot_be_written_stop_nothing(tmp_path: Path) -> None:
     (tmp_path / FOLDER).mkdir()
-    for number, text in enumerate(("", "{}", "[1]", '{"path": 3, "level": "x", "digest": ""}')):
+    for number, text in enumerate(("", "{}", "[1]", "[" * 100_000, '{"path": 3, "level": "x", "digest": ""}')):
         (tmp_path / FOLDER / f"{number}.json").write_text(text)
     assert not list(recovered(tmp_path))
     blocked = tmp_path / "file"

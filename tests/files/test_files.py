@@ -58,7 +58,7 @@ def test_new_files_have_the_usual_rights_and_old_ones_keep_theirs(tmp_path: Path
 def test_content_is_on_the_disk_before_its_name_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     calls: list[str] = []
     monkeypatch.setattr(os, "fsync", lambda _: calls.append("sync"))
-    monkeypatch.setattr(Path, "replace", lambda *_: calls.append("replace"))
+    monkeypatch.setattr(os, "replace", lambda *_, **__: calls.append("replace"))
     write_atomically(tmp_path / "a", b"content")
     assert calls == ["sync", "replace", "sync"]
 

@@ -53,6 +53,16 @@ MEDIAN, LONGEST = 8 * 1024, 64 * 1024
 """Characters: of the median link, which is demanded, and of the longest of ours and the reference."""
 
 
+@pytest.mark.parametrize("broken", ["# level=1.", "#\nlev\r\nel =1.", "#level%3D1.", "#%6Cevel=1."])
+def test_a_link_that_was_broken_or_escaped_on_its_way_is_still_one(broken: str) -> None:
+    link = "https://example.org/game/" + LINK.replace("#level=1.", broken)
+    assert is_link(link)
+    assert not is_pack(Path(link))
+    (named,) = load_levels(Path(link))
+    assert level_digest(named.level) == level_digest(LEVEL)
+    assert is_pack(Path(pack_link({"pack.toml": ""}).replace("#pack", "# pa ck")))
+
+
 def test_every_level_of_ours_comes_back_and_its_link_is_short() -> None:
     sizes = []
     for path in bundled_levels():

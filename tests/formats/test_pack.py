@@ -89,6 +89,15 @@ def test_names_in_a_zip_that_lead_elsewhere_are_passed_by(tmp_path: Path) -> Non
     assert pack.files.names == ("good.txt", "pack.toml")
 
 
+def test_file_without_a_name_in_a_zip_is_passed_by(tmp_path: Path) -> None:
+    path = zip_pack(tmp_path / "odd.zip", {"pack.toml": INDEX, "good.txt": LEVEL, "x": LEVEL})
+    data = bytearray(path.read_bytes())
+    data[data.rindex(b"PK\1\2") + 46] = 0  # the library cuts names at a zero byte: the last one is empty now
+    data[data.rindex(b"PK\3\4") + 30] = 0
+    path.write_bytes(data)
+    assert Pack(path).files.names == ("good.txt", "pack.toml")
+
+
 def test_zip_that_is_none_broken_or_too_large_is_an_error_of_ours(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

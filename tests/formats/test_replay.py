@@ -107,7 +107,7 @@ def test_inputs_read_back_equal(ticks: bytes) -> None:
 
 
 def test_a_byte_that_is_no_input_is_refused() -> None:
-    with pytest.raises(DemoError, match="tick 1 has keys that there are not; found 16"):
+    with pytest.raises(DemoError, match="tick 1 has unknown keys; found 16"):
         write_inputs(b"\x00\x10")
 
 

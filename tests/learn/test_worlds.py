@@ -118,3 +118,18 @@ def test_observations_stay_in_their_space(normalised: bool) -> None:
     for row in random_actions(200, 3):
         worlds.step(DISCRETE_KEYS[row], restart=worlds.ended())
         assert all(seen in worlds.observation.space for seen in worlds.observations)
+
+
+@pytest.mark.parametrize("memory", BOTH)
+def test_a_restored_world_shows_no_events_of_the_step_before(memory: str) -> None:
+    worlds = make(2, memory=memory)
+    worlds.reset(levels=[0, 0])
+    jump = np.array([KEY_RIGHT | JUMP_HELD] * 2, np.uint8)
+    for _ in range(30):
+        worlds.step(jump)
+        if worlds.events.all():
+            break
+    assert worlds.events.all()
+    worlds.restore(worlds.save([0]), [1])
+    assert worlds.events[0]
+    assert not worlds.events[1]

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import math
+import re
 import time
+from pathlib import Path
 
 import pytest
 
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.levels.findings import Finding
+from ninja_game.levels.findings import LEVEL_RULES, PACK_RULES, Rule
 from ninja_game.levels.reach import Ground
 from ninja_game.levels.warnings import level_findings, level_warnings, object_name
 from ninja_game.sim import kinds
-from ninja_game.sim.level import TILES, Level, ObjectSpec
+from ninja_game.sim.level import ROWS, TILES, Level, ObjectSpec
 from tests.support.reference import levels
 
 PROPER = (ObjectSpec(kinds.NINJA, (36.0, 564.0)), ObjectSpec(kinds.EXIT, (700.0, 564.0, 300.0, 564.0)))
@@ -282,8 +284,25 @@ def test_findings_name_records_and_cells_and_say_how_to_mend_them() -> None:
     assert all(finding.mend for finding in found.values())
 
 
-def test_every_warning_has_advice() -> None:
-    assert not [text for _, _, text in CASES.values() if not Finding(text).mend]
+def test_advice_belongs_to_the_code_not_to_words_that_two_texts_share() -> None:
+    (flag,) = level_findings(Level(objects=(*PROPER, ObjectSpec(kinds.DRONE, (100.0, 100.0, 0.0, 7.0, 0.0, 0.0)))))
+    assert (flag.code, flag.text, flag.mend) == (
+        "seeker-flag", "its seeker flag is not 0 or 1", "Choose whether it seeks."
+    )  # fmt: skip
+
+
+def test_every_code_is_explained_in_the_documents() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "findings.md").read_text("utf-8")
+    rules = {**LEVEL_RULES, **PACK_RULES}
+    assert [row for row in map(row_of, rules.items()) if row not in page] == []
+    assert page.count("\n| `") == len(rules)
+
+
+def row_of(entry: tuple[str, Rule]) -> str:
+    """A code's line of docs/findings.md."""
+    code, rule = entry
+    text = re.sub(r"\{(\w+)[^}]*\}", lambda value: value[1].upper(), rule.text)
+    return f"| `{code}` | {text} | {rule.mend} |"
 
 
 WALL = dict.fromkeys(range(1, 23), "....#")
@@ -365,3 +384,12 @@ def test_published_levels_are_mostly_proper() -> None:
     found = [warning for row in levels() for warning in level_warnings(parse_level_string(row.data))]
     assert len(found) <= 32
     assert not [warning for warning in found if "exit" in warning or "ninja at" in warning]
+
+
+def test_the_ninja_reaches_a_disc_in_a_wall_as_far_as_its_own_radius_goes() -> None:
+    # One open row at the bottom; what lies in the rock above it is touched from up to 10 + 6 px away.
+    tiles = tuple(0 if cell % ROWS == ROWS - 1 else 1 for cell in range(TILES))
+    ground = Ground(Level(tiles, PROPER))
+    top = 23 * 24.0
+    assert ground.touchable(300.0, top - 15.5, 6.0)
+    assert not ground.touchable(300.0, top - 16.5, 6.0)

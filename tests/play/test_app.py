@@ -11,13 +11,15 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import export_path
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.recording import Recording
-from ninja_game.play.app import App
+from ninja_game.play.app import App, build_app
+from ninja_game.play.audio.output import AudioOutput
 from ninja_game.play.boss import BossScreen
 from ninja_game.play.main import first_screen, main, run_app
 from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.menus.watch_replay import watch_recording
 from ninja_game.play.screen import Screen
 from ninja_game.play.window import Window
+from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import Settings
 from ninja_game.sim.inputs import Demo
 from tests.support.menu_driver import MenuDriver
@@ -43,6 +45,53 @@ def test_full_screen_and_ghost_keys_outlast_a_change_of_settings() -> None:
         assert app.window.fullscreen
         assert not app.settings.show_ghost
         assert "fullscreen = true" in (app.player.folder / "settings.toml").read_text()
+
+
+OTHER = {
+    "palette": "dark", "ninja_colour": "#186285", "fullscreen": True, "volume": 11, "loop_volume": 12,
+    "dead_zone": 0.8, "keys": {"jump": ("x",)}, "pad": {"jump": ("b",)},
+}  # fmt: skip
+"""Another value for each setting that the app hands on; all others are read where they are used."""
+
+
+class Volumes(AudioOutput):
+    """Remembers its volumes."""
+
+    def __init__(self, settings: Settings) -> None:
+        self.volumes = settings.volume, settings.loop_volume
+
+    def set_volumes(self, volume: int, loop_volume: int) -> None:
+        self.volumes = volume, loop_volume
+
+
+def handed_on(app: App) -> dict[str, object]:
+    """What the settings have become."""
+    stick = pygame.Event(pygame.CONTROLLERAXISMOTION, instance_id=77, axis=0, value=16_000)
+    assert isinstance(app.audio_output, Volumes)
+    return {
+        "palette": app.theme.palette, "fullscreen": app.window.fullscreen, "volumes": app.audio_output.volumes,
+        "stick": app.controls.pads.changes(stick), "keys": app.controls.keys, "pad": app.controls.pad,
+        "settings": app.settings,
+    }  # fmt: skip
+
+
+def test_a_setting_that_is_changed_is_at_once_as_after_a_new_start(tmp_path: Path) -> None:
+    found = []
+    for changed in (True, False):
+        if changed:
+            app = build_app(tmp_path, size=(792, 600), audio_output=Volumes(Settings()))
+            before = handed_on(app)
+            app.controls.pads.changes(pygame.Event(pygame.CONTROLLERAXISMOTION, instance_id=77, axis=0, value=0))
+            app.change_settings(**OTHER)
+        else:
+            settings = PlayerData(tmp_path).settings
+            assert settings == Settings().changed(**OTHER)
+            app = build_app(tmp_path, size=(792, 600), audio_output=Volumes(settings))
+        found.append(handed_on(app))
+        app.window.set_fullscreen(wanted=False)
+        app.player.close()
+    assert [name for name in before if found[0][name] != found[1][name]] == []
+    assert [name for name in before if found[0][name] == before[name]] == [], "some of them say nothing"
 
 
 def test_level_started_from_the_command_line_has_the_pause_panel() -> None:

@@ -36,6 +36,11 @@ def test_a_letter_leaves_ink_inside_its_sheet(character: str, *, bold: bool) -> 
     assert ink.bottom < picture.get_height(), "descenders are not cut"
 
 
+@pytest.mark.parametrize("text", ["\u034f", "\ufe0f\ufe0f", "e\u034f", "\u3164", "\U000e0100"])
+def test_a_name_of_characters_without_width_is_drawn(text: str) -> None:
+    assert Lettering(Canvas((792, 600))).rendered(text, 12, "white").get_height()
+
+
 def test_strokes_stay_near_their_width() -> None:
     for character in [*GLYPHS, *"áèîõüçŠůŘÿĄłÅØßìĐħ"]:
         letter = glyph(character)

@@ -25,6 +25,7 @@ from ninja_game.sim.death import kill
 from ninja_game.sim.states import ELECTRIC, EXPLOSIVE
 from ninja_game.simulation import Simulation
 from tests.support.own_pack import PACK
+from tools.draw import screens
 from tools.draw.contact_sheet import THINGS, paint_things
 
 HERE = Path(__file__).parent
@@ -114,6 +115,16 @@ def test_a_scene_looks_as_accepted(name: str) -> None:
     if mean > MEAN_TOLERANCE or worst > BLOCK_TOLERANCE:
         pygame.image.save(picture, str(new))
         pytest.fail(f"{name} differs (mean {mean}, worst block {worst}); look at {new}, or accept it (see above)")
+
+
+@pytest.mark.parametrize("name", screens.SCREENS)
+def test_a_picture_of_the_documents_is_of_the_program_as_it_is(name: str) -> None:
+    shown = screens.draw(name)
+    golden = pygame.Surface(shown.get_size())
+    golden.blit(pygame.image.load(screens.PICTURES / name), (0, 0))
+    mean, worst = difference(shown, golden)
+    assert mean <= MEAN_TOLERANCE, "run `python3 tools/dev.py docs`"
+    assert worst <= BLOCK_TOLERANCE, "run `python3 tools/dev.py docs`"
 
 
 def test_comparison_sees_that_the_ninja_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,4 +1,5 @@
-"""Every screen of the game against a recorded list of its texts and draw calls in `tests/play/golden/screens/`.
+"""Every screen of the game, in all its states, against a recorded list of its texts and draw calls in
+`tests/play/golden/`: `screens`, and `tas-screens` of the TAS editor, which a page has not.
 
 To accept changed screens and pictures run `python3 tools/dev.py accept-pictures` and read the difference with git.
 """
@@ -6,30 +7,82 @@ To accept changed screens and pictures run `python3 tools/dev.py accept-pictures
 from __future__ import annotations
 
 import os
+import re
+from collections.abc import Iterator
 from difflib import unified_diff
 from pathlib import Path
+from types import CodeType
 
 import pytest
 
+from tests.support.bench_screens import BenchLog, tas_editor, with_rows_once
+from tests.support.draw_log import DrawLog
 from tests.support.game_screens import screens_as_texts
+from tools import ROOT
 
-GOLDEN = Path(__file__).parent / "golden" / "screens"
+GOLDEN = Path(__file__).parent / "golden"
 ACCEPT = bool(os.environ.get("ACCEPT_PICTURES"))
-NAMES = sorted(path.stem for path in GOLDEN.glob("*.txt"))
+NAMES = sorted(f"{path.parent.name}/{path.stem}" for path in GOLDEN.glob("*screens/*.txt"))
+DRAWS = re.compile(r"_?(draw|paint)(_|$)")
+NOT_SHOWN = {
+    "lab/figure.py: Figure.draw": "its figures do",
+    "screen.py: Screen.draw": "its screens do",
+    "tas/part.py: Part.paint": "its parts do",
+    "ui/widgets.py: Widget.draw": "its widgets do",
+    "replay/paths.py: _draw_speeds": "of the pictures that `compare` writes",
+    "tas/roll/mouse.py: RollMouse._paint": "paints keys with the mouse, not a picture",
+    "view/overlays.py: _draw_box": "of ninjas with a box as their body",
+    "view/overlays.py: _paint_edges": "kept from the first picture on; test_pictures.py shows it",
+    "view/overlays.py: _paint_grid": "kept from the first picture on; test_pictures.py shows it",
+}
+"""Functions of the front end that draw, and why no state of a screen shows what they draw."""
 
 
 @pytest.fixture(scope="module")
-def screens(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
-    """The text of each screen by its name."""
-    return screens_as_texts(tmp_path_factory.mktemp("player"))
+def logs() -> tuple[DrawLog, BenchLog]:
+    """Of the two tours."""
+    return DrawLog(), BenchLog()
+
+
+@pytest.fixture(scope="module")
+def screens(tmp_path_factory: pytest.TempPathFactory, logs: tuple[DrawLog, BenchLog]) -> dict[str, str]:
+    """The text of each screen by its folder and name."""
+    game = screens_as_texts(tmp_path_factory.mktemp("player"), log=logs[0])
+    tas = with_rows_once(screens_as_texts(tmp_path_factory.mktemp("player"), steps=tas_editor, log=logs[1]))
+    return {f"screens/{name}": text for name, text in game.items()} | {
+        f"tas-screens/{name}": text for name, text in tas.items()
+    }
+
+
+def drawing_functions() -> Iterator[tuple[str, CodeType]]:
+    """All functions and methods of the front end that draw, by file and name."""
+    for path in sorted((ROOT / "ninja_game" / "play").rglob("*.py")):
+        found = [compile(path.read_text("utf-8"), str(path), "exec")]
+        while found:
+            code = found.pop()
+            found += [each for each in code.co_consts if isinstance(each, CodeType)]
+            if DRAWS.match(code.co_name):
+                yield f"{path.relative_to(ROOT / 'ninja_game' / 'play')}: {code.co_qualname}", code
+
+
+def test_every_function_that_draws_is_shown_by_some_screen(
+    screens: dict[str, str], logs: tuple[DrawLog, BenchLog]
+) -> None:
+    """A new screen, part or tab is in a tour of tests/support, or here with a reason."""
+    assert screens
+    called = {(Path(code.co_filename), code.co_firstlineno) for log in logs for code in log.called}
+    missing = {
+        name for name, code in drawing_functions() if (Path(code.co_filename), code.co_firstlineno) not in called
+    }
+    assert sorted(missing) == sorted(NOT_SHOWN)
 
 
 def test_recorded_screens_are_those_that_there_are(screens: dict[str, str]) -> None:
     if ACCEPT:
-        GOLDEN.mkdir(parents=True, exist_ok=True)
-        for path in GOLDEN.glob("*.txt"):
+        for path in GOLDEN.glob("*screens/*.txt"):
             path.unlink()
         for name, text in screens.items():
+            (GOLDEN / name).parent.mkdir(parents=True, exist_ok=True)
             (GOLDEN / f"{name}.txt").write_text(text, "utf-8")
     else:
         assert sorted(screens) == NAMES

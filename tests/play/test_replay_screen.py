@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from random import Random
 
 import pygame
 import pytest
 
+from ninja_game.budget import TURN_WORK, tick_cost
 from ninja_game.formats.load import load_replays
+from ninja_game.play.app import App
 from ninja_game.play.replay import playback
 from ninja_game.play.replay.film import Film, write_film
-from ninja_game.play.replay.playback import RecordedRun, recorded_run
+from ninja_game.play.replay.playback import Playback, RecordedRun, recorded_run
 from ninja_game.play.replay.screen import AFTERMATH, SPEEDS, ReplayScreen
 from ninja_game.play.ui.theme import Theme
 from ninja_game.runs import save_states
 from ninja_game.simulation import Simulation
+from tests.support.heavy import heavy_level
 from tests.support.own_pack import PACK
 from tests.support.scripted import frames, press, scripted_app
 
@@ -31,15 +36,23 @@ def straight_digests(take: RecordedRun, ticks: int) -> list[str]:
     return digests
 
 
+def settle(app: App, screen: ReplayScreen) -> None:
+    """Let turns pass until the end of the run is known and the moment sought is reached."""
+    while not screen.settled:
+        frames(app, 1, 0)
+
+
 def test_any_tick_sought_is_the_one_of_a_straight_run() -> None:
     with scripted_app((396, 300)) as (app, _):
         screen = ReplayScreen(app, [TAKE])
         app.push(screen)
+        settle(app, screen)
         digests = straight_digests(TAKE, screen.length)
         chance = Random(4)
         for tick in [0, 1, screen.length, *(chance.randrange(screen.length) for _ in range(40))]:
             screen.seek(tick)
             frames(app, 1, 0)
+            settle(app, screen)
             assert screen.tick == tick
             assert screen.playback.simulation.digest() == digests[tick]
 
@@ -76,6 +89,7 @@ def test_it_starts_again_after_the_end() -> None:
     with scripted_app((396, 300)) as (app, _):
         screen = ReplayScreen(app, [TAKE])
         app.push(screen)
+        settle(app, screen)
         screen.still_ms = 0
         screen.seek(screen.end + AFTERMATH - 2)
         frames(app, 3)
@@ -88,8 +102,10 @@ def test_others_on_the_same_level_run_along() -> None:
         screen = ReplayScreen(app, [TAKE, other, other])
         app.push(screen)
         screen.seek(80)
+        settle(app, screen)
         assert [ghost.simulation.tick for ghost in screen.ghosts] == [80, 80]
         screen.seek(20)
+        settle(app, screen)
         assert [ghost.simulation.tick for ghost in screen.ghosts] == [20, 20]
 
 
@@ -128,8 +144,10 @@ def test_home_and_end_lead_to_the_start_and_the_outcome() -> None:
     with scripted_app((396, 300)) as (app, _):
         screen = ReplayScreen(app, [TAKE])
         app.push(screen)
+        settle(app, screen)
         press("last")
         frames(app, 1, 0)
+        settle(app, screen)
         assert screen.tick == screen.end
         press("first")
         frames(app, 1, 0)
@@ -193,6 +211,86 @@ def test_sound_is_back_after_seeking_even_if_it_fails(monkeypatch: pytest.Monkey
         with pytest.raises(RuntimeError):
             screen.seek(50)
         assert screen.view.audible
+
+
+def work_of_turns(app: App, monkeypatch: pytest.MonkeyPatch, deeds: list[Callable[[], object]]) -> list[int]:
+    """The work of each turn, as they pass: ticks of all worlds times what a tick of theirs costs.
+
+    ``deeds``: what is to happen at the start of the next turn.
+    """
+    turns = [0]
+    step, frame = Playback.step, app.frame
+
+    def counted(playback: Playback) -> None:
+        turns[-1] += tick_cost(playback.simulation.level)
+        step(playback)
+
+    def turn(ms: int) -> None:
+        turns.append(0)
+        while deeds:
+            deeds.pop()()
+        frame(ms)
+
+    monkeypatch.setattr(Playback, "step", counted)
+    monkeypatch.setattr(app, "frame", turn)
+    return turns
+
+
+@pytest.mark.parametrize("blocks, speed", [(11_000, 1), (1000, 6), (0, 6)])
+def test_no_turn_of_the_costliest_run_is_longer_than_others(
+    monkeypatch: pytest.MonkeyPatch, blocks: int, speed: int
+) -> None:
+    run = RecordedRun("long", heavy_level(blocks), bytes(1_000_000))
+    with scripted_app((396, 300)) as (app, _):
+        deeds: list[Callable[[], object]] = []
+        turns = work_of_turns(app, monkeypatch, deeds)
+        screen = ReplayScreen(app, [run, RecordedRun("a", run.level, bytes(9)), RecordedRun("b", run.level, bytes(9))])
+        app.push(screen)
+        frames(app, 2)
+        assert (screen.tick, screen.settled) == (0, False), "the first picture is there while the end is looked for"
+        screen.still_ms, screen.speed = 0, speed
+        frames(app, 5, 300)
+        played = screen.tick
+        assert played
+        deeds += [partial(screen.seek, played + tick) for tick in range(200, 250)]
+        frames(app, 3)
+        assert screen.tick > played
+        deeds.append(partial(screen.seek, 3))
+        frames(app, 8)
+        screen.toggle_pause()
+        frames(app, 3)
+        # A tick of each of the worlds is the least that there can be beside it.
+        assert max(turns) <= TURN_WORK + 4 * tick_cost(run.level)
+
+
+def test_ghosts_catch_up_after_a_leap_in_turns() -> None:
+    level = heavy_level(300)
+    with scripted_app((396, 300)) as (app, _):
+        screen = ReplayScreen(app, [RecordedRun(name, level, bytes(500)) for name in "abc"])
+        app.push(screen)
+        screen.toggle_pause()
+        screen.seek(400)
+        while screen._way:
+            frames(app, 1, 0)
+        assert any(ghost.behind for ghost in screen.ghosts)
+        settle(app, screen)
+        assert [ghost.simulation.tick for ghost in screen.ghosts] == [400, 400]
+        assert screen.ghosts[0].simulation.digest() == screen.playback.simulation.digest()
+
+
+def test_a_run_that_costs_too_much_is_shown_as_far_as_it_may_go(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("ninja_game.play.replay.screen.affordable_ticks", lambda _: 50)
+    with scripted_app((396, 300)) as (app, _):
+        screen = ReplayScreen(app, [TAKE])
+        assert app.notice == "This run costs too much work: it is shown up to tick 50"
+        settle(app, screen)
+        assert screen.end == 50
+
+
+def test_save_states_of_large_levels_are_few() -> None:
+    played = playback.Playback(Simulation(heavy_level(3000)), bytes(110), spacing=1)
+    played.seek(110)
+    assert len(played._states) <= 300_000 / 3000
 
 
 def test_long_run_keeps_few_states_and_every_moment_stays_exact(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import os
 import wave
+from collections.abc import Iterator
 from pathlib import Path
+from unittest.mock import Mock
 
 import numpy as np
 import pygame
 import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.play.audio.player import AudioPlayer
+from ninja_game.play.audio.player import AudioPlayer, _has_loop
 from ninja_game.play.audio.table import BY_DEATH, BY_EVENT, CORPSE, LOOPS, OTHER_DEATH, loop_levels
+from ninja_game.sim import states
+from ninja_game.sim.events import DIED, EVENT_NAMES
+from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER
 from ninja_game.simulation import Simulation
 from tools.make_sounds import RECIPES, samples
 from tools.synthesis import RATE
@@ -53,6 +59,53 @@ def test_loops_end_as_they_begin(name: str) -> None:
 def test_other_sounds_die_away_before_they_end(name: str) -> None:
     made = np.abs(np.frombuffer(samples(name), "<i2").astype(float))
     assert made[-RATE // 100 :].max() <= 0.3 * made.max()
+
+
+SOUNDS = Path(__file__).parent / "golden" / "sounds.txt"
+
+
+def heard(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+    """A line for each event, each way to die, each speed of a corpse and each lasting sound."""
+    player, played = AudioPlayer(folder), list[str]()
+    monkeypatch.setattr(player, "works", True)
+    monkeypatch.setattr(player, "play", lambda name, **_: played.append(name))
+    monkeypatch.setattr(player, "_loop", lambda *_: None)
+    monkeypatch.setattr(player, "_chance", Mock(choice=" or ".join))
+    world = Simulation(FLAT).world
+    world.event_count = 1
+    for kind, name in enumerate(EVENT_NAMES):
+        world.events[0].kind = kind
+        causes = {
+            "LASER": states.LASER, "EXPLOSIVE": states.EXPLOSIVE, "FALL": states.FALL, "ELECTRIC": states.ELECTRIC,
+            "any other": 99,
+        } if kind == DIED else {"": 0}  # fmt: skip
+        for cause, number in causes.items():
+            world.events[0].cause = number
+            player.play_events(world)
+            yield f"{name}{f', {cause.lower()}' * bool(cause)}: {', '.join(played) or 'nothing'}"
+            played.clear()
+    for speed in (1.0, 1.5, 2.5, 3.5):
+        player._corpse_at = -1.0
+        player.corpse(speed)
+        yield f"corpse at {speed} px/tick: {', '.join(played) or 'nothing'}"
+        played.clear()
+    lasting = {
+        "a rocket that flies": (LAUNCHER, states.LAUNCHER_FLIGHT), "a launcher that waits": (LAUNCHER, 0),
+        "a drone that fires": (DRONE, states.DRONE_FIRING), "a drone that moves": (DRONE, 0),
+        "a guard that chases": (FLOOR_GUARD, states.GUARD_CHASE), "a guard that waits": (FLOOR_GUARD, 0),
+    }  # fmt: skip
+    for name, (kind, routine) in lasting.items():
+        machine = Mock(kind=kind, routine=routine, weapon=states.WEAPON_LASER)
+        found = [loop for loop, level in loop_levels(world, [machine] if _has_loop(machine) else []).items() if level]
+        yield f"{name}: {', '.join(found) or 'nothing'}"
+
+
+def test_each_event_sounds_as_accepted(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Write the list anew with ACCEPT_PICTURES=1 in the environment."""
+    text = "\n".join(heard(folder, monkeypatch)) + "\n"
+    if os.environ.get("ACCEPT_PICTURES"):
+        SOUNDS.write_text(text, "utf-8")
+    assert text == SOUNDS.read_text("utf-8")
 
 
 def test_skid_and_slide_follow_the_speed() -> None:

@@ -3,17 +3,27 @@
 from __future__ import annotations
 
 import io
-from pathlib import Path
+import json
+import sqlite3
+from collections.abc import Callable
+from contextlib import closing
+from pathlib import Path, PurePosixPath
+from typing import Any
 from zipfile import ZipFile
 
 import pytest
 from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
+from ninja_game.editor.ascii_text import ascii_text
+from ninja_game.editor.autosave import recovered
 from ninja_game.errors import FileError
-from ninja_game.player.backup import read_backup, write_backup
+from ninja_game.files.tree import Tree
+from ninja_game.player.backup import MOST_REPLAYS, MOST_ROWS, _Folder, read_backup, write_backup
+from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.player.saving import keep_replay
+from tests.support.level_maker import ROOM
 from tests.support.players import deadly_level, entry, episode, played, player_data, short_level
 
 
@@ -26,7 +36,7 @@ def filled(folder: Path) -> Path:
     levels = episode()
     data.records.episode_passed(levels.key, 900, [played(each.named.level).replay("e") for each in levels.levels])
     data.progress.level_passed((0, 2), legitimate=True)
-    data.statistics.attempt_ended("x", killer="mine", passed=False, ticks=5, gold=1)
+    data.statistics.attempt_ended("a" * 64, killer="mine", passed=False, ticks=5, gold=1)
     data.change_settings(data.settings.changed(palette="dark"))
     (folder / "levels" / "own.txt").write_text("a level")
     (folder / "levels" / ".hidden").write_text("not this")
@@ -79,6 +89,13 @@ def test_what_is_better_stays_and_files_of_one_name_stand_beside_each_other(tmp_
     assert player_data(tmp_path / "to").settings.palette == "dark"
 
 
+ELSEWHERE = (
+    "../out.txt", "levels/../../out.txt", "/out.txt", "levels/.hidden", "levels/a/b.txt", "x.txt", "levels/..\\out.txt",
+    "levels/CON.txt", "levels/aux", "levels/a.txt.", "levels/a ", "levels/\x9b2J.txt", "levels/\u202egnp.txt",
+    f"levels/{'ä' * 200}.txt", "levels/c:out.txt", "tas/a.jsonl",
+)  # fmt: skip
+
+
 def packed(**files: bytes) -> bytes:
     out = io.BytesIO()
     with ZipFile(out, "w") as archive:
@@ -100,13 +117,194 @@ def test_what_is_no_backup_changes_nothing(data: bytes, tmp_path: Path) -> None:
     assert sorted(tmp_path.rglob("*")) == before
 
 
-def test_names_that_lead_elsewhere_are_passed_by(tmp_path: Path) -> None:
+@pytest.mark.parametrize("name", ELSEWHERE, ids=ascii)
+def test_a_name_that_leads_elsewhere_or_is_odd_somewhere_is_left_out_and_told(name: str, tmp_path: Path) -> None:
     backup = filled(tmp_path / "from")
     with ZipFile(backup, "a") as archive:
-        for name in ("../out.txt", "levels/../../out.txt", "/out.txt", "levels/.hidden", "levels/a/b.txt", "x.txt"):
-            archive.writestr(name, "stranger")
-    read_backup(player_data(tmp_path / "to"), backup.read_bytes())
-    assert "stranger" not in [path.read_text() for path in tmp_path.rglob("*.txt")]
+        archive.writestr(name, "untrusted")
+    (line,) = [line for line in read_backup(player_data(tmp_path / "to"), backup.read_bytes()) if "left out" in line]
+    assert line.isprintable()
+    assert "untrusted" not in [path.read_text() for path in tmp_path.rglob("*.txt")]
+    assert (tmp_path / "to" / "levels" / "own.txt").read_text() == "a level"
+
+
+def test_an_odd_name_of_ones_own_does_not_go_along_and_is_told(tmp_path: Path) -> None:
+    data = player_data(tmp_path)
+    (tmp_path / "levels" / "what?.txt").write_text("a level")
+    assert write_backup(data, tmp_path / "all.zip") == [
+        'left out: levels/what?.txt: not one of /\\:*?"<>| may be in it'
+    ]
+    assert "levels/what?.txt" not in ZipFile(tmp_path / "all.zip").namelist()
+
+
+def test_names_that_are_one_file_on_some_system_stand_beside_each_other(tmp_path: Path) -> None:
+    backup = filled(tmp_path / "from")
+    with ZipFile(backup, "a") as archive:
+        for name in ("levels/\u00c9.txt", "levels/e\u0301.TXT", "levels/OWN.txt"):
+            archive.writestr(name, name)
+    lines = read_backup(player_data(tmp_path / "to"), backup.read_bytes())
+    there = {path.name for path in (tmp_path / "to" / "levels").iterdir()}
+    assert there == {"own.txt", "OWN-2.txt", "\u00c9.txt", "e\u0301-2.TXT"}
+    assert read_backup(player_data(tmp_path / "to"), backup.read_bytes())[1] == "0 new files", lines
+
+
+@pytest.mark.parametrize("target", ["outside.txt", "made.txt"])
+def test_a_link_among_the_players_files_is_not_written_through(target: str, tmp_path: Path) -> None:
+    backup = filled(tmp_path / "from")
+    (tmp_path / "outside.txt").write_text("mine")
+    here = player_data(tmp_path / "to")
+    (tmp_path / "to" / "levels" / "own.txt").symlink_to(tmp_path / target)
+    read_backup(here, backup.read_bytes())
+    assert (tmp_path / "outside.txt").read_text() == "mine"
+    assert not (tmp_path / "made.txt").exists()
+    assert (tmp_path / "to" / "levels" / "own-2.txt").read_text() == "a level"
+
+
+def everything(data: PlayerData) -> tuple[list[str], dict[Path, bytes]]:
+    """All rows of the records, and all other files."""
+    files = {
+        path: path.read_bytes() for path in data.folder.rglob("*") if path.is_file() and "records" not in path.name
+    }
+    return list(data.store.connection.iterdump()), files
+
+
+@pytest.mark.parametrize("after", range(4))
+def test_a_disk_that_is_full_in_the_middle_leaves_everything_as_it_was(
+    after: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    backup = filled(tmp_path / "from")
+    with ZipFile(backup, "a") as archive:
+        archive.writestr("replays/a.txt", "one more")
+    here = player_data(tmp_path / "to")
+    here.change_settings(here.settings.changed(name="me"))
+    before = everything(here)
+    write, left = Tree.write, iter(range(after))
+
+    def full(tree: Tree, name: str, content: bytes | str) -> None:
+        if next(left, None) is None:
+            raise OSError(28, "No space left on device")
+        write(tree, name, content)
+
+    monkeypatch.setattr(Tree, "write", full)
+    if after == 3:
+        monkeypatch.setattr("ninja_game.player.backup._Folder.takes", full_at_the_end(_Folder.takes))
+    with pytest.raises(OSError, match="No space left"):
+        read_backup(here, backup.read_bytes())
+    assert everything(here) == before
+
+
+def full_at_the_end(takes: Callable[..., bool]) -> Callable[..., bool]:
+    """Takes everything, and fails after the settings, as a transaction may at its end."""
+
+    def failing(folder: _Folder, name: PurePosixPath, *more: Any) -> bool:
+        taken = takes(folder, name, *more)
+        if name.name == "settings.toml":
+            raise OSError(28, "No space left on device")
+        return taken
+
+    return failing
+
+
+def with_records(backup: Path, *statements: str) -> bytes:
+    """The backup after these statements on its records."""
+    with ZipFile(backup) as archive:
+        files = {name: archive.read(name) for name in archive.namelist()}
+    path = backup.with_suffix(".sqlite")
+    path.write_bytes(files["records.sqlite"])
+    with closing(sqlite3.connect(path)) as db:
+        for statement in statements:
+            db.execute(statement)
+        db.commit()
+    files["records.sqlite"] = path.read_bytes()
+    out = io.BytesIO()
+    with ZipFile(out, "w") as archive:
+        for name, content in files.items():
+            archive.writestr(name, content)
+    return out.getvalue()
+
+
+NOTHING = "NULL, '', '', '', '', '', '', 0, 0, 0, '', '', '', 1, 0"
+COUNTING = "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < {}) "
+
+
+@pytest.mark.parametrize(
+    "statement, said",
+    [
+        (f"INSERT INTO played {COUNTING.format(MOST_ROWS)} SELECT i, 1, 1, 1, 1, 1 FROM n", "rows in the table played"),
+        (f"INSERT INTO replay {COUNTING.format(MOST_REPLAYS)} SELECT {NOTHING} FROM n", "rows in the table replay"),
+        ("CREATE TRIGGER t BEFORE UPDATE ON replay BEGIN DELETE FROM replay; END", "the trigger t is not ours"),
+        ("CREATE TRIGGER replay BEFORE UPDATE ON replay BEGIN DELETE FROM replay; END", "trigger replay is not ours"),
+        ("CREATE INDEX i ON replay (length(hex(inputs)))", "the index i is not ours"),
+        ("CREATE VIEW saved AS SELECT * FROM replay", "the view saved is not ours"),
+        ("CREATE TABLE more (a)", "the table more is not ours"),
+        ("PRAGMA user_version = 99", "newer game"),
+    ],
+)
+def test_records_that_hold_too_much_or_more_than_rows_change_nothing(statement: str, said: str, tmp_path: Path) -> None:
+    data = with_records(filled(tmp_path / "from"), statement)
+    here = player_data(tmp_path / "to")
+    before = everything(here)
+    with pytest.raises(FileError, match=said):
+        read_backup(here, data)
+    assert everything(here) == before
+
+
+LONG = "a" * 64
+
+
+@pytest.mark.parametrize(
+    "table, statement",
+    [
+        ("played", "INSERT INTO played VALUES ('no digest', 1, 1, 1, 1, 1)"),
+        ("played", f"INSERT INTO played VALUES ('{LONG}', -1, 1, 1, 1, 1)"),
+        ("played", f"INSERT INTO played VALUES ('{LONG}', 1, 1, 1, {2**60}, 1)"),
+        ("death", "INSERT INTO death VALUES ('nobody', 1)"),
+        ("level_mark", f"INSERT INTO level_mark VALUES ('{LONG}', 'cube', 1, 1)"),
+        ("progress", "INSERT INTO progress VALUES ('pack', 3, 99, 0, 99, 0)"),
+        ("progress", "INSERT INTO progress VALUES (char(27) || '[2J', 0, 1, 0, 1, 0)"),
+        ("episode_best", f"INSERT INTO episode_best VALUES ('{LONG}', 'circle', 99999, '')"),
+        ("replay", "UPDATE replay SET kept = 1, final_tick = 2000000"),
+        ("replay", "UPDATE replay SET kept = 1, outcome = 'won'"),
+        ("replay", "UPDATE replay SET kept = 1, inputs = x'ff'"),
+        ("replay", f"UPDATE replay SET kept = 1, level = '{LONG}'"),
+        ("replay", "UPDATE replay SET kept = 1, gold = -1"),
+    ],
+)
+def test_rows_that_no_game_writes_are_left_out(table: str, statement: str, tmp_path: Path) -> None:
+    empty = player_data(tmp_path / "from")
+    if table == "replay":
+        keep_replay(empty, played(deadly_level()).replay("dead"))
+    write_backup(empty, tmp_path / "all.zip")
+    empty.close()
+    here = player_data(tmp_path / "to")
+    read_backup(here, with_records(tmp_path / "all.zip", statement))
+    assert here.store.connection.execute(f"SELECT count(*) FROM {table}").fetchone() == (0,)
+
+
+def autosave(path: Path, digest: str = "") -> str:
+    return json.dumps({"path": str(path), "digest": digest, "level": ascii_text(ROOM)})
+
+
+def test_a_level_under_edit_of_another_machine_has_no_file_here(tmp_path: Path) -> None:
+    victim = tmp_path / "victim"
+    victim.write_text("mine")
+    backup = filled(tmp_path / "from")
+    with ZipFile(backup, "a") as archive:
+        for number, text in enumerate((autosave(victim), autosave(tmp_path / "new"), "no JSON", "[" * 9999, "[]")):
+            archive.writestr(f"editing/{number}.json", text)
+    here = player_data(tmp_path / "to")
+    read_backup(here, backup.read_bytes())
+    found = list(recovered(tmp_path / "to"))
+    assert [(each.draft, each.source.path) for each in found] == [(ROOM, None)] * 2
+    assert read_backup(here, backup.read_bytes())[1] == "0 new files"
+
+
+def test_an_own_level_under_edit_is_not_doubled_by_the_own_backup(tmp_path: Path) -> None:
+    here = player_data(tmp_path)
+    (tmp_path / "editing").mkdir()
+    (tmp_path / "editing" / "a.json").write_text(autosave(tmp_path / "a.txt"))
+    write_backup(here, tmp_path / "all.zip")
+    assert read_backup(here, (tmp_path / "all.zip").read_bytes())[1] == "0 new files"
 
 
 def test_the_commands_move_a_player(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sqlite3
-from contextlib import suppress
+from contextlib import closing, suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,6 +18,7 @@ from ninja_game.player.scoring import seconds_text
 from ninja_game.player.statistics import KILLERS
 from ninja_game.player.store import Store
 from ninja_game.player.store.migrations import VERSION
+from ninja_game.player.store.schema import open_database
 from tests.support.players import deadly_level, entry, episode, played, player_data, short_level
 
 
@@ -145,3 +146,8 @@ def test_keeping_a_run_whose_row_is_damaged_saves_it_anew(edit: str, tmp_path: P
     data.store.connection.execute(edit)
     data.close()
     assert_a_replay_can_be_kept(tmp_path)
+
+
+def test_no_value_of_a_gigabyte_is_made(tmp_path: Path) -> None:
+    with closing(open_database(str(tmp_path / "records.sqlite"))) as records, pytest.raises(sqlite3.DataError):
+        records.execute("SELECT length(hex(zeroblob(500000000)))")

@@ -49,6 +49,7 @@ def test_all_gold_is_told_once_and_stays_when_a_better_score_has_less(tmp_path: 
     assert mark == (EXIT_TICK, 2)
     assert has_all_gold(level, mark)
     assert notices[1:] == ["Author medal: saved", "All gold: saved"]
+    assert passed(tmp_path, level) == ([], mark), "the same run again"
     data = player_data(tmp_path)
     assert data.marks.passed(level.digest, EXIT_TICK - 1, 0) == (EXIT_TICK - 1, 2)
     assert not has_all_gold(with_pars(), Mark(1, 0)), "a level without gold has no mark for it"

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import copy
+import math
+import pickle
 import signal
 import subprocess
 import sys
@@ -38,11 +41,11 @@ def test_a_simulation_says_what_it_is_and_how_far(memory: str) -> None:
 
 
 @pytest.mark.parametrize("memory", BOTH)
-def test_keys_that_there_are_not_are_refused_at_the_entry(memory: str) -> None:
+def test_unknown_keys_are_refused_at_the_entry(memory: str) -> None:
     for keys in (16, 200, -1):
         with pytest.raises(ArgumentError, match="sum of Input flags"):
             Simulation(LEVEL, memory=memory).step_keys(keys)
-    with pytest.raises(DemoError, match="tick 1 has keys that there are not; found 16"):
+    with pytest.raises(DemoError, match="tick 1 has unknown keys; found 16"):
         run_level(LEVEL, bytes([0, 16]), memory=memory)
     with pytest.raises(DemoError, match="tick 0"):
         trace_level(LEVEL, bytes([99]), memory=memory)
@@ -111,3 +114,27 @@ def test_ctrl_c_ends_a_long_compiled_run_soon() -> None:
         finally:
             process.kill()
     assert "KeyboardInterrupt" in errors
+
+
+@pytest.mark.parametrize("memory", BOTH)
+def test_a_save_state_after_a_kill_is_another_than_the_one_before(memory: str) -> None:
+    run = Simulation(LEVEL, memory=memory)
+    run.step(right=True)
+    before = run.save()
+    run.kill(1, 0.0, 0.0)
+    after = run.save()
+    assert (run.outcome, before == after, after == run.save()) == ("dead", False, True)
+    run.restore(before)
+    assert (run.outcome, run.save() == before) == ("running", True)
+    for cause in (-3, 99):
+        with pytest.raises(ArgumentError, match=f"cause is {cause}; expected 0 to 7"):
+            run.kill(cause, 0.0, 0.0)
+    assert (run.outcome, run.events) == ("running", [])
+
+
+def test_a_level_with_a_nan_equals_its_copies() -> None:
+    level = parse_level(TEXT + "!12^100,what")
+    assert math.isnan(level.objects[-1].values[1])
+    assert {level, pickle.loads(pickle.dumps(level)), copy.deepcopy(level), parse_level(TEXT + "!12^100,what")} == {
+        level
+    }

@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from types import FunctionType
 
 import pytest
 
@@ -138,3 +139,16 @@ def test_without_numba_auto_is_plain_and_compiled_says_what_to_install(monkeypat
         choose_memory("compiled")
     with pytest.raises(ArgumentError, match="expected 'plain'"):
         choose_memory("fast")
+
+
+@needs_numba
+def test_machine_code_is_another_if_a_literal_of_a_rule_is_edited() -> None:
+    from ninja_game.sim.memory.compiler import code_digest
+
+    def rule(x: float) -> float:
+        return x * 2.5
+
+    edited = FunctionType(rule.__code__.replace(co_consts=(None, 3.5)), rule.__globals__, rule.__name__)
+    edited.__qualname__, edited.__module__ = rule.__qualname__, rule.__module__
+    assert (rule(1.0), edited(1.0)) == (2.5, 3.5)
+    assert code_digest(edited, "") != code_digest(rule, "")

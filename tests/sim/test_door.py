@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from ninja_game import parse_level, run_level
 from ninja_game.compile_cache import compiled_available
 from ninja_game.errors import LevelError
+from ninja_game.numba_import import import_numba
 from ninja_game.sim.kinds import GOLD, NINJA
 from ninja_game.sim.level import TILES, Level, ObjectSpec
 from ninja_game.sim.memory.compiled import CompiledMemory
@@ -63,7 +64,7 @@ def test_what_is_no_level_is_refused(level: Level, message: str, memory: str) ->
 @cache
 def checked() -> Compiler:
     """One compiler of kernels that refuse indices out of range, for all examples."""
-    return Compiler(checked=True)
+    return Compiler(import_numba(), checked=True)
 
 
 numbers = st.one_of(st.floats(), st.integers(-3, 40).map(float), st.sampled_from([math.nan, math.inf, 1e300, 792.0]))

@@ -21,10 +21,14 @@ from ninja_game.play.view.sprites.static_sprite_state import static_sprites_of
 from ninja_game.player.statistics import KILLERS
 from ninja_game.sim import events, kinds
 from ninja_game.sim.death import idle_event
+from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.kinds import INERT, KINDS, NINJA, NO_KIND, Kind
 from ninja_game.sim.memory.object_fields import Header, Object
+from ninja_game.sim.memory.plain import PlainMemory
 from ninja_game.sim.objects import dispatch
-from ninja_game.sim.traces import status_of
+from ninja_game.sim.traces import is_traced, status_of
+from tests.support.crowded import crowded_inputs, crowded_level
+from tests.support.own_fields import own_fields_only
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 OF_LEVELS = [kind for kind in KINDS if kind.number >= 0]
@@ -118,3 +122,12 @@ def test_what_a_trace_shows_of_a_kind_is_documented(kind: Kind) -> None:
     table = (ROOT / "docs" / "replay-format.md").read_text("utf-8").partition("| kind | x, y | s |")[2]
     first_column = re.findall(r"^\| ([^|]+) \|", table, re.MULTILINE)
     assert kind.name in ", ".join(first_column).split(", ")
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_rules_and_traces_read_only_fields_that_an_object_s_kind_has(seed: int) -> None:
+    memory = PlainMemory(crowded_level(seed), box=bool(seed % 2))
+    slots = [slot for slot in range(1, memory.id_count + 1) if is_traced(memory.world(), slot)]
+    with own_fields_only():
+        assert len(memory.trace(crowded_inputs(seed), slots, events=True).ninja)
+        assert replay_digest(memory.world())

@@ -7,6 +7,7 @@ from itertools import combinations
 import pytest
 
 from ninja_game.compile_cache import compiled_available
+from ninja_game.numba_import import import_numba
 from ninja_game.sim.events import emit
 from ninja_game.sim.memory.compiled import CompiledMemory
 from ninja_game.sim.memory.compiler import Compiler
@@ -82,7 +83,7 @@ def test_a_median_level_fits_in_64_kib() -> None:
 
 @needs_numba
 def test_no_index_is_ever_out_of_range() -> None:
-    checked = Compiler(checked=True)
+    checked = Compiler(import_numba(), checked=True)
     for seed in range(60):
         memory = CompiledMemory(checked, crowded_level(seed), box=seed % 2 == 1)
         memory.trace(crowded_inputs(seed, 150), range(1, memory.id_count + 1), events=True)
@@ -90,7 +91,7 @@ def test_no_index_is_ever_out_of_range() -> None:
 
 @needs_numba
 def test_checked_kernels_refuse_an_index_out_of_range() -> None:
-    memory = CompiledMemory(Compiler(checked=True), crowded_level(0), box=False)
+    memory = CompiledMemory(Compiler(import_numba(), checked=True), crowded_level(0), box=False)
     with pytest.raises(IndexError):
         memory.observe(CAPACITY)
 
@@ -107,6 +108,6 @@ def test_entry_points_are_registered_rules_with_names_of_their_own() -> None:
 
 @needs_numba
 def test_a_rule_is_compiled_once_whatever_constants_its_callers_write() -> None:
-    compiler = Compiler()
+    compiler = Compiler(import_numba())
     CompiledMemory(compiler, crowded_level(0), box=False).kill(0, 0.0, 0.0)
     assert len(compiler._twin(emit).signatures) == 1

@@ -7,22 +7,24 @@ import pytest
 
 from ninja_game.compile_cache import compiled, compiled_available
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
 
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
-from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.inputs import KEY_RIGHT, press_jumps
 from ninja_game.sim.memory.plain import PlainMemory
 from ninja_game.solver.distance_field import POINTS, UNREACHED, point_at
 from ninja_game.solver.heuristics import Heuristics
 from ninja_game.solver.legs.tour import short_tour
-from ninja_game.solver.local_search import LocalCounters
+from ninja_game.solver.local_search import LocalCounters, score_of
 from ninja_game.solver.macro_actions import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_inputs
 from ninja_game.solver.mutations import cut, mutate, overwrite, shift_boundary, shift_pulse, stretch
 from ninja_game.solver.search_memory import UNKNOWN, Entry, Link, Resolution, back_up_values, open_start, zeroed
 from ninja_game.solver.search_run import Search
-from ninja_game.solver.state_abstraction import key_of
+from ninja_game.solver.state_abstraction import key_of, open_mask
+from tests.support.own_fields import apart, own_fields_only
 
 OPEN = "0" * 713 + "|"
 CORRIDOR = ("0" * 10 + "1" * 12 + "0") * 10 + "0" * 23 * 21
@@ -73,6 +75,25 @@ def test_a_locked_door_sends_to_its_switch_first() -> None:
     closed, opened = heuristics.field(0, 200.0, 566.0), heuristics.field(0b10, 60.0, 566.0)
     assert closed[point_at(60, 566)] < closed[point_at(200, 566)] < UNREACHED
     assert opened[point_at(200, 566)] < opened[point_at(60, 566)]
+
+
+def test_what_is_open_is_read_from_the_fields_that_exits_and_doors_have() -> None:
+    text = (
+        "0" * 713
+        + "|5^100,566!11^700,300,140,566!11^600,300,400,300!9^160,566,0,0,10,23,1,0,0!9^220,566,0,1,10,23,0,0,0"
+    )
+    world = PlainMemory(parse_level_string(text), box=False)
+    heuristics = heuristics_of(text)
+    with own_fields_only():
+        assert open_mask(world.world(), heuristics.slots) == 0
+    assert heuristics.opened({"objects": apart(world.world().objects)}) == 0
+    with own_fields_only():
+        for _ in range(60):
+            world.step(KEY_RIGHT)
+        seen = open_mask(world.world(), heuristics.slots)
+    # The first exit's switch, the locked door and the trap door were run through, in the order of Heuristics.switches.
+    assert seen == 0b1101
+    assert heuristics.opened({"objects": apart(world.world().objects)}) == seen
 
 
 def test_a_one_way_platform_is_passed_from_its_back_only() -> None:
@@ -203,3 +224,15 @@ def test_a_tour_heeds_what_lies_only_downhill() -> None:
     steps = heights[None, :] - heights[:, None]
     between = np.where(steps > 0, 100.0 * steps, -1.0 * steps)
     assert short_tour(np.array([5.0, 5.0, 5.0]), between, np.zeros(3)) == [0, 2, 1]
+
+
+def test_of_two_runs_to_the_exit_in_the_same_tick_the_deeper_one_scores_better() -> None:
+    world = PlainMemory(parse_level_string(OPEN + "5^100,300!11^400,300,200,300"), box=False).world()
+    exit_ = next(o for o in world.objects if o.kind == EXIT)
+    exit_.is_open = 1
+    world.tick = 100
+    scores = []
+    for distance in (0.0, 11.0, 22.0):
+        world.ninja.x = exit_.x - distance
+        scores.append(score_of(world))
+    assert scores == [100.0 - 0.99, 100.0 - 0.99 / 2, 100.0]

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pygame
 
+from ninja_game.formats.recording import Recording
 from ninja_game.play.app import build_app
 from ninja_game.play.input.scancodes import SCANCODES
 from ninja_game.play.tas.screen import TasScreen
@@ -30,6 +31,16 @@ class BenchDriver(MenuDriver):
         self.session = self.screen.session
         self.app.push(self.screen)
         self.frames(2)
+
+    @classmethod
+    def over(cls, driver: MenuDriver, run: Path, beside: Sequence[Recording] = ()) -> BenchDriver:
+        """The same over the screens of a program that runs already."""
+        made = cls.__new__(cls)
+        made.keys, made.app = driver.keys, driver.app
+        made.app.push(TasScreen(made.app, open_run(run), beside))
+        made.adopt()
+        made.frames(2)
+        return made
 
     def adopt(self) -> None:
         """Go on at the bench on top: it has taken the first one's place."""

@@ -1,17 +1,21 @@
 """What is drawn, as lines of text: every text, shape, sprite and picture of one whole redraw, in its order.
 
-Numbers are logical px, colours are roles of the palette.
+Numbers are logical px, colours are roles of the palette. ``DrawLog.called``: the functions of the front end that drew.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import sys
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
-from typing import Any
+from types import CodeType, FrameType
+from typing import Any, ClassVar
 from unittest.mock import patch
 
 import pygame
 
+from ninja_game.play.editor.desk import Desk
+from ninja_game.play.editor.overlay import Overlay
 from ninja_game.play.menus.thumbnails import Thumbnails
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.lettering import Lettering
@@ -32,10 +36,19 @@ def _sprite_name(key: SpriteKey) -> str:
     return f"{name}({', '.join(map(str, key.parameters))}){turn}{faded}"
 
 
+Note = tuple[Any, str, Callable[..., str]]
+"""A class or module, the name of its method, and the line of a call."""
+
+
 class DrawLog:
     """The lines of what is drawn while ``recording`` lasts, between ``installed`` and its end."""
 
+    containers: ClassVar[Sequence[tuple[type, str]]] = ()
+    """Methods whose parts are noted as well."""
+
     def __init__(self) -> None:
+        self.called: set[CodeType] = set()
+        self._depth = 0
         self._lines: list[str] | None = None
         self._palette: Palette | None = None
         self._static: dict[Backdrop, dict[int, list[tuple[SpriteKey, float, float]]]] = {}
@@ -46,20 +59,33 @@ class DrawLog:
         self._palette = palette
         lines: list[str] = []
         self._lines = lines
+        sys.setprofile(self._note_call)
         try:
             yield lines
         finally:
+            sys.setprofile(None)
             self._lines = None
 
-    @contextmanager
-    def installed(self) -> Iterator[None]:
-        """The methods that draw are watched."""
-        notes: list[tuple[type, str, Callable[..., str]]] = [
+    def _note_call(self, frame: FrameType, event: str, _: Any) -> None:
+        if event == "call":
+            self.called.add(frame.f_code)
+
+    def notes(self) -> list[Note]:
+        """What is watched, and the line that is noted of a call."""
+        return [
             (Lettering, "draw", self._text),
             (Canvas, "fill_rect", self._fill),
             (Canvas, "frame_rect", self._frame),
-            (Canvas, "line", lambda _, __, c, a, b, w=1: f"line {self._colour(c)} {_at(*a)} to {_at(*b)} width {w:g}"),
-            (Canvas, "circle", lambda _, __, c, at, r, w=0: f"circle {self._colour(c)} {_at(*at)} r {r:g} width {w:g}"),
+            (
+                Canvas,
+                "line",
+                lambda _, __, c, a, b, w=1: f"line {self._colour(c)} {_at(*a)} to {_at(*b)} width {w:g}",
+            ),
+            (
+                Canvas,
+                "circle",
+                lambda _, __, c, at, r, w=0: f"circle {self._colour(c)} {_at(*at)} r {r:g} width {w:g}",
+            ),
             (Canvas, "polygon", lambda _, __, c, at: f"polygon {self._colour(c)} {'  '.join(_at(*p) for p in at)}"),
             (DrawTarget, "sprite", lambda _, key, x, y: f"sprite {_sprite_name(key)} at {_at(x, y)}"),
             (DrawTarget, "picture", lambda _, __, x, y: f"figure at {_at(x, y)}"),
@@ -68,24 +94,44 @@ class DrawLog:
             (Thumbnails, "draw", lambda _, __, e, x, y, w: f"thumbnail of {e.title!r} at {_at(x, y)} width {w:g}"),
             (Backdrop, "_place", self._place),
             (Backdrop, "update", self._backdrop),
+            (Desk, "draw", self._desk),
+            (Overlay, "_frame", lambda _, area, c: f"frame {self._colour(c)} round cells {_at(*area)}"),
+            (Overlay, "_ghost_tile", lambda _, cell, tile: f"ghost of tile {tile} in cell {_at(*cell)}"),
         ]
+
+    def alone(self) -> list[Note]:
+        """Those that are noted only where they are no part of others."""
+        return []
+
+    @contextmanager
+    def installed(self) -> Iterator[None]:
+        """The methods that draw are watched."""
         with ExitStack() as stack:
-            for owner, method, note in notes:
-                stack.enter_context(self._watched(owner, method, note))
+            for note in self.notes():
+                stack.enter_context(self._watched(*note, alone=False))
+            for note in self.alone():
+                stack.enter_context(self._watched(*note, alone=True))
             yield
 
-    def _watched(self, owner: type, method: str, note: Callable[..., str]) -> Any:
+    def _watched(self, owner: Any, method: str, note: Callable[..., str], *, alone: bool) -> Any:
         """Patch a method: note its call, then do it."""
         original = getattr(owner, method)
 
         def noted(*args: Any, **named: Any) -> Any:
-            if self._lines is not None or method == "_place":
-                line = note(*args, **named)
-                if line and self._lines is not None:
-                    self._lines.append(line)
-            return original(*args, **named)
+            if (self._lines is not None and not (alone and self._depth)) or method == "_place":
+                self._note(note(*args, **named))
+            inner = (owner, method) not in self.containers
+            self._depth += inner
+            try:
+                return original(*args, **named)
+            finally:
+                self._depth -= inner
 
         return patch.object(owner, method, noted)
+
+    def _note(self, line: str) -> None:
+        if line and self._lines is not None:
+            self._lines.append(line)
 
     def _colour(self, colour: Any) -> str:
         found = pygame.Color(colour)
@@ -96,6 +142,11 @@ class DrawLog:
         return f"#{found.r:02x}{found.g:02x}{found.b:02x}{alpha}"
 
     # --- lines of what has many parameters ---
+
+    def _desk(self, desk: Desk, *_: Any, **__: Any) -> str:
+        """The level with its marks is painted again, too."""
+        desk._look = ()
+        return ""
 
     def _text(self, _: Any, surface: Any, text: str, x: float, y: float, size: float, colour: Any,
               *, align: str = "left", bold: bool = False) -> str:  # fmt: skip

@@ -4,28 +4,40 @@ the recorded screens of the tests."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from datetime import date
 from pathlib import Path
 from random import Random
-from unittest.mock import patch
+from threading import Thread
+from typing import TYPE_CHECKING, Self, cast
+from unittest.mock import Mock, patch
 
 import pygame
 
 from ninja_game import __version__
 from ninja_game.editor.files import Source, draft_of
 from ninja_game.editor.stamp import Stamp, put
+from ninja_game.files.resources import bundled_replays
+from ninja_game.formats.load import load_replays
 from ninja_game.formats.named_level import parse_levels
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.help.screen import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.menus.settings.screen import PAGES
+from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.level import ObjectSpec
 from tests.support.draw_log import DrawLog
+from tests.support.level_maker import ROOM, examine
 from tests.support.menu_driver import MenuDriver
-from tests.support.own_pack import instead_of_ours
+from tests.support.own_pack import PACK, instead_of_ours
+
+if TYPE_CHECKING:
+    from ninja_game.solver.certificate import VerifiedRun
 
 RANGE = """ninja-game level 1
 name: Target practice
@@ -67,9 +79,13 @@ DATE = "2026-02-03T04:05:06+00:00"
 
 
 def always_alike() -> list[object]:
-    """Patches that take chance, the date and our levels out of the screens; start them before the program."""
+    """Patches that take chance, the date, our levels and threads out of the screens; start them before the program."""
     patches = [patch(name, lambda seed=None: Random(seed or 1)) for name in WITHOUT_CHANCE]
-    return [instead_of_ours(), *patches, patch("ninja_game.player.records.now_text", lambda: DATE)]
+    return [
+        instead_of_ours(), *patches, patch("ninja_game.player.records.now_text", lambda: DATE),
+        patch("ninja_game.editor.background.beside", lambda work, _: work()),
+        patch("ninja_game.play.editor.session.CHECK_SPACING", 0.0),
+    ]  # fmt: skip
 
 
 def tour(driver: MenuDriver) -> Iterator[str]:
@@ -82,6 +98,8 @@ def tour(driver: MenuDriver) -> Iterator[str]:
     yield from _help(driver)
     yield from _lab(driver)
     yield from _editor(driver)
+    yield from _daily(driver)
+    yield from _film(driver)
 
 
 def home(driver: MenuDriver) -> None:
@@ -285,7 +303,7 @@ def _editor(driver: MenuDriver) -> Iterator[str]:
         draft, Stamp({(8, 12): 7, (9, 12): 1, (10, 12): 6, (12, 17): 1}, (*gold, ObjectSpec(MINE, (300.0, 420.0))))
     )
     screen.commands.edit(Source(draft))
-    screen.session.finish_checks()
+    examine(screen)
     driver.frames(3)
     yield "editor"
     driver.press("grave", "o", "m")
@@ -303,17 +321,129 @@ def _editor(driver: MenuDriver) -> Iterator[str]:
     driver.press("escape")
     screen.session.close()
     driver.app.pop()
+    yield from _editor_states(driver)
 
 
-def run_tour(folder: Path, size: tuple[int, int], show: Callable[[MenuDriver, str], None]) -> None:
-    """Play the whole tour in an empty folder of a player's; ``show`` is called at each screen."""
+def _editor_states(driver: MenuDriver) -> Iterator[str]:
+    """Symmetry under the mouse, a certificate and a stale one, a test, the choice of a level, what is not saved."""
+    screen = driver.open("Editor")
+    assert isinstance(screen, EditorScreen)
+    screen.commands.edit(Source(ROOM))
+    driver.frames(2)
+    for name, tile in (("tiles", True), ("objects", False)):
+        for symmetry in ("left-right", "both"):
+            screen.session.bench.symmetry = symmetry
+            screen.session.bench.take(8 if tile else ObjectSpec(GOLD, (0.0, 0.0)))
+            driver.mouse(200, 160, click=False)
+            yield f"editor-symmetry-{symmetry}-{name}"
+    screen.session.bench.symmetry = "off"
+    certifier = screen.session.certifier
+    yield "editor-not-certified"
+    replay = load_replays(bundled_replays()[0])[0]
+    certifier.level, certifier.route = screen.session.draft.level, ((60.0, 542.0), (120.0, 500.0), (180.0, 540.0))
+    certifier.run, certifier._said = cast("VerifiedRun", replay), "Certified: 3.90 s"
+    screen.desk.stale = True
+    yield "editor-certified"
+    driver.mouse(300, 300)
+    driver.press("escape")
+    driver.press("escape")
+    driver.frames()
+    yield "editor-stale-certificate"
+    certifier.run = None
+    certifier.level = None
+    certifier._said = ""
+    driver.press("f5")
+    driver.frames(12)
+    yield "editor-test"
+    driver.press("escape")
+    screen.commands.leave()
+    driver.frames()
+    yield "editor-leave-unsaved"
+    driver.press("escape")
+    screen.commands.save_as()
+    driver.frames()
+    yield "editor-save-as"
+    driver.press("escape")
+    screen.session.bench.history.change(screen.session.source.draft)
+    screen.commands.open()
+    driver.frames(20)
+    yield "editor-open"
+    driver.press("escape")
+    screen.session.close()
+    driver.app.pop()
+
+
+def _daily(driver: MenuDriver) -> Iterator[str]:
+    """A day whose level is made, fails, is there, was passed."""
+    endless = Mock(is_alive=lambda: True)
+    with ExitStack() as stack:
+        stack.enter_context(patch("ninja_game.play.menus.daily.date", Today))
+        stack.enter_context(patch("ninja_game.play.menus.daily.beside", lambda *_: endless))
+        screen = driver.open("Daily")
+        assert isinstance(screen, DailyScreen)
+        maker = screen._maker
+        assert maker is not None
+        maker.told = "level 3 of 8"
+        yield "daily-being-made"
+        maker.problem = "No level could be made of this day: No space left"
+        endless.is_alive = lambda: False
+        driver.frames(2)
+        yield "daily-problem"
+        home(driver)
+        pack = screen.file.parent
+        pack.mkdir(parents=True)
+        for name in ("pack.toml", "pars.toml", "00-0-first-steps.txt"):
+            text = (PACK / name).read_text("utf-8").replace("00-0-first-steps.txt", screen.file.name)
+            (pack / name.replace("00-0-first-steps.txt", screen.file.name)).write_text(text, "utf-8")
+        screen = driver.open("Daily")
+        assert isinstance(screen, DailyScreen)
+        assert screen.entry is not None
+        yield "daily"
+        driver.player.marks.passed(screen.entry.digest, 170, 1)
+        driver.frames(2)
+        yield "daily-passed"
+        home(driver)
+
+
+def _film(driver: MenuDriver) -> Iterator[str]:
+    """A film that is being made of a replay."""
+    with patch("ninja_game.play.replay.film_job.beside", lambda *_: Thread()):
+        screen = ReplayScreen(driver.app, [load_replays(bundled_replays()[1])[0]])
+        driver.app.push(screen)
+        driver.frames(40)
+        driver.press("e")
+        assert screen.export is not None
+        screen.export._count, screen.export._made = 200, 90
+        yield "replay-making-a-film"
+        screen.export.result, screen.export.done = "No film: there is not enough memory", True
+        driver.frames()
+        yield "replay-no-film"
+        driver.app.notify("")
+        driver.press("g")
+        driver.app.pop()
+
+
+Tour = Callable[[MenuDriver], Iterator[str]]
+"""Goes from screen to screen; the name of each, when it is shown."""
+
+
+class Today(date):
+    """A calendar that stands still."""
+
+    @classmethod
+    def today(cls) -> Self:
+        return cls(2026, 11, 23)
+
+
+def run_tour(folder: Path, size: tuple[int, int], show: Callable[[MenuDriver, str], None], steps: Tour = tour) -> None:
+    """Play a whole tour in an empty folder of a player's; ``show`` is called at each screen."""
     patches = always_alike()
     for each in patches:
         each.start()  # type: ignore[attr-defined]
     driver = MenuDriver(folder, size)
     try:
         pygame.event.clear()
-        for name in tour(driver):
+        for name in steps(driver):
             show(driver, name)
     finally:
         driver.close()
@@ -321,10 +451,12 @@ def run_tour(folder: Path, size: tuple[int, int], show: Callable[[MenuDriver, st
             each.stop()  # type: ignore[attr-defined]
 
 
-def screens_as_texts(folder: Path, size: tuple[int, int] = (792, 600)) -> dict[str, str]:
-    """What is drawn on each screen of the tour, by its name; in an empty folder of a player's."""
+def screens_as_texts(
+    folder: Path, size: tuple[int, int] = (792, 600), steps: Tour = tour, log: DrawLog | None = None
+) -> dict[str, str]:
+    """What is drawn on each screen of a tour, by its name; in an empty folder of a player's."""
+    log = log or DrawLog()
     shown: dict[str, str] = {}
-    log = DrawLog()
 
     def show(driver: MenuDriver, name: str) -> None:
         driver.app.stack.redraw_all()
@@ -334,5 +466,5 @@ def screens_as_texts(folder: Path, size: tuple[int, int] = (792, 600)) -> dict[s
         shown[name] = "\n".join(lines).replace(str(folder), "FOLDER").replace(__version__, "VERSION") + "\n"
 
     with log.installed():
-        run_tour(folder, size, show)
+        run_tour(folder, size, show, steps)
     return shown

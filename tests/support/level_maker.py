@@ -27,6 +27,12 @@ ROOM = put(
 """A floor, a ninja, a switch and an exit on the way to the right."""
 
 
+def examine(editor: EditorScreen) -> None:
+    """Have the level's problems found now."""
+    editor.session._checks.ask(editor.session.draft.level)
+    editor.session._checks.finish()
+
+
 class Maker(MenuDriver):
     """Somebody who makes a level."""
 

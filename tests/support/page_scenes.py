@@ -54,6 +54,12 @@ def busy(ticks: int, make: Any) -> Callable[[App], object]:
     return show
 
 
+def settle(app: App, screen: ReplayScreen) -> None:
+    """Let turns pass until the end of the run is known and the moment sought is reached."""
+    while not screen.settled:
+        frames(app, 1, 0)
+
+
 def replay(number: int, tick: int, *overlays: str) -> Callable[[App], object]:
     """A moment of a certificate."""
 
@@ -62,7 +68,9 @@ def replay(number: int, tick: int, *overlays: str) -> Callable[[App], object]:
         app.push(screen)
         for overlay in overlays:
             screen.overlays.toggle(overlay)
+        settle(app, screen)
         screen.seek(tick)
+        settle(app, screen)
         screen.toggle_pause()
         frames(app, 2)
 

@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ninja_game.errors import FileError
+from ninja_game.errors import DAMAGED, FileError
 from ninja_game.formats.load import load_replays
 from ninja_game.sim.inputs import press_jumps
-from ninja_game.tas.branches import DAMAGED, Branch, Branches, branches_of_json
+from ninja_game.tas.branches import Branch, Branches, branches_of_json
 from ninja_game.tas.files import open_run, save_run
 from ninja_game.tas.journal import FOLDER, Journal, read_journal, recovered
 from ninja_game.tas.session import Session

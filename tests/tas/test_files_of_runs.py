@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 from random import Random
@@ -10,8 +11,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ninja_game.editor.files import OccupiedError
-from ninja_game.errors import ArgumentError, NinjaGameError, ReplayError
+from ninja_game.editor.files import OccupiedError, digest_of
+from ninja_game.errors import ArgumentError, FileError, NinjaGameError, ReplayError
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.recording import Recording
@@ -20,6 +21,7 @@ from ninja_game.runs.verify import Verdict
 from ninja_game.sim.inputs import Demo, first_ticks
 from ninja_game.tas.branches import Branches
 from ninja_game.tas.files import OpenedRun, RunFile, branches_path, open_run, save_run, take_of
+from ninja_game.tas.journal import FOLDER, recovered
 from ninja_game.tas.session import Session
 from ninja_game.tas.take import Take
 from ninja_game.verification.verify_many import verify_all
@@ -127,6 +129,50 @@ def test_other_files_are_never_replaced_unasked(tmp_path: Path) -> None:
     with pytest.raises(OccupiedError, match=r"walk\.replay\.txt\.branches\.json was changed"):
         session.save(path)
     assert other.read_text("utf-8") == branches_path(path).read_text("utf-8") == "somebody's"
+    session.close()
+
+
+def edited_and_lost(path: Path, folder: Path) -> Path:
+    """The journal of a session that has died, with an edit of the run in a file."""
+    session = Session(open_run(path), folder, memory="plain")
+    session.change(session.take.replaced(3, 4, [5]))
+    session.close(keep=True)
+    (journal,) = (folder / FOLDER).glob("*.jsonl")
+    return journal
+
+
+def test_a_journal_knows_no_file_but_a_run_that_is_there(tmp_path: Path) -> None:
+    path, other = tmp_path / "walk.replay.txt", tmp_path / "profile"
+    path.write_text(replay_of_walk(), "utf-8")
+    other.write_text("# what every machine has, of a known digest\n")
+    journal = edited_and_lost(path, tmp_path)
+    first, _, rest = journal.read_text("utf-8").partition("\n")
+    for place, home in ((path, path), (other, None), (tmp_path / "missing", None), (tmp_path, None)):
+        said = json.loads(first) | {"path": str(place), "digest": digest_of(other)}
+        journal.write_text(f"{json.dumps(said)}\n{rest}", "utf-8")
+        (found,) = recovered(tmp_path)
+        assert found.opened.file.path == home
+    journal.write_text(f"{first}\n{rest}", "utf-8")
+    (found,) = recovered(tmp_path)
+    session = Session(found.opened, tmp_path, memory="plain")
+    session.recover(found)
+    path.unlink()
+    with pytest.raises(OccupiedError, match=r"walk\.replay\.txt was removed by another program"):
+        session.save(path)
+    session.close()
+
+
+def test_branches_are_not_written_through_a_link(tmp_path: Path) -> None:
+    path = tmp_path / "walk.replay.txt"
+    path.write_text(replay_of_walk(), "utf-8")
+    branches_path(path).symlink_to(tmp_path / "made")
+    session = Session(open_run(path), tmp_path, memory="plain")
+    session.keep_branch("$(touch marker)")
+    with pytest.raises(OccupiedError):
+        session.save(path)
+    with pytest.raises(FileError, match="only a regular file is written"):
+        session.save(path, replacing=True)
+    assert not (tmp_path / "made").exists()
     session.close()
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game.cli.main import COMMANDS
+from ninja_game.cli.main import COMMANDS, COMPILING
 from tools import ROOT, dev
 
 MODULES = ("click", "json", "numba", "numpy", "pathlib", "rich", "socket", "tomllib")
@@ -100,6 +100,12 @@ def test_run_installs_what_its_command_uses() -> None:
     assert set(dev.USES) <= set(COMMANDS)
     used = {extra for command in COMMANDS for extra in dev.extras_of([command, "train"])}
     assert used == set(dev.EXTRAS)
+
+
+def test_a_command_that_uses_numba_says_when_it_compiles() -> None:
+    """All but the editor, whose solver is made ready beside the window and says so there."""
+    compiling = {command for command in COMMANDS if "fast" in dev.extras_of([command])}
+    assert compiling - {"edit"} == set(COMPILING), "COMPILING of ninja_game/cli/main.py, USES of tools/dev.py"
 
 
 def test_pip_installs_the_locked_versions_where_uv_cannot_be_had(

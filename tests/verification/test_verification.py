@@ -8,23 +8,42 @@ import signal
 import sys
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from io import BytesIO
 from multiprocessing import active_children
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from ninja_game import parse_level
+from ninja_game.compile_cache import compiled_available
 from ninja_game.errors import FormatError
+from ninja_game.files.beside import Beside
 from ninja_game.files.reading import files_below
+from ninja_game.formats.named_level import NamedLevel
 from ninja_game.runs.recording_reader import Unreadable, records_of
+from ninja_game.runs.verify import Verdict, judged
 from ninja_game.sim.level import Level
+from ninja_game.sim.loader import record_table
 from ninja_game.verification import verify_many as verification
 from ninja_game.verification.checkpoint_log import HEADER, CheckpointLog
-from ninja_game.verification.chunks import RECORDS, Chunk, Result, chunks_in, self_contained, verify_chunk
+from ninja_game.verification.chunks import (
+    RECORDS,
+    Chunk,
+    Result,
+    as_data,
+    chunks_as_text,
+    chunks_from_text,
+    chunks_in,
+    result_from_data,
+    self_contained,
+    verify_chunk,
+)
 from ninja_game.verification.verify_many import Tally, verify_all, write_report
-from ninja_game.verification.workers import Local, WorkerLostError, in_order, workers
-from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, replay_of_walk, running, write_records
+from ninja_game.verification.workers import JOB_SECONDS, WORKER_BYTES, Local, WorkerLostError, in_order, workers
+from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, loose_replay, replay_of_walk, running, write_records
 
 verify_plainly = partial(verify_all, memory="plain")
 
@@ -141,9 +160,9 @@ def test_a_journal_lets_a_stopped_run_go_on_where_it_was(
     assert 1 < done < 8
     ran: list[str] = []
 
-    def spy(chunk: Chunk, memory: str, level: Level | None) -> list[Result]:
+    def spy(chunk: Chunk, *asked: Any) -> list[Result]:
         ran.append(chunk.digest)
-        return verify_chunk(chunk, memory, level)
+        return verify_chunk(chunk, *asked)
 
     monkeypatch.setattr(verification, "verify_chunk", spy)
     assert list(verify_plainly([archive], jobs=1, processes=False, resume=path)) == expected(archive)
@@ -301,3 +320,147 @@ def test_a_piece_for_another_machine_holds_its_level(tmp_path: Path) -> None:
     level.unlink()
     (verdict,) = verify_chunk(chunk, "plain")
     assert getattr(verdict, "good", verdict) is True
+
+
+# --- what a verdict depends on ---
+
+
+@pytest.mark.parametrize(
+    "name, text, part",
+    [
+        ("a.tas", "Read,part.tas\n", "part.tas"),
+        ("b.tas", "Read,part\n", "part.tas"),
+        ("c.tas", "Read,other.txt\n", "part.tas"),
+        ("d.replay.txt", loose_replay(WALK, "include part.tas"), "part.tas"),
+        ("e.replay.txt", loose_replay(WALK, "include other.txt"), "part.tas"),
+    ],
+)
+def test_a_file_that_was_taken_in_and_changed_is_verified_again(
+    name: str, text: str, part: str, tmp_path: Path
+) -> None:
+    (tmp_path / name).write_text(text)
+    (tmp_path / "other.txt").write_text("   1\nRead,part.tas\n")
+    (tmp_path / part).write_text("  60,R\n")
+    level = [NamedLevel("walk", "", "", parse_level(WALK), "walk.txt")]
+    outcomes = []
+    for keys in ("  60,R\n", "  60,L\n", None, "  60,R\n"):
+        if keys is None:
+            (tmp_path / part).unlink()
+        else:
+            (tmp_path / part).write_text(keys)
+        (result,) = verify_plainly([tmp_path / name], resume=tmp_path / "log", levels=level)
+        (alone,) = verify_plainly([tmp_path / name], levels=level)
+        assert result == alone
+        outcomes.append(getattr(result, "outcome", None))
+    assert outcomes == ["exit", "running", None, "exit"]
+
+
+def test_the_log_of_one_level_says_nothing_of_another(tmp_path: Path) -> None:
+    log, run = tmp_path / "log", tmp_path / "run.tas"
+    run.write_text("  60,R\n")
+    found: dict[str, Result] = {}
+    for level in (WALK, SPIKED, WALK):
+        counting = [NamedLevel("", "", "", parse_level(level), "a.txt")]
+        (result,) = verify_plainly([run], resume=log, levels=counting)
+        found.setdefault(level, result)
+        assert found[level] == result
+    assert [getattr(result, "outcome", None) for result in found.values()] == ["exit", "dead"]
+
+
+def test_the_log_of_some_levels_that_count_says_nothing_of_others(tmp_path: Path) -> None:
+    log, run = tmp_path / "log", tmp_path / "run.replay.txt"
+    run.write_text(replay_of_walk())
+    walk, spiked = (NamedLevel("", "", "", parse_level(text), text) for text in (WALK, SPIKED))
+    asked: list[dict[str, Any]] = [{"levels": [spiked, spiked]}, {"strict": True}, {}, {"levels": [walk, spiked]}]
+    found = [next(iter(verify_plainly([run], resume=log, **options))) for options in asked]
+    assert [getattr(result, "outcome", None) for result in found] == ["not run", "not run", "exit", "exit"]
+
+
+def test_a_piece_for_another_machine_holds_every_file_that_it_takes_in(tmp_path: Path) -> None:
+    (tmp_path / "a.tas").write_text("Read,part\nRead,missing\n")
+    (tmp_path / "b.tas").write_text("Read,part\n")
+    (tmp_path / "part.tas").write_text("  60,R\n")
+    level = parse_level(WALK)
+    found = list(chunks_in([tmp_path / "a.tas", tmp_path / "b.tas"]))
+    here = [verify_chunk(chunk, "plain", level) for chunk in found]
+    sent = chunks_as_text([self_contained(chunk, level) for chunk in found])
+    for path in tmp_path.iterdir():
+        path.unlink()
+    assert [verify_chunk(chunk, "plain", level) for chunk in chunks_from_text(sent)] == here
+    assert [getattr(each, "outcome", None) for (each,) in here] == [None, "exit"]
+
+
+def test_a_text_that_reads_what_was_not_put_inside_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "a.tas").write_text("Read,part\n")
+    (tmp_path / "part.tas").write_text("  60,R\n")
+    (chunk,) = chunks_in([tmp_path / "a.tas"])
+    (result,) = verify_chunk(replace(chunk, beside={"another.tas": Beside("x", "1")}), "plain", parse_level(WALK))
+    assert isinstance(result, Unreadable)
+    assert "was not read before" in result.message
+
+
+def test_a_run_on_a_level_that_does_not_count_is_not_simulated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def simulate(*_: object, **__: object) -> None:
+        raise AssertionError("simulated")
+
+    monkeypatch.setattr("ninja_game.runs.verify.run_level", simulate)
+    path = write_records(tmp_path / "a.txt", ("Walk", WALK, running(WALK_END)))
+    for options in ({"strict": True}, {"levels": [NamedLevel("", "", "", parse_level(SPIKED), "b.txt")]}):
+        (result,) = verify_plainly([path], **options)
+        assert isinstance(result, Verdict)
+        fields = result.as_json()
+        digest = fields.pop("level_digest")
+        assert fields == {
+            "file": str(path), "record": 0, "name": "Walk", "author": "me", "level_name": "", "body": "circle",
+            "rules": 1, "outcome": "not run", "end_tick": -1, "gold": 0, "score_ticks": None, "ticks": 0,
+            "xy_sha256": "", "possible_by_keyboard": None, "in_time": None, "practice": False, "complete": True,
+            "problems": [f"level_digest is {digest}, which is none of the levels that count"],
+        }  # fmt: skip
+        assert result_from_data(json.loads(json.dumps(as_data(result)))) == result
+
+
+def test_a_run_that_is_told_as_not_run_never_passes_on_a_level_that_counts(tmp_path: Path) -> None:
+    path = write_records(tmp_path / "a.txt", ("Walk", WALK, running(WALK_END)))
+    (refused,) = verify_plainly([path], strict=True)
+    assert isinstance(refused, Verdict)
+    again = judged(replace(refused, problems=()), {refused.level_digest: "walk"}, only_these=True, strict=True)
+    assert "outcome is not run, --strict expects exit" in again.problems
+
+
+@pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+def test_a_run_that_leaves_its_world_is_refused_by_name_and_stops_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(level: Level) -> Any:
+        table = record_table(level)
+        return table._replace(counts=[]) if any(values[1] == 301.0 for values in table.values) else table
+
+    monkeypatch.setattr("ninja_game.sim.memory.compiled.record_table", broken)
+    away = WALK + "!0^115,301"
+    runs = ("Walk", WALK, running(WALK_END)), ("Away", away, running(WALK_END)), ("Walk", WALK, running(WALK_END))
+    path = write_records(tmp_path / "a.txt", *runs)
+    one, two, three = verify_all([path], memory="compiled")
+    assert isinstance(two, Unreadable)
+    assert "a.txt: record 1: the run leads out of its world's arrays" in two.message
+    assert [getattr(one, "good", None), getattr(three, "good", None)] == [True, True]
+
+
+def allocate(mib: int) -> int:
+    """Take so much memory."""
+    return len(bytearray(mib << 20)) >> 20
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems have other limits")
+def test_a_worker_process_has_limits_of_memory_and_time() -> None:
+    import resource
+
+    pool = Local(1, processes=True)
+    results = dict(in_order(pool, allocate, [10, 3 * WORKER_BYTES >> 21, 20]))
+    limits = [
+        pool.submit(resource.getrlimit, getattr(resource, name)).result()[0] for name in ("RLIMIT_DATA", "RLIMIT_CPU")
+    ]
+    pool.close()
+    assert isinstance(results.pop(3 * WORKER_BYTES >> 21), WorkerLostError)
+    assert results == {10: 10, 20: 20}
+    assert limits[0] == WORKER_BYTES
+    assert JOB_SECONDS <= limits[1] < JOB_SECONDS + 60

@@ -106,6 +106,16 @@ def test_runs_are_ranked_by_what_the_simulation_says(runs: Path, levels: Path) -
     assert ranking.episode(episode)[0][:2] == ("Ann", WALK_END)
 
 
+def test_a_record_says_by_how_much_it_is_better(runs: Path, levels: Path, tmp_path: Path) -> None:
+    put(runs, "a.txt", slow_walk(author="Ann"), day=1)
+    put(runs, "b.txt", replay(author="Bea"), day=2)
+    BoardPages(tmp_path / "site", Ranking(judged(runs, levels), exhibition(levels))).write()
+    page = (tmp_path / "site" / "board" / "index.html").read_text("utf-8")
+    assert [gain for gain in re.findall(r"<td[^>]*>([^<]*)</td>", page) if gain in {"first", "0.125", "-0.125"}] == [
+        "0.125", "0.125", "first", "first",
+    ]  # fmt: skip
+
+
 def test_medals_follow_from_the_par_times(runs: Path) -> None:
     certificates = [path for path in bundled_replays() if ".exit." in path.name][:3]
     for path in certificates:

@@ -13,7 +13,7 @@ from tests.support.page_runs import Run, digests_in_node, digests_in_page, page_
 from tests.support.web_page import PYODIDE
 
 EVERY = 17
-"""The sample: every so manieth run."""
+"""The sample: every so many runs one."""
 
 
 @pytest.fixture(scope="module")

@@ -54,7 +54,7 @@ def test_the_same_files_give_the_same_site_and_old_ones_go(pyodide: Path, tmp_pa
     before = {name: (out / name).read_bytes() for name in names}
     (out / "mine.txt").write_text("not of the site")
     mark = json.loads((out / build.MARK).read_text())
-    mark["files"] += ["old.js", "../outside.txt"]
+    mark["files"] += ["old.js", "../outside.txt", "a/../../outside.txt", "/outside.txt", "\0", "", "pyodide/.."]
     (out / build.MARK).write_text(json.dumps(mark))
     (out / "old.js").write_text("of an earlier version")
     (tmp_path / "outside.txt").write_text("not in the folder")
@@ -62,6 +62,25 @@ def test_the_same_files_give_the_same_site_and_old_ones_go(pyodide: Path, tmp_pa
     assert {name: (out / name).read_bytes() for name in names} == before
     assert names_in(out) == names | {"mine.txt"}
     assert (tmp_path / "outside.txt").exists()
+
+
+@pytest.mark.parametrize("place", ["pyodide", "licences/MPL-2.0.txt", "index.html", build.MARK])
+def test_nothing_is_written_or_removed_through_a_link(place: str, pyodide: Path, tmp_path: Path) -> None:
+    out, outside = tmp_path / "out", tmp_path / "outside"
+    build.build_site(out, pyodide, tmp_path)
+    (out / place).rename(outside)
+    (out / place).symlink_to(outside)
+    before = {path: path.read_bytes() for path in (outside, *outside.rglob("*")) if path.is_file()}
+    with pytest.raises(FileError, match="through links here; remove it"):
+        build.build_site(out, pyodide, tmp_path)
+    assert {path: path.read_bytes() for path in (outside, *outside.rglob("*")) if path.is_file()} == before
+
+
+def test_a_mark_that_is_nested_too_deep_is_no_mark(pyodide: Path, tmp_path: Path) -> None:
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / build.MARK).write_text("[" * 100_000)
+    with pytest.raises(FileError, match="no site of ninja-game"):
+        build.build_site(tmp_path / "out", pyodide, tmp_path)
 
 
 def test_the_page_knows_its_version_and_sizes(pyodide: Path, tmp_path: Path) -> None:

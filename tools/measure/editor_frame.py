@@ -49,7 +49,7 @@ def main() -> int:
     from ninja_game.editor.files import Source
     from ninja_game.editor.records import BODY, points
     from ninja_game.editor.stamp import WHOLE, Selection, Stamp, put
-    from tests.support.level_maker import ROOM, Maker
+    from tests.support.level_maker import ROOM, Maker, examine
 
     width, height = map(int, options.size.split("x"))
     slow = False
@@ -61,7 +61,7 @@ def main() -> int:
             placed(SORTS[2 + 7 * k % 15].record, *place, "quarter") for k, place in enumerate(places)
         )  # fmt: skip
         maker.editor.commands.edit(Source(put(ROOM, Stamp({}, objects))))
-        maker.editor.session.finish_checks()
+        examine(maker.editor)
         maker.frames(5)
         print(f"{len(maker.draft.objects)} objects, {options.size}")
 

@@ -66,6 +66,8 @@ def measure_seek(app: App, level: Level, ticks: int = 3000) -> dict[str, float]:
     frames = bytes(1 + number // 37 % 2 for number in range(ticks))
     viewer = ReplayScreen(app, [RecordedRun("long", level, frames)])
     # The ninja of these keys may die early: the rest of the run is made here as the viewer makes it when it opens.
+    while not viewer.settled:
+        viewer.update(0)
     viewer.end = viewer.length = ticks
     while viewer.playback.simulation.tick < ticks:
         viewer.playback.step()

@@ -15,6 +15,7 @@ import re
 import subprocess
 import sys
 from datetime import UTC, datetime
+from importlib.metadata import version
 from pathlib import Path
 from statistics import median
 from time import perf_counter
@@ -51,8 +52,6 @@ def commit() -> str:
 
 def figures() -> dict[str, Any]:
     """A row: what `ninja-game bench` measures, and batches on all cores."""
-    import numba
-
     from benchmarks.measure_worlds import WORLDS, batch_speed
     from ninja_game.batch.thread_pool import cores
     from ninja_game.files.resources import bundled_replays
@@ -65,7 +64,7 @@ def figures() -> dict[str, Any]:
     return run_benchmark(recordings, compile_time=False) | {
         "date": datetime.now(UTC).date().isoformat(),
         "commit": commit(),
-        "numba": numba.__version__,
+        "numba": version("numba"),
         "batch_ticks_per_s": round(median(batch)),
         "batch_step_ticks_per_s": round(median(steps)),
     }

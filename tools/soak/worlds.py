@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from ninja_game.batch.batch import Batch
 from ninja_game.kernel_cache import keep
+from ninja_game.numba_import import import_numba
 from ninja_game.sim.kinds import GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS
 from ninja_game.sim.level import TILES, Level, ObjectSpec
 from ninja_game.sim.memory.compiled import CompiledMemory
@@ -64,7 +65,7 @@ def _number(rng: random.Random) -> float:
 
 def out_of_range(count: int, seed: int) -> Iterator[str]:
     """Reports of hostile levels that lead out of range, or to any other error."""
-    checked = Compiler(checked=True, keep=keep)
+    checked = Compiler(import_numba(), checked=True, keep=keep)
     for number in range(seed, seed + count):
         rng = random.Random(number)
         try:
@@ -144,7 +145,7 @@ def _grid_problems(heads: NDArray[np.int16], objects: NDArray[np.void], there: N
     worlds, slots = np.nonzero(there)
     filed = objects[worlds, slots]
     if (filed["cell"] >= heads.shape[1]).any():
-        yield "an object is filed in a cell that there is not"
+        yield "an object is filed in a cell outside the grid"
         return
     followed = np.where(filed["next"] > 0, objects["prev"][worlds, filed["next"]], slots)
     leading = np.where(

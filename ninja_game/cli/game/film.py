@@ -9,8 +9,9 @@ from pathlib import Path
 import click
 
 from ninja_game.cli.game.play import pixels
-from ninja_game.cli.run_options import InputPath, ProgressLog, level_given, level_option
+from ninja_game.cli.run_options import InputPath, heartbeat, level_given, level_option
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.links.fragment import is_link
 
 
@@ -26,7 +27,12 @@ from ninja_game.formats.links.fragment import is_link
 )
 @click.option("--speed", type=click.FloatRange(0.05, 16), default=1.0, show_default=True, help="1 is the game's speed.")
 @click.option("--from", "first", type=click.IntRange(min=0), default=0, help="The moment after so many ticks is first.")
-@click.option("--to", "last", type=click.IntRange(min=0), help="The last one. [default: a second after the end]")
+@click.option(
+    "--to",
+    "last",
+    type=click.IntRange(min=0),
+    help="The last one. [default: a second after the end; at most 20,000 pictures]",
+)
 @click.option(
     "--ghost", "ghosts", multiple=True, metavar="FILE", type=InputPath(dir_okay=False),
     help="The runs of this file on the same level go along; may be given again.",
@@ -72,15 +78,17 @@ def command(
     film = Film(
         recorded_run(recordings[record]), width_and_height, speed, ghosts=runs, keys=keys, first=first, last=last
     )
-    count = len(film.moments)
-    log = ProgressLog()
+    told = "looking for the end of the run"
 
     def report(made: int) -> bool:
-        log.say(f"{made:,} of {count:,} pictures")
+        nonlocal told
+        told = f"{made:,} of {count:,} pictures"
         return True
 
     try:
-        write_film(film, path, report)
+        with heartbeat(lambda: told):
+            count = len(film.moments)
+            write_film(film, path, report)
     except OSError as error:
         raise NinjaGameError(f"{path}: the film cannot be written: {error.strerror}") from None
-    click.echo(f"{path}: {count} ticks")
+    click.echo(f"{shown_text(str(path))}: {count} ticks")

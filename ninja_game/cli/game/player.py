@@ -10,6 +10,7 @@ from pathlib import Path
 import click
 
 from ninja_game.errors import FileError
+from ninja_game.files.shown_text import shown_text
 from ninja_game.player.player_data import PlayerData
 
 
@@ -34,7 +35,8 @@ def export(file: Path) -> None:
     from ninja_game.player.backup import write_backup
 
     with _player() as player:
-        write_backup(player, file)
+        for line in write_backup(player, file):
+            click.echo(line, err=True)
 
 
 @command.command("import")
@@ -46,7 +48,7 @@ def take_in(file: Path) -> None:
 
     with _player() as player:
         for line in read_backup(player, read_bytes(file, MOST_BYTES)):
-            click.echo(line)
+            click.echo(shown_text(line))
 
 
 @contextmanager

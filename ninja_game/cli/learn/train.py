@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ninja_game.cli import solver_options as options
+from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
     from ninja_game.learn.agents.training import Progress
@@ -68,7 +69,7 @@ def command(levels: Sequence[str], seconds: float, steps: int, seed: int, worlds
     best, _, *rates = agent.training["curve"][-1]
     click.echo(f"{output}: the best agent, after {best / 1e6:.1f}M steps")
     for name, rate in zip(source.names, rates, strict=True):
-        click.echo(f"  {rate:4.0%}  {name}")
+        click.echo(f"  {rate:4.0%}  {shown_text(name)}")
 
 
 def free_agent() -> Path:

@@ -13,7 +13,8 @@ import click
 from ninja_game.cli import solver_options as options
 from ninja_game.cli.run_options import LevelPath
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.shown_text import shown_text
+from ninja_game.files.shown_text import name_key, shown_text
+from ninja_game.files.tree import Tree
 from ninja_game.files.writing import check_output
 from ninja_game.sim.kinds import DOOR
 from ninja_game.sim.rules import TICKS_PER_SECOND
@@ -148,14 +149,14 @@ def _files(levels: Sequence[NamedLevel], goals: Iterable[str], folder: Path | No
     for level in levels:
         stem = name = f"{Path(level.file).stem}" + (f"-{level.record}" if level.record else "")
         number = 1
-        # File systems may take large and small letters for the same.
-        while name.casefold() in given:
+        while name_key(name) in given:
             number += 1
             name = f"{stem}-{number}"
-        given.add(name.casefold())
+        given.add(name_key(name))
         files = {goal: folder / f"{name}.{goal}.replay.txt" for goal in goals} if folder else {}
         for file in files.values():
             check_output(file, keep=[Path(level.file)])
+            Tree(file.parent).check(file.name)
         yield files
 
 

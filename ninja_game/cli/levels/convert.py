@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from ninja_game.cli.run_options import LevelPath, level_given, level_option
+from ninja_game.cli.run_options import LevelPath, budget_option, level_given, level_option, with_progress
 from ninja_game.errors import FileError, LevelError
+from ninja_game.files.tree import Tree
 from ninja_game.formats.links.fragment import is_link
 
 if TYPE_CHECKING:
@@ -33,10 +35,12 @@ FORM_OF_NAME = {
 @click.option("--to", "form", type=click.Choice(FORMS), help="The form to write, whatever OUT is called.")
 @click.option("--legend", is_flag=True, help="End readable levels with the meaning of all characters, as comments.")
 @level_option
+@budget_option
 @click.option("--force", is_flag=True, help="Replace files that exist. IN is never replaced.")
 def command(
-    sources: Sequence[Path], target: str, form: str | None, legend: bool, level_path: Path | None, force: bool
-) -> None:
+    sources: Sequence[Path], target: str, form: str | None, legend: bool, level_path: Path | None, budget: int,
+    force: bool,
+) -> None:  # fmt: skip
     """Turn levels and recordings from one format into the other.
 
     IN is a file, folder or link in any format; OUT a file, a folder, or - for the terminal. What is written:
@@ -76,8 +80,8 @@ def command(
         found = recordings = [recording for source in sources for recording in load_replays(source, level=level)]
         form = form or "file"
         if form in RUN_FORMS:
-            written = replay_texts(recordings) if form == "replay" else input_texts(recordings, form)
-            output.write_each(list(written), recordings, RUN_FORMS[form])
+            written = replay_texts(recordings, budget) if form == "replay" else input_texts(recordings, form)
+            output.write_each(list(with_progress(written, "recording")), recordings, RUN_FORMS[form])
     else:
         found = levels = [named for source in sources for named in load_levels(source)]
         form = form or ("file" if all(named.ascii for named in levels) else "ascii")
@@ -102,7 +106,7 @@ class Output:
     def write(self, text: str) -> None:
         """Write one file, or to the terminal."""
         if self.target == STANDARD_STREAM:
-            click.echo(text, nl=False)
+            click.echo(text, nl=False, color=True)  # else a pipe loses what looks like a colour
         else:
             self._put([(Path(self.target), text)])
 
@@ -117,22 +121,27 @@ class Output:
             what = f"{len(texts)} {'levels' if suffix == '.txt' else 'recordings'} do not fit into one file"
             raise LevelError(what, self.target, hint="name a folder, or use --to file")
         else:
-            folder.mkdir(parents=True, exist_ok=True)
-            self._put([(folder / name, text) for name, text in zip(_file_names(found, suffix), texts, strict=True)])
+            names = _file_names(found, suffix)
+            self._put([(folder / name, text) for name, text in zip(names, texts, strict=True)], Tree(folder))
             click.echo(f"{len(texts)} file{'s' * (len(texts) != 1)} written to {folder}", err=True)
 
-    def _put(self, files: Sequence[tuple[Path, str]]) -> None:
-        """Write files. Raises FileError, before any is written, for what must not be replaced."""
-        from ninja_game.files.writing import write_atomically
+    def _put(self, files: Sequence[tuple[Path, str]], tree: Tree | None = None) -> None:
+        """Write files, those of a folder into ``tree``. Raises FileError, before any is written, for what must stay."""
+        from ninja_game.files.writing import check_output, write_atomically
 
-        there = [path for path, _ in files if path.exists()]
-        for path in there:
-            if any(source.samefile(path) for source in self.sources):
+        for path in [path for path, _ in files if os.path.lexists(path)]:
+            if path.exists() and any(source.samefile(path) for source in self.sources):
                 raise FileError("OUT is IN", str(path), hint="choose another name for the output")
             if not self.force:
                 raise FileError("the file exists already", str(path), hint="--force replaces it")
+            check_output(path, keep=self.sources)
+            if tree:
+                tree.check(path.name)
         for path, text in files:
-            write_atomically(path, text, keep=self.sources)
+            if tree:
+                tree.write(path.name, text)
+            else:
+                write_atomically(path, text, keep=self.sources)
 
 
 def _ascii_text(level: NamedLevel, legend: bool) -> str:
@@ -152,11 +161,12 @@ def _strings_text(levels: Sequence[NamedLevel | Recording]) -> str:
 
 def _file_names(found: Sequence[NamedLevel | Recording], suffix: str) -> Iterator[str]:
     """`0007-name-of-the-level.txt`; what came from a folder of single files keeps their names."""
-    from ninja_game.files.shown_text import file_stem
+    from ninja_game.files.shown_text import file_stem, name_key, name_problem
 
     digits = max(3, len(str(len(found) - 1)))
     stems = [Path(each.file).name.removesuffix(".txt").removesuffix(".replay") for each in found]
-    alone = len(set(stems)) == len(found) > 1
-    for number, (each, stem) in enumerate(zip(found, stems, strict=True)):
+    names = [Path(stem).stem + suffix for stem in stems]
+    alone = len({name_key(name) for name in names}) == len(found) > 1 and not any(map(name_problem, names))
+    for number, (each, own) in enumerate(zip(found, names, strict=True)):
         name = file_stem(each.name)
-        yield (Path(stem).stem if alone else f"{number:0{digits}d}{'-' * bool(name)}{name}") + suffix
+        yield own if alone else f"{number:0{digits}d}{'-' * bool(name)}{name}{suffix}"

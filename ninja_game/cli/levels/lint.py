@@ -15,6 +15,8 @@ from ninja_game.files.shown_text import shown_text
 def command(ctx: click.Context, pack: Path) -> None:
     """Tell what is odd about a pack: its index, its levels, its certificates, its table of pars.
 
+    A line says how to mend what was found, and ends in its code (docs/findings.md).
+
     Exit code 0: nothing; 1: something is odd; 2: the pack or its index cannot be read.
 
     \b
@@ -28,7 +30,7 @@ def command(ctx: click.Context, pack: Path) -> None:
     opened = Pack(pack)
     found = list(lint(opened))
     for finding in found:
-        click.echo(shown_text(finding, 500))
+        click.echo(f"{shown_text(str(finding), 500)}. {finding.mend} [{finding.code}]")
     episodes = len(opened.episodes)
     counted = f"{shown_text(opened.name)}: {episodes} episodes, {len(opened.levels)} levels"
     click.echo(f"{counted}, {len(found)} findings" if found else f"{counted}, nothing odd")

@@ -23,7 +23,7 @@ def command(pack: Path) -> None:
       ninja-game levels pars my-pack/
       ninja-game levels pars levels/
     """
-    from ninja_game.files.writing import write_atomically
+    from ninja_game.files.tree import Tree
     from ninja_game.formats.pack.files import PARS
     from ninja_game.formats.pack.pack import Pack
     from ninja_game.formats.pack.pars import MARGINS, write_pars
@@ -35,6 +35,6 @@ def command(pack: Path) -> None:
     for file, pars in made.items():
         times = "  ".join(f"{medal} {seconds_text(pars.par(medal)):>7}" for medal in MARGINS)
         click.echo(f"{times}  difficulty {pars.difficulty or 0:6.2f}  {shown_text(file)}")
-    write_atomically(pack / PARS, write_pars(made).encode())
+    Tree(pack).write(PARS, write_pars(made))
     without = len(opened.levels) - len(made)
     click.echo(f"{len(made)} levels with pars, {without} without a sound certificate; wrote {pack / PARS}")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ninja_game.cli.run_options import choose, level_given, level_option
+from ninja_game.cli.run_options import budget_option, choose, heartbeat, level_given, level_option
 from ninja_game.cli.runs.splits import draw, format_option, picture_option, titles
 
 if TYPE_CHECKING:
@@ -29,9 +29,10 @@ COLUMNS = ("at", "x", "y", "tick", "other", "ahead")
 @level_option
 @format_option
 @picture_option
+@budget_option
 def command(
     first: Path, second: Path, record: int | None, against_record: int | None, level_path: Path | None, form: str,
-    picture: Path | None,
+    picture: Path | None, budget: int,
 ) -> None:  # fmt: skip
     """Compare two runs of a level: where they part, and how far one is ahead.
 
@@ -50,7 +51,8 @@ def command(
     level = level_given(level_path)
     ours = choose(load_replays(first, level=level), "recordings", first, record)
     theirs = choose(load_replays(second, level=level), "recordings", second, against_record)
-    found = compare_runs(ours, theirs)
+    with heartbeat(lambda: "running both"):
+        found = compare_runs(ours, theirs, budget)
     if form == "json":
         parts = {"first_keys": found.first_keys, "first_place": found.first_place}
         leads = {"splits": list(map(_cells, found.splits)), "places": list(map(_cells, found.places))}

@@ -7,7 +7,8 @@ from pathlib import Path
 import click
 
 from ninja_game.cli.levels.convert import Output
-from ninja_game.cli.run_options import choose, level_given, other_level_option
+from ninja_game.cli.run_options import budget_option, choose, heartbeat, level_given, other_level_option
+from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
@@ -20,8 +21,11 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 )  # fmt: skip
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
 @other_level_option
+@budget_option
 @click.option("--force", is_flag=True, help="Replace a file that exists. FILE is never replaced.")
-def command(inputs: Path, output: Path | None, record: int | None, level_path: Path | None, force: bool) -> None:
+def command(
+    inputs: Path, output: Path | None, record: int | None, level_path: Path | None, budget: int, force: bool
+) -> None:
     """Run inputs that a person wrote, and write what comes of them.
 
     FILE is a replay text with or without claims (docs/replay-format.md), or any other recording. Its inputs run until
@@ -42,9 +46,10 @@ def command(inputs: Path, output: Path | None, record: int | None, level_path: P
 
     level = level_given(level_path)
     recording = choose(load_replays(inputs, level=level, changed=True), "recordings", inputs, record)
-    (text,) = replay_texts([on_level(recording, level)])
+    with heartbeat(lambda: "running the inputs"):
+        (text,) = replay_texts([on_level(recording, level)], budget)
     path = output or free_path(Path(), inputs.name.partition(".")[0], ".replay.txt")
     Output(str(path), [inputs], force=force).write(text)
     new = parse_replay(text)
     when = f"tick {new.final_tick} ({new.ticks / TICKS_PER_SECOND:.3f} s)"
-    click.echo(f"{path}: {new.outcome} in {when}, {new.gold} gold")
+    click.echo(f"{shown_text(str(path))}: {new.outcome} in {when}, {new.gold} gold")

@@ -9,6 +9,7 @@ import click
 
 from ninja_game.cli import solver_options as options
 from ninja_game.cli.run_options import LevelPath, choose_level
+from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
 
 
@@ -64,4 +65,4 @@ def command(
     if smooth is not None:
         run = options.smoothed_run(run, smooth)
         save(run)
-    click.echo(f"{output}: {options.time_text(run.end_tick)}, {run.gold} gold")
+    click.echo(f"{shown_text(str(output))}: {options.time_text(run.end_tick)}, {run.gold} gold")

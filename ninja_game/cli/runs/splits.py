@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.main import complain
-from ninja_game.cli.run_options import level_given, level_option, with_progress
+from ninja_game.cli.run_options import budget_option, level_given, level_option, with_progress
 from ninja_game.files.shown_text import shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
@@ -60,10 +60,11 @@ picture_option = click.option(
 @level_option
 @format_option
 @picture_option
+@budget_option
 @click.pass_context
 def command(
     ctx: click.Context, files: Sequence[Path], against: Path | None, gold: bool, level_path: Path | None, form: str,
-    picture: Path | None,
+    picture: Path | None, budget: int,
 ) -> None:  # fmt: skip
     """Show when runs take gold, open doors and the exit, and end.
 
@@ -85,8 +86,9 @@ def command(
     level, events = level_given(level_path), [name for name in SPLIT_EVENTS if gold or name != "gold-taken"]
     found, unreadable = readable(files, level)
     best = readable([against], level)[0][:1] if against else []
-    runs = [run_splits(each, events) for each in with_progress(found, "run")]
-    bests = [run_splits(each, events) for each in best]
+    # A run that costs too much ends the command: a table without it would be wrong.
+    all_runs = list(with_progress((run_splits(each, events, budget) for each in [*best, *found]), "run"))
+    bests, runs = all_runs[: len(best)], all_runs[len(best) :]
     groups = {run.level_digest: [other for other in runs if other.level_digest == run.level_digest] for run in runs}
     if not groups:
         raise click.UsageError(f"{', '.join(map(str, files))}: no recordings here")
@@ -136,7 +138,9 @@ def titles(recordings: Sequence[Recording]) -> list[str]:
     """What tells recordings apart: their names, or file and record where there is no name or two are the same."""
     names = [shown_text(each.name) for each in recordings]
     return [
-        name if name and names.count(name) == 1 else f"{Path(each.file).name.removesuffix('.replay.txt')}:{each.record}"
+        name
+        if name and names.count(name) == 1
+        else f"{shown_text(Path(each.file).name.removesuffix('.replay.txt'))}:{each.record}"
         for name, each in zip(names, recordings, strict=True)
     ]
 

@@ -14,7 +14,15 @@ from typing import IO, TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.main import complain
-from ninja_game.cli.run_options import InputPath, jobs_option, level_given, level_option, memory_option, with_progress
+from ninja_game.cli.run_options import (
+    InputPath,
+    budget_option,
+    jobs_option,
+    level_given,
+    level_option,
+    memory_option,
+    with_progress,
+)
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
@@ -47,6 +55,7 @@ SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 )
 @memory_option
 @jobs_option
+@budget_option
 @click.pass_context
 def command(
     ctx: click.Context,
@@ -62,6 +71,7 @@ def command(
     output: Path | None,
     memory: str,
     jobs: int | None,
+    budget: int,
 ) -> None:
     """Show every tick of recordings: position, velocity, state, events.
 
@@ -86,6 +96,7 @@ def command(
     options = {
         "level": level_given(level_path), "jobs": jobs, "ticks": ticks, "after": after or 0, "memory": memory,
         "objects": objects or digests or against is not None, "events": table and memory != "compiled",
+        "budget": budget,
     }  # fmt: skip
     traces = Traces(files, record=record, **options)
     different = 0
@@ -174,7 +185,7 @@ def _compare(traces: Traces, expected: Iterator[FiledTrace], against: Path, reco
         if difference:
             different += 1
             click.echo(f"{shown_text(file)}:{trace.record} {shown_text(trace.name)}: {difference}")
-    click.echo(f"{traces.count - different} of {traces.count} equal to {against}")
+    click.echo(f"{traces.count - different} of {traces.count} equal to {shown_text(str(against))}")
     return different
 
 

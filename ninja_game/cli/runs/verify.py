@@ -11,7 +11,7 @@ from typing import IO, TYPE_CHECKING, Any
 import click
 
 from ninja_game.cli.main import complain
-from ninja_game.cli.run_options import InputPath, jobs_option, with_progress
+from ninja_game.cli.run_options import InputPath, budget_option, jobs_option, with_progress
 from ninja_game.files.shown_text import shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
@@ -34,6 +34,7 @@ FAILED = 1
     help="The level that counts, or a file of them: a run on any other fails. One level is also that of recordings "
     "without.",
 )  # fmt: skip
+@budget_option
 @click.option("--strict", is_flag=True, help="Only what a board may believe: see docs/verification.md.")
 @jobs_option
 @click.option(

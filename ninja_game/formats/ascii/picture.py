@@ -132,7 +132,7 @@ def _read_row(line: int, text: str, number: int, problems: Problems) -> tuple[st
 
 
 def _similar(char: str) -> str:
-    """What a stranger in the picture was perhaps meant to be, in words."""
+    """What an unknown character in the picture was perhaps meant to be, in words."""
     if char in _LOOKS_LIKE:
         return _LOOKS_LIKE[char]
     other = char.swapcase()

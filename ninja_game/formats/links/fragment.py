@@ -32,7 +32,6 @@ MOST_BYTES = 4 * 2**20
 MOST_TEXTS = 9
 """In a link of replays: the one that is watched, and as many ghosts as the viewer shows."""
 
-_LINK = re.compile(rf"#(?:{'|'.join(KINDS)})(?:=|%3[Dd])")
 _PART = re.compile(r"(level|pack|replay)=([0-9]{1,4})\.([A-Za-z0-9_-]*)")
 _STEM = re.compile(r"[0-9a-f]{16}")
 _AROUND = "\0 \t\r\n.,;:!?)>]}\"'"
@@ -41,19 +40,25 @@ _AROUND = "\0 \t\r\n.,;:!?)>]}\"'"
 
 @dataclass(frozen=True)
 class Link:
-    """What a link carries: one text, or several of replays, as untrusted as any file of a stranger."""
+    """What a link carries: one text, or several of replays, as untrusted as any file."""
 
     kind: Kind
     texts: tuple[str, ...]
 
 
-def is_link(text: str | Path) -> bool:
-    """Whether a text, or a path made of it, is meant as a link of ours, sound or not.
+def link_kind(text: str | Path) -> Kind | None:
+    """What a text, or a path made of it, is meant to be a link of, sound or not; None for no link of ours.
 
-    >>> is_link("https://example.org/game/#level=1.abc"), is_link("levels/level=1.txt")
-    (True, False)
+    >>> link_kind("https://example.org/game/#pack=1.abc"), link_kind("levels/level=1.txt")
+    ('pack', None)
     """
-    return _LINK.search(str(text)) is not None
+    fragment = unquote("".join(str(text).split()).partition("#")[2])
+    return next((kind for kind in KINDS if fragment.startswith(f"{kind}=")), None)
+
+
+def is_link(text: str | Path) -> bool:
+    """Whether a text, or a path made of it, is meant as a link of ours."""
+    return link_kind(text) is not None
 
 
 def write_link(kind: Kind, texts: Sequence[str]) -> str:

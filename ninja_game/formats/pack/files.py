@@ -10,7 +10,7 @@ from zipfile import ZipFile, ZipInfo
 from ninja_game.errors import FileError
 from ninja_game.files.reading import MAX_BYTES, decoded, files_in, read_bytes
 from ninja_game.files.zips import open_zip, unpacked
-from ninja_game.formats.links.fragment import PLACE, is_link
+from ninja_game.formats.links.fragment import PLACE, is_link, link_kind
 from ninja_game.formats.links.making import pack_link, pack_texts
 
 INDEX, PARS, CERTIFICATES = "pack.toml", "pars.toml", "certificates"
@@ -53,7 +53,7 @@ class PackFiles:
         except ValueError as error:
             what, found = "neither a folder nor a zip that can be a pack", str(error)
             raise FileError(what, str(self.path), found=found, expected=f"a pack, with {INDEX}") from None
-        entries = [entry for entry in self._zip.infolist() if not entry.is_dir()]
+        entries = [entry for entry in self._zip.infolist() if not entry.filename.endswith("/")]
         # Zips are often made of the folder, not of what is in it.
         indexes = [name for entry in entries if PurePosixPath(name := entry.filename).name == INDEX]
         top = min(indexes, key=lambda name: name.count("/"), default=INDEX).removesuffix(INDEX)
@@ -99,8 +99,8 @@ class PackFiles:
 
 def is_pack(path: Path) -> bool:
     """Whether a path looks like a pack: a folder with an index, a file that is called a zip, a link of a pack."""
-    if is_link(path):
-        return "#pack" in str(path)
+    if kind := link_kind(path):
+        return kind == "pack"
     try:
         return (path / INDEX).is_file() if path.is_dir() else path.suffix.lower() == ".zip"
     except OSError:

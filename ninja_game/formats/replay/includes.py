@@ -2,28 +2,30 @@
 
 from __future__ import annotations
 
-import os
-from pathlib import Path
-
-from ninja_game.errors import NinjaGameError, ReplayError
-from ninja_game.files.reading import path_below, read_text
+from ninja_game.errors import ReplayError
+from ninja_game.files.beside import has_folder, read_beside
+from ninja_game.files.reading import MAX_BYTES
 from ninja_game.formats.replay.input_text import Include
 
 
 def included_beside(file: str) -> Include | None:
     """Reads files in the folder of ``file`` or below it, as inputs name them; None where there is no such folder."""
-    if not file or not os.path.isfile(file):  # noqa: PTH113 - Path.is_file() fails on long names
+    if not has_folder(file):
         return None
 
+    texts: dict[str, str] = {}
+
     def include(name: str) -> tuple[str, str]:
-        path = path_below(Path(file).parent, name)
-        if path is None or not name:
+        found = read_beside(file, name)
+        if not found.path:
             expected = "a file in the replay's folder or below it"
             raise ReplayError("a file elsewhere", found=repr(name[:40]), expected=expected)
-        try:
-            return str(path), read_text(path)
-        except (OSError, NinjaGameError) as error:
-            why = error.strerror if isinstance(error, OSError) else str(error)
-            raise ReplayError("a file that cannot be taken in", found=repr(name[:40]), hint=why or "") from None
+        if found.text is None:
+            hint = found.problem or "no file of this name is there"
+            raise ReplayError("a file that cannot be taken in", found=repr(name[:40]), hint=hint)
+        texts[found.path] = found.text
+        if sum(map(len, texts.values())) > MAX_BYTES:
+            raise ReplayError("too much taken in", found=repr(name[:40]), expected=f"{MAX_BYTES >> 20} MiB in all")
+        return found.path, found.text
 
     return include

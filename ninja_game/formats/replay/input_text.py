@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from ninja_game.errors import ReplayError
@@ -15,6 +15,9 @@ from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, MAX_TICKS, pressed
 
 MOST_INCLUDES = 100
 """Files that a text may take in, the same one each time anew."""
+
+MOST_MARKERS = 100_000
+"""In a text with all that it takes in."""
 
 DEEPEST = 8
 """How deep files may take in others, and blocks may lie in blocks."""
@@ -81,6 +84,8 @@ class _Reader:
     def __init__(self, include: Include | None) -> None:
         self._include = include
         self._included = 0
+        self._markers = 0
+        self._read: dict[str, _Block] = {}
 
     def block(self, lines: Iterable[Line], files: list[str]) -> _Block:
         """All of a file as one block; ``files``: those that led here, it being the last."""
@@ -113,6 +118,9 @@ class _Reader:
             name = marker_name(text[1:], *place)
             if name in seen:
                 raise ReplayError("a marker given twice", *place, repr(text), hint="choose another name")
+            self._markers += 1
+            if self._markers > MOST_MARKERS:
+                raise ReplayError("too many markers", *place, repr(text), f"at most {MOST_MARKERS:,}")
             seen.add(name)
             stack[-1].items.append(name)
         else:
@@ -137,8 +145,13 @@ class _Reader:
             raise
         if path in files:
             raise ReplayError("a file that takes in itself", *place, repr(name[:40]))
+        if path in self._read:
+            return self._read[path]
         lines = in_our_notation(text, path) if is_tas_text(text) else numbered_lines(text)
-        return self.block(lines, [*files, path])
+        block = self.block(lines, [*files, path])
+        # Its markers name ticks of the first place: what comes again is read once, and has none.
+        self._read[path] = replace(block, items=[item for item in block.items if not isinstance(item, str)])
+        return block
 
 
 def _end_block(text: str, stack: list[_Block], place: tuple[str, int, int]) -> None:

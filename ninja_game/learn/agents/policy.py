@@ -11,14 +11,15 @@ import json
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.errors import FileError
-from ninja_game.files.reading import read_bytes
+from ninja_game.errors import ArgumentError, FileError
+from ninja_game.files.arrays import MOST_ARRAYS, UNREADABLE, read_array
+from ninja_game.files.reading import MAX_BYTES, open_regular
 from ninja_game.files.writing import write_atomically
+from ninja_game.files.zips import open_zip
 from ninja_game.learn.actions import ACTION_NAMES
 from ninja_game.learn.observations.observation import PARTS, Observation
 from ninja_game.learn.observations.part import Part
@@ -27,6 +28,9 @@ Floats = NDArray[np.float32]
 
 FORMAT = 1
 """Of the file; a later one may differ."""
+
+WIDEST = 2**16
+"""Most numbers along an array of an agent."""
 
 
 @dataclass(eq=False)
@@ -74,8 +78,7 @@ class PolicyAgent:
 def load_policy(path: Path) -> PolicyAgent:
     """The agent in a file. Raises FileError for a file that holds none, OSError as it comes."""
     try:
-        with np.load(io.BytesIO(read_bytes(path)), allow_pickle=False) as stored:
-            arrays = dict(stored)
+        arrays = _arrays(path)
         about = json.loads(str(arrays["about"]))
         if about["format"] != FORMAT:
             raise FileError("an agent of another format", file=str(path), found=str(about["format"]), expected="1")
@@ -83,11 +86,23 @@ def load_policy(path: Path) -> PolicyAgent:
         layers = [(arrays[f"weights_{number}"], arrays[f"biases_{number}"]) for number in numbers]
         agent = PolicyAgent(layers, arrays["mean"], arrays["scale"], _read(about["settings"]), about["training"])
         _check(agent)
-    except (BadZipFile, KeyError, TypeError, ValueError, EOFError, AttributeError) as error:
+    except (*UNREADABLE, ArgumentError) as error:
         raise FileError(
             "no agent that `ninja-game learn train` made", file=str(path), found=str(error)[:100]
         ) from error
     return agent
+
+
+def _arrays(path: Path) -> dict[str, NDArray[Any]]:
+    """The arrays of a file by name: ``about`` a text, all others of float32. Raises an error of UNREADABLE."""
+    with open_regular(path) as file, open_zip(file, most_files=MOST_ARRAYS, most_bytes=MAX_BYTES) as archive:
+        found = {entry.filename.removesuffix(".npy"): entry for entry in archive.infolist()}
+        return {
+            name: read_array(
+                archive, entry, np.dtype(np.str_ if name == "about" else np.float32), most=WIDEST, dimensions=2
+            )
+            for name, entry in found.items()
+        }
 
 
 def forward(layers: list[tuple[Floats, Floats]], values: Floats) -> Floats:

@@ -48,7 +48,7 @@ def level_source(origin: Origin) -> LevelSource:
     a sequence of these       all of them
     ========================  =====================================================================================
 
-    Raises ArgumentError for a level that there is not, LevelError for one that cannot be read; OSError as it comes.
+    Raises ArgumentError for an unknown level, LevelError for one that cannot be read; OSError as it comes.
     """
     if isinstance(origin, LevelSource):
         return origin

@@ -15,7 +15,7 @@ from ninja_game.editor.files import SUFFIX, OccupiedError, Source, draft_of, new
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.records import points
 from ninja_game.editor.stamp import everything
-from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.files.shown_text import file_stem
 from ninja_game.formats.ascii.writer import HEADER_KEYS
 from ninja_game.play.editor.desk import Desk
@@ -23,7 +23,7 @@ from ninja_game.play.editor.marks import finding_points
 from ninja_game.play.editor.panels import LevelChoice, help_page
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.trying import TryScreen
-from ninja_game.play.menus.panels import STAY, Form, Menu
+from ninja_game.play.menus.panels import STAY, Form, Menu, nothing
 from ninja_game.player.catalogue import Entry
 
 if TYPE_CHECKING:
@@ -149,29 +149,31 @@ class EditorCommands:
         ]  # fmt: skip
         self.app.push(Menu(self.app, "Level", rows))
 
-    def save(self) -> None:
-        """Write the level into its file, or into a new one of the player's."""
+    def save(self, then: Action = nothing) -> None:
+        """Write the level into its file, or into a new one of the player's, and do ``then``."""
         if self.session.source.path is None and not self.session.draft.name:
-            self.save_as()
+            self.save_as(then)
         else:
-            self.save_to(self.session.own_path)
+            self.save_to(self.session.own_path, then)
 
-    def save_to(self, path: Path) -> None:
-        """Write the level; ask before anything is replaced."""
+    def save_to(self, path: Path, then: Action = nothing, *, replacing: bool = False) -> None:
+        """Write the level, and do ``then``; ask before anything is replaced."""
         try:
-            self.session.save(path)
+            self.session.save(path, replacing=replacing)
         except OccupiedError as error:
             text = str(error)
             rows = [
-                ("Save under another name", self.save_as, ""),
-                ("Replace it", lambda: self.session.save(path, replacing=True), "What it holds now is lost"), STAY,
+                ("Save under another name", lambda: self.save_as(then), ""),
+                ("Replace it", lambda: self.save_to(path, then, replacing=True), "What it holds now is lost"), STAY,
             ]  # fmt: skip
             self.app.push(Menu(self.app, text[0].upper() + text[1:], rows))
-        except NinjaGameError as error:
-            self.app.notify(f"Not saved: {error}")
+        except (NinjaGameError, OSError) as error:
+            self.app.notify(f"Not saved: {reason(error)}")
+        else:
+            then()
 
-    def save_as(self) -> None:
-        """Ask for the level's name, and write it into a file of that name."""
+    def save_as(self, then: Action = nothing) -> None:
+        """Ask for the level's name, write it into a file of that name, and do ``then``."""
         session = self.session
         fields = [(f"Name of the level, or else {NAMELESS}", session.draft.name, 60)]
 
@@ -180,7 +182,7 @@ class EditorCommands:
             folder = session.source.path.parent if session.source.path else self.app.player.folder / "levels"
             session.bench.finish()
             session.bench.history.change(replace(session.draft, name=name))
-            self.save_to(folder / f"{file_stem(name, 'level')}{SUFFIX}")
+            self.save_to(folder / f"{file_stem(name, 'level')}{SUFFIX}", then)
 
         self.app.push(Form(self.app, "Save as", fields, "Save", take))
 
@@ -245,5 +247,5 @@ class EditorCommands:
         if self.session.is_saved:
             action()
             return
-        rows = [STAY, ("Save first", self.save, ""), ("Leave it unsaved", action, "It is lost")]
+        rows = [STAY, ("Save first", lambda: self.save(action), ""), ("Leave it unsaved", action, "It is lost")]
         self.app.push(Menu(self.app, f"{self.session.name} is not saved", rows))

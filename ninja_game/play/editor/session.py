@@ -95,15 +95,13 @@ class EditorSession:
         if self.autosave.problem:
             self.app.notify(self.autosave.problem)
             self.autosave.problem = ""
+        if self._checks.problem:
+            self.app.notify(f"The level could not be examined: {self._checks.problem}")
+            self._checks.problem = ""
         due = self.draft.level is not self._asked and monotonic() - self._asked_at >= CHECK_SPACING
         if due and not self.bench.dragging:
             self._asked, self._asked_at = self.draft.level, monotonic()
             self._checks.ask(self.draft.level)
-
-    def finish_checks(self) -> None:
-        """Examine the level now, and wait for what is found."""
-        self._checks.ask(self.draft.level)
-        self._checks.finish()
 
     def close(self) -> None:
         """The level is left: nothing of it is kept."""
@@ -119,13 +117,12 @@ class EditorSession:
         return self.source.path or free_path(levels, file_stem(self.draft.name, "level"), SUFFIX)
 
     def save(self, path: Path, *, replacing: bool = False) -> None:
-        """Write the level, and say so. Raises OccupiedError where that would replace what somebody else wrote."""
+        """Write the level, and say so.
+
+        Raises OccupiedError where that would replace what somebody else wrote, OSError.
+        """
         self.bench.finish()
-        try:
-            self.source = save(self.source, self.draft, path, replacing=replacing)
-        except OSError as error:
-            self.app.notify(f"Not saved: {error.strerror or error}")
-            return
+        self.source = save(self.source, self.draft, path, replacing=replacing)
         mine = path.is_relative_to(self.app.player.folder / "levels")
         self.app.notify(f"Saved{', and in the menu Levels' * mine}: {path}")
 

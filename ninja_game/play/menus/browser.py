@@ -11,7 +11,9 @@ import pygame
 
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.reading import read_bytes
-from ninja_game.files.writing import write_atomically
+from ninja_game.files.shown_text import name_problem
+from ninja_game.files.tree import Tree
+from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.input.events import InputEvent
@@ -113,10 +115,12 @@ class Browser(ThumbnailScreen):
         folder = self.player.catalogue.folder
         try:
             load_levels(file)
-            if folder is None or (folder / file.name).exists():
+            if problem := name_problem(file.name):
+                self.message = f"Give it another name first: {problem}"
+            elif folder is None or free_path(folder, file.stem, file.suffix).name != file.name:
                 self.message = f"There is a {file.name} already"
             else:
-                write_atomically(folder / file.name, read_bytes(file))
+                Tree(folder).write(file.name, read_bytes(file))
                 self.enter()
                 self.message = ""
         except (NinjaGameError, OSError) as error:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.compile_cache import choose_memory
-from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.errors import LevelError
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.generator import daily
 from ninja_game.play.level.screen import LevelScreen
@@ -38,7 +38,7 @@ class _Maker:
         self.told = "starting; the first time it compiles, which takes a minute or two"
         self.problem = ""
         self.stop = Event()
-        self._thread = beside(lambda: self._run(levels, day))
+        self._thread = beside(lambda: self._run(levels, day), self._fail)
 
     @property
     def working(self) -> bool:
@@ -46,15 +46,13 @@ class _Maker:
         return self._thread.is_alive()
 
     def _run(self, levels: Path, day: date) -> None:
-        try:
-            require_desktop()
-            choose_memory("compiled")
-            if not daily.make_daily(levels, day, report=self._tell, stop=self.stop):
-                self.problem = "No level could be made of this day."
-        except NinjaGameError as error:
-            self.problem = str(error)
-        except OSError as error:
-            self.problem = f"The level could not be kept: {error.strerror}"
+        require_desktop()
+        choose_memory("compiled")
+        if not daily.make_daily(levels, day, report=self._tell, stop=self.stop):
+            self.problem = "No level could be made of this day."
+
+    def _fail(self, why: str) -> None:
+        self.problem = f"No level could be made of this day: {why}"
 
     def _tell(self, text: str) -> None:
         self.told = text
@@ -96,11 +94,6 @@ class DailyScreen(ThumbnailScreen):
         if self._maker:
             self._maker.stop.set()
             self._maker = None
-
-    @property
-    def making(self) -> bool:
-        """Whether the level is being made."""
-        return self._maker is not None
 
     def build(self) -> Sequence[Widget]:
         """What can be done with a level that is there."""

@@ -22,8 +22,12 @@ ROW = 40
 Row = tuple[str, Callable[[], object], str]
 """Text, action, hint."""
 
-STAY: Row = ("Stay", lambda: None, "")
-"""A button that does nothing but close."""
+
+def nothing() -> None:
+    """The action of a button that does nothing but close; what is done behind saving, as a rule."""
+
+
+STAY: Row = ("Stay", nothing, "")
 
 
 class Panel(MenuScreen):

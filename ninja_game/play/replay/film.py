@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 import pygame
@@ -24,6 +25,9 @@ from ninja_game.simulation import Simulation
 _TAIL = TICKS_PER_SECOND
 """Ticks after the end that a film shows."""
 
+MOST_PICTURES = 20_000
+"""Of a film whose last tick nobody named: more than eight minutes."""
+
 
 class _StoppedError(Exception):
     """The film is not wanted any more."""
@@ -34,7 +38,8 @@ class Film:
     """What a film shows: a run from the moment after ``first`` ticks to that after ``last`` (None: to its end and on).
 
     ``size``: px. ``speed``: 1 is that of the game. ``ghosts``: runs on the same level that go along. ``keys``: whether
-    the keys that are down are shown. Raises ArgumentError for a section that is empty or begins after the end.
+    the keys that are down are shown. Raises ArgumentError for a section that is empty or begins after the end, and for
+    one without ``last`` that is longer than MOST_PICTURES.
     """
 
     run: RecordedRun
@@ -46,11 +51,17 @@ class Film:
     first: int = 0
     last: int | None = None
 
-    @property
+    @cached_property
     def moments(self) -> range:
         """The ticks after which there is a picture. Raises LevelError for a level that cannot be played."""
-        end = Playback(Simulation(self.run.level, body=self.run.body), self.run.inputs, spacing=0).find_end() + _TAIL
-        last = end if self.last is None else min(self.last, end)
+        wanted = self.first + MOST_PICTURES if self.last is None else self.last
+        playback = Playback(Simulation(self.run.level, body=self.run.body), self.run.inputs, spacing=0)
+        # What comes after the last picture is not run.
+        found = playback.find_end(wanted + 1)
+        end = wanted + 1 if found is None else found + _TAIL
+        if self.last is None and end > wanted:
+            raise ArgumentError(f"the film has more than {MOST_PICTURES:,} pictures; name its last tick: --to")
+        last = min(wanted, end)
         if self.first > last:
             raise ArgumentError(f"a film from tick {self.first} to {last} has no pictures; the run's last is {end}")
         return range(self.first, last + 1)

@@ -13,6 +13,7 @@ import pygame
 
 from ninja_game.errors import ArgumentError, MissingExtraError
 from ninja_game.files.resources import how_to_install
+from ninja_game.files.tree import Tree
 from ninja_game.files.writing import write_atomically
 from ninja_game.play.ui.palette import ROLES, Palette, mixed
 from ninja_game.runtime import require_desktop
@@ -90,9 +91,11 @@ def write_webm(pictures: Iterator[pygame.Surface], path: Path, size: tuple[int, 
 
 def write_folder(pictures: Iterator[pygame.Surface], path: Path) -> None:
     """Write pictures into a folder as 00000.png, 00001.png, … Raises OSError."""
-    path.mkdir(parents=True, exist_ok=True)
+    folder = Tree(path)
     for number, picture in enumerate(pictures):
-        pygame.image.save(picture, str(path / f"{number:05d}.png"))
+        png = io.BytesIO()
+        pygame.image.save(picture, png, ".png")
+        folder.write(f"{number:05d}.png", png.getvalue())
 
 
 def film_colours(palette: Palette) -> list[int]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from threading import Thread
 
-from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import export_path
 from ninja_game.play.replay.film import Film, write_film
 from ninja_game.play.replay.playback import RecordedRun
@@ -32,7 +31,7 @@ class FilmJob:
 
     def start(self) -> None:
         """Begin."""
-        self._thread = beside(self._make)
+        self._thread = beside(self._make, self._fail)
 
     def cancel(self) -> None:
         """Give up, and wait until it is given up."""
@@ -50,14 +49,12 @@ class FilmJob:
         return self._wanted
 
     def _make(self) -> None:
-        try:
-            film = Film(self._run, settings=self._settings)
-            self._count = len(film.moments)
-            path = export_path(self._folder, self._run.title, ".gif")
-            if write_film(film, path, self._report):
-                self.result = f"Saved: {path}"
-        except OSError as error:
-            self.result = f"The film could not be saved: {error.strerror}"
-        except NinjaGameError as error:
-            self.result = f"No film: {error}"
+        film = Film(self._run, settings=self._settings)
+        self._count = len(film.moments)
+        path = export_path(self._folder, self._run.title, ".gif")
+        if write_film(film, path, self._report):
+            self.result = f"Saved: {path}"
         self.done = True
+
+    def _fail(self, why: str) -> None:
+        self.result, self.done = f"No film: {why}", True

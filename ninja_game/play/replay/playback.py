@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
+from ninja_game.budget import tick_cost
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.runs.save_states import SPACING, SaveStates
-from ninja_game.sim.inputs import Demo
+from ninja_game.sim.inputs import MAX_TICKS, Demo
 from ninja_game.sim.level import Level
-from ninja_game.simulation import Body, Simulation
+from ninja_game.simulation import Body, SaveState, Simulation
 
 
 @dataclass(frozen=True)
@@ -58,13 +59,22 @@ class Playback:
     """Plays inputs on a simulation; in ticks beyond them no key is down.
 
     ``inputs`` may grow while it plays. ``spacing``: ticks between the save-states that make seeking quick; 0: only the
-    start is kept.
+    start is kept. ``states``: those of another playback of the same inputs, which both use from now on.
     """
 
-    def __init__(self, simulation: Simulation, inputs: bytes | bytearray, *, spacing: int = SPACING) -> None:
+    def __init__(
+        self,
+        simulation: Simulation,
+        inputs: bytes | bytearray,
+        *,
+        spacing: int = SPACING,
+        states: SaveStates[SaveState] | None = None,
+    ) -> None:
         self.simulation = simulation
         self.inputs = inputs
-        self._states = SaveStates(simulation.tick, simulation.save(), spacing=spacing)
+        # A save-state holds the inputs that led to it too, a byte each.
+        values = tick_cost(simulation.level) + len(inputs) // 250
+        self._states = states or SaveStates(simulation.tick, simulation.save(), spacing=spacing, values=values)
 
     @property
     def tick(self) -> int:
@@ -89,18 +99,33 @@ class Playback:
         """Drop the moments after a tick: from there the run goes another way."""
         self._states.forget_after(tick)
 
-    def seek(self, tick: int) -> None:
-        """Go to the moment after so many ticks."""
+    def seek(self, tick: int, most: int = MAX_TICKS) -> int:
+        """Go to the moment after so many ticks, or as near as ``most`` ticks lead; how many of them are left."""
         run = self.simulation
         nearest, state = self._states.nearest(tick)
         if not nearest <= run.tick <= tick:
             run.restore(state)
-        while run.tick < tick:
+        while run.tick < tick and most:
             self.step()
+            most -= 1
+        return most
 
-    def find_end(self) -> int:
-        """The tick of the exit contact or death, or the last one of the inputs. Plays to it from the present moment."""
+    def find_end(self, most: int = MAX_TICKS + 1) -> int | None:
+        """The tick of the exit contact or death, or the last one of the inputs: plays to it from the present moment.
+
+        None where it is not reached within ``most`` ticks.
+        """
         run = self.simulation
-        while run.outcome == "running" and run.tick <= len(self.inputs):
+        while run.outcome == "running" and run.tick <= len(self.inputs) and most:
             self.step()
-        return max(0, run.tick - 1) if run.outcome != "running" else len(self.inputs)
+            most -= 1
+        if run.outcome != "running":
+            return max(0, run.tick - 1)
+        return len(self.inputs) if run.tick > len(self.inputs) else None
+
+    def beside(self) -> Playback:
+        """A playback of the same inputs at the same moment in a world of its own; both use the same save-states."""
+        run = self.simulation
+        other = Simulation(run.level, body=run.body)
+        other.restore(run.save())
+        return Playback(other, self.inputs, states=self._states)

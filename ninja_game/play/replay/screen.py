@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
+from ninja_game.budget import TURN_WORK, affordable_ticks, tick_cost
 from ninja_game.formats.links.making import replay_link
 from ninja_game.formats.recording import Recording
 from ninja_game.play.clipboard import copy_link
@@ -42,6 +43,9 @@ class ReplayScreen(Screen):
 
     ``end``: the tick of the exit contact or death, or the last one of the recording; ``outcome``: what it brought.
     ``length``: ticks to show. ``editable``: whether the bench may be opened from here, if the app has one.
+
+    Between two pictures there is the work of a turn at most: in a long run the end is looked for while it plays, and
+    until it is found ``end`` is the last tick of the recording; to seek far ahead takes several turns.
     """
 
     def __init__(self, app: App, runs: Sequence[RecordedRun | Recording], *, editable: bool = True) -> None:
@@ -58,15 +62,24 @@ class ReplayScreen(Screen):
         """Watch one of the runs, from its start."""
         self.index = index % len(self.runs)
         self.run = run = self.runs[self.index]
-        self.playback = Playback(Simulation(run.level, body=run.body), run.inputs)
-        self.end = self.playback.find_end()
-        self.outcome = self.playback.simulation.outcome
-        self.length = self.end + AFTERMATH
+        inputs = run.inputs[: affordable_ticks(run.level)]
+        if len(inputs) < len(run.inputs):
+            self.app.notify(f"This run costs too much work: it is shown up to tick {len(inputs):,}")
+        self._turn = self._left = max(1, TURN_WORK // tick_cost(run.level))
+        self._way: tuple[int, int] | None = None
+        self.playback = Playback(Simulation(run.level, body=run.body), inputs)
+        self._scout: Playback | None = self.playback
+        self.end, self.outcome, self.length = len(inputs), "running", len(inputs) + AFTERMATH
+        self._look_ahead(self._turn)
+        if self._scout:
+            self._scout = self.playback.beside()
         self.playback.seek(0)
         self.view = LevelView(self.app, self.playback.simulation)
         self.view.overlays = self.overlays
         others = [other for other in self.runs if other is not run and other.level == run.level]
-        self.ghosts = [Ghost(GhostRun(other.title, other.inputs), other.level, other.body) for other in others[:8]]
+        self.ghosts = [
+            Ghost(GhostRun(other.title, other.inputs), other.level, other.body, alone=False) for other in others[:8]
+        ]
         self.view.ghosts = self.ghosts
         self.paused = False
         self.still_ms = _STILL_MS
@@ -89,25 +102,55 @@ class ReplayScreen(Screen):
         """The moment shown: after so many ticks."""
         return self.playback.simulation.tick
 
+    @property
+    def settled(self) -> bool:
+        """Whether the end of the run is known, and the moment sought is reached, by ghosts too."""
+        return self._scout is None and self._way is None and not any(ghost.behind for ghost in self.ghosts)
+
     # --- moving in time ---
 
+    def _look_ahead(self, ticks: int) -> None:
+        """Look for the end of the run for so many ticks."""
+        end = self._scout.find_end(ticks) if self._scout else None
+        if self._scout and end is not None:
+            self.end, self.outcome, self.length = end, self._scout.simulation.outcome, end + AFTERMATH
+            self._scout = None
+            self.redraw = True
+
     def seek(self, tick: int) -> None:
-        """Show the moment after so many ticks, exactly; the corpse and particles are those of the last moments."""
-        playback = self.playback
+        """Show the moment after so many ticks, exactly; the corpse and particles are those of the last moments.
+
+        One that the work of a turn does not lead to is reached in the next ones.
+        """
         tick = min(max(0, tick), self.length)
         start = max(0, tick - _WARM)
         if self.outcome == "dead" and start > self.end:
             # A corpse lies where it fell: its fall is run again.
             start = self.end
-        playback.seek(start)
-        self.view.on_seek()
+        self._way = start, tick
+        self._go_on()
+
+    def _go_on(self) -> None:
+        """Go on towards the moment sought."""
+        if self._way is None or not self._left:
+            return
+        start, tick = self._way
+        if start >= 0:
+            self._left = self.playback.seek(start, self._left)
+            self.view.on_seek()
+            # The rest is run with its animations, never back.
+            self._way = -1 if self.tick == start else start, tick
         self.view.audible = False
         try:
-            while self.tick < tick:
-                playback.step()
+            while self._way[0] < 0 and self.tick < tick and self._left:
+                self.playback.step()
                 self.view.on_tick()
+                self._left = max(0, self._left - 1 - len(self.ghosts))
         finally:
             self.view.audible = True
+        if self.tick == tick:
+            self._way = None
+        self._gather_ghosts()
         self.clock.reset()
         self.redraw = True
 
@@ -124,6 +167,24 @@ class ReplayScreen(Screen):
         if self.export and self.export.done:
             self.app.notify(self.export.result)
             self.export = None
+        if self._way:
+            self._go_on()
+        else:
+            if not self._gather_ghosts():
+                self._play(real_ms)
+            self._look_ahead(max(1, self._left))
+        self._left = self._turn
+
+    def _gather_ghosts(self) -> bool:
+        """Let ghosts catch up after a leap; whether there were any that had to."""
+        late = [ghost for ghost in self.ghosts if ghost.behind]
+        for ghost in late:
+            self._left -= ghost.catch_up(self._left)
+            self.redraw = True
+        return bool(late)
+
+    def _play(self, real_ms: int) -> None:
+        """Play the ticks that are due, and no more than the work of a turn."""
         if self.paused or self.bar.dragging:
             return
         if self.still_ms > 0:
@@ -131,8 +192,12 @@ class ReplayScreen(Screen):
             self.clock.reset()
             return
         tick_ms = max(1, round(25 / SPEEDS[self.speed]))
-        for _ in range(self.clock.ticks_due(real_ms, tick_ms)):
-            self._play_tick()
+        runs = 1 + len(self.ghosts)
+        due = min(self.clock.ticks_due(real_ms, tick_ms), max(1, self._left // runs))
+        for _ in range(due):
+            if not self._way:
+                self._play_tick()
+        self._left = max(0, self._left - due * runs)
 
     # --- keys and mouse ---
 
@@ -188,7 +253,7 @@ class ReplayScreen(Screen):
         self.app.change_settings(show_ghost=not self.app.settings.show_ghost)
 
     def start_export(self) -> None:
-        """Make a film of this take beside the player's replays."""
+        """Make a film of this run among the player's exports."""
         if self.export is None:
             self.export = FilmJob(self.run, self.app.settings, self.app.player.folder)
             self.export.start()
@@ -225,6 +290,8 @@ class ReplayScreen(Screen):
     def _hint(self) -> str:
         if self.export:
             return f"Making a film: {self.export.percent} %"
+        if self._way:
+            return f"Going to tick {self._way[1]:,}: {100 * self.tick // max(1, self._way[1])} %"
         if not self.paused:
             return ""
         key = self.app.controls.name

@@ -10,7 +10,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import NinjaGameError, reason
 from ninja_game.play.ui.theme import Theme
 from ninja_game.tas.course import Course
 from ninja_game.tas.session import Session
@@ -98,7 +98,7 @@ class Bench:
         try:
             edit()
         except (NinjaGameError, OSError) as error:
-            self.app.notify(str(getattr(error, "strerror", "") or error))
+            self.app.notify(reason(error))
             return False
         self.cursor = min(self.cursor, self.last_tick)
         if self.anchor is not None:

@@ -11,7 +11,7 @@ from time import localtime, strftime
 from typing import TYPE_CHECKING
 
 from ninja_game.editor.files import OccupiedError
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.locking import forget
 from ninja_game.files.resources import data_folder
 from ninja_game.files.shown_text import file_stem
@@ -19,7 +19,7 @@ from ninja_game.files.user_folder import REPLAYS, free_path
 from ninja_game.formats.links.making import replay_link
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.help.commands_page import HelpPage
-from ninja_game.play.menus.panels import STAY, Form, Menu, Row
+from ninja_game.play.menus.panels import STAY, Form, Menu, Row, nothing
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.controls import COMMANDS
@@ -38,10 +38,6 @@ Mark some ticks and press F to search for a better way through them; a click on 
 The wheel scrolls the roll, and shows the level or a plot larger; the right button moves the level, the left one \
 a plot. With Ctrl the wheel goes tick by tick. Drag what is between the parts to give one of them more room."""
 """What one has to know to begin."""
-
-
-def _nothing() -> None:
-    """What is done behind saving, as a rule."""
 
 
 class FileCommands:
@@ -85,7 +81,7 @@ class FileCommands:
 
     # --- saving ---
 
-    def save(self, then: Callable[[], object] = _nothing) -> None:
+    def save(self, then: Callable[[], object] = nothing) -> None:
         """Write the run into its file, and do ``then``; of one without a file ask for a name."""
         if self.session.file.path:
             self.save_to(self.session.file.path, then)
@@ -101,7 +97,7 @@ class FileCommands:
                 return opened.parent
         return self.app.player.folder / REPLAYS
 
-    def save_as(self, then: Callable[[], object] = _nothing) -> None:
+    def save_as(self, then: Callable[[], object] = nothing) -> None:
         """Ask for the name of the file, write the run, and do ``then``."""
         path, folder = self.session.file.path, self._folder
         free = free_path(folder, file_stem(self._name, "run"), SUFFIX)
@@ -118,7 +114,7 @@ class FileCommands:
             Form(self.app, f"Save in {folder.absolute()}", [("Name or path of the file", name, 300)], "Save", take)
         )
 
-    def save_to(self, path: Path, then: Callable[[], object] = _nothing, *, replacing: bool = False) -> None:
+    def save_to(self, path: Path, then: Callable[[], object] = nothing, *, replacing: bool = False) -> None:
         """Write the run, and do ``then``; ask before anything is replaced."""
         try:
             self.session.save(path, replacing=replacing)
@@ -130,7 +126,7 @@ class FileCommands:
             ]  # fmt: skip
             self.app.push(Menu(self.app, text[0].upper() + text[1:], rows))
         except (NinjaGameError, OSError) as error:
-            self.app.notify(f"Not saved: {getattr(error, 'strerror', '') or error}")
+            self.app.notify(f"Not saved: {reason(error)}")
         else:
             tail = ", with what is behind its end (Ctrl+E takes that out)" if self.session.has_tail else ""
             beside = " and its branches beside it" * branches_path(path).exists()

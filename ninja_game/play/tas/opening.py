@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.compile_cache import compiled_available, is_compiled
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import NinjaGameError, reason
 from ninja_game.formats.recording import Recording
 from ninja_game.kernel_cache import before_compiling
 from ninja_game.play.input.events import InputEvent
@@ -81,10 +81,16 @@ class OpeningScreen(Screen):
         self._waited_ms = 0
         self._shown = ""
         before_compiling.append(self._note_compiling)
-        self._thread = beside(lambda: prepare(run))
+        self._thread = beside(lambda: prepare(run), self._note_problem)
 
     def _note_compiling(self) -> None:
         self._compiles = True
+
+    def _note_problem(self, why: str) -> None:
+        def refuse() -> TasScreen:
+            raise NinjaGameError(why)
+
+        self._make = refuse
 
     @property
     def explanation(self) -> str:
@@ -133,4 +139,4 @@ class OpeningScreen(Screen):
 
 
 def _refusal(error: Exception) -> str:
-    return f"It cannot be edited: {getattr(error, 'strerror', '') or error}"
+    return f"It cannot be edited: {reason(error)}"

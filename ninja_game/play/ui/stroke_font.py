@@ -169,7 +169,8 @@ class StrokeFont:
         picture.fill((ink.r, ink.g, ink.b, 0))
         letters = [(character, glyph(character)) for character in text]
         if any(letter is None for _, letter in letters):
-            picture.blit(self._fallback.render(text, True, ink), (1, round(self._baseline_top * 0.2)))
+            # pygame refuses a text of characters without width; a blank behind it changes no picture.
+            picture.blit(self._fallback.render(f"{text} ", True, ink), (1, round(self._baseline_top * 0.2)))
             return picture
         x = 1 + self._weight / 2 * self._unit
         for character, letter in letters:

@@ -16,6 +16,9 @@ APPLICATION_ID = 0x6E696E6A
 OPENING_SECONDS = 1.0
 """How long a start waits for another program that has locked the file."""
 
+MOST_CELL_BYTES = 2**26
+"""Of a value, and of a row; SQLite itself makes values of a gigabyte where a file asks for it."""
+
 _WRITE_VERSION = 18
 """Place of the byte in a file's header that is 1 or 2 where SQLite may write it."""
 
@@ -34,6 +37,7 @@ def open_database(name: str, source: Path | None = None, seconds: float = OPENIN
     """
     connection = sqlite3.connect(name, timeout=seconds, isolation_level=None)
     try:
+        connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MOST_CELL_BYTES)
         # Text that is no UTF-8 is damage of one row, no reason to fail.
         connection.text_factory = _text
         if source is not None:

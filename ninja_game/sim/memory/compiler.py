@@ -29,12 +29,11 @@ class Compiler:
     """``compiler(entry_point)`` is its compiled twin, which takes the same arguments.
 
     Nothing is compiled before a twin is called for the first time. ``checked``: raise IndexError for an index out of
-    range, which is silent otherwise. ``keep``: see ``Keep``.
+    range, which is silent otherwise. ``keep``: see ``Keep``. ``numba``: the module, as
+    ``numba_import`` gives it.
     """
 
-    def __init__(self, *, checked: bool = False, keep: Keep | None = None) -> None:
-        import numba
-
+    def __init__(self, numba: Any, *, checked: bool = False, keep: Keep | None = None) -> None:
         jit: Any = numba.njit
         options: dict[str, Any] = {"nogil": True, "error_model": "python", "boundscheck": checked}
         self._inner = jit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)

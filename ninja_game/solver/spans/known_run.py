@@ -18,6 +18,7 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import OUTCOME_RUNNING
 from ninja_game.sim.world import step
 from ninja_game.solver.search_memory import Start
+from ninja_game.solver.state_abstraction import open_mask
 
 NEVER = 1.0e9
 """Ticks to the exit where nothing of the known run is like this."""
@@ -47,16 +48,6 @@ class KnownRun(NamedTuple):
 
 
 @fast
-def mask_of(w: World, switch_slots: NDArray[np.int64]) -> int:
-    """What is open, a bit a switch."""
-    mask = 0
-    for k in range(len(switch_slots)):
-        if w.objects[switch_slots[k]].is_open:
-            mask |= 1 << k
-    return mask
-
-
-@fast
 def note(run: KnownRun, w: World, switch_slots: NDArray[np.int64]) -> None:
     """Note the present moment of a world."""
     n = w.ninja
@@ -65,7 +56,7 @@ def note(run: KnownRun, w: World, switch_slots: NDArray[np.int64]) -> None:
     row[1] = n.y
     row[2] = n.x - n.prev_x
     row[3] = n.y - n.prev_y
-    run.masks[w.tick] = mask_of(w, switch_slots)
+    run.masks[w.tick] = open_mask(w, switch_slots)
     run.gold[w.tick] = w.gold
 
 

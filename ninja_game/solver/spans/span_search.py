@@ -15,8 +15,8 @@ from ninja_game.solver.macro_actions import action_code, play_macro
 from ninja_game.solver.open_list import pop_lowest, push
 from ninja_game.solver.search import CHOICES, EXHAUSTED, MORE, NO_ROOM, add_node, keep_node, macro_of, take_state
 from ninja_game.solver.search_memory import BUCKETS, Resolution, SearchMemory, Start, random_below
-from ninja_game.solver.spans.known_run import KnownRun, mask_of, nearest
-from ninja_game.solver.state_abstraction import Goals, find, is_news, key_of
+from ninja_game.solver.spans.known_run import KnownRun, nearest
+from ninja_game.solver.state_abstraction import MIX, Goals, find, is_news, key_of, open_mask
 
 FOLLOWED = 3
 """Mode of an action that plays on as the known run did, from the row in its bits 16 and up."""
@@ -59,7 +59,7 @@ def expand_along(
             continue
         counters.expanded += 1
         held = here.ninja.jump_held
-        row, _ = nearest(run, here, mask_of(here, goals.switch_slots))
+        row, _ = nearest(run, here, open_mask(here, goals.switch_slots))
         for choice in range(CHOICES + FOLLOW_CHOICES):
             action = 0
             played = 0
@@ -97,13 +97,15 @@ def keep_ahead(
     """Make a node of the working world if its key is news and it promises a shorter run."""
     w = start.worlds[1]
     counters = memory.counters[0]
-    mask = mask_of(w, goals.switch_slots)
+    mask = open_mask(w, goals.switch_slots)
     _, ahead = nearest(run, w, mask)
     promise = w.tick + ahead
     late = run.behind if w.tick < run.span[1] else -LEAST_GAIN
     if promise > counters.best_ticks + late:
         return
-    key = key_of(w, goals, mask & 511, 0, resolution)
+    # A key has nine bits for what is open: the bits of further switches are mixed into them.
+    switches = (mask ^ ((mask >> 9) * MIX >> 40)) & 511
+    key = key_of(w, goals, switches, 0, resolution)
     slot = find(memory.table, key)
     entry = memory.table[slot]
     if entry.key != 0 and not is_news(entry, w.tick, resolution):

@@ -17,7 +17,7 @@ from ninja_game.web.board.report import summary
 from ninja_game.web.board.runs import Apart, Run
 from ninja_game.web.pages.exhibition import page_name, shared_name, shared_text, watch_address
 from ninja_game.web.pages.frame import Pages, page, section, table
-from ninja_game.web.pages.gallery import BOARD, REPLAYS, write_levels
+from ninja_game.web.pages.gallery import BOARD, write_levels
 from ninja_game.web.pages.html import Content, Markup, joined, tag
 from ninja_game.web.pages.level_page import medal_mark
 
@@ -58,7 +58,7 @@ class BoardPages:
     """
 
     def __init__(self, out: Path, ranking: Ranking, game: str = "index.html") -> None:
-        self.pages = Pages(out / BOARD)
+        self.pages = Pages(out, BOARD)
         self.ranking = ranking
         self.game = f"../{game}"
         self.links = [(self.game, "Play"), *LINKS, ("levels.html", "Levels")]
@@ -69,8 +69,7 @@ class BoardPages:
         for run in self.ranking.judged.runs:
             text = shared_text(run.replay, run.entry.named.level)
             self.stems[run.key] = shared_name(text)
-            self.pages.write(f"../{REPLAYS}/{self.stems[run.key]}.txt", text)
-        self.pages.clear("players")
+            self.pages.write_replay(self.stems[run.key], text)
         for standing in self.ranking.standings:
             self.pages.write(_player_page(standing.player), self._player(standing.player))
         links = [(self.game, "Play"), *LINKS]
@@ -79,6 +78,7 @@ class BoardPages:
         self.pages.write("players.html", page("Players", self._players(len(self.ranking.standings)), links=self.links))
         self.pages.write("episodes.html", page("Episodes", *self._episodes(), links=self.links))
         self.pages.write("apart.html", page("Apart", *self._apart(), links=self.links))
+        self.pages.clear("players")
 
     # --- parts of several pages ---
 

@@ -10,6 +10,7 @@ import pygame
 
 from ninja_game.errors import FileError
 from ninja_game.files.shown_text import shown_text
+from ninja_game.files.tree import Tree
 from ninja_game.play.ui.glyphs import CAP
 from ninja_game.play.ui.palette import PALETTES, Palette, mixed
 from ninja_game.play.ui.stroke_font import SPACING, WEIGHTS, glyph
@@ -20,6 +21,8 @@ POLICY = "default-src 'none'; img-src 'self'; style-src 'self'; script-src 'self
 """The content security policy of every page: nothing from elsewhere, no script or style within the page."""
 
 STYLE, SCRIPT, ICON = "style.css", "search.js", "icon.png"
+REPLAYS = "replays"
+"""The folder of a site with the replays that pages lead to."""
 MARK = ".ninja-game-pages"
 """A file in a folder of pages, which says that they may be replaced."""
 
@@ -47,12 +50,15 @@ _LONGEST_LINE = 24
 
 
 class Pages:
-    """A folder of pages. Raises FileError where it holds something that was not made here."""
+    """The folder ``name`` of a site, with pages. Raises FileError where it holds something that was not made here."""
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        if folder.exists() and (not folder.is_dir() or (any(folder.iterdir()) and not (folder / MARK).is_file())):
-            raise FileError("not a folder of pages made here", str(folder), hint="empty it, or choose another one")
+    def __init__(self, site: Path, name: str) -> None:
+        self.folder = site / name
+        self._site = Tree(site)
+        self._written: set[str] = set()
+        there = self._site.names(name)
+        if there and MARK not in there:
+            raise FileError("not a folder of pages made here", str(self.folder), hint="empty it, or choose another one")
         here = Path(__file__).parent
         self.write(MARK, "made by ninja-game\n")
         self.write(STYLE, "\n".join((_colours(), (here / STYLE).read_text("utf-8"))))
@@ -60,16 +66,18 @@ class Pages:
         self.write(ICON, _icon())
 
     def write(self, name: str, content: str | bytes) -> None:
-        """A file of the folder, below it or beside it; what was there is replaced: pages can always be made anew."""
-        path = self.folder / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content if isinstance(content, bytes) else content.encode("utf-8", "replace"))
+        """A file of the folder, or below it; what was there is replaced: pages can always be made anew."""
+        self._site.write(f"{self.folder.name}/{name}", content)
+        self._written.add(name)
+
+    def write_replay(self, stem: str, text: str) -> None:
+        """A replay that pages lead to, in the site's folder of them."""
+        self._site.write(f"{REPLAYS}/{stem}.txt", text)
 
     def clear(self, below: str) -> None:
-        """Remove the pages of an earlier time from a folder of it."""
-        for path in sorted((self.folder / below).glob("*")):
-            if path.is_file() and not path.is_symlink():
-                path.unlink()
+        """Remove the pages of an earlier time from a folder of it: all that were not written now."""
+        now = {name.removeprefix(f"{below}/") for name in self._written if name.startswith(f"{below}/")}
+        self._site.remove_others(f"{self.folder.name}/{below}", now)
 
 
 def page(title: str, *contents: Content, up: str = "", links: Iterable[tuple[str, str]] = ()) -> str:

@@ -13,8 +13,8 @@ from ninja_game.web.pages.frame import Pages, page
 from ninja_game.web.pages.html import Content, Markup, joined, tag
 from ninja_game.web.pages.level_page import level_image, level_page
 
-FOLDER, BOARD, REPLAYS = "gallery", "board", "replays"
-"""Folders of a site: the gallery's pages, those of a board, and the replays that pages lead to."""
+FOLDER, BOARD = "gallery", "board"
+"""Folders of a site: the gallery's pages, and those of a board."""
 
 SORTS = (("", "in playing order"), ("name", "by name"), ("difficulty", "by difficulty"), ("par", "by par time"))
 
@@ -29,7 +29,7 @@ def write_gallery(out: Path, shown: Exhibition, *, game: str = "index.html") -> 
 
     ``game``: name of the page with the game in ``out``. Raises FileError where ``out/gallery`` holds something else.
     """
-    pages = Pages(out / FOLDER)
+    pages = Pages(out, FOLDER)
     links = [(f"../{game}", "Play")]
     if (out / BOARD / "index.html").is_file():
         links.append((f"../{BOARD}/index.html", "Board"))
@@ -45,8 +45,6 @@ def write_levels(
     ``game``: address of the page with the game, as seen from the list; ``name``: file of the list; ``links``: what
     stands above every page, addresses as seen from the list; ``more``: what a level's page has besides.
     """
-    pages.clear("levels")
-    pages.clear("pictures")
     deeper = [(f"../{address}", title) for address, title in (*links, (name, "Levels"))]
     for digest, entry in shown.entries.items():
         pages.write(picture_name(digest), picture(entry.named.level))
@@ -55,8 +53,11 @@ def write_levels(
         )
         pages.write(page_name(digest), text)
         for stem, replay in replays.items():
-            pages.write(f"../{REPLAYS}/{stem}.txt", replay)
+            pages.write_replay(stem, replay)
     pages.write(name, page("Levels", *_list(shown), links=links))
+    # Last of all: where the disk is full, the pages of an earlier time are all there.
+    pages.clear("levels")
+    pages.clear("pictures")
 
 
 def _list(shown: Exhibition) -> list[Content]:

@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ninja_game import __version__
-from ninja_game.errors import FileError
+from ninja_game.errors import DAMAGED, FileError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.resources import PACKAGE
-from ninja_game.files.writing import write_atomically
+from ninja_game.files.tree import Tree, leads_below
 from ninja_game.web.site.bytecode import compiled
 from ninja_game.web.site.game_archive import game_archive, game_files, licence_of
 from ninja_game.web.site.pyodide_files import library_files, library_of, pyodide_files
@@ -55,12 +55,12 @@ def build_site(out: Path, pyodide: Path | None, cache: Path) -> list[SiteFile]:
     files = {f"pyodide/{name}": content for name, content in python.items() if not name.endswith(".json")}
     files |= {"game.tar.gz": game_archive(game)} | _page() | _icons() | _licences()
     files |= _stamped(files, about)
+    site = Tree(out)
     for name, content in files.items():
-        (out / name).parent.mkdir(parents=True, exist_ok=True)
-        write_atomically(out / name, content)
-    write_atomically(out / MARK, json.dumps({"version": __version__, "files": sorted(files)}, indent=1) + "\n")
+        site.write(name, content)
+    site.write(MARK, json.dumps({"version": __version__, "files": sorted(files)}, indent=1) + "\n")
     for name in before - set(files):
-        (out / name).unlink(missing_ok=True)
+        site.remove(name)
     return [SiteFile(name, len(data), len(gzip.compress(data, 9))) for name, data in sorted(files.items())]
 
 
@@ -71,11 +71,11 @@ def _own_files(out: Path) -> set[str]:
     hint = "name a new folder, or remove that one yourself"
     try:
         names = json.loads(read_utf8(out / MARK))["files"]
-    except (OSError, ValueError, LookupError, TypeError):
+    except (OSError, *DAMAGED):
         raise FileError(
             "this is no site of ninja-game", str(out), expected="a new or empty folder", hint=hint
         ) from None
-    return {name for name in names if isinstance(name, str) and (out / name).resolve().is_relative_to(out.resolve())}
+    return {name for name in names if isinstance(name, str) and leads_below(name)}
 
 
 def _page() -> dict[str, bytes]:

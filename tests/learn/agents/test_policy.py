@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import struct
+import tracemalloc
 from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
 import pytest
@@ -74,6 +77,62 @@ def changed(path: Path, **arrays: object) -> Path:
 def test_a_file_that_holds_no_agent_is_named(tmp_path: Path, arrays: dict[str, object]) -> None:
     with pytest.raises(FileError, match=r"agent\.npz: (no agent|an agent of another format)"):
         load_policy(changed(tmp_path / "agent.npz", **arrays))
+
+
+def packed(path: Path, *, size: int, header: str = "") -> Path:
+    """An agent's file whose ``mean`` says that it is so many zeros; or what ``header`` says."""
+    small_agent().save(path)
+    text = header or f"{{'descr': '<f4', 'fortran_order': False, 'shape': ({size},), }}"
+    raw = text.ljust(117).encode() + b"\n"
+    with ZipFile(path) as stored:
+        entries = {entry: stored.read(entry) for entry in stored.namelist()}
+    entries["mean.npy"] = b"\x93NUMPY\x01\x00" + struct.pack("<H", len(raw)) + raw + bytes(4 * size)
+    with ZipFile(path, "w", ZIP_DEFLATED) as made:
+        for name, content in entries.items():
+            made.writestr(name, content)
+    return path
+
+
+@pytest.mark.parametrize(
+    "size, header, why",
+    [
+        (2**24, "", "more than 64 MiB, unpacked"),
+        (2**17, "", "an array of the shape"),
+        (1, "{'descr': '<f4', 'fortran_order': False, 'shape': (999999,), }", "an array of the shape"),
+        (1, "{'descr': '<f4', 'fortran_order': False, 'shape': (60000,60000,), }", "buffer"),
+        (1, "{'descr': '|O', 'fortran_order': False, 'shape': (1,), }", "instead of float32"),
+        (1, "{'descr': '<f4', 'fortran_order': False, 'shape': (1,), 'x': 1, }", "header"),
+        (1, "(" * 117, "header"),
+    ],
+)
+def test_what_an_array_claims_is_checked_before_memory_is_made(
+    tmp_path: Path, size: int, header: str, why: str
+) -> None:
+    path = packed(tmp_path / "agent.npz", size=size, header=header)
+    # The zeros of the test itself come before.
+    tracemalloc.start()
+    try:
+        with pytest.raises(FileError, match=f"no agent .*{why}"):
+            load_policy(path)
+        assert tracemalloc.get_traced_memory()[1] < 2**23
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize(
+    "about",
+    [
+        "[" * 100_000,
+        '{"format": 1, "settings": {"observation": [{"part": "pixels", "width": 1e9}]}, "training": 0}',
+        '{"format": 1, "settings": {"observation": [{"part": "tiles", "size": 1' + "0" * 300 + "}]}}",
+        '{"format": 1, "settings": {"observation": [{"part": "rays", "count": -1}]}}',
+        '{"format": 1, "settings": {"observation": []}}',
+    ],
+    ids=lambda text: text[-40:],
+)
+def test_texts_that_make_no_settings_are_named(tmp_path: Path, about: str) -> None:
+    with pytest.raises(FileError, match="no agent"):
+        load_policy(changed(tmp_path / "agent.npz", about=np.array(about)))
 
 
 @pytest.mark.parametrize("content", [b"", b"text", b"PK\x03\x04 torn"])

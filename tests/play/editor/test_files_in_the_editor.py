@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
+from hashlib import sha256
 from pathlib import Path
+from zipfile import ZipFile
 
 import pygame
 import pytest
 
 from ninja_game.cli.main import cli
+from ninja_game.editor.ascii_text import ascii_text
 from ninja_game.editor.autosave import FOLDER, recovered
-from ninja_game.editor.files import open_source
+from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.play.editor.panels import LevelChoice
@@ -18,6 +22,7 @@ from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.panels import Form, Menu
+from ninja_game.player.backup import read_backup, write_backup
 from ninja_game.signals import Terminated
 from tests.support.level_maker import ROOM, Maker
 
@@ -99,6 +104,47 @@ def test_leaving_asks_about_what_is_not_saved(room: Maker, tmp_path: Path) -> No
     assert not list((tmp_path / "levels").iterdir())
 
 
+@pytest.mark.parametrize("asked", ["Leave the editor", "Open...", "New"])
+@pytest.mark.parametrize("named", [True, False])
+def test_saving_first_goes_on_with_what_was_asked(maker: Maker, tmp_path: Path, asked: str, *, named: bool) -> None:
+    maker.open("Editor")
+    maker.editor.commands.edit(Source(ROOM if named else replace(ROOM, name="")))
+    maker.drag((300, 300))
+    drawn = maker.draft
+    maker.press("escape")
+    maker.choose(asked)
+    maker.choose("Save first")
+    if not named:
+        assert isinstance(maker.top(), Form)
+        maker.choose("Save")
+    assert len(list((tmp_path / "levels").iterdir())) == 1
+    if asked == "New":
+        assert maker.draft == new_source("").draft
+        assert isinstance(maker.top(), EditorScreen)
+    else:
+        assert isinstance(maker.top(), MainMenu if asked == "Leave the editor" else LevelChoice)
+    assert load_levels(next((tmp_path / "levels").iterdir()))[0].level == drawn.level
+
+
+def test_saving_first_stays_where_it_was_not_saved(room: Maker, tmp_path: Path) -> None:
+    room.chord("s", pygame.KMOD_LCTRL)
+    path = tmp_path / "levels" / "room.txt"
+    path.write_text(path.read_text("utf-8") + "; by hand\n", "utf-8")
+    room.drag((300, 300))
+    room.press("escape")
+    room.choose("Leave the editor")
+    room.choose("Save first")
+    assert "changed by another program" in room.top().title  # type: ignore[attr-defined]
+    room.choose("Stay")
+    assert isinstance(room.top(), EditorScreen)
+    room.press("escape")
+    room.choose("Leave the editor")
+    room.choose("Save first")
+    room.choose("Replace it")
+    assert isinstance(room.top(), MainMenu)
+    assert load_levels(path)[0].level.tile(12, 12) == 1
+
+
 def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_path: Path) -> None:
     room.drag((300, 300))
     session = room.editor.session
@@ -115,6 +161,38 @@ def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_pa
     assert not room.editor.session.is_saved
     room.chord("s", pygame.KMOD_LCTRL)
     room.wait(lambda: not list((tmp_path / FOLDER).glob("*.json")), "end of the autosave")
+
+
+@pytest.mark.parametrize("there", [False, True])
+def test_what_a_backup_brings_is_never_saved_where_it_says(there: bool, maker: Maker, tmp_path: Path) -> None:
+    victim = tmp_path / "profile"
+    if there:
+        victim.write_text("mine")
+    text = ascii_text(replace(ROOM, comment="$(touch marker)"))
+    kept = {"path": str(victim), "digest": sha256(b"mine").hexdigest(), "level": text}
+    write_backup(maker.app.player, tmp_path / "all.zip")
+    with ZipFile(tmp_path / "all.zip", "a") as archive:
+        archive.writestr(f"{FOLDER}/a.json", json.dumps(kept))
+    read_backup(maker.app.player, (tmp_path / "all.zip").read_bytes())
+    maker.open("Editor")
+    maker.choose("Go on with it")
+    maker.chord("s", pygame.KMOD_LCTRL)
+    assert maker.editor.session.source.path == tmp_path / "levels" / "room.txt"
+    assert victim.exists() == there
+    assert not there or victim.read_text() == "mine"
+
+
+def test_a_path_that_somebody_put_among_the_autosaves_by_hand_counts_for_nothing(maker: Maker, tmp_path: Path) -> None:
+    victim = tmp_path / "profile"
+    victim.write_text("mine")
+    (tmp_path / FOLDER).mkdir()
+    kept = {"path": str(victim), "digest": sha256(b"mine").hexdigest(), "level": ascii_text(ROOM)}
+    (tmp_path / FOLDER / "a.json").write_text(json.dumps(kept))
+    maker.open("Editor")
+    maker.choose("Go on with it")
+    maker.chord("s", pygame.KMOD_LCTRL)
+    assert victim.read_text() == "mine"
+    assert (tmp_path / "levels" / "room.txt").is_file()
 
 
 def test_what_is_drawn_when_a_signal_ends_the_program_is_kept(

@@ -50,7 +50,7 @@ def opened(driver: MenuDriver) -> DailyScreen:
     screen = driver.open("Daily")
     assert isinstance(screen, DailyScreen)
     end = monotonic() + LONGEST
-    while screen.making and monotonic() < end:
+    while screen._maker and monotonic() < end:
         sleep(0.02)
         driver.frames(1)
     return screen
@@ -111,7 +111,7 @@ def test_leaving_gives_up_what_is_made(driver: MenuDriver, monkeypatch: pytest.M
     monkeypatch.setattr(daily, "make_daily", slow)
     screen = driver.open("Daily")
     assert isinstance(screen, DailyScreen)
-    assert screen.making
+    assert screen._maker is not None
     driver.press("escape")
     assert stopped.wait(15), "it is not told that nobody waits for it"
     driver.frames(2)

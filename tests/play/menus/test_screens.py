@@ -289,6 +289,21 @@ def test_file_dropped_on_the_window_is_taken_in(driver: MenuDriver, tmp_path: Pa
     assert browser.message
 
 
+def test_a_dropped_file_gets_no_name_that_is_odd_and_follows_no_link(driver: MenuDriver, tmp_path: Path) -> None:
+    browser = driver.open("Levels")
+    assert isinstance(browser, Browser)
+    levels, outside = driver.player.folder / "levels", tmp_path / "outside.txt"
+    (levels / "link.txt").symlink_to(outside)
+    (tmp_path / "dropped").mkdir()
+    for name, said in (("aux.txt", "Give it another name"), ("\u202ea.txt", "Give it"), ("LINK.txt", "already")):
+        (tmp_path / "dropped" / name).write_text("0" * 713 + "|5^100,566!11^160,564,130,564")
+        pygame.event.post(pygame.Event(pygame.DROPFILE, file=str(tmp_path / "dropped" / name)))
+        driver.frames(2)
+        assert said in browser.message
+    assert [path.name for path in levels.iterdir()] == ["link.txt"]
+    assert not outside.exists()
+
+
 def test_replay_is_written_as_a_text_to_share(driver: MenuDriver) -> None:
     driver.open("Replays")
     driver.press("e")

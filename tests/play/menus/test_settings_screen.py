@@ -9,6 +9,7 @@ from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.settings.capture import Conflict, clash
 from ninja_game.play.menus.settings.rebinding import SLOTS
 from ninja_game.play.menus.settings.screen import PAGES, SettingsScreen
+from ninja_game.play.ui.widgets import Slider
 from tests.support.menu_driver import MenuDriver
 
 
@@ -44,6 +45,16 @@ def test_up_from_the_top_row_stays_on_the_page(driver: MenuDriver, screen: Setti
     driver.press("up")
     assert screen.focus is screen.widgets[2]
     assert screen.page == "Sound"
+
+
+@pytest.mark.parametrize("name", ["volume", "loop_volume"])
+def test_a_volume_is_shown_as_it_is_in_the_file(driver: MenuDriver, screen: SettingsScreen, name: str) -> None:
+    driver.settings_page("Sound")
+    slider = screen.widgets[1 if name == "volume" else 2]
+    assert isinstance(slider, Slider)
+    for value in range(100):
+        driver.app.change_settings(**{name: value})
+        assert slider.show(slider.get()) == str(value)
 
 
 def test_left_at_the_low_end_of_a_slider_goes_back_to_the_pages(driver: MenuDriver, screen: SettingsScreen) -> None:

@@ -109,7 +109,7 @@ class SettingsScreen(MenuScreen):
         def slider(place: int, text: str, name: str, hint: str) -> Slider:
             return Slider(
                 self._area(place), text, (0, 99, 3), lambda: getattr(self.player.settings, name),
-                lambda value: self._set_volume(name, value), show=lambda value: f"{value / 0.99:.0f}", hint=hint,
+                lambda value: self._set_volume(name, value), hint=hint,
             )  # fmt: skip
 
         return [

@@ -124,7 +124,7 @@ class LeadTab(Tab):
     def summary(self) -> str:
         """What the table comes to."""
         if not self.is_current or self._job.result is None:
-            return "comparing ..."
+            return self._job.problem or "comparing ..."
         table = self._job.result[1]
         if isinstance(table, str):
             return table

@@ -7,7 +7,7 @@ from functools import partial
 
 import pygame
 
-from ninja_game.directed.expressions import FormulaError
+from ninja_game.directed.formula import FormulaError
 from ninja_game.directed.methods import fewest_ticks
 from ninja_game.directed.span import Found, SpanTask
 from ninja_game.errors import ArgumentError, NinjaGameError

@@ -88,11 +88,6 @@ class SpanResults:
         self.bench.select(self.task.first, end)
         return True
 
-    def is_in(self, found: Found) -> bool:
-        """Whether the run has these keys now."""
-        end = self.task.first + found.ticks
-        return self.bench.take.inputs[:end] == found.inputs[:end]
-
     def _made(self, take: Take, found: Found, behind: int) -> Take:
         """The run with a result in it; with ``rest`` it is the run that reached the exit in the search."""
         first, keys = self.task.first, found.keys[: found.ticks].tolist()

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import pygame
 
-from ninja_game.directed.expressions import FormulaError
+from ninja_game.directed.formula import FormulaError
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.part import Part

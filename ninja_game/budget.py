@@ -1,0 +1,45 @@
+"""What a run costs, and how much work an untrusted one may ask for.
+
+Work is counted, never timed: ticks, each at a cost that the level fixes. So a verdict depends on the run, the level and
+the rules only, and is the same on every machine and on both memories.
+"""
+
+from __future__ import annotations
+
+from ninja_game.errors import BudgetError
+from ninja_game.sim.inputs import MAX_TICKS
+from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER, THWUMP, TURRET
+from ninja_game.sim.level import Level, makes_object
+
+RUN_BUDGET = 320_000_000
+"""Work of one run: the longest that N records on the largest level, a million ticks of 310 objects; 5 s compiled."""
+
+TURN_WORK = 15_000
+"""Work between two pictures, where a window or a page shows a run: some 5 to 10 ms on the plain memory."""
+
+NO_LIMIT = 2**63
+"""The budget of what the player played here."""
+
+TICK_COST = 10
+"""Work of a tick without objects: the ninja's own. One is what most objects cost, some 10 ns compiled."""
+
+OBJECT_COSTS = {TURRET: 10, LAUNCHER: 10, DRONE: 2, FLOOR_GUARD: 2, THWUMP: 2}
+"""Of an object in a tick at worst, where it is more than one: those that cast rays, those that never sleep."""
+
+
+def tick_cost(level: Level) -> int:
+    """The most work that a tick of a level can be."""
+    return TICK_COST + sum(OBJECT_COSTS.get(record.kind, 1) for record in level.objects if makes_object(record))
+
+
+def affordable_ticks(level: Level, budget: int = RUN_BUDGET) -> int:
+    """How many ticks of a level a budget pays for: at least one."""
+    return min(MAX_TICKS, max(1, budget // tick_cost(level)))
+
+
+def over_budget(level: Level, ticks: int, budget: int) -> BudgetError:
+    """The error for a run that is not over after all the ticks that its budget pays for."""
+    cost = tick_cost(level)
+    found = f"{ticks:,} ticks of {cost:,} each, not over after {affordable_ticks(level, budget):,}"
+    hint = f"--budget {ticks * cost} lets it run; shorten its inputs if they go on after its end"
+    return BudgetError("the run costs too much work", found=found, expected=f"at most {budget:,}", hint=hint)

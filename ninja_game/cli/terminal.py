@@ -1,0 +1,42 @@
+"""What is written to a terminal: no text steers it, whoever prints it and whatever it comes from."""
+
+from __future__ import annotations
+
+import io
+import re
+import sys
+from typing import TextIO
+
+from ninja_game.files.shown_text import shown_character
+
+_COLOURS = r"\n|\t|\x1b\[[0-9;]*m"
+_OURS = {
+    "stdout": re.compile(f"({_COLOURS})"),
+    # The lines that count are drawn again in their place, by rich.
+    "stderr": re.compile(rf"({_COLOURS}|\r|\x1b\[(?:\?25[hl]|1A|2K))"),
+}
+"""What our own output does besides printing; a name has passed ``shown_text`` and holds none of it."""
+
+
+class Terminal(io.TextIOWrapper):
+    """A terminal that shows every other control character as its escape."""
+
+    def __init__(self, stream: TextIO, ours: re.Pattern[str]) -> None:
+        super().__init__(stream.buffer, stream.encoding, "backslashreplace", line_buffering=True)
+        self._ours = ours
+
+    def write(self, text: str) -> int:
+        """Write it; the number of characters in ``text``."""
+        for place, part in enumerate(self._ours.split(text)):
+            super().write(part if place % 2 or part.isprintable() else "".join(map(shown_character, part)))
+        return len(text)
+
+
+def guard_terminal() -> None:
+    """Let standard output and errors be written so where they are a terminal; files and pipes get every byte."""
+    for name, ours in _OURS.items():
+        stream = getattr(sys, name)
+        # Names of levels may hold what the terminal's encoding has not.
+        getattr(stream, "reconfigure", lambda **_: None)(errors="backslashreplace")
+        if stream and stream.isatty():
+            setattr(sys, name, Terminal(stream, ours))

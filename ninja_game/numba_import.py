@@ -1,0 +1,68 @@
+"""The one place that imports Numba: with the settings of this project, whatever the environment and the folder say.
+
+Numba takes settings from variables NUMBA_… and from ``.numba_config.yaml`` in the current folder. Some of them change
+what compiled code computes (the processor's features, the optimizer), others make it fail; so neither reaches it. What
+is honoured is HONOURED, and it is read by us.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from importlib.abc import MetaPathFinder
+from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
+from types import CodeType
+from typing import Any
+
+HONOURED = ("NUMBA_CACHE_DIR", "NUMBA_DISABLE_JIT")
+"""Variables of Numba's that this program reads: where compiled code is kept, and whether anything is compiled."""
+
+FIXED = {"NUMBA_DEBUGINFO": "0", "NUMBA_ENABLE_PROFILING": "0"}
+"""Settings that would follow from variables of other programs (VS_PROFILER)."""
+
+_CONFIG, _CONFIG_FILE = "numba.core.config", ".numba_config.yaml"
+_FOREIGN = ("NUMBA_", "NPY_", "LLVMLITE_")
+
+
+class _ConfigLoader(SourceFileLoader):
+    """Loads Numba's module of settings with no name of a file in it."""
+
+    def get_code(self, fullname: str) -> CodeType | None:
+        code = super().get_code(fullname)
+        if code is None:
+            return None
+        return code.replace(co_consts=tuple("" if value == _CONFIG_FILE else value for value in code.co_consts))
+
+
+class _ConfigFinder(MetaPathFinder):
+    """Finds that module, and no other."""
+
+    def find_spec(self, fullname: str, path: Sequence[str] | None, target: Any = None) -> ModuleSpec | None:
+        spec = PathFinder.find_spec(fullname, path, target) if fullname == _CONFIG else None
+        if spec and spec.origin:
+            spec.loader = _ConfigLoader(fullname, spec.origin)
+        return spec
+
+
+def import_numba() -> Any:
+    """Numba, with its settings as they are by default; one thread at a time may call this.
+
+    Variables that NumPy, llvmlite and Numba would read are taken out of the environment, for worker processes too.
+    """
+    for name in [name for name in os.environ if name.startswith(_FOREIGN) and name not in HONOURED]:
+        del os.environ[name]
+    finder = _ConfigFinder()
+    sys.meta_path.insert(0, finder)
+    try:
+        import numba
+        from numba.core import config as found
+    finally:
+        sys.meta_path.remove(finder)
+    config: Any = found
+    settings = config._env_reloader  # noqa: SLF001 - there is no public way
+    # Also where somebody else imported Numba before. The number of threads, which we have no use for, cannot change.
+    settings.process_environ(FIXED | {"NUMBA_NUM_THREADS": config.NUMBA_NUM_THREADS})
+    # Numba asks again before each function that it compiles.
+    settings.update = lambda **_: None
+    return numba

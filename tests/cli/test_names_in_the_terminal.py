@@ -1,0 +1,120 @@
+"""Names that untrusted files have, and names of files, reach a terminal as printable characters."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from ninja_game.compile_cache import compiled_available
+from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records
+
+pty = pytest.importorskip("pty", reason="there are no pseudo-terminals")
+
+NAME = "a\x1b]0;owned\x07\x9b2J\u202e\x1b[8m"
+"""A record's name; it holds no line end."""
+
+HOSTILE = f"{NAME}\rb"
+"""A name of a file or a replay."""
+
+OWN = re.compile(r"\r?\n|\t|\x1b\[[0-9;]*m|\r|\x1b\[(?:\?25[hl]|1A|2K)")
+"""What our own output does on a terminal; the names must not, so `\\x1b[8m` is looked for apart."""
+
+COMMANDS = {
+    "info": "info LEVEL RECORDS REPLAY",
+    "info of one": "info LEVEL",
+    "verify": "verify RECORDS --memory plain",
+    "trace": "trace RECORDS --memory plain --ticks 2",
+    "trace against": "trace RECORDS --memory plain --against REPLAY",
+    "trace digests": "trace RECORDS --memory plain --digests --ticks 2",
+    "splits": "splits RECORDS",
+    "splits as csv": "splits RECORDS --format csv",
+    "compare": "compare RECORDS REPLAY",
+    "compare as csv": "compare RECORDS REPLAY --format csv",
+    "record": "record RECORDS",
+    "record again": "record REPLAY --force",
+    "film": "film REPLAY --to 2 --size 132x100",
+    "link": "link REPLAY",
+    "convert": "convert RECORDS - --to file",
+    "convert to a level": "convert LEVEL -",
+    "board": "board .",
+    "lint": "levels lint .",
+    "pars": "levels pars .",
+    "wrong file": "verify BROKEN",
+    "no file": "verify NOTHING",
+    "check": "check LEVEL RECORDS --first --seconds 1 --jobs 1",
+    "solve": "solve LEVEL --first --seconds 1 --jobs 1",
+    "eval": "learn eval random --levels LEVEL --episodes 1 --memory plain",
+}
+BYTES = {"trace", "splits as csv", "compare as csv", "convert", "convert to a level"}
+"""What these write on standard output is for programs: every byte of it, where it is no terminal."""
+
+COMPILED = {"check", "solve"}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of hostile files."""
+    folder = tmp_path_factory.mktemp("names")
+    write_records(folder / f"records {HOSTILE}\n.txt", (NAME, WALK, running(WALK_END)))
+    (folder / f"replay {HOSTILE}\n.replay.txt").write_text(replay_of_walk(name=HOSTILE, author=HOSTILE))
+    (folder / f"level {HOSTILE}\n.txt").write_text(f"${NAME}#{NAME}#{NAME}#{WALK}#\n")
+    (folder / f"broken {HOSTILE}\n.txt").write_text(HOSTILE)
+    return folder
+
+
+def words_of(name: str, folder: Path) -> list[str]:
+    """The words of a command."""
+    files = {
+        "LEVEL": f"level {HOSTILE}\n.txt", "RECORDS": f"records {HOSTILE}\n.txt", "BROKEN": f"broken {HOSTILE}\n.txt",
+        "REPLAY": f"replay {HOSTILE}\n.replay.txt", "NOTHING": f"nothing {HOSTILE}\n.txt",
+    }  # fmt: skip
+    if name in COMPILED and not compiled_available():
+        pytest.skip("Numba is not installed")
+    return [sys.executable, "-m", "ninja_game", *(files.get(word, word) for word in COMMANDS[name].split())]
+
+
+def on_a_terminal(words: list[str], folder: Path) -> str:
+    """What a program writes to a terminal."""
+    ours, its = pty.openpty()
+    with subprocess.Popen(words, cwd=folder, stdin=its, stdout=its, stderr=its, start_new_session=True) as program:
+        os.close(its)
+        text = b""
+        try:
+            while part := os.read(ours, 65536):
+                text += part
+        except OSError:  # so Linux tells that nobody writes any more
+            pass
+        os.close(ours)
+    assert program.returncode != 3, text
+    return text.decode()
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_no_name_steers_a_terminal(name: str, folder: Path) -> None:
+    text = on_a_terminal(words_of(name, folder), folder)
+    assert text
+    assert [each for each in OWN.sub("", text) if not each.isprintable()] == []
+    if name not in BYTES:
+        assert "\x1b[8m" not in text
+        assert not re.search("\r(?!\n)b", text)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_no_name_steers_what_shows_a_pipe_later(name: str, folder: Path) -> None:
+    done = subprocess.run(words_of(name, folder), cwd=folder, capture_output=True, check=False)
+    assert done.returncode != 3, done.stderr
+    shown = done.stderr.decode() + ("" if name in BYTES else done.stdout.decode())
+    assert [each for each in shown if not each.isprintable() and each != "\n"] == []
+    if name in {"trace", "convert"}:
+        assert NAME.encode() in done.stdout
+
+
+def test_a_program_that_prints_in_a_new_way_is_held_by_the_terminal() -> None:
+    code = f"from ninja_game.cli.terminal import *; guard_terminal(); print({HOSTILE!r}); sys.stderr.write({HOSTILE!r})"
+    shown = on_a_terminal([sys.executable, "-c", code], Path())
+    assert shown == "a\\x1b]0;owned\\x07\\x9b2J\\u202e\x1b[8m b\r\na\\x1b]0;owned\\x07\\x9b2J\\u202e\x1b[8m\rb"

@@ -1,0 +1,175 @@
+"""Work beside the window: whatever goes wrong in it, the screen that waits for it says so and can be used again."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from ninja_game import runtime
+from ninja_game.directed import background
+from ninja_game.directed.background import SpanSearch
+from ninja_game.directed.span import SpanTask
+from ninja_game.editor.background import NewestJob
+from ninja_game.errors import NinjaGameError
+from ninja_game.formats.load import load_replays
+from ninja_game.play.editor import session as editor_session
+from ninja_game.play.replay import film_job
+from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.play.tas import opening
+from ninja_game.play.tas.tabs import lead_tab
+from tests.support.bench_driver import BenchDriver
+from tests.support.level_maker import ROOM, Maker
+from tests.support.menu_driver import MenuDriver
+from tests.support.own_pack import PACK
+from tests.support.waiting import LONGEST
+
+RUN = PACK / "certificates" / "00-2-the-chimney.exit.replay.txt"
+
+
+class LibraryPanic(BaseException):
+    """What is no Exception."""
+
+
+WRONG = {
+    "there is not enough memory": MemoryError(),
+    "a fault of the program, ZeroDivisionError: by zero": ZeroDivisionError("by zero"),
+    "a fault of the program, LibraryPanic: deep below": LibraryPanic("deep below"),
+    "No space left": OSError(28, "No space left"),
+    "no luck": NinjaGameError("no luck"),
+}
+
+
+@pytest.fixture(name="why", params=list(WRONG))
+def sentence(request: pytest.FixtureRequest) -> str:
+    """What a user is told."""
+    why: str = request.param
+    return why
+
+
+def raising(why: str) -> Callable[..., None]:
+    def work(*_: object, **__: object) -> None:
+        raise WRONG[why]
+
+    return work
+
+
+def until(driver: MenuDriver, condition: Callable[[], object]) -> None:
+    """Let pictures pass until something is so."""
+    end = time.monotonic() + LONGEST
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.005)
+        driver.frames()
+
+
+@pytest.fixture(name="driver")
+def main_menu(tmp_path: Path) -> Iterator[MenuDriver]:
+    driver = MenuDriver(tmp_path)
+    yield driver
+    driver.close()
+
+
+@pytest.mark.parametrize("in_page", [False, True])
+def test_who_waits_is_told_and_a_fault_leaves_its_traceback(
+    why: str, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str], *, in_page: bool
+) -> None:
+    monkeypatch.setattr(runtime, "IN_PAGE", in_page)
+    told: list[str] = []
+    thread = runtime.beside(raising(why), told.append)
+    if not in_page:
+        thread.join(LONGEST)
+    assert told == [why]
+    assert ("Traceback" in capfd.readouterr().err) == ("fault" in why)
+
+
+def test_a_film_that_cannot_be_made_can_be_tried_again(
+    driver: MenuDriver, why: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    screen = ReplayScreen(driver.app, [load_replays(RUN)[0]])
+    driver.app.push(screen)
+    monkeypatch.setattr(film_job, "Film", raising(why))
+    for _ in range(2):
+        driver.app.notify("")
+        driver.press("e")
+        until(driver, lambda: screen.export is None)
+        assert driver.app.notice == f"No film: {why}"
+
+
+def test_a_daily_level_that_cannot_be_made_says_why(
+    driver: MenuDriver, why: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("ninja_game.generator.daily.make_daily", raising(why))
+    monkeypatch.setattr("ninja_game.play.menus.daily.choose_memory", lambda _: None)
+    screen = driver.open("Daily")
+    until(driver, lambda: screen._maker is None)  # type: ignore[attr-defined]
+    assert screen.message == f"No level could be made of this day: {why}"  # type: ignore[attr-defined]
+
+
+def test_a_level_that_cannot_be_examined_or_certified_says_why(
+    tmp_path: Path, why: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(editor_session, "level_findings", raising(why))
+    monkeypatch.setattr("ninja_game.solver.solve.solve", raising(why))
+    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    maker = Maker(tmp_path)
+    try:
+        maker.open("Editor")
+        session = maker.editor.session
+        session.bench.load(ROOM)
+        until(maker, lambda: maker.app.notice)
+        assert maker.app.notice == f"The level could not be examined: {why}"
+        maker.press("f7")
+        until(maker, lambda: not session.certifier.busy)
+        assert session.certifier.text == why
+        session.close()
+    finally:
+        maker.close()
+
+
+def test_runs_that_cannot_be_compared_say_why(tmp_path: Path, why: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lead_tab, "lead_table", raising(why))
+    at = BenchDriver(tmp_path, RUN)
+    try:
+        at.screen.show_tab(at.screen.tabs[2])
+        until(at, lambda: at.screen.tabs[2].summary not in ("", "comparing ..."))  # type: ignore[attr-defined]
+        assert at.screen.tabs[2].summary == why  # type: ignore[attr-defined]
+    finally:
+        at.close()
+
+
+def test_a_search_that_breaks_off_says_why(why: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(background, "search_span", raising(why))
+    search = SpanSearch(SpanTask(ROOM.level, bytes(40), first=0, last=30, goal="x > 130"))
+    search.start()
+    search.finish(LONGEST)
+    assert (search.done, search.problem) == (True, why)
+
+
+def test_a_run_whose_rules_cannot_be_loaded_says_why(
+    driver: MenuDriver, why: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(opening, "is_prepared", lambda: False)
+    monkeypatch.setattr(opening, "prepare", raising(why))
+    below = driver.top()
+    opening.open_bench(driver.app, load_replays(RUN)[0], [], 0)
+    until(driver, lambda: driver.top() is below)
+    assert driver.app.notice == f"It cannot be edited: {why}"
+
+
+def test_a_newer_job_is_done_after_one_that_fails() -> None:
+    done: list[int] = []
+
+    def work(job: int) -> int:
+        if job < 3:
+            jobs.ask(job + 1)
+            raise ValueError(job)
+        done.append(job)
+        return job
+
+    jobs: NewestJob[int, int] = NewestJob(work)
+    jobs.ask(1)
+    jobs.finish(LONGEST)
+    assert (jobs.result, jobs.problem, jobs.idle, done) == (3, "", True, [3])

@@ -1,0 +1,147 @@
+"""What a run costs, and what is refused: by work, which no machine and no memory changes."""
+
+from __future__ import annotations
+
+import json
+import resource
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from ninja_game import run_level
+from ninja_game.budget import RUN_BUDGET, affordable_ticks, tick_cost
+from ninja_game.cli.main import cli
+from ninja_game.errors import BudgetError
+from ninja_game.files.resources import bundled_replays
+from ninja_game.formats.load import load_replays, parse_level
+from ninja_game.formats.n14.demo import parse_demo, write_demo
+from ninja_game.formats.n14.level_string import write_level_string
+from ninja_game.formats.recording import Recording
+from ninja_game.runs import comparison
+from ninja_game.runs.comparison import aligned
+from ninja_game.runs.run import record_replay
+from ninja_game.runs.splits import run_splits
+from ninja_game.runs.trace import trace_recording
+from ninja_game.runs.verify import verify_recording
+from ninja_game.sim.inputs import MAX_DEMO_TICKS, Demo
+from ninja_game.sim.kinds import NO_KIND
+from ninja_game.sim.level import Level, ObjectSpec
+from tests.support.heavy import heavy_level
+from tests.support.memories import BOTH
+from tests.support.reference import recordings
+from tests.support.samples import WALK, WALK_END, running, write_records
+
+CROWD = heavy_level(90)
+"""A tick of it costs a hundred and one."""
+
+
+def recording(level: Level, ticks: int) -> Recording:
+    return Recording("run", "me", "", level, Demo(bytes(ticks), float(ticks)), "run.txt", 3)
+
+
+def command(*words: object) -> Result:
+    return CliRunner().invoke(cli, [str(word) for word in words])
+
+
+def test_what_creates_nothing_costs_nothing() -> None:
+    assert tick_cost(CROWD) == 10 + 91
+    assert tick_cost(Level(CROWD.tiles, (*CROWD.objects, ObjectSpec(NO_KIND, ()), ObjectSpec(99, ())))) == 10 + 91
+
+
+@pytest.mark.parametrize("memory", BOTH)
+def test_a_run_that_is_not_over_when_its_budget_is_gets_refused_on_both_memories(memory: str) -> None:
+    assert run_level(CROWD, bytes(50), memory=memory, budget=50 * 101).ticks == 50
+    with pytest.raises(BudgetError) as caught:
+        run_level(CROWD, bytes(51), memory=memory, budget=50 * 101)
+    assert str(caught.value) == (
+        "the run costs too much work; found 51 ticks of 101 each, not over after 50; expected at most 5,050; "
+        "--budget 5151 lets it run; shorten its inputs if they go on after its end"
+    )
+
+
+def test_a_run_that_ends_in_time_passes_whatever_its_text_goes_on_to_say() -> None:
+    inputs = bytes([2]) * 1_000_000
+    result = run_level(parse_level(WALK), inputs, memory="plain", budget=100 * tick_cost(parse_level(WALK)))
+    assert (result.outcome, result.end_tick) == ("exit", WALK_END)
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        lambda each: verify_recording(each, "plain", budget=1000),
+        lambda each: trace_recording(each, memory="plain", budget=1000),
+        lambda each: trace_recording(each, ticks=40, memory="plain", budget=1000),
+        lambda each: run_splits(each, budget=1000),
+        lambda each: record_replay(each.level, each.demo.inputs, budget=1000),
+    ],
+)
+def test_every_path_refuses_what_costs_too_much(path: Callable[[Recording], object]) -> None:
+    with pytest.raises(BudgetError, match=r"--budget \d+ lets it run"):
+        path(recording(CROWD, 50))
+
+
+@pytest.mark.parametrize("name", ["verify", "trace", "splits", "compare", "record", "convert"])
+def test_commands_name_the_run_and_the_option_that_lets_it_pass(tmp_path: Path, name: str) -> None:
+    level = write_level_string(CROWD, exact=True)
+    file = write_records(tmp_path / "runs.txt", ("one", level, running(20)), ("two", level, running(20)))
+    words = {
+        "compare": [file, file, "--record", 0, "--against-record", 1],
+        "record": [file, "--record", 1, "-o", tmp_path / "out.txt"],
+        "convert": [file, tmp_path / "out", "--to", "replay"],
+    }.get(name, [file])
+    refused = command(name, *words, "--budget", 500)
+    assert refused.exit_code == 2
+    assert "runs.txt" in refused.output
+    assert "record " in refused.output
+    assert "--budget" in refused.output
+    assert "costs too much" not in command(name, *words).output
+
+
+def test_resumed_verification_knows_another_budget(tmp_path: Path) -> None:
+    file = write_records(tmp_path / "runs.txt", ("one", write_level_string(CROWD, exact=True), running(20)))
+    log = tmp_path / "log"
+    assert "1 unreadable" in command("verify", file, "--resume", log, "--budget", 500).output
+    assert "1 unreadable" not in command("verify", file, "--resume", log).output
+
+
+def test_honest_runs_are_far_below_the_budget() -> None:
+    """All 1,108 reference recordings and all of our certificates: a fiftieth of it at most."""
+    runs = [(parse_level(row.data), parse_demo(row.demo).end + 1) for row in recordings()]
+    runs += [(each.level, each.ticks) for path in bundled_replays() for each in load_replays(path)]
+    assert max(ticks * tick_cost(level) for level, ticks in runs) < RUN_BUDGET / 50
+
+
+def test_the_longest_recording_that_n_makes_is_paid_for_on_the_largest_level() -> None:
+    assert affordable_ticks(heavy_level()) > MAX_DEMO_TICKS
+
+
+def test_the_costliest_run_takes_seconds_of_the_processor(tmp_path: Path) -> None:
+    """Where the rules are compiled; a generous limit, in time of the processor."""
+    pytest.importorskip("numba")
+    level = heavy_level()
+    run_level(level, bytes(2), memory="compiled")
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_utime
+    with pytest.raises(BudgetError):
+        verify_recording(recording(level, 999_999), "compiled")
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_utime - before < 20
+    file = tmp_path / "run.txt"
+    text = write_level_string(level, exact=True)
+    file.write_text(f"$run#me##{text}#{write_demo(Demo(bytes(30), 30.0))}#", "utf-8")
+    assert json.loads(command("verify", file, "--json").output)["ticks"] == 31
+
+
+def test_lifetime_is_not_simulated_a_second_time_where_the_gold_cannot_have_sufficed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("ninja_game.runs.verify.open_memory", None)
+    assert not verify_recording(recording(parse_level("0" * 713 + "|5^100,566"), 4000), "plain").in_time
+
+
+def test_runs_of_very_different_lengths_are_not_compared_place_by_place(monkeypatch: pytest.MonkeyPatch) -> None:
+    np = pytest.importorskip("numpy")
+    monkeypatch.setattr(comparison, "MAX_TOGETHER", 100)
+    assert aligned(np.zeros((90, 2)), np.zeros((10, 2))).tolist()[-1] == 9
+    with pytest.raises(Exception, match="runs of 91 and 10 ticks are too long"):
+        aligned(np.zeros((91, 2)), np.zeros((10, 2)))

@@ -1,0 +1,84 @@
+"""Whatever reads from outside has a row in SECURITY.md, and each row a test."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGE = ROOT / "ninja_game"
+
+READS = re.compile(
+    r"(?:.+\.)?(?:open_regular|read_bytes|read_text|read_utf8|parse_toml|open_zip|pasted_text|read_link|get_text"
+    r"|ZipFile|Client|loads|literal_eval|decompress\w*|\w*b64decode|DictReader|fromfile|loadtxt|memmap|urlopen)"
+    r"|(?:json|pickle|marshal|np|numpy|yaml)\.load|(?:os|tarfile|wave|io|codecs|Path|(?:\w*\.)?\w*path|Path\(.*\))\.open"
+    r"|open|eval|exec|input|csv\.reader|sqlite3\.connect|os\.(?:environb?|getenv|popen|system|exec\w+|spawn\w+)"
+    r"|sys\.(?:argv|stdin)|LINK\.page\..+|.+\.(?:DROPFILE|DROPTEXT)|(?:subprocess|socket|requests|httpx|urllib|http)\..+"
+)
+"""Names of what reads, as sources write them."""
+
+OURS = {
+    "cli/learn/learn": "has a command of that name",
+    "files/locking": "holds locks", "files/writing": "writes", "play/audio/player": "silences a library",
+    "play/lab/figure": "the program's own figures", "play/menus/help/pages": "its own help",
+    "learn/levels/curriculum": "its own levels", "sim/memory/declare": "its own code, made from its own rules",
+    "web/site/bytecode": "its own code", "web/site/compiling": "its own code", "web/site/game_archive": "its own files",
+    "web/sounds": "its own sounds",
+}  # fmt: skip
+"""Modules that read only what is part of the program, or nothing."""
+
+
+def readers(source: str) -> set[str]:
+    """The names in a source that read from outside."""
+    tree = ast.parse(source)
+    # `os.environ["A"] = …` and `os.environ.setdefault(…)` write.
+    written = {
+        node.value for node in ast.walk(tree) if isinstance(node, ast.Subscript) and isinstance(node.ctx, ast.Store)
+    }
+    written |= {node.value for node in ast.walk(tree) if isinstance(node, ast.Attribute) and node.attr == "setdefault"}
+    named = {node for node in ast.walk(tree) if isinstance(node, ast.Name | ast.Attribute)} - written
+    return {name for name in map(ast.unparse, named) if READS.fullmatch(name)}
+
+
+def rows() -> list[list[str]]:
+    table = (ROOT / "SECURITY.md").read_text("utf-8").partition("## Doors")[2].partition("\n## ")[0]
+    return [line.strip("| ").split(" | ") for line in table.splitlines() if line.startswith("| ")][1:]
+
+
+def test_whatever_reads_has_a_row_in_security_md() -> None:
+    reading = {}
+    for path in sorted(PACKAGE.rglob("*.py")):
+        if found := readers(path.read_text("utf-8")):
+            reading[path.relative_to(PACKAGE).with_suffix("").as_posix().removesuffix("/__init__")] = found
+    named = {module for row in rows() for module in re.findall(r"`([\w/]+)`", row[4])}
+    unknown = {module: found for module, found in reading.items() if module not in named | OURS.keys()}
+    assert not unknown, "name them in a row of SECURITY.md"
+    gone = [
+        module
+        for module in named | OURS.keys()
+        if not [*PACKAGE.glob(f"{module}.py"), *PACKAGE.glob(f"{module}/__init__.py")]
+    ]
+    assert not gone
+    assert not OURS.keys() - reading.keys(), "they read nothing any more"
+
+
+def test_each_row_is_whole_and_its_tests_are_there() -> None:
+    assert len(rows()) > 20
+    for row in rows():
+        assert len(row) == 6, row
+        assert all(cell.strip() for cell in row)
+        tests = re.findall(r"`([\w/]+\.py)::(\w+)`", row[5])
+        assert tests, row
+        for file, name in tests:
+            assert f"\ndef {name}(" in (ROOT / "tests" / file).read_text("utf-8"), (file, name)
+
+
+def test_readers_are_noticed() -> None:
+    hidden = [
+        "from ninja_game.files.reading import read_text\ndef f(p): return read_text(p)", "x = json.loads(text)",
+        "def f():\n    with Path(p).open('rb') as file: pass", "v = os.environ.get('A')", "if os.environ['A']: pass",
+        "subprocess.run(words)", "texts = map(read_text, files)", "event.type == pygame.DROPFILE", "LINK.page.pasted()",
+    ]  # fmt: skip
+    assert all(map(readers, hidden))
+    assert not readers("os.environ['A'] = '1'\nos.environ.setdefault('B', '2')\nopen_menu()")

@@ -1,0 +1,76 @@
+"""Draw the pictures of docs/editor.md and docs/bench.md from the program's own screens: `python3 tools/dev.py docs`."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+from shutil import copy
+
+os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
+os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+
+import pygame
+
+from ninja_game.editor.files import open_source
+from ninja_game.formats.load import load_replays
+from tests.support.bench_driver import BenchDriver
+from tests.support.level_maker import Maker, examine
+from tests.support.own_pack import PACK, instead_of_ours
+from tools import ROOT
+
+PICTURES = ROOT / "docs" / "pictures"
+
+
+def editor_picture(folder: Path) -> pygame.Surface:
+    """A level in the editor after a test, with a drone in a wall, drawn in mirror images."""
+    maker = Maker(folder, (1188, 900))
+    maker.open("Editor")
+    editor = maker.editor
+    editor.commands.edit(open_source(Path(copy(PACK / "00-4-locksmith.txt", folder / "levels"))))
+    run = load_replays(PACK / "certificates" / "00-4-locksmith.exit.replay.txt")[0]
+    editor.session.tried(run.level, run.playback(run.ticks))
+    maker.frames()
+    maker.press("grave", "6")
+    maker.mouse(*maker.at(132, 204))
+    maker.press("m")
+    examine(editor)
+    maker.frames()
+    editor.commands.go_to_finding(0)
+    maker.frames(2)
+    picture = maker.app.surface.copy()
+    editor.session.close()
+    maker.close()
+    return picture
+
+
+def bench_picture(folder: Path) -> pygame.Surface:
+    """A run on the bench, some ticks selected, beside it one that goes another way from there on."""
+    name = "01-0-springtime.exit.replay.txt"
+    at = BenchDriver(folder, Path(copy(PACK / "certificates" / name, folder)), (1280, 800))
+    jumps = at.bench.take.replaced(150, 190, [6] * 25)
+    at.screen.level.others.open([at.session.recording(jumps, "Somebody else")])
+    at.bench.edit(lambda take: take.named(134, "the pad"))
+    at.chord("s", pygame.KMOD_LCTRL)
+    at.app.notify("")
+    at.bench.select(150, 163)
+    at.frames(3)
+    picture = at.app.surface.copy()
+    at.close()
+    return picture
+
+
+SCREENS = {"editor.png": editor_picture, "bench.png": bench_picture}
+
+
+def draw(name: str) -> pygame.Surface:
+    """One of them, by a new player with the levels of the tests, which stay as they are."""
+    with tempfile.TemporaryDirectory() as folder, instead_of_ours():
+        return SCREENS[name](Path(folder))
+
+
+if __name__ == "__main__":
+    for name in SCREENS:
+        pygame.image.save(draw(name), str(PICTURES / name))
+    print(f"drew {len(SCREENS)} pictures into docs/pictures")

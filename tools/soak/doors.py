@@ -1,0 +1,358 @@
+"""Feed odd inputs to every door, all that reads what others wrote: only errors of ours may come out, in bounded work.
+
+    python3 tools/dev.py tool soak.doors --texts 1000000
+    python3 tools/dev.py tool soak.doors --coverage --minutes 480 --findings found --corpus kept
+    python3 tools/dev.py tool soak.doors --door "pack zip" --read found/pack-zip-1f2e3d4c
+
+The doors stand in `door_table.py`. With ``--coverage`` inputs that reach new code are kept and mutated further: by
+Atheris where it is installed (`pip install atheris`, Linux), else by a slower loop of our own. Exit code 0: nothing
+found; 1: something was; each finding is a file of ``--findings``, printed with its traceback and what repeats it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import faulthandler
+import os
+import random
+import resource
+import shutil
+import signal
+import sys
+import time
+import traceback
+import warnings
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext
+from hashlib import sha256
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from types import FrameType, ModuleType
+from typing import Any, NoReturn
+
+from tools import ROOT
+from tools.soak.mutators import mutated
+
+SLOW_S, HANGS_S = 2.0, 20.0
+"""Processor time of an input that is a finding, and after which its reading is ended; a busy machine does not count."""
+WATCHED = 5
+"""How much longer code takes that tells where it is."""
+GUIDED_MOST = 2**14
+"""Longest input with coverage, bytes: short ones reach the same code in less time."""
+
+MEMORY = 4 * 2**30
+"""Of the whole process, address space."""
+
+OWN = {
+    "levels/*.txt": {"ascii level", "any levels", "archive"},
+    "levels/certificates/*.txt": {"replay", "any recordings", "replay in a link", "run with includes"},
+    "levels/*.toml": {"pack index", "pars"},
+}
+"""Files of the game, and the doors that read them."""
+
+PACKAGE = str(ROOT / "ninja_game")
+
+
+class HangError(BaseException):
+    """An input that took all of its processor time."""
+
+
+def _end_hang(*_: object) -> NoReturn:
+    raise HangError
+
+
+class Trial:
+    """Tries inputs on doors. ``findings``: where what is wrong is kept; ``wrong``: how often each was seen."""
+
+    def __init__(self, table: ModuleType, place: Path, findings: Path, slow: float) -> None:
+        self.doors, self._errors_of = table.DOORS, table.errors_of
+        self.outcomes: Counter[str] = Counter()
+        self.wrong: Counter[str] = Counter()
+        self.slowest = 0.0, ""
+        self._place, self._findings, self._slow = place / "door", findings, slow
+        self._place.mkdir()
+        self.started = self._told = time.monotonic()
+
+    def read(self, name: str, data: bytes) -> None:
+        """Let a door read an input."""
+        outcome, problem, where = "read", "", ""
+        began = time.process_time()
+        signal.setitimer(signal.ITIMER_PROF, HANGS_S)
+        try:
+            self.doors[name].read(data, self._place)
+        except self._errors_of(name) as error:
+            outcome = "refused"
+            str(error)
+        except (Exception, HangError) as error:  # noqa: BLE001 - foreign errors are what is searched
+            problem, where = traceback.format_exc(limit=-12), f"{type(error).__name__} {_line_of(error)}"
+        finally:
+            signal.setitimer(signal.ITIMER_PROF, 0)
+        taken = time.process_time() - began
+        self.slowest = max(self.slowest, (taken, name))
+        if not problem and taken > self._slow:
+            problem, where = f"{taken:.1f} s of processor time", "slow"
+        self.outcomes[f"{name}: {outcome if not problem else 'wrong'}"] += 1
+        if problem:
+            self._tell(name, data, problem, f"{name}: {where}")
+        if next(os.scandir(self._place), None):
+            shutil.rmtree(self._place)
+            self._place.mkdir()
+
+    def _tell(self, name: str, data: bytes, problem: str, kind: str) -> None:
+        self.wrong[kind] += 1
+        if self.wrong[kind] > 1:
+            return
+        file = self._findings / f"{name.replace(' ', '-')}-{sha256(data).hexdigest()[:8]}"
+        self._findings.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(data)
+        print(
+            f"{problem}\n{kind}\nagain: python3 tools/dev.py tool soak.doors --door '{name}' --read {file}\n",
+            flush=True,
+        )
+
+    def tell_progress(self, seconds: float = 60) -> None:
+        """Print now and then how many inputs were read."""
+        if time.monotonic() - self._told > seconds:
+            self._told = time.monotonic()
+            print(f"{self.outcomes.total()} inputs, {len(self.wrong)} findings", flush=True)
+
+    def summary(self) -> int:
+        """Print what was seen; the exit code."""
+        for outcome, times in sorted(self.outcomes.items()):
+            print(f"{times:9d}  {outcome}")
+        for kind, times in self.wrong.items():
+            print(f"{times:9d}  WRONG: {kind}")
+        used = resource.getrusage(resource.RUSAGE_SELF)
+        print(f"slowest: {self.slowest[0]:.2f} s ({self.slowest[1]}), peak memory {used.ru_maxrss >> 10} MiB")
+        seconds = used.ru_utime + used.ru_stime
+        print(f"{self.outcomes.total()} inputs in {seconds:.0f} s of processor time, {len(self.wrong)} findings")
+        sys.stdout.flush()
+        return 1 if self.wrong else 0
+
+
+def _line_of(error: BaseException) -> str:
+    """The last line of ours in a traceback: findings of the same line are one."""
+    ours = [each for each in traceback.extract_tb(error.__traceback__) if each.filename.startswith(PACKAGE)]
+    return f"{ours[-1].filename.removeprefix(PACKAGE)}:{ours[-1].lineno}" if ours else ""
+
+
+# --- which code an input reaches ---
+
+
+class Lines:
+    """Which steps from line to line of the package were taken since ``seen`` was cleared."""
+
+    def __init__(self) -> None:
+        self.seen: set[tuple[object, int, int]] = set()
+
+    def _call(self, frame: FrameType, _event: str, _argument: object) -> Any:
+        if not frame.f_code.co_filename.startswith(PACKAGE):
+            return None
+        before = 0
+
+        def line(frame: FrameType, event: str, _: object) -> Any:
+            nonlocal before
+            if event == "line":
+                self.seen.add((frame.f_code, before, frame.f_lineno))
+                before = frame.f_lineno
+            return line
+
+        return line
+
+    @contextmanager
+    def watching(self) -> Iterator[None]:
+        """Note the steps of a block."""
+        self.seen.clear()
+        sys.settrace(self._call)
+        try:
+            yield
+        finally:
+            sys.settrace(None)
+
+
+Pool = dict[str, list[bytes]]
+
+
+def loop(trial: Trial, pool: Pool, rng: random.Random, lines: Lines | None) -> Iterator[None]:
+    """Read one odd input after another; with ``lines`` those that take new steps join the pool."""
+    names = [name for name in pool for _ in range(trial.doors[name].share)]
+    known: dict[str, set[Any]] = {name: set() for name in pool}
+    while True:
+        name = rng.choice(names)
+        other = rng.choice(pool[name if rng.random() < 0.8 else rng.choice(names)])
+        data = mutated(rng.choice(pool[name]), other, rng)
+        with lines.watching() if lines else nullcontext():
+            trial.read(name, data)
+        if lines and not lines.seen <= known[name]:
+            known[name] |= lines.seen
+            pool[name].append(data)
+        yield
+
+
+def guided(atheris: Any, trial: Trial, pool: Pool, seed: int, corpus: Path, over: Callable[[], bool]) -> NoReturn:
+    """The same by Atheris, whose corpus of new inputs lies in a folder: the name of a door, a line end, the input."""
+    for name, inputs in pool.items():
+        for data in inputs:
+            (corpus / sha256(name.encode() + data).hexdigest()).write_bytes(name.encode() + b"\n" + data)
+    names = list(pool)
+
+    def parts(data: bytes) -> tuple[str, bytes]:
+        name, _, inside = data.partition(b"\n")
+        return (
+            (name.decode("latin-1"), inside)
+            if name.decode("latin-1") in pool
+            else (names[len(data) % len(names)], data)
+        )
+
+    def read(data: bytes) -> None:
+        trial.read(*parts(data))
+        trial.tell_progress()
+        if over():
+            os._exit(trial.summary())
+
+    def mutator(data: bytes, most: int, seed: int) -> bytes:
+        rng = random.Random(seed)
+        name, inside = parts(data)
+        if rng.random() < 0.2:
+            inside = atheris.Mutate(inside, len(inside) + 64)
+        else:
+            inside = mutated(inside, rng.choice(pool[name if rng.random() < 0.8 else rng.choice(names)]), rng)
+        return (name.encode() + b"\n" + inside)[:most]
+
+    options = [
+        f"-seed={seed}",
+        f"-max_len={GUIDED_MOST}",
+        "-timeout=600",
+        "-rss_limit_mb=0",
+        "-len_control=0",
+        "-verbosity=0",
+    ]
+    atheris.Setup([sys.argv[0], str(corpus), *options], read, custom_mutator=mutator)
+    atheris.Fuzz()
+    raise AssertionError("Atheris has ended")
+
+
+def sound_inputs(names: list[str], kept: Path | None, *, reference: bool) -> Pool:
+    """What is mutated: tests/corpus, a folder for each door, our own levels and runs, and what Atheris has kept."""
+    found: Pool = {name: [] for name in names}
+    for file in sorted((ROOT / "tests" / "corpus").glob("*/*")):
+        found.get(file.parent.name.replace("-", " "), []).append(file.read_bytes())
+    for file in sorted(kept.iterdir()) if kept and kept.is_dir() else []:
+        head, _, inside = file.read_bytes().partition(b"\n")
+        found.get(head.decode("latin-1"), []).append(inside)
+    for place, doors in OWN.items():
+        texts = [file.read_bytes() for file in sorted(ROOT.glob(place))[::9]]
+        for name in found.keys() & doors:
+            found[name] += texts
+    if reference:
+        from tests.support import reference as data
+
+        every = (data.levels(), data.scenes(), data.fuzz(), data.random_runs())
+        found.get("level string", []).extend({each.data.encode(): None for rows in every for each in rows})
+    return found
+
+
+def write_smallest(trial: Trial, pool: Pool, folder: Path, longest: int) -> None:
+    """Write few short inputs that reach all the lines that those of a pool reach, and a sound one, a folder a door."""
+    steps = Lines()
+    for name, inputs in pool.items():
+        known: set[Any] = set()
+        sound = False
+        for data in sorted(set(inputs), key=len):
+            if sound and len(data) > longest:
+                break
+            before = trial.outcomes[f"{name}: read"], len(trial.wrong)
+            with steps.watching():
+                trial.read(name, data)
+            reached = {(code, line) for code, _, line in steps.seen}
+            was_read = trial.outcomes[f"{name}: read"] > before[0]
+            wanted = not reached <= known if len(data) <= longest else was_read
+            if (wanted or (was_read and not sound)) and len(trial.wrong) == before[1]:
+                known |= reached
+                sound = sound or was_read
+                file = folder / name.replace(" ", "-") / sha256(data).hexdigest()[:12]
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_bytes(data)
+
+
+def options_of(words: list[str] | None = None) -> argparse.Namespace:
+    """The options of the command line."""
+    parser = argparse.ArgumentParser(description="Feed odd inputs to every door; only errors of ours may come out.")
+    parser.add_argument("--texts", type=int, default=0, help="how many inputs (default: without end, or 100000)")
+    parser.add_argument("--minutes", type=float, default=0, help="how long")
+    parser.add_argument("--seed", type=int, default=1, help="of chance (default 1)")
+    parser.add_argument("--door", action="append", help="only this door; may be given again")
+    parser.add_argument("--coverage", action="store_true", help="keep and mutate what reaches new code")
+    parser.add_argument("--corpus", type=Path, help="folder of inputs to begin with; Atheris keeps its own there too")
+    parser.add_argument("--findings", type=Path, default=Path("findings"), help="folder of what is wrong (./findings)")
+    parser.add_argument("--read", type=Path, help="read this one file, through the --door")
+    parser.add_argument(
+        "--smallest", type=Path, help="write few short inputs of the corpus here that reach the same code"
+    )
+    parser.add_argument("--longest", type=int, default=900, help="bytes of those (default 900)")
+    parser.add_argument("--reference", action="store_true", help="begin with the texts of ../shared/n14 too")
+    return parser.parse_args(words)
+
+
+def main() -> int:
+    """Fuzz, print what was found and a summary."""
+    options = options_of()
+    faulthandler.enable()
+    warnings.simplefilter("ignore")  # two files of one name in a zip are meant
+    # A hang in compiled code shows where it is; one in ours is ended.
+    signal.signal(signal.SIGPROF, _end_hang)
+    faulthandler.register(signal.SIGPROF, chain=True)
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, resource.getrlimit(resource.RLIMIT_AS)[1]))
+    os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
+    instrumented: Any = nullcontext()
+    atheris = _atheris() if options.coverage else None
+    if atheris:
+        # The rules have trials of their own (`soak.worlds`).
+        instrumented = atheris.instrument_imports(include=["ninja_game"], exclude=["ninja_game.sim"])
+    with instrumented:
+        from tools.soak import door_table
+    ram = Path("/dev/shm")
+    with TemporaryDirectory(dir=ram if ram.is_dir() else None) as place:
+        trial = Trial(door_table, Path(place), options.findings, SLOW_S * (WATCHED if options.coverage else 1))
+        if options.read:
+            trial.read(options.door[0], options.read.read_bytes())
+            return trial.summary()
+        wanted = [name for name in door_table.DOORS if name in (options.door or door_table.DOORS)]
+        pool = sound_inputs(wanted, options.corpus, reference=options.reference)
+        if options.smallest:
+            write_smallest(trial, pool, options.smallest, options.longest)
+            return trial.summary()
+        texts = options.texts or (10**12 if options.minutes else 100_000)
+
+        def over() -> bool:
+            late = options.minutes and time.monotonic() - trial.started > options.minutes * 60
+            return bool(late) or trial.outcomes.total() >= texts
+
+        if atheris:
+            # Databases are SQLite's code more than ours, and slow.
+            pool = {name: inputs for name, inputs in pool.items() if options.door or trial.doors[name].share > 1}
+            corpus = options.corpus or Path(place) / "corpus"
+            corpus.mkdir(exist_ok=True)
+            guided(atheris, trial, pool, options.seed, corpus, over)
+        for name, inputs in pool.items():
+            for data in inputs:
+                trial.read(name, data)
+        for _ in loop(trial, pool, random.Random(options.seed), Lines() if options.coverage else None):
+            trial.tell_progress()
+            if over():
+                break
+        return trial.summary()
+
+
+def _atheris() -> Any:
+    """The library Atheris; None where it is not installed."""
+    try:
+        import atheris  # type: ignore[import-not-found,import-untyped,unused-ignore]
+    except ImportError:
+        return None
+    return atheris
+
+
+if __name__ == "__main__":
+    sys.exit(main())
