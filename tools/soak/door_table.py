@@ -7,6 +7,7 @@ import re
 import sqlite3
 from collections.abc import Callable, Iterable
 from contextlib import closing, suppress
+from datetime import UTC, datetime
 from functools import cache, partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -350,7 +351,7 @@ DOORS: dict[str, Door] = {
     "settings": _of_file(_settings),
     "checkpoint log": _of_file(_log),
     "cluster message": _of_text(results_from_text),
-    "board": _of_file(read_board),
+    "board": _of_file(lambda path: read_board(path, datetime(2026, 1, 1, tzinfo=UTC))),
     "journal": _of_file(_journal, "tas/odd.jsonl", 6),
     "branches": Door(_branches),
     "autosave": _of_file(lambda path: list(autosave.recovered(path.parent.parent)), "editing/odd.json"),
