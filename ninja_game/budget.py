@@ -14,6 +14,9 @@ from ninja_game.sim.level import Level, makes_object
 RUN_BUDGET = 320_000_000
 """Work of one run: the longest that N records on the largest level, a million ticks of 310 objects; 5 s compiled."""
 
+PAGE_BUDGET = 3_000_000
+"""Work of a run that a page judges, on its one thread: 10,000 ticks of 290 objects."""
+
 TURN_WORK = 15_000
 """Work between two pictures, where a window or a page shows a run: some 5 to 10 ms on the plain memory."""
 

@@ -8,9 +8,11 @@ from __future__ import annotations
 import json
 import sqlite3
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
-from ninja_game.errors import NinjaGameError
+from ninja_game.budget import PAGE_BUDGET
+from ninja_game.errors import BudgetError, NinjaGameError
 from ninja_game.formats.links.fragment import is_link, watched
 from ninja_game.play.app import App
 from ninja_game.play.input.scancodes import scancode_named
@@ -96,7 +98,7 @@ class PageServices:
     def verdicts(self, name: str, data: bytes) -> Iterator[str]:
         """A verdict on every recording in a file, one by one: JSON as of ``ninja-game verify --json``.
 
-        ``{"unreadable": message}`` for what cannot be read.
+        ``{"unreadable": message}`` for what cannot be read, or is more work than a page does.
         """
         from tempfile import TemporaryDirectory
 
@@ -112,7 +114,11 @@ class PageServices:
             path.write_bytes(bytes(data))
             for found in recordings_in([path]):
                 try:
-                    verdict = found if isinstance(found, Unreadable) else verify_recording(found, "plain")
+                    verdict = (
+                        found if isinstance(found, Unreadable) else verify_recording(found, "plain", budget=PAGE_BUDGET)
+                    )
+                except BudgetError as error:
+                    verdict = Unreadable(str(replace(error, hint="`ninja-game verify` judges it on a desktop")))
                 except NinjaGameError as error:
                     verdict = Unreadable(str(error))
                 if isinstance(verdict, Unreadable):

@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game import run_level
-from ninja_game.budget import RUN_BUDGET, affordable_ticks, tick_cost
+from ninja_game.budget import PAGE_BUDGET, RUN_BUDGET, affordable_ticks, tick_cost
 from ninja_game.cli.main import cli
 from ninja_game.errors import BudgetError
 from ninja_game.files.resources import bundled_replays
@@ -28,6 +28,7 @@ from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.inputs import MAX_DEMO_TICKS, Demo
 from ninja_game.sim.kinds import NO_KIND
 from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.web.services import PageServices
 from tests.support.heavy import heavy_level
 from tests.support.memories import BOTH
 from tests.support.reference import recordings
@@ -145,3 +146,13 @@ def test_runs_of_very_different_lengths_are_not_compared_place_by_place(monkeypa
     assert aligned(np.zeros((90, 2)), np.zeros((10, 2))).tolist()[-1] == 9
     with pytest.raises(Exception, match="runs of 91 and 10 ticks are too long"):
         aligned(np.zeros((91, 2)), np.zeros((10, 2)))
+
+
+def test_a_page_judges_no_more_than_its_one_thread_can(tmp_path: Path) -> None:
+    crowd = heavy_level(3000)
+    ticks = PAGE_BUDGET // tick_cost(crowd) + 1
+    file = write_records(tmp_path / "runs.txt", ("one", write_level_string(crowd, exact=True), running(ticks)))
+    services = PageServices.__new__(PageServices)
+    (verdict,) = map(json.loads, services.verdicts("runs.txt", file.read_bytes()))
+    assert "costs too much work" in verdict["unreadable"]
+    assert "`ninja-game verify` judges it on a desktop" in verdict["unreadable"]
