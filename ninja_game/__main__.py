@@ -4,7 +4,20 @@ from __future__ import annotations
 
 # `signal` itself imports enough for a signal to come in between.
 import _signal  # type: ignore[import-not-found]
+import os
 import sys
+
+
+def open_missing_streams() -> None:
+    """Give standard input, output and errors that were closed before the program began something to lead to.
+
+    Else the next file that is opened would take their place, and whatever is printed be an error.
+    """
+    while (handle := os.open(os.devnull, os.O_RDWR)) <= 2:
+        name, mode = (("stdin", "r"), ("stdout", "w"), ("stderr", "w"))[handle]
+        os.set_inheritable(handle, True)
+        setattr(sys, name, open(handle, mode, encoding="utf-8", closefd=False))  # noqa: SIM115
+    os.close(handle)
 
 
 def main() -> None:
@@ -14,6 +27,7 @@ def main() -> None:
             _signal.signal(_signal.SIGINT, _signal.SIG_DFL)
         # tools/dev.py starts the program so that one which comes before this line waits for it.
         _signal.pthread_sigmask(_signal.SIG_UNBLOCK, (_signal.SIGINT,))
+    open_missing_streams()
     from ninja_game.signals import end_on_signals
 
     end_on_signals()

@@ -7,7 +7,6 @@ to folders beside the sources, so it is not used.
 
 from __future__ import annotations
 
-import os
 import pickle
 import sys
 from collections.abc import Callable
@@ -16,6 +15,9 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 from uuid import uuid4
+
+from ninja_game.errors import FileError
+from ninja_game.files.user_folder import chosen_folder
 
 KEPT_FILES = 200
 """How many compiled kernels stay in the cache folder: the newest, some ten versions of all."""
@@ -31,13 +33,16 @@ def keep(dispatcher: Any, digest: str) -> None:
 
 @cache
 def cache_folder() -> Path:
-    """Where machine code is kept: in NUMBA_CACHE_DIR, or else in the user's cache folder."""
-    chosen = os.environ.get("NUMBA_CACHE_DIR")
-    if chosen:
-        return Path(chosen)
+    """Where machine code is kept: in NUMBA_CACHE_DIR, or else in the user's cache folder.
+
+    Raises FileError where there is none, and for a relative path: what lies in the current folder is never loaded.
+    """
     from platformdirs import user_cache_path
 
-    return user_cache_path("ninja-game") / "compiled"
+    folder = chosen_folder("NUMBA_CACHE_DIR", lambda: user_cache_path("ninja-game") / "compiled")
+    if not folder.is_absolute():
+        raise FileError("the cache of compiled code has a relative path", found=str(folder), expected="a full path")
+    return folder
 
 
 def forget_old_code(folder: Path) -> None:

@@ -14,6 +14,7 @@ from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from types import CodeType
 from typing import Any
+from warnings import catch_warnings, simplefilter
 
 HONOURED = ("NUMBA_CACHE_DIR", "NUMBA_DISABLE_JIT")
 """Variables of Numba's that this program reads: where compiled code is kept, and whether anything is compiled."""
@@ -55,8 +56,10 @@ def import_numba() -> Any:
     finder = _ConfigFinder()
     sys.meta_path.insert(0, finder)
     try:
-        import numba
-        from numba.core import config as found
+        with catch_warnings():
+            simplefilter("ignore")
+            import numba
+            from numba.core import config as found
     finally:
         sys.meta_path.remove(finder)
     config: Any = found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import traceback
 from collections.abc import Callable
@@ -15,6 +16,9 @@ Value = TypeVar("Value")
 
 IN_PAGE = sys.platform == "emscripten"
 """Whether this is a page, which has no threads, no compiler, no NumPy and no Pillow."""
+
+FOLDER_HANDLES = os.open in os.supports_dir_fd and not IN_PAGE
+"""Whether files can be opened below the handle of a folder."""
 
 ONLY_ON_A_DESKTOP = "only the program for the desktop can make that, not a page"
 

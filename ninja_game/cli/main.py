@@ -9,6 +9,7 @@ import os
 import sys
 import traceback
 from collections.abc import Sequence
+from contextlib import suppress
 from difflib import get_close_matches
 from importlib import import_module
 from typing import Any, NoReturn
@@ -171,17 +172,17 @@ def _failed(error: BaseException) -> int:
     """Tell what a command has raised, and its exit code."""
     match error:
         case click.exceptions.NoArgsIsHelpError():
-            click.echo(error.format_message(), err=True)
+            _say(error.format_message())
         case click.ClickException():
             complain(error.format_message())
             if isinstance(error, click.UsageError) and error.ctx:
-                click.echo(f"Try '{error.ctx.command_path} --help'.", err=True)
+                _say(f"Try '{error.ctx.command_path} --help'.")
         case NinjaGameError():
             complain(str(error))
         case OSError():
             complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
         case _:
-            traceback.print_exception(error)
+            _say("".join(traceback.format_exception(error)).rstrip())
             complain("this is a fault of ninja-game, not of your input; please report it with the lines above")
             return INTERNAL_ERROR
     return BAD_INPUT
@@ -190,8 +191,14 @@ def _failed(error: BaseException) -> int:
 def complain(message: str) -> int:
     """Exit code 2, after the lines of the message on stderr."""
     for line in message.split("\n"):
-        click.echo(f"ninja-game: {shown_text(line, _LONGEST_MESSAGE)}", err=True)
+        _say(f"ninja-game: {shown_text(line, _LONGEST_MESSAGE)}")
     return BAD_INPUT
+
+
+def _say(text: str) -> None:
+    """A line on stderr; where none can be written, the exit code still tells."""
+    with suppress(OSError):
+        click.echo(text, err=True)
 
 
 @click.command(cls=Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})

@@ -61,6 +61,18 @@ def _lock(handle: int, seconds: float) -> None:
             return
 
 
+def lock(handle: int) -> bool:
+    """Lock an open file for as long as it stays open; False where another program holds it."""
+    try:
+        _try_to_lock(handle)
+    except (BlockingIOError, PermissionError):
+        return False
+    except OSError:
+        # This disk has no locks.
+        return True
+    return True
+
+
 def hold(path: Path) -> int | None:
     """Lock a file, which is made if it is missing, for as long as its handle stays open; None if another holds it.
 

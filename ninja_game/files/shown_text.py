@@ -13,6 +13,11 @@ MOST_NAME_BYTES = 200
 
 _LONGEST_STEM = 50
 _NOT_IN_NAMES = re.compile(r"[^\w.]+")
+_BLANKS = re.compile(r"\s{2,}")
+INVISIBLE = re.compile(
+    "[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u2065\u2800\u3164\ufe00-\ufe0f\uffa0\U000e0000-\U000e0fff]"
+)
+"""What is printable and not seen, besides format characters (Cf): fillers, variation selectors, blank Braille."""
 _NOWHERE = '/\\:*?"<>|'
 _RESERVED = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[1-9¹²³]) *(\..*)?", re.IGNORECASE | re.DOTALL)
 """Names that mean devices on Windows, whatever their suffix."""
@@ -21,14 +26,16 @@ _RESERVED = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[1-9¹²³])
 def shown_text(text: str, longest: int = LONGEST) -> str:
     r"""The text as one line of printable characters, for terminals, reports and windows.
 
-    White space becomes blanks, every other character without a shape of its own (control characters, marks of writing
-    direction, halves of surrogate pairs) its escape; what is longer ends in dots.
+    White space becomes one blank, so that no name fills a line up to where another seems to begin. Every other
+    character without a shape of its own (control characters, marks of writing direction, halves of surrogate pairs,
+    fillers) becomes its escape; what is longer ends in dots.
 
     >>> shown_text("two\nlines"), shown_text("\x1b[31mred\u202e"), shown_text("Any name", 4)
     ('two lines', '\\x1b[31mred\\u202e', 'Any ...')
     """
     if len(text) > longest:
         return shown_text(text[:longest]) + "..."
+    text = INVISIBLE.sub(lambda found: _escape(found[0]), _BLANKS.sub(" ", text))
     return text if text.isprintable() else "".join(map(shown_character, text))
 
 
@@ -36,7 +43,11 @@ def shown_character(character: str) -> str:
     """One character of ``shown_text``."""
     if character.isprintable():
         return character
-    return " " if character.isspace() else character.encode("unicode_escape").decode("ascii")
+    return " " if character.isspace() else _escape(character)
+
+
+def _escape(character: str) -> str:
+    return character.encode("unicode_escape").decode("ascii")
 
 
 def file_stem(text: str, otherwise: str = "") -> str:

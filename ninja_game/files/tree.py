@@ -10,7 +10,6 @@ from __future__ import annotations
 import errno
 import os
 import stat
-import sys
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -18,8 +17,7 @@ from pathlib import Path
 from ninja_game.errors import FileError
 from ninja_game.files.reading import what_it_is
 from ninja_game.files.writing import as_bytes, named, replaced
-
-_HANDLES = os.open in os.supports_dir_fd and sys.platform != "emscripten"
+from ninja_game.runtime import FOLDER_HANDLES
 
 
 class Tree:
@@ -72,7 +70,7 @@ class Tree:
         path = self.root
         if make:
             path.mkdir(parents=True, exist_ok=True)
-        at = os.open(path, os.O_RDONLY | os.O_DIRECTORY) if _HANDLES else None
+        at = os.open(path, os.O_RDONLY | os.O_DIRECTORY) if FOLDER_HANDLES else None
         try:
             for part in parts:
                 path = path / part

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from contextlib import suppress
 from itertools import count
 from pathlib import Path
@@ -23,17 +24,22 @@ SETTINGS, RECORDS = "settings.toml", "records.sqlite"
 def user_folder() -> Path:
     """The folder, whether it exists or not: ``NINJA_GAME_HOME``, else the system's place for data of programs.
 
-    Raises FileError where ``NINJA_GAME_HOME`` begins with a ``~name`` that is no user's.
+    Raises FileError where ``NINJA_GAME_HOME`` begins with a ``~name`` that is no user's, or the user has no home.
     """
-    moved = os.environ.get(HOME_VARIABLE)
-    if moved:
-        try:
-            return Path(moved).expanduser()
-        except RuntimeError:
-            raise FileError(f"{HOME_VARIABLE} names no folder", found=moved, expected="a path") from None
     from platformdirs import user_data_path
 
-    return user_data_path("ninja-game", appauthor=False)
+    return chosen_folder(HOME_VARIABLE, lambda: user_data_path("ninja-game", appauthor=False))
+
+
+def chosen_folder(variable: str, otherwise: Callable[[], Path]) -> Path:
+    """The folder that a variable of the environment names, else another. Raises FileError where there is neither."""
+    named = os.environ.get(variable)
+    try:
+        return Path(named).expanduser() if named else otherwise()
+    except RuntimeError as error:
+        what = f"{variable} names no folder" if named else f"no folder for the program's files ({error})"
+        hint = "" if named else f"name one with {variable}"
+        raise FileError(what, found=named or "", expected="a path" if named else "", hint=hint) from None
 
 
 def make_user_folder(folder: Path | None = None) -> Path:

@@ -47,7 +47,7 @@ def read_settings(path: Path) -> tuple[Settings, list[str]]:
     """
     try:
         with _long_numbers():
-            data = parse_toml(read_utf8(path, MAX_BYTES))
+            data = parse_toml(read_utf8(path, MAX_BYTES), any_number=True)
     except FileNotFoundError:
         return Settings(), []
     except OSError as error:
@@ -139,14 +139,14 @@ def _changed_text(path: Path, before: Settings, after: Settings) -> str:
     try:
         with _long_numbers():
             text = read_utf8(path, MAX_BYTES)
-            parse_toml(text)
+            parse_toml(text, any_number=True)
             document = tomlkit.parse(text)
             if document.get("version", VERSION) == VERSION:
                 for name in RULES:
                     if getattr(before, name) != getattr(after, name):
                         _put(document, name, getattr(before, name), getattr(after, name))
                 text = document.as_string()
-                parse_toml(text)
+                parse_toml(text, any_number=True)
                 return text
             why = "newer"
     except FileNotFoundError:

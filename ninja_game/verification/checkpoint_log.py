@@ -14,6 +14,7 @@ from typing import IO, Any, Self
 
 from ninja_game import __version__
 from ninja_game.errors import FileError, FormatError
+from ninja_game.files.locking import lock
 from ninja_game.files.reading import what_it_is
 from ninja_game.formats.replay.text import RULES_VERSION
 from ninja_game.verification.chunks import Result, as_data, result_from_data
@@ -47,12 +48,14 @@ class CheckpointLog:
 
     def _read(self) -> None:
         """Note where the results of every finished chunk stand, and cut off what was not finished."""
+        if not lock(self._file.fileno()):
+            raise FileError("another program writes this checkpoint log", str(self.path), hint="wait, or name another")
         header = json.dumps(HEADER).encode() + b"\n"
         first = self._file.readline(len(header))
         if first == header:
             whole = self._read_chunks(len(header))
-        elif header.startswith(first):
-            # Empty, or its writer died in the first line.
+        elif not first or (header.startswith(first) and first.startswith(header[:20])):
+            # Empty, or its writer died in the first line; a shorter beginning may be that of anything.
             whole = 0
         else:
             raise self._odd(1, first, f"{json.dumps(HEADER)}; start another file")
@@ -93,8 +96,12 @@ class CheckpointLog:
         """The results of a finished chunk."""
         end = self._file.tell()
         self._file.seek(self._places[key])
-        _, results = _parse(self._file.readline())
+        found, results = _parse(self._file.readline())
         self._file.seek(end)
+        if found != key:
+            raise FormatError(
+                "the checkpoint log was changed meanwhile", str(self.path), expected="one writer at a time"
+            )
         return results
 
     def add(self, key: str, results: Sequence[Result]) -> None:

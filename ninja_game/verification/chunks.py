@@ -16,14 +16,15 @@ from typing import Any, get_args, get_type_hints
 
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.compile_cache import MemoryUnavailableError
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import DAMAGED, NinjaGameError
 from ninja_game.files.beside import Beside, known_files
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.recording import Recording
 from ninja_game.known_run import KnownRunError
 from ninja_game.runs.recording_reader import Unreadable, recording_of_text, recordings_of, records_of, texts_in
-from ninja_game.runs.verify import Verdict, verify_recording
+from ninja_game.runs.verify import NOT_RUN, Verdict, verify_recording
 from ninja_game.sim.level import Level
+from ninja_game.sim.states import OUTCOME_NAMES
 from ninja_game.verification.workers import ClusterError
 
 RECORDS = 64
@@ -144,11 +145,19 @@ def results_as_text(results: Sequence[Sequence[Result]]) -> str:
     return json.dumps([[as_data(result) for result in each] for each in results])
 
 
-def results_from_text(text: object) -> list[list[Result]]:
-    """The results that ``results_as_text`` wrote. Raises ClusterError for anything else: it comes from elsewhere."""
+def results_from_text(text: object, chunks: Sequence[Chunk]) -> list[list[Result]]:
+    """The results that ``results_as_text`` wrote of these chunks. Raises ClusterError for anything else."""
     try:
-        return [[result_from_data(data) for data in each] for each in json.loads(str(text))]
-    except (ValueError, TypeError, RecursionError) as error:
+        found = [[result_from_data(data) for data in each] for each in json.loads(str(text))]
+        if len(found) != len(chunks):
+            raise ValueError(f"{len(found)} answers to {len(chunks)} questions")
+        for chunk, results in zip(chunks, found, strict=True):
+            # A text that was found in a folder may hold levels alone.
+            wanted = 0 if chunk.done else 1 if chunk.problem else len(chunk.records) or int(chunk.named)
+            if len(results) != wanted and (chunk.records or len(results) < wanted):
+                raise ValueError(f"{len(results)} results of {wanted}")
+        return found
+    except DAMAGED as error:
         raise ClusterError(f"a worker of the cluster answers with something else than results ({error})") from None
 
 
@@ -156,6 +165,10 @@ def as_data(result: Result) -> dict[str, Any]:
     """A result as a dictionary of plain values."""
     return asdict(result)
 
+
+LARGEST = 2**53
+"""Numbers of a result are smaller."""
+OUTCOMES = (*OUTCOME_NAMES, NOT_RUN)
 
 _TYPES = {name: hint for name, hint in get_type_hints(Verdict).items() if name != "problems"}
 
@@ -168,8 +181,12 @@ def result_from_data(data: object) -> Result:
         raise ValueError("not the fields of a result")
     for name, kind in _TYPES.items():
         value = data[name]
+        if isinstance(value, int) and abs(value) >= LARGEST:
+            raise ValueError(f"{name} is out of range")
         if not isinstance(value, kind) or (isinstance(value, bool) and bool not in (kind, *get_args(kind))):
             raise ValueError(f"{name} is {value!r}"[:80])
+    if data["outcome"] not in OUTCOMES:
+        raise ValueError(f"outcome is {data['outcome']!r}"[:80])
     problems = data["problems"]
     if not isinstance(problems, (list, tuple)) or not all(isinstance(problem, str) for problem in problems):
         raise ValueError("problems are no list of texts")

@@ -148,7 +148,7 @@ def _verify_all(
                 run = partial(_verify_text, asked.as_text())
                 done = _isolate_failing(pool, run, all_jobs, chunks_as_text, results_from_text)
             else:
-                done = _isolate_failing(pool, partial(_verify, asked), all_jobs, tuple, list)
+                done = _isolate_failing(pool, partial(_verify, asked), all_jobs, tuple, lambda found, _: list(found))
             yield from _record_results(done, log)
         except (CancelledError, ConnectionError) as error:
             if not cluster:
@@ -195,7 +195,7 @@ def _isolate_failing(
     function: Callable[[Any], Any],
     jobs: Iterator[Job],
     send: Callable[[Job], Any],
-    read: Callable[[Any], list[list[Result]]],
+    read: Callable[[Any, Job], list[list[Result]]],
 ) -> Done:
     """All jobs with their results; one that kills its workers is done again chunk by chunk, to find the one chunk.
 
@@ -205,7 +205,7 @@ def _isolate_failing(
         if isinstance(found, WorkerLostError) and len(job) > 1:
             yield from _isolate_failing(pool, function, ((chunk,) for chunk in job), send, read)
         else:
-            yield job, found if isinstance(found, WorkerLostError) else read(found)
+            yield job, found if isinstance(found, WorkerLostError) else read(found, job)
 
 
 def _record_results(done: Done, log: CheckpointLog | None) -> Iterator[Result]:

@@ -122,3 +122,15 @@ def test_failed_film_leaves_nothing(replay: Path, tmp_path: Path, monkeypatch: p
     run = recorded_run(load_replays(replay)[0])
     assert not write_film(Film(run), tmp_path / "film.gif", lambda done: done < 20)
     assert not (tmp_path / "film.gif").exists()
+
+
+def test_a_film_without_a_name_of_its_own_replaces_nothing(
+    replay: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    victim = tmp_path / "victim"
+    victim.write_text("kept")
+    (tmp_path / "walk.gif").symlink_to(victim)
+    assert film_of(replay, "--to", "2", "--size", "132x100").exit_code == 0
+    assert victim.read_text() == "kept"
+    assert (tmp_path / "walk-2.gif").read_bytes().startswith(b"GIF89a")

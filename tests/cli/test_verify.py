@@ -180,3 +180,18 @@ def test_interrupt_ends_the_program_and_its_workers(tmp_path: Path) -> None:
 def test_no_file_is_wrong_usage(tmp_path: Path) -> None:
     assert verify().exit_code == 2
     assert verify(tmp_path).exit_code == 2, "an empty folder"
+
+
+@pytest.mark.parametrize("closed", ["2>&-", ">&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize("name, code", [("good.txt", 0), ("bad.txt", 1), ("missing.txt", 2)])
+def test_closed_outputs_change_no_exit_code(tmp_path: Path, name: str, code: int, closed: str) -> None:
+    write_records(tmp_path / "good.txt", ("Walk", WALK, running(WALK_END)))
+    write_records(tmp_path / "bad.txt", ("Short", WALK, running(9)))
+    words = f"{sys.executable} -P -m ninja_game verify --memory plain {name}"
+    assert subprocess.run(["/bin/sh", "-c", f"{words} {closed}"], cwd=tmp_path, check=False).returncode == code
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no full disk to try")
+def test_errors_that_cannot_be_written_change_no_exit_code(tmp_path: Path) -> None:
+    words = f"{sys.executable} -P -m ninja_game verify --memory plain nowhere.txt"
+    assert subprocess.run(["/bin/sh", "-c", f"{words} 2>/dev/full"], cwd=tmp_path, check=False).returncode == 2

@@ -67,8 +67,8 @@ WORST: dict[str, Callable[[], str]] = {
     "no text": lambda: filled("x"),
 }
 
-CHILD = """
-import json, resource, sys
+CHILD = r"""
+import json, re, resource, sys
 from pathlib import Path
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.load import load_levels, load_replays, parse_level
@@ -90,7 +90,8 @@ for path in sorted(Path(sys.argv[1]).iterdir()):
         except NinjaGameError:
             pass
         seconds.append(resource.getrusage(resource.RUSAGE_SELF).ru_utime - before)
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024
+    # The peak that getrusage tells may be that of the program which started this one.
+    peak = int(re.search(r"VmHWM:\s+(\d+)", Path("/proc/self/status").read_text())[1]) // 1024
     print(json.dumps([path.name, max(seconds), peak]), flush=True)
 """
 """Reads every file in all ways (of many recordings, which are told one by one, a thousand).

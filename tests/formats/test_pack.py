@@ -130,6 +130,7 @@ def test_pack_without_index_says_so(tmp_path: Path) -> None:
         ("name = 'x'\nnot [ toml", r"p\.toml:2:\d+: no TOML"),
         ("a = " + "[" * 5000, "p.toml: no TOML"),
         ("name = 'x'\na" + ".a" * 5000 + " = 1", "p.toml:2:1: no TOML: A key of more than 50 parts"),
+        ("name = 0x" + "f" * 5000, "p.toml: no TOML: A whole number of more than 64 bits"),
         ("", "without a name"),
         ("name = 5", "name is no text; found 5"),
         ("name = 'x'\nepisodes = []", "unknown entry; found 'episodes'; expected author, columns"),

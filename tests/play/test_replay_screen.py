@@ -341,4 +341,4 @@ def test_film_that_cannot_be_saved_is_told() -> None:
             # It may have failed already, and been told of, within that frame.
             screen.export._thread.join(60)
             frames(app, 1, 0)
-        assert "could not be saved" in app.notice
+        assert app.notice == "No film: File exists"

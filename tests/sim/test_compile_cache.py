@@ -12,8 +12,8 @@ import pytest
 
 from ninja_game import compile_cache
 from ninja_game.compile_cache import MemoryUnavailableError, choose_memory
-from ninja_game.errors import ArgumentError
-from ninja_game.kernel_cache import KEPT_FILES, forget_old_code
+from ninja_game.errors import ArgumentError, FileError
+from ninja_game.kernel_cache import KEPT_FILES, cache_folder, forget_old_code
 from ninja_game.sim.memory.kernels import step_world
 from ninja_game.sim.ninja import tick
 
@@ -152,3 +152,16 @@ def test_machine_code_is_another_if_a_literal_of_a_rule_is_edited() -> None:
     edited.__qualname__, edited.__module__ = rule.__qualname__, rule.__module__
     assert (rule(1.0), edited(1.0)) == (2.5, 3.5)
     assert code_digest(edited, "") != code_digest(rule, "")
+
+
+@pytest.mark.parametrize("folder", ["cache", "./cache", "..", "~nobody-of-this-name/cache"])
+def test_compiled_code_is_never_loaded_from_a_relative_folder(folder: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", folder)
+    with pytest.raises(FileError, match=r"relative path|NUMBA_CACHE_DIR names no folder"):
+        cache_folder.__wrapped__()
+
+
+def test_the_home_of_the_user_is_meant_by_its_sign(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.setenv("NUMBA_CACHE_DIR", "~/cache")
+    assert cache_folder.__wrapped__() == tmp_path / "cache"

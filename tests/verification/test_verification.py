@@ -19,9 +19,10 @@ import pytest
 
 from ninja_game import parse_level
 from ninja_game.compile_cache import compiled_available
-from ninja_game.errors import FormatError
+from ninja_game.errors import FileError, FormatError
 from ninja_game.files.beside import Beside
 from ninja_game.files.reading import files_below
+from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.runs.recording_reader import Unreadable, records_of
 from ninja_game.runs.verify import Verdict, judged
@@ -38,11 +39,20 @@ from ninja_game.verification.chunks import (
     chunks_from_text,
     chunks_in,
     result_from_data,
+    results_from_text,
     self_contained,
     verify_chunk,
 )
 from ninja_game.verification.verify_many import Tally, verify_all, write_report
-from ninja_game.verification.workers import JOB_SECONDS, WORKER_BYTES, Local, WorkerLostError, in_order, workers
+from ninja_game.verification.workers import (
+    JOB_SECONDS,
+    WORKER_BYTES,
+    ClusterError,
+    Local,
+    WorkerLostError,
+    in_order,
+    workers,
+)
 from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, loose_replay, replay_of_walk, running, write_records
 
 verify_plainly = partial(verify_all, memory="plain")
@@ -464,3 +474,36 @@ def test_a_worker_process_has_limits_of_memory_and_time() -> None:
     assert results == {10: 10, 20: 20}
     assert limits[0] == WORKER_BYTES
     assert JOB_SECONDS <= limits[1] < JOB_SECONDS + 60
+
+
+@pytest.mark.parametrize(
+    "answer, why",
+    [
+        ("[]", "0 answers to 2"), ("[[]]", "1 answers"), ("[[], []]", "0 results of 1"), ("7", "else than"),
+        ("[7, 8]", "else than"),
+        ('[[{"message": "a"}, {"message": "b"}], [{"message": "c"}]]', "2 results of 1"),
+    ],
+)  # fmt: skip
+def test_an_answer_that_is_not_one_of_each_recording_is_refused(answer: str, why: str) -> None:
+    chunks = [Chunk("a.txt", records=(LevelRecord("A", "", "", WALK, running(9)),)), Chunk("b.txt", text="?")]
+    with pytest.raises(ClusterError, match=why):
+        results_from_text(answer, chunks)
+
+
+@pytest.mark.parametrize("field, value", [("outcome", "\x1b[2J"), ("score_ticks", 10**4000), ("ticks", -(2**60))])
+def test_a_result_holds_only_what_a_verdict_can_say(archive: Path, field: str, value: object) -> None:
+    verdict = next(verify_plainly([archive / "a.txt"]))
+    with pytest.raises(ValueError, match=field):
+        result_from_data(as_data(verdict) | {field: value})
+
+
+def test_two_programs_do_not_write_one_log(tmp_path: Path) -> None:
+    with CheckpointLog(tmp_path / "log"), pytest.raises(FileError, match="another program writes"):
+        CheckpointLog(tmp_path / "log")
+
+
+def test_a_short_file_that_begins_as_a_log_does_keeps_every_byte(tmp_path: Path) -> None:
+    (tmp_path / "one.json").write_text("{")
+    with pytest.raises(FormatError, match="not a checkpoint log"):
+        CheckpointLog(tmp_path / "one.json")
+    assert (tmp_path / "one.json").read_text() == "{"

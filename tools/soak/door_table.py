@@ -58,7 +58,14 @@ from ninja_game.tas.files import branches_path, inputs_of_text, open_run, replay
 from ninja_game.tas.session import Session
 from ninja_game.tas.watch import parse_watch
 from ninja_game.verification.checkpoint_log import CheckpointLog
-from ninja_game.verification.chunks import chunks_in, results_as_text, results_from_text, self_contained, verify_chunk
+from ninja_game.verification.chunks import (
+    Chunk,
+    chunks_in,
+    results_as_text,
+    results_from_text,
+    self_contained,
+    verify_chunk,
+)
 from ninja_game.web.board.report import read_board
 from tests.support.samples import WALK, replay_of_walk
 from tools.soak.mutators import as_text
@@ -176,7 +183,7 @@ def _verified(path: Path) -> None:
     for chunk in map(self_contained, chunks_in([path])):
         if all(each.ticks <= LONGEST_RUN for each in _loaded(path)):
             results = verify_chunk(chunk, "plain")
-            _same("results", results_from_text(results_as_text([results])), [results])
+            _same("results", results_from_text(results_as_text([results]), [chunk]), [results])
 
 
 def _loaded(path: Path) -> list[Any]:
@@ -350,7 +357,7 @@ DOORS: dict[str, Door] = {
     "pack zip": _of_file(lambda path: _pack(Pack(path)), "pack.zip"),
     "settings": _of_file(_settings),
     "checkpoint log": _of_file(_log),
-    "cluster message": _of_text(results_from_text),
+    "cluster message": _of_text(lambda text: results_from_text(text, [Chunk("a.txt", named=False)] * 2)),
     "board": _of_file(lambda path: read_board(path, datetime(2026, 1, 1, tzinfo=UTC))),
     "journal": _of_file(_journal, "tas/odd.jsonl", 6),
     "branches": Door(_branches),

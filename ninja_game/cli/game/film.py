@@ -12,6 +12,7 @@ from ninja_game.cli.game.play import pixels
 from ninja_game.cli.run_options import InputPath, heartbeat, level_given, level_option
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
+from ninja_game.files.user_folder import free_path
 from ninja_game.formats.links.fragment import is_link
 
 
@@ -19,7 +20,8 @@ from ninja_game.formats.links.fragment import is_link
 @click.argument("replay", type=InputPath(dir_okay=False))
 @click.option(
     "-o", "--out", type=click.Path(path_type=Path),
-    help="The film: NAME.gif, NAME.webm, or a folder for one PNG picture a tick. [default: the replay's name and .gif]",
+    help="The film: NAME.gif, NAME.webm, or a folder for one PNG picture a tick. [default: a new file with the "
+    "replay's name and .gif]",
 )  # fmt: skip
 @click.option("--record", type=click.IntRange(min=0), default=0, help="Which recording of the file, counted from 0.")
 @click.option(
@@ -61,7 +63,7 @@ def command(
     recordings = load_replays(replay, level=level)
     if record >= len(recordings):
         raise NinjaGameError(f"{replay}: there is no record {record}; the last one is {len(recordings) - 1}")
-    path = out or Path("replay.gif" if is_link(replay) else f"{replay.name.partition('.')[0]}.gif")
+    path = out or free_path(Path(), "replay" if is_link(replay) else replay.name.partition(".")[0], ".gif")
     if path.exists() and any(not is_link(each) and path.samefile(each) for each in (replay, *ghosts)):
         raise click.UsageError("the film would replace the replay")
     others = [run for file in ghosts for run in load_replays(file, level=level)]

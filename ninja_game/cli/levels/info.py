@@ -53,7 +53,7 @@ def command(
     from ninja_game.formats.load import load_levels
 
     # A pipe has no width; a table cut to 80 columns is of no use to whoever reads it.
-    console = Console(highlight=False, width=None if sys.stdout.isatty() else PIPE_WIDTH)
+    console = Console(highlight=False, emoji=False, width=None if sys.stdout.isatty() else PIPE_WIDTH)
     given = level_given(level_path)
     runs = [run for file in files for run in _recordings(file, given)]
     levels = [level for file in files for level in load_levels(file)] if given is None else list(map(_level_of, runs))

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import re
 import unicodedata
 from dataclasses import dataclass, field
 
-UNNAMED = "unnamed"
+from ninja_game.files.shown_text import INVISIBLE
 
-_IGNORED = re.compile(
-    "[\u034f\u115f\u1160\u17b4\u17b5\u180b-\u180f\u2065\u2800\u3164\ufe00-\ufe0f\uffa0\U000e0000-\U000e0fff]"
-)
-"""What is not seen, besides the format characters (Cf): fillers, variation selectors, blank Braille."""
+UNNAMED = "unnamed"
 
 _LATIN = str.maketrans(
     "АВЕЅЈКМНОРСТУХԚԜаеѕјкмнорстухһԁԛԝѵΑΒΕΖΗΚΜΝΟΡΤΥΧαεκνορτυχӏІіΙιıIi1|0",  # noqa: RUF001
@@ -39,7 +35,7 @@ def folded(player: str) -> str:
     """
     folds = unicodedata.normalize("NFKC", unicodedata.normalize("NFKC", player).casefold())
     seen = "".join(letter for letter in folds if unicodedata.category(letter) != "Cf")
-    return player_named(_IGNORED.sub("", seen))
+    return player_named(INVISIBLE.sub("", seen))
 
 
 def look(player: str) -> str:
