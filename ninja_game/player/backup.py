@@ -20,6 +20,7 @@ from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
+from ninja_game.budget import PAGE_BUDGET
 from ninja_game.errors import DAMAGED, FileError, NinjaGameError
 from ninja_game.files.reading import files_in, read_bytes
 from ninja_game.files.shown_text import LONGEST, name_key, name_problem, shown_text
@@ -28,13 +29,16 @@ from ninja_game.files.user_folder import EXPORTS, LEVELS, RECORDS, REPLAYS, SETT
 from ninja_game.files.writing import write_atomically
 from ninja_game.files.zips import open_zip, unpacked
 from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import is_place
 from ninja_game.player.records import Records
+from ninja_game.player.scoring import level_score
 from ninja_game.player.statistics import KILLERS
 from ninja_game.player.store import Store
-from ninja_game.player.store.migrations import TABLES
+from ninja_game.player.store.migrations import MIGRATIONS, TABLES
+from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.memory.interface import BODIES
 
 MOST_FILES, MOST_BYTES = 4096, 256 * 2**20
@@ -46,8 +50,13 @@ MOST_REPLAYS, MOST_ROWS = 5_000, 100_000
 FOLDERS = (LEVELS, REPLAYS, EXPORTS, EDITING := "editing")
 """What of the player's folder goes along, besides the settings and the records."""
 
-_PARTS = {("saved_replay", "view"), *((table, "table") for table in TABLES)}
-"""What may stand in records; a trigger, or the expression of an index, would work when they are opened."""
+MOST_OF_DRAFT, MOST_OF_LEVEL = 2**20, 2**20
+"""Bytes of a level under edit, and of the level of a replay."""
+
+MOST_TICKS, FEW_TICKS = 10_000_000, 200_000
+"""Of all replays, which are run again; and how many are run before kernels would be ready."""
+
+_SCHEMA = "SELECT type, name, tbl_name, sql FROM sqlite_master WHERE sql IS NOT NULL"
 
 _COUNT_LIMIT = 2**53
 _DIGEST = re.compile("[0-9a-f]{64}")
@@ -85,11 +94,13 @@ def _own_files(folder: Path) -> Iterator[str]:
         yield from (f"{part}/{name}" for name in files_in(folder / part) if part != EDITING or name.endswith(".json"))
 
 
-def _problem(name: str) -> str:
+def _problem(name: str, size: int = 0) -> str:
     """Why a file of this name, seen from the player's folder, does not go along; '' if it does."""
     folder, _, file = name.rpartition("/")
     if name in {SETTINGS, RECORDS}:
         return ""
+    if folder == EDITING and (size > MOST_OF_DRAFT or not file.endswith(".json")):
+        return "no level under edit"
     if folder not in FOLDERS or file.startswith("."):
         return "no file of a player's"
     return name_problem(file)
@@ -123,7 +134,7 @@ def _unpacked(data: bytes) -> tuple[dict[str, bytes], list[str]]:
     archive = open_zip(io.BytesIO(data), most_files=MOST_FILES, most_bytes=MOST_BYTES)
     for entry in archive.infolist():
         name = entry.filename
-        if not (problem := _problem(name)):
+        if not (problem := _problem(name, entry.file_size)):
             content = unpacked(archive, entry)
             files[name] = _without_home(content) if name.startswith(f"{EDITING}/") else content
         elif not name.endswith("/"):
@@ -145,14 +156,21 @@ def _opened(path: Path) -> Store:
     """The records of a backup. Raises ValueError where they hold too much, or a trigger, which would do something."""
     try:
         with closing(sqlite3.connect(path)) as db:
-            there = set(db.execute("SELECT name, type FROM sqlite_master WHERE sql IS NOT NULL"))
-            for name, kind in there:
-                if (name, kind) not in _PARTS:
-                    raise ValueError(f"the {kind} {name} is not ours")
-            for table in TABLES & {name for name, _ in there}:
-                ((rows,),) = db.execute(f"SELECT count(*) FROM {table}")
-                if rows > (most := MOST_REPLAYS if table == "replay" else MOST_ROWS):
-                    raise ValueError(f"{rows:,} rows in the table {table}, of which at most {most:,} are taken in")
+            ((version,),) = db.execute("PRAGMA user_version")
+            there = set(db.execute(_SCHEMA))
+            # A trigger, a check, a default or an index of another would be run when the records are opened.
+            if other := there ^ _our_schema(version):
+                raise ValueError("the {} {} is not ours".format(*min(other)))
+            for name in TABLES & {name for _, name, *_ in there}:
+                ((rows,),) = db.execute(f"SELECT count(*) FROM {name}")
+                if rows > (most := MOST_REPLAYS if name == "replay" else MOST_ROWS):
+                    raise ValueError(f"{rows:,} rows in the table {name}, of which at most {most:,} are taken in")
+            lengths = "max(length(CAST(level_text AS BLOB))), sum(length(inputs))"
+            ((longest, ticks),) = db.execute(f"SELECT {lengths} FROM replay")
+            if (longest or 0) > MOST_OF_LEVEL:
+                raise ValueError(f"a level of {longest:,} bytes, of which at most {MOST_OF_LEVEL:,} are taken in")
+            if (ticks or 0) > MOST_TICKS:
+                raise ValueError(f"replays of {ticks:,} ticks, of which at most {MOST_TICKS:,} are taken in")
         store = Store(path)
     except sqlite3.Error as error:
         raise ValueError(str(error)) from None
@@ -160,6 +178,16 @@ def _opened(path: Path) -> Store:
         store.connection.close()
         raise ValueError(" ".join(store.messages))
     return store
+
+
+def _our_schema(version: int) -> set[tuple[str, ...]]:
+    """What records of a version hold when the game has made them. Raises ValueError for an unknown version."""
+    if not 0 < version <= len(MIGRATIONS):
+        raise ValueError(f"records of version {version}, of a newer game" if version > 0 else "no records")
+    with closing(sqlite3.connect(":memory:")) as db:
+        for script in MIGRATIONS[:version]:
+            db.executescript(script)
+        return set(db.execute(_SCHEMA))
 
 
 def _take(player: PlayerData, store: Store, files: dict[str, bytes]) -> tuple[int, list[str]]:
@@ -212,27 +240,31 @@ def _merge(player: PlayerData, store: Store, db: sqlite3.Connection) -> int:
     """Join other records into the player's, within a transaction; how many more replays there are now."""
     theirs = Records(store)
     before = _count(db)
+    ticks = store.connection.execute("SELECT total(length(inputs)) FROM replay").fetchone()[0]
+    memory = "plain" if ticks < FEW_TICKS else "auto"
     for row in store.rows("SELECT id FROM replay WHERE kept", (), (int,)):
-        if replay := _replay(theirs, row[0]):
+        if replay := _replay(theirs, row[0], memory):
             player.records.keep_replay(replay)
     for body in BODIES:
         for best in theirs.level_bests(body).values():
-            if replay := _replay(theirs, best.id):
+            if replay := _replay(theirs, best.id, memory):
                 player.records.level_passed(replay)
-    _merge_episodes(player.records, theirs)
+    _merge_episodes(player.records, theirs, memory)
     for table, keys, columns, chosen in _COUNTS:
         _merge_numbers(db, store, table, keys, columns, chosen)
     _merge_progress(db, store)
     return _count(db) - before
 
 
-def _replay(theirs: Records, number: int) -> Replay | None:
-    """A replay of other records; None if it is of another level than it says, or could not be written as a text."""
+def _replay(theirs: Records, number: int, memory: str) -> Replay | None:
+    """A replay of other records; None if it does not do what it says, or could not be written as a text."""
     replay = theirs.replay(number)
     try:
         if replay and replay.level and replay.level_digest == level_digest(replay.level):
-            write_replay(replace(replay, level=None))
-            return replace(replay, name=replay.name[:LONGEST], author=replay.author[:LONGEST])
+            (recording,) = parse_replays(write_replay(replay))
+            if not (problems := verify_recording(recording, memory, budget=PAGE_BUDGET).problems):
+                return replace(replay, name=replay.name[:LONGEST], author=replay.author[:LONGEST])
+            theirs.store.tell(f"A replay in the records does not do what it says ({problems[0]}).")
     except NinjaGameError as error:
         theirs.store.tell(f"A replay in the records is damaged ({error}).")
     return None
@@ -251,13 +283,14 @@ def _count(db: sqlite3.Connection) -> int:
     return count
 
 
-def _merge_episodes(mine: Records, theirs: Records) -> None:
+def _merge_episodes(mine: Records, theirs: Records, memory: str) -> None:
     rows = theirs.store.rows("SELECT episode, body, score FROM episode_best", (), (str, str, int))
     for episode, body, score in rows:
         best = theirs.episode_best(episode, body)
-        replays = [_replay(theirs, number) for number in best.replays] if best else []
+        replays = [_replay(theirs, number, memory) for number in best.replays] if best else []
         whole = [replay for replay in replays if replay is not None]
-        if whole and len(whole) == len(replays) and _sound("episode", episode) and _sound("score", score):
+        possible = sum(level_score(replay.gold, replay.final_tick) for replay in whole)
+        if whole and len(whole) == len(replays) and _sound("episode", episode) and 0 <= score <= possible:
             mine.episode_passed(episode, score, whole)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import re
 import sqlite3
 from collections.abc import Callable
 from contextlib import closing
@@ -237,6 +238,8 @@ COUNTING = "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHER
         ("CREATE INDEX i ON replay (length(hex(inputs)))", "the index i is not ours"),
         ("CREATE VIEW saved AS SELECT * FROM replay", "the view saved is not ours"),
         ("CREATE TABLE more (a)", "the table more is not ours"),
+        ("UPDATE replay SET level_text = level_text || hex(zeroblob(600000))", "a level of"),
+        ("UPDATE replay SET inputs = zeroblob(2000000)", "replays of"),
         ("PRAGMA user_version = 99", "newer game"),
     ],
 )
@@ -247,6 +250,40 @@ def test_records_that_hold_too_much_or_more_than_rows_change_nothing(statement: 
     with pytest.raises(FileError, match=said):
         read_backup(here, data)
     assert everything(here) == before
+
+
+@pytest.mark.parametrize("more", ["CHECK (length(key) > 0)", "COLLATE NOCASE", "DEFAULT (hex(randomblob(9)))"])
+def test_records_whose_tables_would_do_something_are_refused(more: str, tmp_path: Path) -> None:
+    data = filled(tmp_path / "from")
+    with closing(sqlite3.connect(tmp_path / "from" / "records.sqlite")) as db:
+        ((made,),) = db.execute("SELECT sql FROM sqlite_master WHERE name = 'fact'")
+    column = re.search(r"\(\s*(\w+ TEXT[^,]*)", made)
+    assert column
+    other = made.replace(column[1], f"{column[1]} {more.replace('key', column[1].split()[0])}", 1)
+    with pytest.raises(FileError, match="the table fact is not ours"):
+        read_backup(player_data(tmp_path / "to"), with_records(data, "DROP TABLE fact", other))
+
+
+def test_what_replays_claim_and_do_not_do_is_left_out(tmp_path: Path) -> None:
+    forged = "UPDATE replay SET gold = 1000, score = 80000, player = 'eve'"
+    data = with_records(filled(tmp_path / "from"), forged, "UPDATE episode_best SET score = 99999")
+    here = player_data(tmp_path / "to")
+    level = short_level()
+    assert LevelRun(here, entry(level)).passed(played(level))
+    words = read_backup(here, data)
+    assert words[0] == "0 new replays in the records"
+    assert [word for word in words if "does not do what it says" in word], words
+    assert here.store.connection.execute("SELECT DISTINCT player FROM replay WHERE player = 'eve'").fetchall() == []
+    assert here.records.episode_best(episode().key) is None
+    assert [best.gold for best in here.records.level_bests("circle").values()] != [1000]
+
+
+def test_a_level_under_edit_that_is_none_or_too_large_is_left_out(tmp_path: Path) -> None:
+    with ZipFile(filled(tmp_path / "from")) as archive:
+        files = {name.replace("/", "__").replace(".", "DOT"): archive.read(name) for name in archive.namelist()}
+    files |= {"editing__aDOTjson": b'{"level": "' + b"x" * 2**20 + b'"}', "editing__aDOTlock": b""}
+    read_backup(player_data(tmp_path / "to"), packed(**files))
+    assert not list((tmp_path / "to").rglob("editing/a.*"))
 
 
 LONG = "a" * 64
