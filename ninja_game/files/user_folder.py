@@ -26,9 +26,14 @@ def user_folder() -> Path:
 
     Raises FileError where ``NINJA_GAME_HOME`` begins with a ``~name`` that is no user's, or the user has no home.
     """
+    return chosen_folder(HOME_VARIABLE, _system_folder)
+
+
+def _system_folder() -> Path:
+    # The page names its folder, and has no such library.
     from platformdirs import user_data_path
 
-    return chosen_folder(HOME_VARIABLE, lambda: user_data_path("ninja-game", appauthor=False))
+    return user_data_path("ninja-game", appauthor=False)
 
 
 def chosen_folder(variable: str, otherwise: Callable[[], Path]) -> Path:
