@@ -37,12 +37,16 @@ def cache_folder() -> Path:
 
     Raises FileError where there is none, and for a relative path: what lies in the current folder is never loaded.
     """
-    from platformdirs import user_cache_path
-
-    folder = chosen_folder("NUMBA_CACHE_DIR", lambda: user_cache_path("ninja-game") / "compiled")
+    folder = chosen_folder("NUMBA_CACHE_DIR", _system_folder)
     if not folder.is_absolute():
         raise FileError("the cache of compiled code has a relative path", found=str(folder), expected="a full path")
     return folder
+
+
+def _system_folder() -> Path:
+    from platformdirs import user_cache_path
+
+    return user_cache_path("ninja-game") / "compiled"
 
 
 def forget_old_code(folder: Path) -> None:

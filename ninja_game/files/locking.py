@@ -69,7 +69,7 @@ def lock(handle: int) -> bool:
         return False
     except OSError:
         # This disk has no locks.
-        return True
+        pass
     return True
 
 

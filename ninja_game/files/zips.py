@@ -1,4 +1,4 @@
-"""Zips of strangers: files in them, unpacked in memory, within limits that hold before any memory is made."""
+"""Untrusted zips: files in them, unpacked in memory, within limits that hold before any memory is made."""
 
 from __future__ import annotations
 

@@ -11,10 +11,10 @@ import io
 import json
 import re
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing, suppress
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from itertools import count
 from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
@@ -241,15 +241,16 @@ def _merge(player: PlayerData, store: Store, db: sqlite3.Connection) -> int:
     theirs = Records(store)
     before = _count(db)
     ticks = store.connection.execute("SELECT total(length(inputs)) FROM replay").fetchone()[0]
-    memory = "plain" if ticks < FEW_TICKS else "auto"
+    # A replay may be kept, a best and one of an episode: it is run once.
+    replay_of = cache(partial(_replay, theirs, memory="plain" if ticks < FEW_TICKS else "auto"))
     for row in store.rows("SELECT id FROM replay WHERE kept", (), (int,)):
-        if replay := _replay(theirs, row[0], memory):
+        if replay := replay_of(row[0]):
             player.records.keep_replay(replay)
     for body in BODIES:
         for best in theirs.level_bests(body).values():
-            if replay := _replay(theirs, best.id, memory):
+            if replay := replay_of(best.id):
                 player.records.level_passed(replay)
-    _merge_episodes(player.records, theirs, memory)
+    _merge_episodes(player.records, theirs, replay_of)
     for table, keys, columns, chosen in _COUNTS:
         _merge_numbers(db, store, table, keys, columns, chosen)
     _merge_progress(db, store)
@@ -283,11 +284,11 @@ def _count(db: sqlite3.Connection) -> int:
     return count
 
 
-def _merge_episodes(mine: Records, theirs: Records, memory: str) -> None:
+def _merge_episodes(mine: Records, theirs: Records, replay_of: Callable[[int], Replay | None]) -> None:
     rows = theirs.store.rows("SELECT episode, body, score FROM episode_best", (), (str, str, int))
     for episode, body, score in rows:
         best = theirs.episode_best(episode, body)
-        replays = [_replay(theirs, number, memory) for number in best.replays] if best else []
+        replays = [replay_of(number) for number in best.replays] if best else []
         whole = [replay for replay in replays if replay is not None]
         possible = sum(level_score(replay.gold, replay.final_tick) for replay in whole)
         if whole and len(whole) == len(replays) and _sound("episode", episode) and 0 <= score <= possible:
