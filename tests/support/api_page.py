@@ -36,7 +36,8 @@ def _members(cls: Any) -> list[str]:
     for name, member in vars(cls).items():
         if name.startswith("_") or not (inspect.isfunction(member) or isinstance(member, property)):
             continue
-        lines += _wrapped(f"- `{name}{'' if isinstance(member, property) else _signature(member)}`: {_first_line(member)}")
+        signature = "" if isinstance(member, property) else _signature(member)
+        lines += _wrapped(f"- `{name}{signature}`: {_first_line(member)}")
     return lines
 
 
