@@ -314,11 +314,11 @@ def test_a_table_of_edits_and_honest_pairs_is_as_the_page_says() -> None:
     course = near_copies.course_of_row
     assert sum(nearest(course(other), [course(one)]) is not None for one, other in pairs) <= 1
     paths = near_copies.every_nth([path for path in bundled_replays() if ".exit." in path.name], 5)
-    runs = [recording for path in paths for recording in load_replays(path)]
-    for recording in runs:
+    chosen = [recording for path in paths for recording in load_replays(path)]
+    for recording in chosen:
         few = takewhile(lambda each: each[0] <= 5, near_copies.noticed(recording, "ticks added or left out"))
         assert all(seen for _, seen in few), recording.name
-    many = [list(near_copies.noticed(recording, "keys changed in a tick")) for recording in runs]
+    many = [list(near_copies.noticed(recording, "keys changed in a tick")) for recording in chosen]
     assert sum(seen for changes in many for _, seen in changes) >= 0.9 * sum(map(len, many)), many
 
 
