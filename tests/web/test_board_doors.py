@@ -287,7 +287,7 @@ def test_one_key_changed_in_one_tick_is_told(tmp_path: Path) -> None:
     found = judge(tmp_path / "runs", shown, jobs=1)
     remarks = " ".join(run.remark for run in found.runs)
     assert len(found.runs) == 2
-    assert re.search(r"\d+ of (its|the)? ?\d+ .* Ann in ann.txt", remarks)
+    assert re.search(r"\d+ of (its |the )?\d+ .* run by Ann .*in ann.txt", remarks)
 
 
 def test_a_near_copy_makes_no_next_one_a_players_own(tmp_path: Path) -> None:
