@@ -15,7 +15,7 @@ from array import array
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from ninja_game.backend.memories import open_memory
+from ninja_game.backend.memories import open_worlds
 from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
@@ -117,13 +117,13 @@ def run_level(
     is not, ArgumentError for another body or memory, BudgetError for a run that is not over when its budget is.
     """
     check_inputs(inputs)
-    world = open_memory(memory, level, box=is_box(body))
+    world = open_worlds(memory, level, box=is_box(body))
     run = world.run(inputs[: affordable_ticks(level, budget)])
-    if not world.outcome and len(run.states) < len(inputs):
+    if not world.number("outcome") and len(run.states) < len(inputs):
         raise over_budget(level, len(inputs), budget)
     places = _little_endian(array("d", _bytes(run.places))).tobytes()
     end = replay_digest(world.world()) if digest else ""
-    return RunResult(OUTCOME_NAMES[world.outcome], world.gold, places, _bytes(run.states), end)
+    return RunResult(OUTCOME_NAMES[world.number("outcome")], world.number("gold"), places, _bytes(run.states), end)
 
 
 def _little_endian(numbers: array[float]) -> array[float]:

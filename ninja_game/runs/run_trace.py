@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.backend.memories import open_memory
+from ninja_game.backend.memories import open_worlds
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import check_inputs
@@ -69,8 +69,8 @@ def trace_level(
     ``with_objects``: record objects too. ``events``: record the names of what happens. Raises what ``run_level`` does.
     """
     check_inputs(inputs)
-    world = open_memory(memory, level, box=is_box(body))
-    kinds = [world.observe(id_ + 1)[0] for id_ in range(world.id_count)] if with_objects else []
+    world = open_worlds(memory, level, box=is_box(body))
+    kinds = [world.observe(id_ + 1)[0] for id_ in range(world.number("id_count"))] if with_objects else []
     ids = tuple(id_ for id_, kind in enumerate(kinds) if KIND_OF[kind].traced)
     if len(inputs) * len(ids) > MAX_CELLS:
         found = f"{len(inputs)} ticks of {len(ids)} objects"

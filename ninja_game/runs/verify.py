@@ -10,7 +10,7 @@ from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ninja_game.backend.memories import open_memory, proven_memory
+from ninja_game.backend.memories import open_worlds, proven_memory
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest
@@ -185,7 +185,7 @@ def _in_time(recording: Recording, run: RunResult, memory: str) -> bool:
     if LIFETIME + GOLD_BONUS * run.gold <= lived:
         return False
     inputs = recording.playback(run.ticks)
-    record = open_memory(memory, recording.level, box=is_box(recording.body)).trace(inputs, [], events=False)
+    record = open_worlds(memory, recording.level, box=is_box(recording.body)).trace(inputs, [], events=False)
     width, at = len(TRACED_NUMBERS), TRACED_NUMBERS.index("gold")
     gold = map(int, record.numbers[at : width * lived : width])
     return all(LIFETIME + GOLD_BONUS * got > tick for tick, got in enumerate(gold, 1))

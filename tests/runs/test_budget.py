@@ -136,7 +136,7 @@ def test_the_costliest_run_takes_seconds_of_the_processor(tmp_path: Path) -> Non
 def test_lifetime_is_not_simulated_a_second_time_where_the_gold_cannot_have_sufficed(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("ninja_game.runs.verify.open_memory", None)
+    monkeypatch.setattr("ninja_game.runs.verify.open_worlds", None)
     assert not verify_recording(recording(parse_level("0" * 713 + "|5^100,566"), 4000), "plain").in_time
 
 
