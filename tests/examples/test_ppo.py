@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ninja_game.learn.agents.policy import forward
-from ninja_game.learn.agents.ppo import Learner, Method, Samples, advantages, new_networks
+from examples.agents import forward
+from examples.ppo import Learner, Method, Samples, advantages, new_networks
 
 
 def test_advantages_are_discounted_sums_of_what_was_better_than_expected() -> None:
