@@ -10,7 +10,6 @@ that it found, once in each level.
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -78,7 +77,7 @@ def main(
         if output is not None:
             write_atomically(output, text + "\n")
     except (NinjaGameError, OSError) as error:
-        sys.exit(f"evaluate: {error}")
+        raise click.ClickException(str(error)) from error
     click.echo(f"{output}: {len(table.results)} levels" if output else text)
 
 

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 from examples.agents import PolicyAgent, normalised
 from examples.ppo import Floats, Learner, Method, Samples, advantages
 from examples.starts import Starts
+from ninja_game.errors import NinjaGameError
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.levels import LevelSource, level_source
 from ninja_game.learn.observations.guide import Guide
@@ -240,13 +241,15 @@ class Trainer:
 def main(levels: Sequence[str], seconds: float, steps: int, seed: int, worlds: int, output: Path) -> None:
     if output.exists():
         raise click.UsageError(f"{output} exists; name another file with -o, or remove it")
-    task = Task(level_source(list(levels)), seconds=seconds, steps=steps, seed=seed, worlds=worlds)
-    click.echo(f"{len(task.source.names)} levels; first come runs through them, then the training", err=True)
     try:
+        task = Task(level_source(list(levels)), seconds=seconds, steps=steps, seed=seed, worlds=worlds)
+        click.echo(f"{len(task.source.names)} levels; first come runs through them, then the training", err=True)
         agent = train(task, report=tell, on_better=lambda agent: agent.save(output))
     except KeyboardInterrupt:
         click.echo("\nstopped", err=True)
         sys.exit(130)
+    except (NinjaGameError, OSError) as error:
+        raise click.ClickException(str(error)) from error
     best, _, *rates = agent.training["curve"][-1]
     click.echo(f"\n{output}: the best agent, after {best / 1e6:.1f}M steps")
     for name, rate in zip(task.source.names, rates, strict=True):

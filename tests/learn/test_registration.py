@@ -22,7 +22,7 @@ def printed(code: str) -> str:
     [
         "import gymnasium, ninja_game",
         "import ninja_game.learn, gymnasium",
-        "import ninja_game, gymnasium, ninja_game.learn",
+        "import ninja_game, ninja_game.learn, gymnasium",
     ],
 )
 def test_an_import_registers_the_ids(imports: str) -> None:
