@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from functools import cached_property
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -33,9 +34,10 @@ def _members(cls: Any) -> list[str]:
     """A line for each public method and property of a class; its fields stand in its signature."""
     lines = []
     for name, member in vars(cls).items():
-        if name.startswith("_") or not (inspect.isfunction(member) or isinstance(member, property)):
+        is_property = isinstance(member, (property, cached_property))
+        if name.startswith("_") or not (inspect.isfunction(member) or is_property):
             continue
-        lines.append(f"- `{name}{'' if isinstance(member, property) else _signature(member)}`: {_first_line(member)}")
+        lines.append(f"- `{name}{'' if is_property else _signature(member)}`: {_first_line(member)}")
     return lines
 
 
