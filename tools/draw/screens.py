@@ -1,4 +1,4 @@
-"""Draw the pictures of docs/editor.md and docs/bench.md from the program's own screens: `python3 tools/dev.py docs`."""
+"""Draw the pictures of docs/ that show screens of the program: `python3 tools/dev.py docs`."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def bench_picture(folder: Path) -> pygame.Surface:
     return picture
 
 
-SCREENS = {"editor.png": editor_picture, "bench.png": bench_picture}
+SCREENS = {"editor.png": editor_picture, "tas-editor.png": bench_picture}
 
 
 def draw(name: str) -> pygame.Surface:

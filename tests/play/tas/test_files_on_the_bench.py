@@ -41,7 +41,7 @@ def test_every_command_of_the_table_is_offered_by_some_part(at: BenchDriver) -> 
 
 
 def test_the_document_has_the_keys_of_the_table(root: Path) -> None:
-    document = (root / "docs" / "bench.md").read_text("utf-8").partition("## Keys")[2]
+    document = (root / "docs" / "tas-editor.md").read_text("utf-8").partition("## Keys")[2]
     for command in COMMANDS:
         keys = " or ".join("+".join(map(key_label_of, key.split("+"))) for key in command.keys)
         assert f"| {keys} | {command.label} |\n" in document + "\n"
