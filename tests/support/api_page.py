@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import inspect
-from functools import cached_property
 import textwrap
+from functools import cached_property
 from pathlib import Path
 from types import ModuleType
 from typing import Any
