@@ -27,7 +27,7 @@ from ninja_game.play.replay.film import Film, film_pictures
 from ninja_game.play.replay.film_files import write_gif
 from ninja_game.play.ui.palette import palette_named
 from ninja_game.player.settings import Settings
-from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.inputs import with_press_bits
 from tools import ROOT
 
 FOLDER = ROOT / "docs" / "pictures" / "learn"
@@ -68,7 +68,7 @@ def played(agent: PolicyAgent, name: str, seed: int) -> Recording:
         worlds.step(down)
         keys += down.tolist() * int(worlds.ticks[0] - before)
     level = worlds.levels[0]
-    return Recording(level, Replay.of_inputs(press_jumps(keys), level, name=f"{name} - learned agent"))
+    return Recording(level, Replay.of_inputs(with_press_bits(keys), level, name=f"{name} - learned agent"))
 
 
 def draw_film(agent: PolicyAgent, names: Sequence[str], path: Path) -> None:
