@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from examples.agents import LEARNED, PolicyAgent, RandomAgent, load_agent, load_policy
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import ArgumentError, FileError
 from ninja_game.learn.evaluation import evaluate
 from ninja_game.learn.observations.observation import Observation

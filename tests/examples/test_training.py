@@ -16,7 +16,7 @@ from examples.agents import PolicyAgent, load_policy
 from examples.ppo import Method
 from examples.starts import SPACING, Starts, runs_through
 from examples.train import ROUND, Progress, Task, main, train
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.learn.levels import level_source
 from ninja_game.learn.worlds import EnvWorlds
 from tests.support.waiting import LONGEST
