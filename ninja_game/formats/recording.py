@@ -61,7 +61,7 @@ def record_of(recording: Recording) -> LevelRecord:
     """
     demo = recording.demo
     if recording.body != "circle":
-        raise ReplayError("a run with another body is no demo of N", recording.file, found=recording.body)
+        raise ReplayError("a run with another body is not a demo of N", recording.file, found=recording.body)
     if recording.replay and recording.replay.demo_length is None:
         # A demo of length N runs N + 1 ticks, the last one without inputs of its own (game.md §4.4).
         inputs = recording.playback(recording.ticks)

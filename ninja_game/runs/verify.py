@@ -44,7 +44,7 @@ class OutOfRangeError(NinjaGameError):
 
 @dataclass(frozen=True)
 class Verdict:
-    """What came of a recording, and what it was (docs/verification.md).
+    """The result of a recording, and what it was (docs/verification.md).
 
     ``name``, ``author``, ``practice``: as the recording says. ``level_digest``: of the level that was played;
     ``level_name``: of the level with that digest among those that count, else ''. ``body``, ``rules``: of the run.
@@ -172,7 +172,7 @@ def _ending(recording: Recording, run: RunResult) -> str:
         return f"{run.outcome} in tick {run.end_tick}"
     missing, end = recording.demo.missing, recording.demo.end
     if missing:
-        return f"the demo is cut, it holds {end - missing} of its {end} ticks"
+        return f"the demo is truncated, it holds {end - missing} of its {end} ticks"
     return f"still running after {run.ticks} ticks"
 
 

@@ -134,7 +134,7 @@ def test_names_forge_no_rows_and_command_no_terminal(tmp_path: Path) -> None:
 def test_a_cut_demo_is_called_so(tmp_path: Path) -> None:
     (tmp_path / "cut.txt").write_text(record(demo="23:35791394"))
     result = CliRunner().invoke(cli, ["verify", str(tmp_path / "cut.txt")])
-    assert "does not reach the exit: the demo is cut, it holds 7 of its 23 ticks" in result.stdout
+    assert "does not reach the exit: the demo is truncated, it holds 7 of its 23 ticks" in result.stdout
     assert "FAIL running    24 ticks    1 gold" in result.stdout
 
 

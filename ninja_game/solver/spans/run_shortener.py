@@ -1,4 +1,4 @@
-"""Shortens a run: searches of spans and local searches by turns."""
+"""Shortens a run: searches of spans and local searches in turn."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ninja_game.solver.task import COOLING, SEARCH_COST, SHORT_CLIMB, SLICE
 class RunShortener:
     """Shortens runs of one level that must collect so much gold.
 
-    ``submit`` is given every shorter run; ``over`` is told the ticks of each part and what they cost, and may end it.
+    ``submit`` is given every shorter run; ``over`` gets the ticks of each part and what they cost, and may end it.
     """
 
     def __init__(
