@@ -12,8 +12,8 @@ from ninja_game.cli import solver_options as options
 from ninja_game.cli.run_options import InputPath, choose, level_given, level_option
 
 if TYPE_CHECKING:
-    from ninja_game.directed.span import Found, SpanTask
     from ninja_game.formats.recording import Recording
+    from ninja_game.search.formula.task import Found, SpanTask
 
 
 @click.command()
@@ -63,9 +63,9 @@ def command(
       ninja-game search run.replay.txt --from 60 --to 100 --goal 'distance(300, 200) < 12' --rest
       ninja-game search run.replay.txt --from 90 --to 102 --maximise speed --method exhaustive --every 2
     """
-    from ninja_game.directed.methods import search_span
-    from ninja_game.directed.span import SpanTask, score_in_words
     from ninja_game.formats.load import load_replays
+    from ninja_game.search.formula.methods import search_span
+    from ninja_game.search.formula.task import SpanTask, score_in_words
 
     if maximise and minimise:
         raise click.UsageError("--maximise and --minimise exclude each other")
@@ -106,9 +106,9 @@ def command(
 def _keys(found: Found) -> str:
     """The keys in a line, as replays have them."""
     from ninja_game.formats.replay.input_runs import write_inputs
-    from ninja_game.sim.inputs import press_jumps
+    from ninja_game.sim.inputs import with_press_bits
 
-    return " ".join(write_inputs(press_jumps(found.keys[: found.ticks].tolist())))
+    return " ".join(write_inputs(with_press_bits(found.keys[: found.ticks].tolist())))
 
 
 def _save(output: Path, recording: Recording, task: SpanTask, found: Found) -> None:

@@ -1,0 +1,118 @@
+"""The machine code of compiled kernels, kept in files from one process to the next.
+
+A kernel's file is named after a digest of all the code and constants that went into it (``code_digest``), wherever it
+lies: an edit of any rule is another file. Numba's own cache looks at the file of the entry point alone, and falls back
+to folders beside the sources, so it is not used.
+"""
+
+from __future__ import annotations
+
+import pickle
+import sys
+from collections.abc import Callable
+from functools import cache
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+from uuid import uuid4
+
+from ninja_game.errors import FileError
+from ninja_game.files.user_folder import chosen_folder
+
+KEPT_FILES = 200
+"""How many compiled kernels stay in the cache folder: the newest, some ten versions of all."""
+
+before_compiling: list[Callable[[], None]] = []
+"""What is called once, before the first kernel that has to be compiled: it takes a while."""
+
+
+def attach_cache(dispatcher: Any, digest: str) -> None:
+    """Let a kernel's machine code be read from the cache folder, and written there."""
+    dispatcher._cache = KernelCache(cache_folder(), f"{dispatcher.py_func.__name__}-{digest[:32]}")  # noqa: SLF001
+
+
+@cache
+def cache_folder() -> Path:
+    """Where machine code is kept: in NUMBA_CACHE_DIR, or else in the user's cache folder.
+
+    Raises FileError where there is none, and for a relative path: what lies in the current folder is never loaded.
+    """
+    folder = chosen_folder("NUMBA_CACHE_DIR", _system_folder)
+    if not folder.is_absolute():
+        raise FileError("the cache of compiled code has a relative path", found=str(folder), expected="a full path")
+    return folder
+
+
+def _system_folder() -> Path:
+    from platformdirs import user_cache_path
+
+    return user_cache_path("ninja-game") / "compiled"
+
+
+def forget_old_code(folder: Path) -> None:
+    """Remove all but the newest files of a cache folder; what cannot be removed stays."""
+    try:
+        files = sorted(folder.glob("*.code"), key=lambda path: path.stat().st_mtime, reverse=True)
+        for path in files[KEPT_FILES:]:
+            path.unlink()
+    except OSError:
+        return
+
+
+class KernelCache:
+    """The machine code of one kernel in files, one for each signature and processor; what Numba asks of a cache.
+
+    A file holds the digest of what follows, then the code. What cannot be read is compiled; where nothing can be
+    written, that is said once and everything works without a cache.
+    """
+
+    def __init__(self, folder: Path, name: str) -> None:
+        self.folder = folder
+        self.name = name
+        self.cache_path = str(folder)
+
+    def _file(self, signature: Any, codegen: Any) -> Path:
+        about = sha256(f"{signature} {codegen.magic_tuple()}".encode()).hexdigest()
+        return self.folder / f"{self.name}-{about[:16]}.code"
+
+    def load_overload(self, signature: Any, context: Any) -> Any:
+        """The kernel for these types, None if it is not there or damaged."""
+        from numba.core.compiler import CompileResult
+
+        rebuild: Any = CompileResult._rebuild  # noqa: SLF001 - as Numba's own caches do
+        context.refresh()
+        path = self._file(signature, context.codegen())
+        try:
+            data = path.read_bytes()
+            if sha256(data[32:]).digest() == data[:32]:
+                return rebuild(context, *pickle.loads(data[32:]))  # noqa: S301 - our own file
+        except Exception:  # noqa: BLE001, S110 - whatever a damaged file leads to: it is compiled and written again
+            pass
+        while before_compiling:
+            before_compiling.pop()()
+        return None
+
+    def save_overload(self, signature: Any, result: Any) -> None:
+        """Write a kernel, whole or not at all."""
+        from numba.core.serialize import dumps
+
+        pack: Any = dumps
+        code = pack(result._reduce())  # noqa: SLF001 - as Numba's own caches do
+        path = self._file(signature, result.codegen)
+        part = path.with_suffix(f".{uuid4().hex[:16]}")
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+            part.write_bytes(sha256(code).digest() + code)
+            part.replace(path)
+            forget_old_code(self.folder)
+        except OSError as error:
+            _say_once(f"compiled code cannot be kept in {self.folder}: {error.strerror or error}")
+            try:
+                part.unlink(missing_ok=True)
+            except OSError:
+                return
+
+
+@cache
+def _say_once(message: str) -> None:
+    sys.stderr.write(f"ninja-game: {message}; it works, but compiles again in the next process\n")

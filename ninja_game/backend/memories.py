@@ -1,0 +1,137 @@
+"""Which memory to use, and compiled kernels, each made once per process.
+
+Before the first compiled world of a process is loaded, a known run must come out on it as it must (``known_run``).
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from functools import cache, partial
+from importlib.util import find_spec
+from threading import Lock
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from ninja_game.backend.known_run import check_known_run
+from ninja_game.errors import ArgumentError, NinjaGameError
+from ninja_game.files.resources import how_to_install
+from ninja_game.sim.level import Level
+from ninja_game.sim.memory.interface import Memory, MemoryName
+from ninja_game.sim.memory.kernels import load_world
+from ninja_game.sim.memory.plain import PlainMemory
+
+if TYPE_CHECKING:
+    from ninja_game.sim.memory.compiler import Compiler
+
+R = TypeVar("R")
+
+_LOCK = Lock()
+"""One thread at a time imports Numba and makes twins."""
+_KERNELS: dict[tuple[Callable[..., Any], bool], Any] = {}
+_ALL_CHECKED = os.environ.get("NINJA_GAME_CHECKED") == "1"
+
+
+class MemoryUnavailableError(NinjaGameError):
+    """The compiled memory was asked for, but Numba is not installed, or its compiler is switched off."""
+
+
+def compiled_available() -> bool:
+    """Is Numba installed, with its compiler on? Without it everything works on the plain memory."""
+    return find_spec("numba") is not None and os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
+
+
+def choose_memory(memory: str) -> MemoryName:
+    """Turn "plain", "compiled", "checked" or "auto" (compiled where it is available) into one of the first two.
+
+    Raises MemoryUnavailableError for "compiled" without Numba, ArgumentError for another word.
+    """
+    if memory == "auto":
+        return "compiled" if compiled_available() else "plain"
+    if memory in ("compiled", "checked"):
+        if not compiled_available():
+            raise MemoryUnavailableError(
+                f"the compiled memory needs Numba; {how_to_install('fast')}, "
+                "unset NUMBA_DISABLE_JIT, or use the plain memory"
+            )
+        return "compiled"
+    if memory == "plain":
+        return "plain"
+    raise ArgumentError(f"memory is {memory!r}; expected 'plain', 'compiled' or 'auto'")
+
+
+def open_memory(memory: str, level: Level, *, box: bool) -> Memory:
+    """A new world in a level, in the memory of that name (as ``choose_memory`` takes it).
+
+    "checked" is the compiled memory where each index is checked: one out of range is an IndexError.
+    Raises LevelError for a level that cannot be played, what ``choose_memory`` and ``compiled`` raise.
+    """
+    if choose_memory(memory) == "plain":
+        return PlainMemory(level, box=box)
+    make = partial(compiled, checked=memory == "checked")
+    make(load_world)  # the first time this imports Numba, which must come before NumPy
+    from ninja_game.sim.memory.compiled import CompiledMemory
+
+    return CompiledMemory(make, level, box=box)
+
+
+def proven_memory(memory: str) -> str:
+    """The memory in which runs are judged, "plain" or "checked", once the known run has come out on it in this process.
+
+    Raises KnownRunError where it does not, and what ``choose_memory`` raises.
+    """
+    if choose_memory(memory) == "plain":
+        _prove_plain()
+        return "plain"
+    compiled(load_world, checked=True)
+    return "checked"
+
+
+@cache
+def _prove_plain() -> None:
+    check_known_run(lambda level, box: PlainMemory(level, box=box), "plain")
+
+
+def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[..., R]:
+    """The compiled twin of an entry point, which takes the same arguments; any thread may ask.
+
+    Raises MemoryUnavailableError without Numba, TypeError for a function that is not an entry point, KnownRunError
+    where compiled worlds are not as they must be.
+    """
+    checked = checked or _ALL_CHECKED
+    kernel: Callable[..., R] | None = _KERNELS.get((entry, checked))
+    if kernel is None:
+        with _LOCK:
+            make = _compiler(checked)
+            if entry is load_world and (entry, checked) not in _KERNELS:
+                from ninja_game.sim.memory.compiled import CompiledMemory
+
+                check_known_run(lambda level, box: CompiledMemory(make, level, box=box), "compiled")
+            kernel = _KERNELS[entry, checked] = make(entry)
+    return kernel
+
+
+def is_compiled(entry: Callable[..., Any]) -> bool:
+    """Whether this process has made the compiled twin of an entry point."""
+    return (entry, _ALL_CHECKED) in _KERNELS
+
+
+def compiled_if_possible(entry: Callable[..., R]) -> Callable[..., R]:
+    """The compiled twin of an entry point that only takes arrays of numbers; without Numba the function itself."""
+    return compiled(entry) if compiled_available() else entry
+
+
+@cache
+def _compiler(checked: bool) -> Compiler:
+    """One of the two compilers of this process. NINJA_GAME_CHECKED=1 leaves only the one that checks indices."""
+    choose_memory("compiled")
+    from ninja_game.backend.kernel_cache import attach_cache
+    from ninja_game.backend.numba_import import import_numba
+
+    try:
+        numba = import_numba()
+    except Exception as error:
+        hint = "install another version, or use the plain memory"
+        raise MemoryUnavailableError(f"Numba cannot be loaded ({type(error).__name__}: {error}); {hint}") from error
+    from ninja_game.sim.memory.compiler import Compiler
+
+    return Compiler(numba, checked=checked, attach_cache=attach_cache)

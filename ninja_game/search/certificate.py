@@ -1,0 +1,127 @@
+"""From inputs that a search found to a replay: smoothed if wanted, and run again from tick 0 on the plain memory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import groupby
+from pathlib import Path
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.files.writing import write_atomically
+from ninja_game.formats.replay.text import Replay, write_replay
+from ninja_game.runs.run import record_replay, run_level
+from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
+from ninja_game.sim.level import Level
+from ninja_game.simulation import Body, Simulation
+
+
+class UnverifiedRunError(NinjaGameError):
+    """A run that the plain memory does not confirm."""
+
+
+@dataclass(frozen=True)
+class VerifiedRun:
+    """A run to the exit that the plain memory has confirmed from tick 0.
+
+    ``inputs``: one byte a tick, up to and including the tick of the exit contact; ``digest``: what a replay
+    states after it.
+    """
+
+    level: Level
+    body: Body
+    inputs: bytes
+    gold: int
+    digest: str
+
+    @property
+    def end_tick(self) -> int:
+        """The tick of the exit contact: the length by which runs are compared."""
+        return len(self.inputs) - 1
+
+
+def verified_run(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 0) -> VerifiedRun:
+    """Play inputs from the start on the plain memory. What comes after the exit is cut off.
+
+    Raises UnverifiedRunError if they do not reach the exit, or with less gold than asked for.
+    """
+    run = Simulation(level, body=body, memory="plain")
+    for keys in inputs:
+        run.step_keys(keys)
+        if run.outcome != "running":
+            break
+    if run.outcome != "exit":
+        raise UnverifiedRunError(f"the run does not reach the exit: {run.outcome} after {run.tick} ticks")
+    if run.gold < gold:
+        raise UnverifiedRunError(f"the run collects {run.gold} pieces of gold, {gold} were asked for")
+    return VerifiedRun(level, body, inputs[: run.tick], run.gold, run.replay_digest())
+
+
+def with_plain_triggers(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 0) -> bytes:
+    """A run with triggers just where the jump key goes down, as searches keep them, up to the exit.
+
+    Raises UnverifiedRunError where the run does not reach the exit, or only by triggers that no keyboard makes.
+    """
+    try:
+        return verified_run(level, with_press_bits(inputs), body=body, gold=gold).inputs
+    except UnverifiedRunError:
+        verified_run(level, inputs, body=body, gold=gold)
+        raise UnverifiedRunError("the run triggers jumps without a fresh press, as no keyboard does") from None
+
+
+def replay_of(run: VerifiedRun, *, name: str = "", author: str = "", level_author: str = "") -> Replay:
+    """A replay that holds its level; both have the same name."""
+    replay = record_replay(run.level, run.inputs, body=run.body, name=name, author=author)
+    return replace(replay, level_name=name, level_author=level_author)
+
+
+def save_replay(path: Path, replay: Replay) -> None:
+    """Write a replay, whole or not at all. Raises OSError."""
+    write_atomically(path, write_replay(replay))
+
+
+Row = tuple[int, int]
+"""Keys that are down, and for how many ticks."""
+
+
+def rows_of(inputs: bytes) -> list[Row]:
+    """Inputs as rows of equal keys; triggers follow from them."""
+    return [(keys, len(list(ticks))) for keys, ticks in groupby(keys & KEYS_DOWN for keys in inputs)]
+
+
+def playback(rows: list[Row]) -> bytes:
+    """Rows of keys as inputs, with triggers where the jump key goes down."""
+    return with_press_bits([keys for keys, ticks in rows for _ in range(ticks)])
+
+
+def smoothed(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 0, price: int = 0) -> bytes:
+    """A run to the exit with fewer key changes, at most ``price`` ticks longer than ``inputs``.
+
+    Short rows of keys are given to their neighbours, the shortest first, as long as the run still reaches the exit.
+    """
+    limit = len(inputs) + price
+    rows = rows_of(inputs)
+    longest = 1
+    while longest <= 24:
+        merged = _without_one(rows, longest, level, body, gold, limit)
+        if merged is None:
+            longest += 1
+        else:
+            rows = merged
+    run = run_level(level, playback(rows).ljust(limit, b"\0"), body=body)
+    return playback(rows).ljust(limit, b"\0")[: run.ticks]
+
+
+def _without_one(rows: list[Row], longest: int, level: Level, body: Body, gold: int, limit: int) -> list[Row] | None:
+    """The rows with one of at most ``longest`` ticks merged into a neighbour; None if no such run passes."""
+    for index, (_, ticks) in enumerate(rows):
+        if ticks > longest:
+            continue
+        for neighbour in (index - 1, index + 1):
+            if not 0 <= neighbour < len(rows):
+                continue
+            keys = rows[neighbour][0]
+            changed = rows_of(playback([*rows[:index], (keys, ticks), *rows[index + 1 :]]))
+            run = run_level(level, playback(changed).ljust(limit, b"\0")[:limit], body=body)
+            if run.outcome == "exit" and run.gold >= gold:
+                return rows_of(playback(changed)[: run.ticks])
+    return None

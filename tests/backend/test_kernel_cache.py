@@ -1,0 +1,167 @@
+"""The cache of compiled code: it can never run old rules, and whatever is wrong with it, everything works."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from types import FunctionType
+
+import pytest
+
+from ninja_game.backend import memories
+from ninja_game.backend.kernel_cache import KEPT_FILES, cache_folder, forget_old_code
+from ninja_game.backend.memories import MemoryUnavailableError, choose_memory
+from ninja_game.errors import ArgumentError, FileError
+from ninja_game.sim.memory.kernels import step_world
+from ninja_game.sim.ninja import tick
+
+needs_numba = pytest.mark.skipif(not memories.compiled_available(), reason="Numba is not installed")
+
+# Compiles one small kernel, so that it takes a second, and says whether it was compiled.
+PROGRAM = """
+from ninja_game.backend import kernel_cache, memories
+from ninja_game.sim.memory.compiled import load_worlds
+from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.memory.schema import World
+import numpy as np
+FACTOR = {factor}
+@entry_point
+def scaled(numbers: World, count: int) -> int:
+    return numbers[count - 1] * FACTOR + count
+kernel_cache.before_compiling.append(lambda: print("compiles"))
+print(memories.compiled(scaled)(np.array([3]), {count}))
+"""
+
+
+def run(folder: Path, factor: int = 2, count: int = 1, **more: str) -> tuple[str, str]:
+    """What the program says on stdout and stderr, with its cache in a folder."""
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder), **more}
+    command = [sys.executable, "-c", PROGRAM.format(factor=factor, count=count)]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    return done.stdout, done.stderr
+
+
+@needs_numba
+def test_compiled_code_is_kept_until_a_constant_changes(tmp_path: Path) -> None:
+    assert run(tmp_path) == ("compiles\n7\n", "")
+    assert run(tmp_path) == ("7\n", "")
+    assert run(tmp_path, factor=5) == ("compiles\n16\n", "")
+
+
+@needs_numba
+@pytest.mark.parametrize("damage", ["empty", "truncated", "changed", "garbage"])
+def test_damaged_code_is_compiled_anew_without_a_word(damage: str, tmp_path: Path) -> None:
+    run(tmp_path)
+    (file,) = tmp_path.iterdir()
+    code = file.read_bytes()
+    changed = code[:2000] + bytes([code[2000] ^ 1]) + code[2001:]
+    file.write_bytes({"empty": b"", "truncated": code[:-9], "changed": changed, "garbage": b"junk" * 99}[damage])
+    assert run(tmp_path) == ("compiles\n7\n", "")
+    assert run(tmp_path) == ("7\n", "")
+
+
+@needs_numba
+def test_where_nothing_can_be_written_it_works_and_says_so_once(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    out, errors = run(tmp_path / "file" / "cache")
+    assert out == "compiles\n7\n"
+    assert errors.count("compiled code cannot be kept in") == len(errors.splitlines()) == 1
+    assert not list(Path(memories.__file__).parent.rglob("*.nbi"))
+
+
+@needs_numba
+def test_numba_switched_off_is_numba_missing(tmp_path: Path) -> None:
+    out, errors = run(tmp_path, NUMBA_DISABLE_JIT="1")
+    assert (out, "MemoryUnavailableError" in errors) == ("", True)
+
+
+@needs_numba
+def test_checked_kernels_refuse_an_index_out_of_range_and_are_kept_apart(tmp_path: Path) -> None:
+    run(tmp_path)
+    out, errors = run(tmp_path, count=2, NINJA_GAME_CHECKED="1")
+    assert (out, "IndexError" in errors) == ("compiles\n", True)
+    assert run(tmp_path, NINJA_GAME_CHECKED="1") == ("7\n", "")
+
+
+@needs_numba
+def test_the_digest_follows_every_rule_and_constant_that_a_kernel_reaches(monkeypatch: pytest.MonkeyPatch) -> None:
+    from ninja_game.sim.memory.compiler import code_digest
+
+    before = code_digest(step_world, "")
+    assert code_digest(step_world, "") == before
+    assert code_digest(step_world, "another compiler") != before
+    monkeypatch.setattr(tick, "FATAL_IMPACT", 99.0)
+    assert code_digest(step_world, "") != before
+
+
+@needs_numba
+def test_machine_code_is_another_if_a_named_tuple_has_its_fields_in_another_order(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    from ninja_game.search.engine import expand
+    from ninja_game.search.nodes import Resolution
+    from ninja_game.sim.memory.compiler import code_digest
+
+    before = code_digest(expand, "")
+    monkeypatch.setattr(Resolution, "_fields", Resolution._fields[::-1])
+    assert code_digest(expand, "") != before
+
+
+def test_only_the_newest_files_are_kept(tmp_path: Path) -> None:
+    for age in range(KEPT_FILES + 3):
+        (tmp_path / f"v{age}.code").touch()
+        os.utime(tmp_path / f"v{age}.code", (1_000_000 - age, 1_000_000 - age))
+    forget_old_code(tmp_path)
+    assert {path.name for path in tmp_path.iterdir()} == {f"v{age}.code" for age in range(KEPT_FILES)}
+    forget_old_code(tmp_path / "nothing")
+
+
+@needs_numba
+@pytest.mark.parametrize("first", ["", "import numba; "])
+def test_threads_may_ask_for_kernels_at_once_whoever_imported_numba(first: str) -> None:
+    program = (
+        f"{first}from concurrent.futures import ThreadPoolExecutor as Pool\n"
+        "from ninja_game.backend.memories import compiled\n"
+        "from ninja_game.sim.memory.kernels import run_world\n"
+        "with Pool(8) as pool: twins = list(pool.map(lambda _: compiled(run_world), range(8)))\n"
+        "print(len({id(twin) for twin in twins}))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert (done.stdout, done.stderr) == ("1\n", "")
+
+
+def test_without_numba_auto_is_plain_and_compiled_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(memories, "compiled_available", lambda: False)
+    assert choose_memory("auto") == "plain"
+    with pytest.raises(MemoryUnavailableError, match="needs Numba"):
+        choose_memory("compiled")
+    with pytest.raises(ArgumentError, match="expected 'plain'"):
+        choose_memory("fast")
+
+
+@needs_numba
+def test_machine_code_is_another_if_a_literal_of_a_rule_is_edited() -> None:
+    from ninja_game.sim.memory.compiler import code_digest
+
+    def rule(x: float) -> float:
+        return x * 2.5
+
+    edited = FunctionType(rule.__code__.replace(co_consts=(None, 3.5)), rule.__globals__, rule.__name__)
+    edited.__qualname__, edited.__module__ = rule.__qualname__, rule.__module__
+    assert (rule(1.0), edited(1.0)) == (2.5, 3.5)
+    assert code_digest(edited, "") != code_digest(rule, "")
+
+
+@pytest.mark.parametrize("folder", ["cache", "./cache", "..", "~nobody-of-this-name/cache"])
+def test_compiled_code_is_never_loaded_from_a_relative_folder(folder: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("NUMBA_CACHE_DIR", folder)
+    with pytest.raises(FileError, match=r"relative path|NUMBA_CACHE_DIR names no folder"):
+        cache_folder.__wrapped__()
+
+
+def test_the_home_of_the_user_is_meant_by_its_sign(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.setenv("NUMBA_CACHE_DIR", "~/cache")
+    assert cache_folder.__wrapped__() == tmp_path / "cache"

@@ -1,0 +1,70 @@
+"""The known run: what computes another one judges nothing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from ninja_game.backend import known_run, memories
+from ninja_game.backend.known_run import DIGEST, KnownRunError, known_digest
+from ninja_game.backend.memories import compiled_available, open_memory, proven_memory
+from ninja_game.cli.main import cli
+from ninja_game.sim.kinds import VALUE_COUNTS
+from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.sim.ninja import tick
+from tests.support.memories import BOTH
+from tests.support.samples import WALK, WALK_END, running, write_records
+
+
+@pytest.fixture
+def as_at_the_start(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A process that has not judged anything yet."""
+    monkeypatch.setattr(memories, "_KERNELS", {})
+    memories._prove_plain.cache_clear()
+
+
+@pytest.mark.parametrize("memory", [*BOTH, pytest.param("checked", marks=BOTH[1].marks)])
+def test_the_known_run_has_its_digest_on_every_memory(memory: str) -> None:
+    """After a change of a rule that is meant, `python3 tools/dev.py golden` writes the digest again."""
+    assert known_digest(lambda level, box: open_memory(memory, level, box=box)) == DIGEST
+
+
+def test_the_known_run_has_every_kind_of_object() -> None:
+    assert {kind for kind, *_ in known_run._OBJECTS} == set(range(len(VALUE_COUNTS)))
+
+
+@pytest.mark.usefixtures("as_at_the_start")
+def test_a_broken_rule_is_noticed_before_anything_is_judged(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tick, "WALL_PROBE", 0.2)
+    with pytest.raises(KnownRunError, match="the plain memory does not compute the world of N here"):
+        proven_memory("plain")
+
+
+@pytest.mark.usefixtures("as_at_the_start")
+@pytest.mark.parametrize("memory", BOTH)
+@pytest.mark.parametrize("word", ["verify", "trace"])
+def test_a_command_that_cannot_be_sure_says_so_and_ends(
+    word: str, memory: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if (word, memory) == ("trace", "plain"):
+        pytest.skip("nothing is proved for a trace by plain Python")
+    monkeypatch.setattr(known_run, "DIGEST", "0" * 64)
+    path = write_records(tmp_path / "walk.txt", *[("Walk", WALK, running(WALK_END))] * 3)
+    result = CliRunner().invoke(cli, [word, str(path), "--memory", memory])
+    assert result.exit_code == 2
+    assert f"the {memory} memory does not compute the world of N here" in result.stderr
+    assert "exit" not in result.stdout
+
+
+@pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+@pytest.mark.usefixtures("as_at_the_start")
+def test_the_checked_and_the_quick_kernels_live_side_by_side() -> None:
+    level = Level(objects=(ObjectSpec(5, (100.0, 100.0)),))
+    quick, checked, plain = (open_memory(memory, level, box=False) for memory in ("compiled", "checked", "plain"))
+    keys = bytes([2] * 50)
+    runs = [[bytes(memoryview(part)) for part in memory.run(keys)] for memory in (quick, checked, plain)]
+    assert runs[0] == runs[1] == runs[2]
+    with pytest.raises(IndexError):
+        checked.observe(10**6)
