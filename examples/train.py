@@ -1,4 +1,4 @@
-"""Train an agent by proximal policy optimisation: a thousand worlds play, the networks learn from what came of it.
+"""Train an agent by proximal policy optimisation: a thousand worlds play, the networks learn from the results.
 
     python3 -m examples.train --levels 00-0-first-steps --seconds 240
     python3 -m examples.train --levels train --seconds 1800 -o everything.npz
@@ -197,7 +197,7 @@ class Trainer:
         rewards = worlds.rewards.astype(np.float32)
         late = (worlds.truncated | (worlds.ticks >= self._limits)) & ~worlds.terminated
         if late.any():
-            # The time limit is no end of the task: what would have come is expected to come.
+            # The time limit is not an end of the task: what would have come is expected to come.
             _, values = self.learner.play(self._seen())
             rewards[late] += self.task.method.discount * values[late]
         ended = worlds.terminated | late

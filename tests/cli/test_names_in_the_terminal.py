@@ -50,7 +50,7 @@ COMMANDS = {
     "solve": "solve LEVEL --first --seconds 1 --jobs 1",
 }
 BYTES = {"trace", "splits as csv", "compare as csv", "convert", "convert to a level"}
-"""What these write on standard output is for programs: every byte of it, where it is no terminal."""
+"""What these write on standard output is for programs: every byte of it, where it is not a terminal."""
 
 COMPILED = {"check", "solve"}
 

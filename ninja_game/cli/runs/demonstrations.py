@@ -42,7 +42,7 @@ def command(
     A demonstration has the observation, the action and the reward of each tick. It needs Gymnasium, the extra 'learn'.
 
     FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Recordings that
-    no agent could have made, since they press jump anew while it is held, are left out and named.
+    no agent could have made, since they press jump again while it is held, are left out and named.
 
     \b
     Examples:
