@@ -27,7 +27,7 @@ LEARNED = Path(__file__).parent / "agent.npz"
 """The agent whose training docs/learning.md describes."""
 
 KEPT = 0.8
-"""Probability that the random agent keeps an action for another step: keys pressed again ten times a second lead nowhere."""
+"""Probability that the random agent keeps an action for a step: keys pressed again ten times a second lead nowhere."""
 
 Floats = NDArray[np.float32]
 
