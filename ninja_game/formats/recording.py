@@ -112,7 +112,7 @@ def parse_replays(
 
 
 def _recording_of_lines(text: str, file: str, level: Level | None) -> Recording:
-    """Inputs in the notation of another tool, as a loose replay. Raises ReplayError."""
+    """Inputs in the notation of another tool, as an unclaimed replay. Raises ReplayError."""
     if level is None:
         raise ReplayError("inputs without a level", file, hint="give it with --level")
     read = read_inputs(in_our_notation(text, file), file=file, include=included_beside(file))

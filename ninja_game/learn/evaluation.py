@@ -166,8 +166,8 @@ def level_results(
             actions: Actions = iter(np.asarray(agent.plan(level, seed)).reshape(-1, 1))
         else:
             worlds = EnvWorlds(level, episodes, **settings)
-            chance = [seed, int(level_digest(level)[:8], 16)]
-            sticky = StickyActions(episodes, chance, repeat=repeat, longest_wait=longest_wait)
+            seeds = [seed, int(level_digest(level)[:8], 16)]
+            sticky = StickyActions(episodes, seeds, repeat=repeat, longest_wait=longest_wait)
             actions = _chosen(agent, worlds, sticky, seed)
         yield _played(level_name, worlds, actions)
 

@@ -41,18 +41,18 @@ def replay_texts(recordings: Iterable[Recording], budget: int = RUN_BUDGET) -> I
 
 
 def input_texts(recordings: Iterable[Recording], form: str) -> Iterator[str]:
-    """All inputs of each recording, not run: as a loose replay ("inputs"), or in another tool's notation.
+    """All inputs of each recording, not run: as an unclaimed replay ("inputs"), or in another tool's notation.
 
     ``form``: "inputs", "celeste" or "libtas". Raises ReplayError for what the tools' notations cannot hold.
     """
     for each in recordings:
-        loose = _loose(each)
-        keys = loose.inputs if loose.demo_length is None else loose.playback(loose.ticks)
+        unclaimed = _unclaimed(each)
+        keys = unclaimed.inputs if unclaimed.demo_length is None else unclaimed.playback(unclaimed.ticks)
         try:
             if form == "celeste":
-                yield write_celeste(keys, loose.markers)
+                yield write_celeste(keys, unclaimed.markers)
             else:
-                yield write_libtas(keys) if form == "libtas" else write_replay(loose)
+                yield write_libtas(keys) if form == "libtas" else write_replay(unclaimed)
         except ReplayError as error:
             raise replace(error, file=each.file, line=each.line) from None
 
@@ -65,10 +65,10 @@ def on_level(recording: Recording, level: Level | None = None) -> Recording:
     there = replace(recording, level=level or recording.level)
     digest, now = level_digest(recording.level), level_digest(there.level)
     recorded = (recording.replay and recording.replay.level_digest) or digest
-    return recording if now == digest == recorded else replace(there, replay=_loose(there))
+    return recording if now == digest == recorded else replace(there, replay=_unclaimed(there))
 
 
-def _loose(recording: Recording) -> Replay:
+def _unclaimed(recording: Recording) -> Replay:
     """A recording without its claims."""
     old = recording.replay
     if old is None:

@@ -103,7 +103,7 @@ def verify_recording(
     when its ``budget`` of work is (``ninja_game.budget``), OutOfRangeError for a run that leads out
     of its world, KnownRunError where no run can be judged.
     """
-    replay = recording.replay if recording.replay and not recording.replay.loose else None
+    replay = recording.replay if recording.replay and not recording.replay.unclaimed else None
     verdict = Verdict(
         recording.file, recording.record, recording.name, recording.author, level_digest(recording.level),
         level_name="", body=recording.body, rules=replay.rules if replay else RULES_VERSION,

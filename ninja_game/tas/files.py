@@ -162,12 +162,12 @@ def _facts(text: str) -> list[str]:
 
 def recording_of(about: Recording, take: Take, name: str = "") -> Recording:
     """A take as a recording without claims, of the level and the author of another one."""
-    replay = loose_replay(about, take)
+    replay = unclaimed_replay(about, take)
     demo = Demo(take.inputs, float(len(take)))
     return replace(about, name=name or about.name, file=name or about.file, demo=demo, replay=replay)
 
 
-def loose_replay(about: Recording, take: Take) -> Replay:
+def unclaimed_replay(about: Recording, take: Take) -> Replay:
     """A take as a replay without claims, with its level inside."""
     old = about.replay
     return Replay(
@@ -183,16 +183,16 @@ def replay_of_take(about: Recording, take: Take) -> Replay:
     An exit or a death soon behind the last input, which the bench shows, is part of it. Raises ArgumentError for a run
     without ticks.
     """
-    loose = loose_replay(about, take)
+    unclaimed = unclaimed_replay(about, take)
     record = partial(record_replay, about.level, take.inputs, body=about.body, name=about.name, author=about.author)
     run = record(ticks=min(len(take) + AFTERMATH, MAX_TICKS))
     if run.outcome == "running":
         run = record()
     if has_tail(take, run.ticks):
-        return loose
+        return unclaimed
     return replace(
-        run, markers=take.markers, practice=loose.practice,
-        level_name=loose.level_name, level_author=loose.level_author,
+        run, markers=take.markers, practice=unclaimed.practice,
+        level_name=unclaimed.level_name, level_author=unclaimed.level_author,
     )  # fmt: skip
 
 

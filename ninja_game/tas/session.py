@@ -12,7 +12,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.tas.branches import Branch, Branches, branch_as_json, take_as_json
 from ninja_game.tas.course import NOWHERE, Course
-from ninja_game.tas.files import OpenedRun, RunFile, has_tail, loose_replay, recording_of, save_run
+from ninja_game.tas.files import OpenedRun, RunFile, has_tail, recording_of, save_run, unclaimed_replay
 from ninja_game.tas.journal import Journal, Recovered, edit_as_json
 from ninja_game.tas.take import Take
 from ninja_game.tas.timeline import Timeline
@@ -50,7 +50,7 @@ class Session:
 
     def _opened(self) -> dict[str, object]:
         """What the journal says first."""
-        text = write_replay(loose_replay(self.about, self.take))
+        text = write_replay(unclaimed_replay(self.about, self.take))
         path = str(self.file.path.absolute()) if self.file.path else ""
         file = {"path": path, "digest": self.file.digest, "beside": self.file.beside}
         return {**file, "replay": text, "take": take_as_json(self.take), "branches": self.branches.as_json()}

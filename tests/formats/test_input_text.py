@@ -1,4 +1,4 @@
-"""Inputs as people write them: comments, blocks, markers, other files; loose replays; the notations of other tools."""
+"""Inputs as people write them: comments, blocks, markers, other files; unclaimed replays; other tools' notations."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ from ninja_game.formats.tas_lines import in_our_notation
 from ninja_game.runs.conversion import input_texts
 from ninja_game.sim.inputs import press_jumps
 from tests.support import reference
-from tests.support.samples import WALK, loose_replay, replay_of_walk
+from tests.support.samples import WALK, replay_of_walk, unclaimed_replay
 
-LOOSE = loose_replay(WALK)
+LOOSE = unclaimed_replay(WALK)
 LEVEL = parse_level(WALK)
 
 keyboard_inputs = st.lists(st.integers(0, 7), max_size=80).map(press_jumps)
@@ -148,7 +148,7 @@ def test_files_that_take_in_each_other_end(run: Path) -> None:
 def test_a_loose_replay_needs_a_level_and_inputs_only() -> None:
     (recording,) = parse_replays(LOOSE + "  R*60\n", file="idea.txt")
     assert recording.replay is not None
-    assert recording.replay.loose
+    assert recording.replay.unclaimed
     assert (recording.name, recording.ticks, recording.body) == ("idea", 60, "circle")
     assert parse_replay(write_replay(recording.replay)) == recording.replay
 

@@ -85,11 +85,11 @@ def test_keys_behind_the_end_are_kept_without_claims(tmp_path: Path) -> None:
     path.write_text(replay_of_walk(), "utf-8")
     opened = open_run(path)
     with_claims = saved_take(opened, opened.take.replaced(40, 60, [0] * 20), path)
-    assert (with_claims.recording.ticks, with_claims.recording.replay.loose) == (WALK_END + 1, False)  # type: ignore[union-attr]
+    assert (with_claims.recording.ticks, with_claims.recording.replay.unclaimed) == (WALK_END + 1, False)  # type: ignore[union-attr]
     for take in (opened.take.replaced(40, 41, [4]), opened.take.named(40, "later")):
-        loose = saved_take(open_run(path), take, path)
-        assert loose.take == take
-        assert loose.recording.replay.loose  # type: ignore[union-attr]
+        unclaimed = saved_take(open_run(path), take, path)
+        assert unclaimed.take == take
+        assert unclaimed.recording.replay.unclaimed  # type: ignore[union-attr]
 
 
 def test_a_demo_of_n_opens_and_is_saved_as_a_new_replay(tmp_path: Path) -> None:
@@ -265,13 +265,13 @@ def test_markers_that_no_text_can_hold_are_not_written() -> None:
 
 
 def test_mutated_replays_open_or_are_refused(tmp_path: Path) -> None:
-    chance = Random(5)
+    rng = Random(5)
     path = tmp_path / "walk.replay.txt"
     whole = replay_of_walk().replace("R*24", "#a R*10 ; c\n  (R RJ)*3 #b R*8")
     for _ in range(300):
-        at = chance.randrange(len(whole))
+        at = rng.randrange(len(whole))
         path.write_text(
-            whole[:at] + chance.choice(["", "9", "(", ")*9", "#a", "\0", "é", "\n"]) + whole[at + 1 :], "utf-8"
+            whole[:at] + rng.choice(["", "9", "(", ")*9", "#a", "\0", "é", "\n"]) + whole[at + 1 :], "utf-8"
         )
         try:
             opened = open_run(path)

@@ -38,9 +38,9 @@ class Archive:
         self._walking: Numbers = np.full(1, -1, np.intp)
         self._since: Numbers = np.zeros(1, np.intp)
 
-    def choose(self, count: int, chance: np.random.Generator) -> EnvState:
+    def choose(self, count: int, rng: np.random.Generator) -> EnvState:
         """The states from which ``count`` walks begin: the most promising moments that were least walked from."""
-        score = self._score()[: self._used] + NOISE * chance.random(self._used)
+        score = self._score()[: self._used] + NOISE * rng.random(self._used)
         if self._used > count:
             chosen = np.argpartition(score, count)[:count]
         else:

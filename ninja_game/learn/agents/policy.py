@@ -52,13 +52,13 @@ class PolicyAgent:
 
     def reset(self, count: int, seed: int) -> None:  # noqa: ARG002 - as all agents
         """Begin: only what is drawn is remembered from step to step."""
-        self._chance = np.random.default_rng(seed)
+        self._rng = np.random.default_rng(seed)
 
     def act(self, observations: Floats) -> NDArray[np.int64]:
         """An action of each world, (n,)."""
         scores = self.scores(observations)
         # The largest of sums with Gumbel noise is a draw by the chances.
-        return np.asarray((scores + self._chance.gumbel(size=scores.shape)).argmax(axis=1), np.int64)
+        return np.asarray((scores + self._rng.gumbel(size=scores.shape)).argmax(axis=1), np.int64)
 
     def scores(self, observations: Floats) -> Floats:
         """A number for each action, (n, 6): the logarithm of its chance, up to a constant of the row."""

@@ -23,12 +23,12 @@ class RandomAgent:
 
     def reset(self, count: int, seed: int) -> None:
         """Begin with ``count`` worlds."""
-        self._chance = np.random.default_rng(seed)
-        self._actions = self._chance.integers(len(ACTION_NAMES), size=count)
+        self._rng = np.random.default_rng(seed)
+        self._actions = self._rng.integers(len(ACTION_NAMES), size=count)
 
     def act(self, observations: Any) -> NDArray[np.int64]:  # noqa: ARG002 - as all agents
         """An action for each world, (n,), whatever is observed."""
         count = len(self._actions)
-        drawn = self._chance.integers(len(ACTION_NAMES), size=count)
-        self._actions = np.where(self._chance.random(count) < KEPT, self._actions, drawn)
+        drawn = self._rng.integers(len(ACTION_NAMES), size=count)
+        self._actions = np.where(self._rng.random(count) < KEPT, self._actions, drawn)
         return self._actions

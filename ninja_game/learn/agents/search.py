@@ -67,7 +67,7 @@ class SearchAgent:
 
     def search(self, level: Level, seed: int = 0) -> SearchResult:
         """Look for a run to the exit."""
-        chance = np.random.default_rng(seed)
+        rng = np.random.default_rng(seed)
         settings = {name: value for name, value in self.settings.items() if name != "actions"}
         walkers = EnvWorlds([level], self.worlds, goal_distance=True, **settings)
         archive = Archive(level, self.kept, settings)
@@ -75,11 +75,11 @@ class SearchAgent:
         seen = {_cells(walkers)[0]: 0}
         ticks = 0
         while ticks + WALK * self.worlds * walkers.frame_skip <= self.ticks:
-            walkers.restore(archive.choose(self.worlds, chance))
+            walkers.restore(archive.choose(self.worlds, rng))
             walk = np.zeros((WALK, self.worlds), np.uint8)
             for step in range(WALK):
-                drawn = chance.integers(len(ACTION_NAMES), size=self.worlds)
-                changed = chance.random(self.worlds) < (CHANGED if step else 1.0)
+                drawn = rng.integers(len(ACTION_NAMES), size=self.worlds)
+                changed = rng.random(self.worlds) < (CHANGED if step else 1.0)
                 walk[step] = np.where(changed, drawn, walk[step - 1])
                 ticks += walkers.step(DISCRETE_KEYS[walk[step]])
                 won = np.flatnonzero(walkers.outcomes == OUTCOME_EXIT)

@@ -130,7 +130,7 @@ class Trainer:
         self.worlds = EnvWorlds(task.source, task.worlds, **settings)
         self._observed = np.asarray(self.worlds.observations)
         self.starts = Starts(task.source, settings, task.seed, task.searches)
-        self._chance = np.random.default_rng([task.seed, 2])
+        self._rng = np.random.default_rng([task.seed, 2])
         self._sticky = StickyActions(task.worlds, [task.seed, 3])
         self._begun, self._limits = np.zeros((2, task.worlds), np.intp)
         self._begin(np.arange(task.worlds))
@@ -156,7 +156,7 @@ class Trainer:
         for step in range(ROUND):
             seen[step] = self._seen()
             scores, values[step] = self.learner.play(seen[step])
-            actions[step] = (scores + self._chance.gumbel(size=scores.shape)).argmax(axis=1)
+            actions[step] = (scores + self._rng.gumbel(size=scores.shape)).argmax(axis=1)
             chances[step] = np.take_along_axis(scores, actions[step][:, np.newaxis], axis=1)[:, 0]
             rewards[step], ended[step] = self._step(actions[step])
         _, values[ROUND] = self.learner.play(self._seen())
@@ -190,7 +190,7 @@ class Trainer:
 
     def _begin(self, which: NDArray[np.intp]) -> None:
         """New episodes; those that begin in the middle of a run do not wait."""
-        self._begun[which] = starts = self.starts.choose(len(which), self._chance)
+        self._begun[which] = starts = self.starts.choose(len(which), self._rng)
         self.starts.put(self.worlds, which, starts)
         self._limits[which] = self.worlds.ticks[which] + self.starts.limits[starts]
         own = starts < self.starts.levels
@@ -201,7 +201,7 @@ class Trainer:
         """Means of the observations, and what makes their deviations 1: from a round of random play."""
         rows = []
         for _ in range(ROUND):
-            self._step(self._chance.integers(len(DISCRETE_KEYS), size=self.task.worlds))
+            self._step(self._rng.integers(len(DISCRETE_KEYS), size=self.task.worlds))
             rows.append(self._observed.copy())
         every = np.concatenate(rows)
         return every.mean(axis=0), 1.0 / np.maximum(every.std(axis=0), np.float32(SMALLEST_DEVIATION))

@@ -199,7 +199,7 @@ def _row_of(saved: SavedReplay) -> ReplayRow:
 
 def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
     replay = recording.replay
-    if replay is None or replay.loose:
+    if replay is None or replay.unclaimed:
         result = f"recording, {seconds_text(recording.ticks)}"
     else:
         result = _result(replay.outcome, replay.gold, replay.final_tick)
