@@ -14,7 +14,7 @@ import numpy as np
 
 from benchmarks import arena, normal_grid
 from benchmarks.charts import Chart, seconds_per
-from ninja_game.compile_cache import compiled
+from ninja_game.backend.memories import compiled
 
 NUMBERS = (10, 30, 100, 300, 1000, 3000, 10_000)
 QUERIES = 16_384

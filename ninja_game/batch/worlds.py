@@ -13,9 +13,9 @@ from typing import Any, Protocol, TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.backend.memories import compiled
 from ninja_game.batch.kernels import run_worlds
 from ninja_game.batch.thread_pool import thread_pool
-from ninja_game.compile_cache import compiled
 from ninja_game.sim.kinds import KINDS
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.compiled import SLICE, load_worlds

@@ -226,7 +226,7 @@ def main() -> NoReturn:
 
 def _announce_compiling() -> None:
     """Say it before the rules are compiled, since that takes a while."""
-    from ninja_game.kernel_cache import before_compiling
+    from ninja_game.backend.kernel_cache import before_compiling
 
     text = "ninja-game: compiling the rules for this machine, the first time only; it takes a minute or two"
     before_compiling[:] = [lambda: click.echo(text, err=True)]

@@ -15,12 +15,12 @@ from typing import Any
 
 import numpy as np
 
-from ninja_game.compile_cache import compiled, compiled_available
+from ninja_game.backend.memories import compiled, compiled_available
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.trace import trace_digests, trace_recording
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.kernels import race_world
+from ninja_game.sim.memory.kernels import count_ticks
 from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.world import step
 from ninja_game.simulation import Simulation
@@ -111,7 +111,7 @@ def compiled_speed(recordings: Sequence[Recording]) -> float:
         ticks = kernel(levels, worlds, 0, inputs)
         return ticks, time.perf_counter() - start
 
-    kernel = compiled(race_world)
+    kernel = compiled(count_ticks)
     race(recordings[0])
     return _speed(race, recordings)
 

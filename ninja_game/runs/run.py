@@ -15,8 +15,8 @@ from array import array
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from ninja_game.backend.memories import open_memory
 from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget
-from ninja_game.compile_cache import open_memory
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.replay.sections import Waypoint

@@ -10,15 +10,15 @@ from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ninja_game.backend.memories import open_memory, proven_memory
 from ninja_game.budget import RUN_BUDGET
-from ninja_game.compile_cache import open_memory, proven_memory
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import RULES_VERSION, Replay
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import RunResult, run_level
-from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.memory.interface import TRACED_NUMBERS
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.simulation import Simulation, is_box
@@ -138,7 +138,7 @@ def verify_recording(
     return replace(
         verdict, outcome=run.outcome, end_tick=run.end_tick, gold=run.gold,
         score_ticks=run.score_ticks if run.outcome == "exit" else None, ticks=run.ticks, xy_sha256=run.xy_sha256,
-        possible_by_keyboard=press_jumps(inputs[:sampled]) == inputs[:sampled], in_time=in_time,
+        possible_by_keyboard=with_press_bits(inputs[:sampled]) == inputs[:sampled], in_time=in_time,
         problems=tuple(problems),
     )  # fmt: skip
 

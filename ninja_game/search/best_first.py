@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ninja_game.compile_cache import compiled
+from ninja_game.backend.memories import compiled
 from ninja_game.search.engine import MORE, add_root, expand, load_node
 from ninja_game.search.heuristics import POINTS, Field, Heuristics
 from ninja_game.search.macros import action_inputs

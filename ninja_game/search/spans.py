@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ninja_game.compile_cache import compiled
+from ninja_game.backend.memories import compiled
 from ninja_game.search.engine import EXHAUSTED, FOLLOWED, MORE, add_root, expand_along
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.known_run import KnownRun, play_known
@@ -17,7 +17,7 @@ from ninja_game.search.macros import action_inputs
 from ninja_game.search.nodes import Resolution, Start, clear, new_memory
 from ninja_game.search.states import MAX_SWITCH_STATES, NOT_MADE, Goals
 from ninja_game.search.task import COOLING, SEARCH_COST, SHORT_CLIMB, SLICE
-from ninja_game.sim.inputs import KEYS_DOWN, press_jumps
+from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 
 NODES = 300_000
 PART = 500_000
@@ -149,7 +149,7 @@ class SpanSearches:
         if counters.best_node < 0:
             return None
         # A press is there where the key goes down; joined parts need it anew.
-        return press_jumps(self._inputs[:first] + self._path(int(counters.best_node)))
+        return with_press_bits(self._inputs[:first] + self._path(int(counters.best_node)))
 
     def _path(self, index: int) -> bytes:
         nodes = self.memory.nodes

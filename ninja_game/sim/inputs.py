@@ -35,7 +35,7 @@ def pressed(keys: int, held: int) -> int:
     return down + JUMP_PRESSED if down & JUMP_HELD and not held else down
 
 
-def press_jumps(inputs: Iterable[int]) -> bytes:
+def with_press_bits(inputs: Iterable[int]) -> bytes:
     """Inputs with JUMP_PRESSED in every tick in which the jump key goes down, and in no other."""
     fixed = bytearray()
     held = 0

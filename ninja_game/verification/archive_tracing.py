@@ -8,8 +8,8 @@ from itertools import chain, islice
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
+from ninja_game.backend.memories import choose_memory
 from ninja_game.batch.thread_pool import cores
-from ninja_game.compile_cache import choose_memory
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.recording_reader import Unreadable, recordings_in

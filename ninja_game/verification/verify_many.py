@@ -23,9 +23,9 @@ from itertools import chain
 from pathlib import Path
 from typing import IO, Any, TypeAlias
 
+from ninja_game.backend.memories import choose_memory
 from ninja_game.batch.thread_pool import cores
 from ninja_game.budget import RUN_BUDGET
-from ninja_game.compile_cache import choose_memory
 from ninja_game.files.resources import bundled_levels
 from ninja_game.formats.load import NamedLevel, load_levels
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records
 
 pty = pytest.importorskip("pty", reason="there are no pseudo-terminals")

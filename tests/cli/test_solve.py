@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+from ninja_game.backend.memories import compiled_available
 from ninja_game.cli import run_options
 from ninja_game.cli.main import cli
 from ninja_game.cli.solver_options import default_threads, progress_text
-from ninja_game.compile_cache import compiled_available
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.ascii.reader import write_ascii_level
 from ninja_game.formats.load import load_levels, load_replays

@@ -21,14 +21,14 @@ from ninja_game.formats.replay.input_text import MOST_INCLUDES, read_inputs
 from ninja_game.formats.replay.text import Replay
 from ninja_game.formats.tas_lines import in_our_notation
 from ninja_game.runs.conversion import input_texts
-from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.inputs import with_press_bits
 from tests.support import reference
 from tests.support.samples import WALK, replay_of_walk, unclaimed_replay
 
 LOOSE = unclaimed_replay(WALK)
 LEVEL = parse_level(WALK)
 
-keyboard_inputs = st.lists(st.integers(0, 7), max_size=80).map(press_jumps)
+keyboard_inputs = st.lists(st.integers(0, 7), max_size=80).map(with_press_bits)
 names = st.text(st.sampled_from("abcXYZ019_.-é"), min_size=1, max_size=12)
 
 

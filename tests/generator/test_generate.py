@@ -9,8 +9,8 @@ from threading import Event
 import pytest
 from click.testing import CliRunner, Result
 
+from ninja_game.backend.memories import compiled_available
 from ninja_game.cli.main import cli
-from ninja_game.compile_cache import compiled_available
 
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)

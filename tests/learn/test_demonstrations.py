@@ -23,7 +23,7 @@ from ninja_game.learn.demonstrations import (
     write_npz,
 )
 from ninja_game.learn.single import NinjaEnv
-from ninja_game.sim.inputs import Demo, press_jumps
+from ninja_game.sim.inputs import Demo, with_press_bits
 from tests.support.reference import recordings, require_reference
 
 FLAT = parse_level_string("0" * 713 + "|5^100,566!0^130,566!11^260,564,230,564")
@@ -154,7 +154,7 @@ def test_reference_recordings_are_demonstrations_unless_they_press_jump_anew() -
         except UnplayableRecordingError:
             keys = recording.playback(row.ticks)
             unplayable.append(row.row)
-            assert press_jumps(keys) != keys
+            assert with_press_bits(keys) != keys
         else:
             assert (made.outcome, made.gold, len(made.rewards)) == (row.outcome, row.gold, row.ticks)
     # Of all 1,108 recordings 10 are.

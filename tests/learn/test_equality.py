@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.learn import NinjaEnv, NinjaVectorEnv
 from ninja_game.learn.observations.observation import PARTS
 from ninja_game.learn.rewards import REWARD_TERMS

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ninja_game import Simulation
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.rewards import DeathPenalty, ExitReward, GoldReward, TimePenalty

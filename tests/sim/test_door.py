@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ninja_game import parse_level, run_level
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
+from ninja_game.backend.numba_import import import_numba
 from ninja_game.errors import LevelError
-from ninja_game.numba_import import import_numba
 from ninja_game.sim.kinds import GOLD, NINJA
 from ninja_game.sim.level import TILES, Level, ObjectSpec
 from ninja_game.sim.memory.compiled import CompiledMemory

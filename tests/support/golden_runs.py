@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.backend.known_run import DIGEST, known_digest
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import write_replay
-from ninja_game.known_run import DIGEST, known_digest
 from ninja_game.runs.run import record_replay
 from ninja_game.runs.run_trace import trace_level
 from ninja_game.runs.trace import trace_digests
@@ -169,7 +169,7 @@ def write_golden_files() -> None:
             path.write_text(write_replay(new), "utf-8")
     digest = known_digest(lambda level, box: PlainMemory(level, box=box))
     if digest != DIGEST:
-        module = ROOT / "ninja_game" / "known_run.py"
+        module = ROOT / "ninja_game" / "backend" / "known_run.py"
         module.write_text(module.read_text("utf-8").replace(DIGEST, digest), "utf-8")
     for name, runs in FILES.items():
         with (GOLDEN / f"{name}.tsv").open("w", encoding="utf-8", newline="") as out:

@@ -17,7 +17,7 @@ from ninja_game.runs import save_states
 from ninja_game.runs.run_trace import trace_level
 from ninja_game.runs.save_states import SaveStates
 from ninja_game.search.formula.names import FLAGS, NAMES, view_of
-from ninja_game.sim.inputs import MAX_TICKS, first_ticks, press_jumps
+from ninja_game.sim.inputs import MAX_TICKS, first_ticks, with_press_bits
 from ninja_game.simulation import Simulation
 from ninja_game.tas.take import Take
 from ninja_game.tas.timeline import AFTERMATH, Timeline
@@ -54,7 +54,9 @@ def check(timeline: Timeline) -> None:
 def test_after_any_edits_every_row_is_that_of_a_straight_run(memory: str, data: st.DataObject) -> None:
     most, save_states.MOST_STATES = save_states.MOST_STATES, data.draw(st.sampled_from([2, 3, 300]))
     try:
-        take = Take(press_jumps(data.draw(st.lists(st.integers(0, 7), max_size=20))) * data.draw(st.integers(1, 12)))
+        take = Take(
+            with_press_bits(data.draw(st.lists(st.integers(0, 7), max_size=20))) * data.draw(st.integers(1, 12))
+        )
         timeline = Timeline(RUNS["01-2-the-works"].level, take.inputs, memory=memory)
         ids = [id_ for id_, seen in enumerate(timeline._seen) if seen[0] in {0, 9, 11}][:3]
         for _ in range(data.draw(st.integers(1, 6))):

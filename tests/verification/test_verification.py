@@ -18,7 +18,7 @@ from typing import Any
 import pytest
 
 from ninja_game import parse_level
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import FileError, FormatError
 from ninja_game.files.beside import Beside
 from ninja_game.files.reading import files_below

@@ -26,7 +26,7 @@ from ninja_game.play.replay.film_files import write_gif
 from ninja_game.play.replay.playback import RecordedRun
 from ninja_game.play.ui.palette import palette_named
 from ninja_game.player.settings import Settings
-from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.inputs import with_press_bits
 from tools import ROOT
 
 FOLDER = ROOT / "docs" / "pictures" / "learn"
@@ -66,7 +66,7 @@ def played(agent: PolicyAgent, name: str, seed: int) -> RecordedRun:
         before = worlds.ticks[0]
         worlds.step(down)
         keys += down.tolist() * int(worlds.ticks[0] - before)
-    return RecordedRun(f"{name} - learned agent", worlds.levels[0], press_jumps(keys))
+    return RecordedRun(f"{name} - learned agent", worlds.levels[0], with_press_bits(keys))
 
 
 def draw_film(agent: PolicyAgent, names: Sequence[str], path: Path) -> None:

@@ -21,7 +21,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.run import RunResult, run_level
-from ninja_game.sim.inputs import KEYS_DOWN, press_jumps
+from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.web.board.copies import Course, course_of, nearest
 from tests.support.reference import RunRow, positions, recordings
 
@@ -90,7 +90,7 @@ def edited(recording: Recording, kind: str) -> Iterator[tuple[int, bytes, RunRes
     for _ in range(MOST_TRIES):
         tried = keys.copy()
         EDITS[kind](tried, rng)
-        inputs = press_jumps(bytes(tried) + bytes(LONGEST_BLOCK))
+        inputs = with_press_bits(bytes(tried) + bytes(LONGEST_BLOCK))
         run = run_level(recording.level, inputs)
         if run.outcome == "exit":
             keys, done = tried, done + 1

@@ -20,9 +20,9 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.backend.kernel_cache import attach_cache
+from ninja_game.backend.numba_import import import_numba
 from ninja_game.batch.batch import Batch
-from ninja_game.kernel_cache import keep
-from ninja_game.numba_import import import_numba
 from ninja_game.sim.kinds import GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS
 from ninja_game.sim.level import TILES, Level, ObjectSpec
 from ninja_game.sim.memory.compiled import CompiledMemory
@@ -65,7 +65,7 @@ def _number(rng: random.Random) -> float:
 
 def out_of_range(count: int, seed: int) -> Iterator[str]:
     """Reports of hostile levels that lead out of range, or to any other error."""
-    checked = Compiler(import_numba(), checked=True, keep=keep)
+    checked = Compiler(import_numba(), checked=True, attach_cache=attach_cache)
     for number in range(seed, seed + count):
         rng = random.Random(number)
         try:

@@ -106,9 +106,9 @@ def command(
 def _keys(found: Found) -> str:
     """The keys in a line, as replays have them."""
     from ninja_game.formats.replay.input_runs import write_inputs
-    from ninja_game.sim.inputs import press_jumps
+    from ninja_game.sim.inputs import with_press_bits
 
-    return " ".join(write_inputs(press_jumps(found.keys[: found.ticks].tolist())))
+    return " ".join(write_inputs(with_press_bits(found.keys[: found.ticks].tolist())))
 
 
 def _save(output: Path, recording: Recording, task: SpanTask, found: Found) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 
 from ninja_game.errors import DemoError
-from ninja_game.sim.inputs import Demo, check_inputs, fitted_demo, press_jumps
+from ninja_game.sim.inputs import Demo, check_inputs, fitted_demo, with_press_bits
 
 MAX_DIGITS = 50_000
 """The game stops recording at 5000 words of ten ticks."""
@@ -41,7 +41,7 @@ def parse_legacy_demo(text: str, *, length: float | None = None) -> Demo:
     # Defect (b): a last 3 is dropped also when it was no padding, and what it leaves of a run with it.
     digits = _DIGIT_RUN.sub(_expanded, _digits_of_chars(text).removesuffix(_PADDING))
     _check_length(len(digits))
-    return fitted_demo(press_jumps(map(int, digits)), float(len(digits)) if length is None else length)
+    return fitted_demo(with_press_bits(map(int, digits)), float(len(digits)) if length is None else length)
 
 
 def _digits_of_chars(text: str) -> str:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.compile_cache import choose_memory
+from ninja_game.backend.memories import choose_memory
 from ninja_game.errors import LevelError
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.generator import daily

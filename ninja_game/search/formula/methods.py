@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.backend.memories import compiled
 from ninja_game.batch.batch import Batch
-from ninja_game.compile_cache import compiled
 from ninja_game.errors import ArgumentError
 from ninja_game.search.formula.task import Found, Keys, Report, SpanTask, SpanWorlds, Trials
 from ninja_game.search.local_search import mutate

@@ -12,7 +12,7 @@ from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
 from ninja_game.search.formula.language import Formula, FormulaError, Numbers, parse_number, parse_truth
 from ninja_game.search.formula.names import FACTS, SPAN_NAMES, difference_from, view_of
-from ninja_game.sim.inputs import KEYS_DOWN, press_jumps
+from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Body
 
@@ -162,7 +162,7 @@ class SpanWorlds:
         ticks = int(trials.ticks[index])
         rest = self.rest.tolist() if self.task.rest else []
         gold = int(self.batch.gold[index])
-        run = press_jumps([*self.task.inputs[: self.task.first], *keys[:ticks].tolist(), *rest])
+        run = with_press_bits([*self.task.inputs[: self.task.first], *keys[:ticks].tolist(), *rest])
         return Found(float(trials.scores[index]), ticks, keys.copy(), run, gold, tuple(trials.ends[index].tolist()))
 
     def try_all(self, keys: Keys) -> Trials:

@@ -7,13 +7,13 @@ import subprocess
 import sys
 from pathlib import Path
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import LevelRecord, write_level_file
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
 from ninja_game.runs.run import run_level
-from ninja_game.sim.inputs import KEY_LEFT, Demo, press_jumps
+from ninja_game.sim.inputs import KEY_LEFT, Demo, with_press_bits
 from ninja_game.sim.level import Level
 from ninja_game.tas.journal import FOLDER, read_journal
 from ninja_game.tas.take import Take
@@ -37,7 +37,7 @@ def exit_tick(level: Level, inputs: bytes) -> int:
 
 def late(inputs: bytes, ticks: int) -> bytes:
     """The same after standing for so many ticks."""
-    return press_jumps([0] * ticks + list(inputs))
+    return with_press_bits([0] * ticks + list(inputs))
 
 
 def two_runs() -> tuple[Level, bytes, bytes]:

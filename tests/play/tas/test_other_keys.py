@@ -12,13 +12,13 @@ from ninja_game.play.menus.panels import Menu
 from ninja_game.play.tas.level.other_runs import OtherRunScreen
 from ninja_game.play.tas.roll.differences import compared, different_rows
 from ninja_game.play.tas.roll.facts import row_facts
-from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, press_jumps
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bits
 from ninja_game.tas.take import Take
 from tests.support.bench_driver import BenchDriver
 from tests.support.samples import running, write_records
 
-OURS = Take(press_jumps([KEY_RIGHT] * 60))
-THEIRS = Take(press_jumps([KEY_RIGHT] * 20 + [KEY_LEFT] * 5 + [KEY_RIGHT | JUMP_HELD] * 5 + [KEY_RIGHT] * 34))
+OURS = Take(with_press_bits([KEY_RIGHT] * 60))
+THEIRS = Take(with_press_bits([KEY_RIGHT] * 20 + [KEY_LEFT] * 5 + [KEY_RIGHT | JUMP_HELD] * 5 + [KEY_RIGHT] * 34))
 SHIFT = pygame.KMOD_LSHIFT
 
 

@@ -26,7 +26,7 @@ before_compiling: list[Callable[[], None]] = []
 """What is called once, before the first kernel that has to be compiled: it takes a while."""
 
 
-def keep(dispatcher: Any, digest: str) -> None:
+def attach_cache(dispatcher: Any, digest: str) -> None:
     """Let a kernel's machine code be read from the cache folder, and written there."""
     dispatcher._cache = KernelCache(cache_folder(), f"{dispatcher.py_func.__name__}-{digest[:32]}")  # noqa: SLF001
 
