@@ -65,7 +65,7 @@ def demonstration(recording: Recording, **settings: Any) -> Demonstration:
     An environment presses jump when its key goes down; N also has recordings that press it anew while it is down. If
     that makes another run of a recording, it is an UnplayableRecordingError.
     """
-    keys = recording.playback(recording.ticks)
+    keys = recording.inputs
     made = NinjaEnv(recording.level, body=recording.body, frame_skip=1, time_limit=len(keys), **settings)
     buttons = made.action_space.shape != ()
     down = np.frombuffer(keys, np.uint8) & KEYS_DOWN
@@ -95,7 +95,7 @@ def demonstration(recording: Recording, **settings: Any) -> Demonstration:
 
 def _same_run(recording: Recording, inputs: bytes) -> bool:
     """Whether other inputs make the run that was recorded."""
-    recorded = run_level(recording.level, recording.playback(recording.ticks), body=recording.body)
+    recorded = run_level(recording.level, recording.inputs, body=recording.body)
     return recorded == run_level(recording.level, inputs, body=recording.body)
 
 

@@ -72,10 +72,7 @@ def _objects(level: Level) -> int:
 
 def corpus_digest(recordings: Sequence[Recording]) -> str:
     """Sha256 (hex) of all levels, bodies and inputs."""
-    parts = (
-        f"{level_digest(recording.level)} {recording.body} {recording.playback(recording.ticks).hex()}\n"
-        for recording in recordings
-    )
+    parts = (f"{level_digest(recording.level)} {recording.body} {recording.inputs.hex()}\n" for recording in recordings)
     return sha256("".join(parts).encode()).hexdigest()
 
 
@@ -89,7 +86,7 @@ def plain_speed(recordings: Sequence[Recording]) -> float:
 
     def race(recording: Recording) -> tuple[int, float]:
         level, world = load_plain(recording.level, recording.body == "box")
-        inputs = recording.playback(recording.ticks)
+        inputs = recording.inputs
         start = time.perf_counter()
         for keys in inputs:
             step(level, world, keys)
@@ -106,7 +103,7 @@ def compiled_speed(recordings: Sequence[Recording]) -> float:
 
     def race(recording: Recording) -> tuple[int, float]:
         levels, worlds = load_worlds(compiled, [recording.level], box=recording.body == "box")
-        inputs = np.frombuffer(recording.playback(recording.ticks), np.uint8)
+        inputs = np.frombuffer(recording.inputs, np.uint8)
         start = time.perf_counter()
         ticks = kernel(levels, worlds, 0, inputs)
         return ticks, time.perf_counter() - start

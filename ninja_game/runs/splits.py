@@ -86,7 +86,7 @@ def run_splits(recording: Recording, events: Sequence[str] = SPLIT_EVENTS, budge
     splits: list[Split] = []
     positions: list[tuple[float, float]] = []
     counts: dict[tuple[str, int | None], int] = {}
-    for keys in recording.playback(min(recording.ticks, affordable_ticks(recording.level, budget))):
+    for keys in recording.inputs[: affordable_ticks(recording.level, budget)]:
         run.step_keys(keys)
         positions.append((run.ninja.x, run.ninja.y))
         for event in run.events:

@@ -81,6 +81,6 @@ def _trace(options: dict[str, Any], recording: Recording | Unreadable) -> Traced
         run = trace_recording(recording, **options)
     except NinjaGameError as error:
         return Unreadable(str(error))
-    inputs = recording.playback(len(run.ninja))
+    inputs = recording.replay.playback(len(run.ninja))
     trace = FiledTrace(recording.record, recording.name, run, recording.file, inputs)
     return Traced(recording.file, recording.comment, trace)

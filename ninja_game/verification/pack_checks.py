@@ -91,6 +91,6 @@ def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
         elif tries == 0:
             measured = None
         else:
-            inputs = run.recording.playback(run.verdict.ticks)
-            measured = round(difficulty(named.level, inputs, tries=tries), 2)
-        yield file, Pars(pars.level, pars.run, pars.exit, pars.gold, measured)
+            inputs = run.recording.inputs[: run.verdict.ticks]
+            hard = round(difficulty(named.level, inputs, tries=tries), 2)
+        yield file, Pars(pars.level, pars.run, pars.exit, pars.gold, hard)

@@ -12,8 +12,9 @@ from ninja_game import Recording, load_replays
 from ninja_game.cli.main import cli
 from ninja_game.errors import ArgumentError
 from ninja_game.files.resources import bundled_replays
-from ninja_game.formats.n14.demo import parse_demo
+from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.recording import demo_replay, recording_of
 from ninja_game.learn.demonstrations import (
     Demonstration,
     UnplayableRecordingError,
@@ -30,7 +31,7 @@ FLAT = parse_level_string("0" * 713 + "|5^100,566!0^130,566!11^260,564,230,564")
 
 
 def recorded(keys: list[int]) -> Recording:
-    return Recording("run", "", "", FLAT, Demo(bytes(keys), len(keys)), "runs.txt")
+    return Recording(FLAT, demo_replay(Demo(bytes(keys), len(keys)), FLAT, "run"), file="runs.txt")
 
 
 @pytest.mark.parametrize("path", bundled_replays()[::10], ids=lambda path: path.name)
@@ -148,11 +149,11 @@ def test_reference_recordings_are_demonstrations_unless_they_press_jump_anew() -
     require_reference()
     unplayable = []
     for row in recordings()[::40]:
-        recording = Recording(row.label, "", "", parse_level_string(row.data), parse_demo(row.demo), "")
+        recording = recording_of(LevelRecord(row.label, "", "", row.data, row.demo), "", parse_level_string(row.data))
         try:
             made = demonstration(recording)
         except UnplayableRecordingError:
-            keys = recording.playback(row.ticks)
+            keys = recording.replay.playback(row.ticks)
             unplayable.append(row.row)
             assert with_press_bits(keys) != keys
         else:

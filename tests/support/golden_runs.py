@@ -109,7 +109,7 @@ def replay_runs() -> Iterator[GoldenRun]:
     """The replays of the tests' pack, each carried on for a while after its end."""
     for path in sorted(REPLAYS.glob("*.replay.txt")):
         for recording in load_replays(path):
-            inputs = recording.playback(recording.ticks + AFTERMATH)
+            inputs = recording.replay.playback(recording.ticks + AFTERMATH)
             yield GoldenRun(path.name, recording.level, inputs, recording.body)
 
 

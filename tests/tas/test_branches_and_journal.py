@@ -184,7 +184,7 @@ def test_a_run_goes_on_where_a_killed_session_was(session: Session, tmp_path: Pa
     assert third.undo()
     assert third.take == stroke
     third.save(tmp_path / "walk.replay.txt")
-    assert load_replays(tmp_path / "walk.replay.txt")[0].playback(9)[:5] == with_press_bits([4] * 5)
+    assert load_replays(tmp_path / "walk.replay.txt")[0].replay.playback(9)[:5] == with_press_bits([4] * 5)
     assert list((tmp_path / FOLDER).iterdir()) == []
 
 

@@ -98,7 +98,7 @@ def test_an_edit_keeps_what_comes_before_it() -> None:
 
 def test_states_of_a_timeline_begin_simulations() -> None:
     recording = RUNS["01-0-springtime"]
-    timeline = Timeline(recording.level, recording.playback(recording.ticks), memory="plain")
+    timeline = Timeline(recording.level, recording.inputs, memory="plain")
     timeline.work(10**6)
     for tick in (0, 59, 60, 61, recording.ticks, 10**9):
         state = timeline.save_state(tick)
@@ -139,7 +139,7 @@ def test_save_states_are_thinned_and_never_far_apart() -> None:
 @pytest.mark.parametrize("memory", BOTH)
 def test_watched_values_are_those_of_a_search(name: str, memory: str) -> None:
     recording = RUNS[name]
-    inputs = recording.playback(recording.ticks)
+    inputs = recording.inputs
     timeline = Timeline(recording.level, inputs, memory=memory)
     timeline.work(10**6)
     formulas = [each for each, count in NAMES.items() if not count] + ["distance(100, 200)", "hypot(vx, vy) * 2"]

@@ -60,7 +60,7 @@ from tests.support.samples import (
     WALK_END,
     replay_of_walk,
     running,
-    unclaimed_replay,
+    unclaimed_text,
     write_records,
 )
 
@@ -350,8 +350,8 @@ def test_a_piece_for_another_machine_holds_its_level(tmp_path: Path) -> None:
         ("a.tas", "Read,part.tas\n", "part.tas"),
         ("b.tas", "Read,part\n", "part.tas"),
         ("c.tas", "Read,other.txt\n", "part.tas"),
-        ("d.replay.txt", unclaimed_replay(WALK, "include part.tas"), "part.tas"),
-        ("e.replay.txt", unclaimed_replay(WALK, "include other.txt"), "part.tas"),
+        ("d.replay.txt", unclaimed_text(WALK, "include part.tas"), "part.tas"),
+        ("e.replay.txt", unclaimed_text(WALK, "include other.txt"), "part.tas"),
     ],
 )
 def test_a_file_that_was_taken_in_and_changed_is_verified_again(

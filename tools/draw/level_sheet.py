@@ -37,7 +37,7 @@ def route(named: NamedLevel, certificate: Path) -> NDArray[np.float64]:
     """The ninja's positions in a certificate, (ticks, 2), px; none if there is none or if it is of another level."""
     try:
         recording = load_replays(certificate, level=named.level)[0]
-        return run_level(named.level, recording.playback(recording.ticks)).positions
+        return run_level(named.level, recording.inputs).positions
     except (NinjaGameError, OSError):
         return np.zeros((0, 2))
 

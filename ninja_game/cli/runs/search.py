@@ -75,7 +75,7 @@ def command(
         raise click.UsageError("--every is for --method exhaustive")
     recording = choose(load_replays(replay, level=level_given(level_path)), "recordings", replay, record)
     task = SpanTask(
-        recording.level, recording.playback(recording.ticks), first, last, goal=goal, measure=maximise or minimise,
+        recording.level, recording.inputs, first, last, goal=goal, measure=maximise or minimise,
         least=bool(minimise), rest=rest, body=recording.body,
     )  # fmt: skip
     start = 0.0

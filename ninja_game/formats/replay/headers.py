@@ -17,7 +17,7 @@ W = TypeVar("W", bound=str)
 
 REQUIRED = ("rules", "body", "final-tick", "outcome", "gold", "inputs")
 CLAIMS = ("rules", "outcome", "gold", "digest", "waypoints")
-"""A replay without any of these is unclaimed: it needs its inputs only."""
+"""A replay without any of these is without claims: it needs its inputs only."""
 SECTIONS = ("inputs", "level-data", "waypoints")
 KEYS = (
     *REQUIRED,

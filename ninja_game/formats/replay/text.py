@@ -6,6 +6,7 @@ import json
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any, Self
 
 from ninja_game.errors import ReplayError
 from ninja_game.formats.ascii.reader import write_ascii_level
@@ -70,6 +71,11 @@ class Replay:
     practice: bool = False
     markers: tuple[Marker, ...] = ()
     demo_length: float | None = None
+
+    @classmethod
+    def of_inputs(cls, inputs: bytes, level: Level, **about: Any) -> Self:
+        """Inputs on a level without claims. ``about``: other fields by their names."""
+        return cls(inputs, max(0, len(inputs) - 1), "", level=level, **about)
 
     @property
     def unclaimed(self) -> bool:

@@ -10,10 +10,11 @@ from pathlib import Path
 import pygame
 
 from ninja_game.errors import ArgumentError, NinjaGameError
+from ninja_game.formats.recording import Recording
 from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay.film_files import write_folder, write_gif, write_webm
-from ninja_game.play.replay.playback import Playback, RecordedRun
+from ninja_game.play.replay.playback import Playback
 from ninja_game.play.ui.palette import palette_named
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.render_context import OffscreenContext
@@ -42,11 +43,11 @@ class Film:
     one without ``last`` that is longer than MOST_PICTURES.
     """
 
-    run: RecordedRun
+    run: Recording
     size: tuple[int, int] = (528, 400)
     speed: float = 1.0
     settings: Settings | None = None
-    ghosts: tuple[RecordedRun, ...] = ()
+    ghosts: tuple[Recording, ...] = ()
     keys: bool = False
     first: int = 0
     last: int | None = None
