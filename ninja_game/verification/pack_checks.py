@@ -92,5 +92,5 @@ def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
             measured = None
         else:
             inputs = run.recording.inputs[: run.verdict.ticks]
-            hard = round(difficulty(named.level, inputs, tries=tries), 2)
-        yield file, Pars(pars.level, pars.run, pars.exit, pars.gold, hard)
+            measured = round(difficulty(named.level, inputs, tries=tries), 2)
+        yield file, Pars(pars.level, pars.run, pars.exit, pars.gold, measured)
