@@ -180,7 +180,7 @@ class Simulation:
 
     @property
     def outcome(self) -> str:
-        """What came first: "exit" or "dead"; "running" while neither has."""
+        """The outcome: "exit" or "dead"; "running" while neither has."""
         return OUTCOME_NAMES[self._memory.outcome]
 
     @property

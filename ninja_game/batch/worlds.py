@@ -173,7 +173,7 @@ class PlainWorlds:
         return [save_plain(self.worlds[index]) for index in worlds.tolist()]
 
     def restore(self, worlds: Numbers, states: Any, levels: Numbers) -> None:
-        """Put worlds back to states that ``save`` gave for as many; a world of another level is made anew."""
+        """Put worlds back to states that ``save`` gave for as many; a world of another level is made again."""
         for index, state, number in zip(worlds.tolist(), states, levels.tolist(), strict=True):
             if self._playing[index] != number:
                 self.worlds[index] = load_plain(self._levels[number], self._box)[1]

@@ -86,7 +86,7 @@ def record_of(recording: Recording) -> LevelRecord:
     """
     replay, inputs = recording.replay, recording.inputs
     if recording.body != "circle":
-        raise ReplayError("a run with another body is no demo of N", recording.file, found=recording.body)
+        raise ReplayError("a run with another body is not a demo of N", recording.file, found=recording.body)
     if replay.demo_length is not None:
         demo = fitted_demo(replay.inputs, replay.demo_length)
     else:

@@ -142,7 +142,7 @@ def _check_keyboard(inputs: bytes) -> None:
 
 
 def _libtas_word(line: str, file: str, number: int) -> str:
-    """The keys of a line ``|Kff53:ffe1|…``, as one of our words; fields of other devices are passed by."""
+    """The keys of a line ``|Kff53:ffe1|…``, as one of our words; fields of other devices are skipped."""
     fields = line.strip("|").split("|")
     keys = [field[1:] for field in fields if field.startswith("K")]
     if not keys and _KEYS.fullmatch(fields[0]):

@@ -99,7 +99,7 @@ def ring(board: Board, rng: Random) -> None:
 
 
 def storeys(board: Board, rng: Random) -> None:
-    """Floors over each other with gaps in the middle and at the sides by turns."""
+    """Floors over each other with gaps in the middle and at the sides in turn."""
     thick, apart = rng.choice(((1, 5), (2, 5), (2, 6), (1, 4)))
     for number, row in enumerate(range(ROWS - apart, 3, -apart)):
         gap = rng.choice((3, 4))

@@ -26,7 +26,7 @@ _COMMENT = re.compile(r"(?![^;]*:)[^|;]*;.*")
 
 
 def replay_texts(recordings: Iterable[Recording], budget: int = RUN_BUDGET) -> Iterator[str]:
-    """Each recording as a replay text of ours with its level inside, run to see what comes of it.
+    """Each recording as a replay text of ours with its level inside, run to see the result of it.
 
     Raises LevelError for a level that cannot be played, BudgetError for a run that is not over when its ``budget`` is.
     """

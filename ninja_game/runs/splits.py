@@ -142,7 +142,7 @@ def split_table(runs: Sequence[RunSplits], best: RunSplits) -> list[SplitRow]:
 def sum_of_best(rows: Sequence[SplitRow]) -> int:
     """The tick at which a run would end that goes every segment as fast as the fastest of them.
 
-    A lower bound for nobody: the speed with which a run leaves a segment is part of the next one.
+    A hint, not a lower bound: the speed with which a run leaves a segment is part of the next one.
     """
     return sum(row.best_segment for row in rows if row.best_segment is not None) - 1
 

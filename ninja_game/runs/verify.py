@@ -44,7 +44,7 @@ class OutOfRangeError(NinjaGameError):
 
 @dataclass(frozen=True)
 class Verdict:
-    """What came of a recording, and what it was (docs/verification.md).
+    """The result of a recording, and what it was (docs/verification.md).
 
     ``name``, ``author``, ``practice``: as the recording says. ``level_digest``: of the level that was played;
     ``level_name``: of the level with that digest among those that count, else ''. ``body``, ``rules``: of the run.

@@ -141,7 +141,7 @@ def kept_run(level: NamedLevel, path: Path, task: Task) -> tuple[VerifiedRun, bo
     """A replay's run, if it still does on a level what is wanted, and whether it was made on just this level.
 
     None if the file is missing, or if its run does not pass this level any more. Raises NinjaGameError for a file that
-    is no replay.
+    is not a replay.
     """
     if not path.exists():
         return None

@@ -75,7 +75,7 @@ class Demo:
 
     @property
     def end(self) -> int:
-        """The first tick after the recording: its length, rounded up; 0 if the length is no number.
+        """The first tick after the recording: its length, rounded up; 0 if the length is not a number.
 
         Never beyond both the inputs and the longest recording that the game makes: an absurd length costs nothing.
         """

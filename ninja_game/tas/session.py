@@ -202,7 +202,7 @@ class Session:
         for take in found.takes:
             self.history.change(take)
         self.branches = found.branches
-        # The program may have died when the file was written, and the journal not yet begun anew.
+        # The program may have died when the file was written, and the journal not yet started again.
         self._file_differs = self.file.path is not None and digest_of(self.file.path) != self.file.digest
         self._noted = self.take
         self._follow()

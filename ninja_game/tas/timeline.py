@@ -74,7 +74,7 @@ class Timeline:
         return same
 
     def watch(self, ids: Collection[int]) -> None:
-        """Record these objects besides the ninja, instead of those before; for others all is simulated anew.
+        """Record these objects besides the ninja, instead of those before; for others all is simulated again.
 
         Raises ArgumentError for an unknown object.
         """

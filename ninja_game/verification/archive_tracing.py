@@ -42,7 +42,7 @@ def trace_all(
     memory: str = "auto",
     **options: Any,
 ) -> Iterator[Traced | Unreadable]:
-    """A trace of every recording in files and folders, in order; what cannot be read is told and stops nothing.
+    """A trace of every recording in files and folders, in order; what cannot be read is reported and stops nothing.
 
     ``level``: what recordings that do not hold their level are played on; ``record``: only this one of each file.
     ``jobs``: how many run at a time, by default one a core. ``memory`` and ``options`` as for ``trace_recording``.

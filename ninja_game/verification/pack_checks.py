@@ -56,7 +56,7 @@ class Certificate:
 def certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
     """The certificate of a level file, None where there is none.
 
-    Raises ReplayError, or another error of ours, where it cannot be read.
+    Raises ReplayError, or another NinjaGameError, where it cannot be read.
     """
     name = pack.certificate(file, kind)
     if name is None:

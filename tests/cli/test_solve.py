@@ -289,7 +289,7 @@ def test_progress_is_told_now_and_then_where_nobody_watches(
 
     def items() -> Iterator[int]:
         for item in range(2):
-            # The first item may be the long one: it is told before it is there.
+            # The first item may be the long one: it is reported before it is there.
             seen = ""
             while f"s: {item} run{'s' * (item != 1)} done\n" not in seen:
                 seen += capsys.readouterr().err

@@ -94,7 +94,7 @@ for path in sorted(Path(sys.argv[1]).iterdir()):
     peak = int(re.search(r"VmHWM:\s+(\d+)", Path("/proc/self/status").read_text())[1]) // 1024
     print(json.dumps([path.name, max(seconds), peak]), flush=True)
 """
-"""Reads every file in all ways (of many recordings, which are told one by one, a thousand).
+"""Reads every file in all ways (of many recordings, which are reported one by one, a thousand).
 
 For each the most seconds of the processor, and the peak of the memory so far, MiB.
 """

@@ -1,4 +1,4 @@
-"""Any file of levels or recordings is told from its text, whatever it is called."""
+"""Any file of levels or recordings is recognised by its text, whatever it is called."""
 
 from __future__ import annotations
 

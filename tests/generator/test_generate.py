@@ -32,7 +32,7 @@ def made(seed: int, wanted: int) -> Generated:
 
 @pytest.mark.parametrize("seed, wanted", SEEDS)
 def test_a_seed_always_makes_the_same_level(seed: int, wanted: int) -> None:
-    # After a change of generator or solver that is meant, `python3 tools/dev.py golden` writes the table anew.
+    # After a change of generator or solver that is meant, `python3 tools/dev.py golden` writes the table again.
     assert generated_digest(seed, wanted) == read_generated()[seed, wanted]
 
 

@@ -70,7 +70,7 @@ def test_what_ends_before_the_exit_is_truncated_and_both_keys_are_none() -> None
 def test_recordings_that_press_jump_anew_while_it_is_held_are_refused() -> None:
     held = [4 + 8] + [4] * 200
     assert demonstration(recorded([0] * 3 + held), memory="plain").outcome == "running"
-    with pytest.raises(UnplayableRecordingError, match=r"runs.txt: run: it presses jump anew"):
+    with pytest.raises(UnplayableRecordingError, match=r"runs.txt: run: it presses jump again"):
         demonstration(recorded([0] * 3 + held + [4 + 8] * 3), memory="plain")
     # A press in the air, far from any wall, makes no other run.
     assert demonstration(recorded([0] * 3 + [4 + 8, 4, 4 + 8, 4]), memory="plain").outcome == "running"

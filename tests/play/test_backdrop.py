@@ -1,4 +1,4 @@
-"""The backdrop is mended piece by piece; what it shows is what it would show if it were painted anew."""
+"""The backdrop is mended piece by piece; what it shows is what it would show if it were painted again."""
 
 from __future__ import annotations
 

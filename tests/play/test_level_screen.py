@@ -83,7 +83,7 @@ def test_pause_stops_time_and_the_clock_starts_afresh(
     assert screen.attempt.simulation.tick == tick
     press("pause")
     frames(app, 1, 24)
-    assert screen.attempt.simulation.tick == tick, "24 ms are no tick: the remainder was dropped"
+    assert screen.attempt.simulation.tick == tick, "24 ms are not a tick: the remainder was dropped"
 
 
 def test_a_stall_counts_as_one_tick(stage: tuple[App, ScriptedControls], recording: Recording) -> None:

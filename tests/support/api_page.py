@@ -74,7 +74,7 @@ def _first_line(value: Any) -> str:
 
 
 def write_api_pages() -> None:
-    """Write the references anew; what stands before them stays."""
+    """Write the references again; what stands before them stays."""
     for page, module in PAGES.items():
         text = page.read_text("utf-8").partition(HEADING)[0]
         page.write_text(text + reference(module), "utf-8")

@@ -158,10 +158,10 @@ def _compared(ours: dict[str, str], golden: dict[str, str]) -> Iterator[tuple[st
 
 
 def write_golden_files() -> None:
-    """Write the golden files and our replays anew from what the world does now (plain memory)."""
+    """Write the golden files and our replays again from what the world does now (plain memory)."""
     for path in sorted([*REPLAYS.glob("*.replay.txt"), *ROOT.glob("levels/certificates/*.replay.txt")]):
         (old,) = load_replays(path)
-        assert old.replay, f"{path.name} is no replay of ours"
+        assert old.replay, f"{path.name} is not a replay of ours"
         body, ticks = old.body, old.replay.ticks
         run = record_replay(old.level, old.replay.inputs, ticks=ticks, body=body, name=old.name, author=old.author)
         new = replace(run, level_name=old.replay.level_name, level_author=old.replay.level_author)

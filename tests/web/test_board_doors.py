@@ -145,7 +145,7 @@ BROKEN: dict[str, dict[str, object]] = {
     "a date that is still to come": {"added": "9999-01-01T00:00:00Z"},
     "a year without its zeros": {"added": "1-01-01T00:00:00Z"},
     "no date": {"added": "@99999999999999"},
-    "a day that there is not": {"added": "2026-02-30T00:00:00Z"},
+    "a day that does not exist": {"added": "2026-02-30T00:00:00Z"},
     "a number for a date": {"added": 99999999999999},
     "a huge record": {"record": 1e400},
     "a part of a record": {"record": 0.5},

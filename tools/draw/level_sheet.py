@@ -58,7 +58,7 @@ def draw_level(named: NamedLevel, width: int, certificates: Path | None) -> tupl
 
 
 def caption(text: str, width: int) -> pygame.Surface:
-    """Words in the largest type, 22 px at most, in which they are no wider than ``width``."""
+    """Words in the largest type, 22 px at most, in which they are not wider than ``width``."""
     for size in range(22, 8, -1):
         drawn = pygame.font.Font(None, size).render(text, True, (230, 230, 230))
         if drawn.get_width() <= width:

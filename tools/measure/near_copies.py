@@ -84,7 +84,7 @@ EDITS: dict[str, Callable[[bytearray, random.Random], None]] = {
 
 
 def edited(recording: Recording, kind: str) -> Iterator[tuple[int, bytes, RunResult]]:
-    """A run after each of COUNTS changes, as far as it gets: how many, inputs, what came of them."""
+    """A run after each of COUNTS changes, as far as it gets: how many, inputs, the result."""
     rng = random.Random(f"{recording.name} {kind}")
     keys, done = bytearray(each & KEYS_DOWN for each in recording.inputs), 0
     for _ in range(MOST_TRIES):

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 @click.option("--rest", is_flag=True, help="Play on with what follows in RUN: it must still reach the exit, sooner.")
 @click.option(
     "--method", type=click.Choice(["auto", "local", "beam", "exhaustive"]), default="auto", show_default=True,
-    help="Small changes, a beam of promising states, all keys there are; auto: the first two by turns.",
+    help="Small changes, a beam of promising states, all keys there are; auto: the first two in turn.",
 )  # fmt: skip
 @click.option(
     "--every", type=click.IntRange(min=1), default=1, show_default=True,

@@ -79,7 +79,7 @@ class Replay:
 
     @property
     def unclaimed(self) -> bool:
-        """Whether it claims nothing of what comes of its inputs."""
+        """Whether it makes no claims about the result of its inputs."""
         return not self.outcome
 
     @property
@@ -113,8 +113,8 @@ def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Re
     ended = lines[-1][1].rstrip() == LAST_LINE
     headers = Headers(lines[1:-1] if ended else lines[1:], file)
     if version >= 3 and not ended and not headers.unclaimed:
-        hint = f"its last line is '{LAST_LINE}'; where you have changed it by hand, `ninja-game record` writes it anew"
-        raise ReplayError("the replay is cut", file, lines[-1][0], hint=hint)
+        hint = f"its last line is '{LAST_LINE}'; where you have changed it by hand, `ninja-game record` writes it again"
+        raise ReplayError("the replay is truncated", file, lines[-1][0], hint=hint)
     own, level_name, level_author = read_level(headers.section("level-data"), file)
     if headers.lines.keys().isdisjoint(("level-digest", "level")):
         own = own or level
@@ -233,7 +233,7 @@ def write_replay(replay: Replay) -> str:
 
 
 def _claims(replay: Replay) -> dict[str, str]:
-    """The headers that tell how far a run goes, and what comes of it."""
+    """The headers that tell how far a run goes, and the result of it."""
     final_tick = {"final-tick": str(replay.final_tick)}
     if not replay.unclaimed:
         told = {"outcome": replay.outcome, "gold": str(replay.gold), "digest": replay.digest}

@@ -92,8 +92,9 @@ def film_pictures(film: Film) -> Iterator[pygame.Surface]:
 def write_film(film: Film, path: Path, report: Callable[[int], bool] = lambda _: True) -> bool:
     """Write a film to ``path``: a .gif, a .webm, or for a path without suffix a folder of PNG pictures, one a tick.
 
-    ``report`` is told how many pictures are made; where it gives False, the film is given up: then this gives False and
-    leaves no file. Raises NinjaGameError for another suffix, MissingExtraError, OSError, what ``Film.moments`` does.
+    ``report`` gets the number of pictures made so far; where it gives False, the film is given up: then this gives
+    False and leaves no file. Raises NinjaGameError for another suffix, MissingExtraError, OSError, what
+    ``Film.moments`` does.
     """
 
     def pictures() -> Iterator[pygame.Surface]:

@@ -304,7 +304,7 @@ class ReplayScreen(Screen):
 
 
 def _with_claims(run: Recording) -> Replay:
-    """A run as others are sent it: one that was only played, or is of N, with what comes of it."""
+    """A run as others are sent it: one that was only played, or is of N, with the result of it."""
     if not run.replay.unclaimed:
         return replace(run.replay, level=run.level)
     # It imports modules that playing does without.

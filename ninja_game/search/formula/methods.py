@@ -185,7 +185,7 @@ def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, 
 
 
 def _different(batch: Batch, orders: list[NDArray[np.intp]], most: int) -> NDArray[np.intp]:
-    """The first worlds of some orders, by turns, that are not in about the same state."""
+    """The first worlds of some orders, in turn, that are not in about the same state."""
     velocity = batch.velocities()
     in_air = batch.records["ninja"]["in_air"]
     cells = np.column_stack([np.floor(batch.positions / 4), np.floor(velocity * 4), batch.states, batch.gold, in_air])

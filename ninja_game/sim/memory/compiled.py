@@ -72,7 +72,7 @@ class CompiledMemory:
 
     @property
     def outcome(self) -> int:
-        """What came first, by number."""
+        """The outcome, by number."""
         return int(self._outcome[0])
 
     @property
