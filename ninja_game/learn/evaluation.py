@@ -158,8 +158,8 @@ def evaluate(
             actions: Actions = iter(np.asarray(agent.plan(level, seed)).reshape(-1, 1))
         else:
             worlds = EnvWorlds(level, episodes, **settings)
-            chance = [seed, int(level_digest(level)[:8], 16)]
-            sticky = StickyActions(episodes, chance, repeat=repeat, longest_wait=longest_wait)
+            seeds = [seed, int(level_digest(level)[:8], 16)]
+            sticky = StickyActions(episodes, seeds, repeat=repeat, longest_wait=longest_wait)
             actions = _chosen(agent, worlds, sticky, seed)
         results.append(_played(level_name, worlds, actions))
     return Evaluation(name, source.digest, seed, repeat, longest_wait, time_limit, results)

@@ -18,11 +18,11 @@ from ninja_game.learn.observations.observation import Observation
 
 def small_agent() -> PolicyAgent:
     """An agent with random weights."""
-    chance = np.random.default_rng(0)
+    rng = np.random.default_rng(0)
     shapes = [(30, 8), (8, 6)]
-    layers = [(chance.random(shape).astype(np.float32), chance.random(shape[1]).astype(np.float32)) for shape in shapes]
+    layers = [(rng.random(shape).astype(np.float32), rng.random(shape[1]).astype(np.float32)) for shape in shapes]
     settings = {"observation": Observation("state").parts, "flat": True, "frame_skip": 4, "time_limit": 400}
-    mean, scale = chance.random((2, 30)).astype(np.float32)
+    mean, scale = rng.random((2, 30)).astype(np.float32)
     return PolicyAgent(layers, mean, scale, settings, {"seed": 3})
 
 

@@ -28,17 +28,17 @@ class Runner:
 
     settings: ClassVar[dict[str, Any]] = {"frame_skip": 4}
 
-    def __init__(self, chance: float = 0.0) -> None:
-        self.share = chance
+    def __init__(self, share: float = 0.0) -> None:
+        self.share = share
 
     def reset(self, count: int, seed: int) -> None:
-        self.chance = np.random.default_rng(seed)
+        self.rng = np.random.default_rng(seed)
         self.count = count
 
     def act(self, observations: Any) -> NDArray[np.integer]:
         assert len(observations) == self.count
-        drawn = self.chance.integers(6, size=self.count)
-        return np.where(self.chance.random(self.count) < self.share, drawn, 2)
+        drawn = self.rng.integers(6, size=self.count)
+        return np.where(self.rng.random(self.count) < self.share, drawn, 2)
 
 
 class Walker:
@@ -71,7 +71,7 @@ def test_time_over_is_late() -> None:
 
 
 def test_the_seed_decides_the_table_and_other_levels_do_not() -> None:
-    agent = Runner(chance=0.6)
+    agent = Runner(share=0.6)
     whole = table(agent, longest_wait=20)
     assert repr(whole) == repr(table(agent, longest_wait=20))
     assert repr(whole.results[1]) == repr(table(agent, LevelSource(["deadly"], [DEADLY]), longest_wait=20).results[0])
@@ -85,7 +85,7 @@ def test_without_noise_all_episodes_of_a_policy_are_one() -> None:
 
 def test_both_memories_give_the_same_table() -> None:
     pytest.importorskip("numba")
-    agent = Runner(chance=0.3)
+    agent = Runner(share=0.3)
     assert repr(table(agent)) == repr(evaluate(agent, LEVELS, memory="compiled", time_limit=400, episodes=8))
 
 

@@ -32,16 +32,16 @@ def run() -> Path:
 
 
 def test_any_tick_is_that_of_a_straight_run_after_any_edits(at: BenchDriver) -> None:
-    bench, chance = at.bench, Random(7)
+    bench, rng = at.bench, Random(7)
     for _ in range(40):
-        if chance.random() < 0.5:
-            first = chance.randrange(len(bench.take))
-            keys = [chance.randrange(8) for _ in range(chance.randrange(1, 30))]
-            edited = bench.take.replaced(first, first + chance.randrange(9), keys)
+        if rng.random() < 0.5:
+            first = rng.randrange(len(bench.take))
+            keys = [rng.randrange(8) for _ in range(rng.randrange(1, 30))]
+            edited = bench.take.replaced(first, first + rng.randrange(9), keys)
             assert bench.attempt(partial(at.session.change, edited))
             at.frames()
             assert at.shown_digest() == at.straight_digest(bench.cursor), "the cursor stays, the run is another"
-        bench.go(chance.choice([chance.randrange(bench.last_tick + 1), bench.cursor + chance.randrange(-3, 4)]))
+        bench.go(rng.choice([rng.randrange(bench.last_tick + 1), bench.cursor + rng.randrange(-3, 4)]))
         at.frames()
         assert at.screen.level.picture.tick == bench.cursor
         assert at.shown_digest() == at.straight_digest(bench.cursor)
