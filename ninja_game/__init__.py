@@ -107,6 +107,6 @@ def __getattr__(name: str) -> Any:
     return value
 
 
-# `gymnasium.make("ninja_game:Ninja-v0")` imports this module for its ids.
+# `gymnasium.make("ninja_game:Ninja-v0")` imports this module for the ids, which that one registers.
 if sys.modules.get("gymnasium"):
-    import ninja_game.learn  # noqa: F401
+    __import__("ninja_game.learn")
