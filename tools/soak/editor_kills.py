@@ -37,12 +37,12 @@ def edit(folder: str, seed: int, pipe: Connection) -> None:
     maker = Maker(Path(folder))
     maker.open("Editor")
     if maker.top() is not maker.editor:
-        maker.choose("Go on with it")
+        maker.choose("Recover")
     session = maker.editor.session
     while True:
         maker.press(chance.choice(("e", "d", "1", "grave", "3", "m")))
         maker.drag(*((chance.uniform(30, 760), chance.uniform(30, 570)) for _ in range(chance.randrange(1, 4))))
-        session.bench.finish()
+        session.tools.finish()
         digest = level_digest(session.draft.level)
         pipe.send(("drawn", digest, time.monotonic_ns()))
         if chance.random() < 0.04:

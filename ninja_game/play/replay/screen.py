@@ -42,7 +42,7 @@ class ReplayScreen(Screen):
     """Shows a recording. Others on the same level run along as ghosts. Raises LevelError for one that cannot be played.
 
     ``end``: the tick of the exit contact or death, or the last one of the recording; ``outcome``: what it brought.
-    ``length``: ticks to show. ``editable``: whether the bench may be opened from here, if the app has one.
+    ``length``: ticks to show. ``editable``: whether the TAS editor may be opened from here, if the app has one.
 
     Between two pictures there is the work of a turn at most: in a long run the end is looked for while it plays, and
     until it is found ``end`` is the last tick of the recording; to seek far ahead takes several turns.
@@ -50,7 +50,7 @@ class ReplayScreen(Screen):
 
     def __init__(self, app: App, runs: Sequence[RecordedRun | Recording], *, editable: bool = True) -> None:
         super().__init__(app)
-        self.open_bench = app.open_bench if editable else None
+        self.open_tas_editor = app.open_tas_editor if editable else None
         self.runs = [run if isinstance(run, RecordedRun) else recorded_run(run) for run in runs]
         self.clock = RunClock()
         self.overlays = Overlays()
@@ -263,11 +263,11 @@ class ReplayScreen(Screen):
         copy_link(self.app, lambda: replay_link([replay_of(self.run)]), title=self.run.title)
 
     def edit(self) -> None:
-        """Open the bench on this run, at this tick, with the others beside it."""
-        if self.open_bench:
+        """Open the TAS editor on this run, at this tick, with the others beside it."""
+        if self.open_tas_editor:
             player = self.app.settings.name
             beside = [recording_of(run, player) for run in self.runs if run is not self.run]
-            self.open_bench(recording_of(self.run, player), beside, max(0, self.tick - 1))
+            self.open_tas_editor(recording_of(self.run, player), beside, max(0, self.tick - 1))
 
     # --- picture ---
 
@@ -298,6 +298,6 @@ class ReplayScreen(Screen):
         return (
             f"{key('frame_back')} {key('frame_forward')}: tick by tick    {key('left')} {key('right')}: a second    "
             f"{key('slower')} {key('faster')}: speed    {key('export')}: film    "
-            + f"{key('edit')}: edit    " * bool(self.open_bench)
+            + f"{key('edit')}: edit    " * bool(self.open_tas_editor)
             + f"{key('link')}: link    {key('back')}: leave"
         )
