@@ -54,6 +54,21 @@ def test_links_lead_somewhere(page: Path) -> None:
     assert not dead
 
 
+def test_every_page_is_linked_from_the_index() -> None:
+    index = ROOT / "docs" / "README.md"
+    linked = {(index.parent / target).resolve() for target in re.findall(r"\]\(([^)#]+)\)", index.read_text("utf-8"))}
+    pages = {*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("levels/*.md"), *ROOT.glob("tests/golden/*.md")}
+    assert not {named(page) for page in pages - linked - {index}}
+    assert "(docs/README.md)" in (ROOT / "README.md").read_text("utf-8")
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if page.parent.name != "rules"], ids=named)
+def test_lines_outside_of_tables_have_at_most_140_characters(page: Path) -> None:
+    text = re.sub(r"^```.*?^```", "", page.read_text("utf-8"), flags=re.MULTILINE | re.DOTALL)
+    long = [line for line in text.splitlines() if len(line) > 140 and not line.startswith("|")]
+    assert not long
+
+
 def test_every_reference_to_the_rules_leads_to_a_section() -> None:
     found, dead = 0, []
     for path in [*SOURCES, *PAGES]:
@@ -100,7 +115,8 @@ def test_security_page_states_the_limits_that_hold() -> None:
 def test_the_page_of_an_api_tells_every_public_name_with_its_signature(page: Path) -> None:
     told, made = page.read_text("utf-8").partition(HEADING)[2], reference(API_PAGES[page]).partition(HEADING)[2]
     assert told == made, "write it anew: python3 tools/dev.py golden"
-    assert all(line.partition(": ")[2] for line in made.splitlines() if line), "something has no docstring"
+    entries = re.split(r"\n(?=- |\n)", made)
+    assert all(re.search(r"`:\s", entry) for entry in entries if entry.strip()), "something has no docstring"
 
 
 def test_documents_that_sources_name_exist() -> None:

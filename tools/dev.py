@@ -9,8 +9,6 @@ usage: python3 tools/dev.py COMMAND ...
   lint             style, format, types, import contract; `lint --fix` mends what a program can mend
   golden           write the golden files of the tests anew, after a change of the rules that is meant
   change-rules     test the tests: break the rules one at a time and tell which breaks no test notices
-  change-events    the same with what the world reports
-  change-pictures  the same with drawings and screens
   accept-pictures  record the screens and pictures of the tests anew, after a change of the looks that is meant
   docs             draw the pictures of docs/ anew
   tool             any script of tools/, listed in docs/tools.md: `tool soak.attract_mode --minutes 1`
@@ -203,7 +201,7 @@ def main(words: Sequence[str]) -> int:
             return test(rest)
         case ["lint"] | ["lint", "--fix"]:
             return lint(*words[1:])
-        case [("golden" | "change-rules" | "change-events" | "change-pictures") as name, *rest]:
+        case [("golden" | "change-rules") as name, *rest]:
             return tool(name.replace("-", "_"), *rest)
         case ["accept-pictures"]:
             os.environ["ACCEPT_PICTURES"] = "1"

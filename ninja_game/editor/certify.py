@@ -16,8 +16,8 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Body
 
 if TYPE_CHECKING:
-    from ninja_game.solver.certificate import VerifiedRun
-    from ninja_game.solver.task import Progress
+    from ninja_game.search.certificate import VerifiedRun
+    from ninja_game.search.task import Progress
 
 SECONDS = 20.0
 """How long the solver looks for better runs."""
@@ -99,7 +99,7 @@ class Certifier:
             self.run, self.route = run, route_of(level, run.inputs)
 
         try:
-            from ninja_game.solver.solve import Task, solve
+            from ninja_game.search.solve import Task, solve
 
             solve(Task(level, seconds=self.seconds), report=report, on_better=better)
         except _StoppedError:

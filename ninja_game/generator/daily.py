@@ -64,7 +64,7 @@ def make_daily(levels: Path, day: date, *, report: Callable[[str], None], stop: 
 def _keep(file: Path, made: Generated) -> None:
     """Write a level into the pack, whose table of pars grows by a line; the level last, so that all of it is there."""
     from ninja_game.runs.verify import verify_recording
-    from ninja_game.solver.certificate import replay_of
+    from ninja_game.search.certificate import replay_of
 
     pack, tree = file.parent, Tree(file.parent)
     if not (pack / INDEX).exists():

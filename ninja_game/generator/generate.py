@@ -18,9 +18,9 @@ from ninja_game.generator.layouts import LAYOUTS
 from ninja_game.generator.naming import AUTHOR, name_for
 from ninja_game.generator.scene import Point, Scene
 from ninja_game.runs.run import run_level
+from ninja_game.search.certificate import UnverifiedRunError, VerifiedRun, verified_run
+from ninja_game.search.solve import Task, solve
 from ninja_game.sim.level import Level
-from ninja_game.solver.certificate import UnverifiedRunError, VerifiedRun, verified_run
-from ninja_game.solver.solve import Task, solve
 
 EASIEST, HARDEST = 1, 10
 """What may be asked for: the number that the difficulty of the level is to have, about."""

@@ -14,12 +14,11 @@ import numpy as np
 from ninja_game.batch.worlds import Numbers, make_worlds
 from ninja_game.compile_cache import choose_memory
 from ninja_game.learn.observations.part import Ragged, Setting, clamp
+from ninja_game.search.heuristics import POINTS, Heuristics, point_at
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
 from ninja_game.sim.traces import is_open
-from ninja_game.solver.distance_field import POINTS, point_at
-from ninja_game.solver.heuristics import Heuristics
 
 SPARE_FIELDS = 1024
 """Fields that are kept although no world is in their state; 53 KB each, once made."""

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.directed.formula import Formula, Numbers, parse_number, parse_truth
-from ninja_game.directed.view import FACTS, FLAGS, NAMES, id_of
 from ninja_game.errors import ArgumentError, FormatError
+from ninja_game.search.formula.language import Formula, Numbers, parse_number, parse_truth
+from ninja_game.search.formula.names import FACTS, FLAGS, NAMES, id_of
 from ninja_game.sim.kinds import DOOR, KIND_NAMES
 from ninja_game.sim.rules import EXIT_RADIUS, RADIUS
 from ninja_game.sim.states import OUTCOME_DEAD, OUTCOME_EXIT

@@ -20,7 +20,7 @@ from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.replay.text import parse_replay
 from ninja_game.runs.run import run_level
-from ninja_game.solver.certificate import replay_of, save_replay, verified_run
+from ninja_game.search.certificate import replay_of, save_replay, verified_run
 from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, running, write_records
 
 if not compiled_available():
@@ -274,7 +274,7 @@ def test_improving_keeps_name_and_author_and_says_when_nothing_was_found(tmp_pat
 
 
 def test_the_line_of_progress_fits_eighty_columns() -> None:
-    from ninja_game.solver.solve import Progress
+    from ninja_game.search.solve import Progress
 
     text = progress_text(Progress(best=99_999, worlds=2_000_000_000, ticks=10**11, seconds=9_999.0, doing="shortening"))
     assert len(text) <= 80

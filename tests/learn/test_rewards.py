@@ -14,7 +14,7 @@ from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.goal_distance import FARTHEST
 from ninja_game.learn.rewards import DeathPenalty, DistanceShaping, ExitReward, reward_terms
 from ninja_game.learn.worlds import EnvWorlds
-from ninja_game.solver.distance_field import POINTS
+from ninja_game.search.heuristics import POINTS
 from tests.support.learning import FLOOR, LEVELS, random_actions
 from tests.support.memories import BOTH
 

@@ -9,9 +9,6 @@ from pathlib import Path
 import pytest
 
 from ninja_game import runtime
-from ninja_game.directed import background
-from ninja_game.directed.background import SpanSearch
-from ninja_game.directed.span import SpanTask
 from ninja_game.editor.background import NewestJob
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.load import load_replays
@@ -20,6 +17,9 @@ from ninja_game.play.replay import film_job
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.tas import opening
 from ninja_game.play.tas.tabs import lead_tab
+from ninja_game.search.formula import background
+from ninja_game.search.formula.background import SpanSearch
+from ninja_game.search.formula.task import SpanTask
 from tests.support.level_maker import ROOM, Maker
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
@@ -112,7 +112,7 @@ def test_a_level_that_cannot_be_examined_or_certified_says_why(
     tmp_path: Path, why: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(editor_session, "level_findings", raising(why))
-    monkeypatch.setattr("ninja_game.solver.solve.solve", raising(why))
+    monkeypatch.setattr("ninja_game.search.solve.solve", raising(why))
     monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
     maker = Maker(tmp_path)
     try:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import textwrap
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -23,7 +24,7 @@ def reference(module: ModuleType) -> str:
     for name in sorted(set(module.__all__) - {"__version__"}, key=lambda name: (name.lower(), name)):
         value = getattr(module, name)
         plain = inspect.isclass(value) and issubclass(value, (NinjaGameError, int))
-        lines.append(f"`{name}{'' if plain else _signature(value)}`: {_first_line(value)}")
+        lines += _wrapped(f"`{name}{'' if plain else _signature(value)}`: {_first_line(value)}")
         lines += _members(value) if inspect.isclass(value) and not plain and not issubclass(value, Part) else []
         lines.append("")
     return "\n".join(lines)
@@ -35,8 +36,13 @@ def _members(cls: Any) -> list[str]:
     for name, member in vars(cls).items():
         if name.startswith("_") or not (inspect.isfunction(member) or isinstance(member, property)):
             continue
-        lines.append(f"- `{name}{'' if isinstance(member, property) else _signature(member)}`: {_first_line(member)}")
+        signature = "" if isinstance(member, property) else _signature(member)
+        lines += _wrapped(f"- `{name}{signature}`: {_first_line(member)}")
     return lines
+
+
+def _wrapped(text: str) -> list[str]:
+    return textwrap.wrap(text, 120, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)
 
 
 def _signature(value: Any) -> str:

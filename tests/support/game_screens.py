@@ -37,7 +37,7 @@ from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK, instead_of_ours
 
 if TYPE_CHECKING:
-    from ninja_game.solver.certificate import VerifiedRun
+    from ninja_game.search.certificate import VerifiedRun
 
 RANGE = """ninja-game level 1
 name: Target practice

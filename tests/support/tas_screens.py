@@ -11,7 +11,6 @@ from unittest.mock import Mock, patch
 import numpy as np
 import pygame
 
-from ninja_game.directed.span import Found, SpanTask
 from ninja_game.play.tas.level import paths
 from ninja_game.play.tas.level.part import LevelPart
 from ninja_game.play.tas.opening import OpeningScreen
@@ -19,6 +18,7 @@ from ninja_game.play.tas.roll.glyphs import Digits
 from ninja_game.play.tas.roll.rows import RowSheet
 from ninja_game.play.tas.tabs.lead_tab import LeadTab
 from ninja_game.play.ui.lettering import Lettering
+from ninja_game.search.formula.task import Found, SpanTask
 from tests.support.draw_log import DrawLog, Note, _at
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ninja_game.directed.span import SpanTask, SpanWorlds
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.load import load_replays
 from ninja_game.runs.splits import run_splits
+from ninja_game.search.formula.task import SpanTask, SpanWorlds
 from ninja_game.tas.files import open_run
 from ninja_game.tas.goals import PRESETS, SearchedSpan, collect, same_end
 from ninja_game.tas.session import Session

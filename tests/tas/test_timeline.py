@@ -10,13 +10,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ninja_game.batch.batch import Batch
-from ninja_game.directed.view import FLAGS, NAMES, view_of
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.runs import save_states
 from ninja_game.runs.run_trace import trace_level
 from ninja_game.runs.save_states import SaveStates
+from ninja_game.search.formula.names import FLAGS, NAMES, view_of
 from ninja_game.sim.inputs import MAX_TICKS, first_ticks, press_jumps
 from ninja_game.simulation import Simulation
 from ninja_game.tas.input_track import InputTrack

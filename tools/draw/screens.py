@@ -1,4 +1,4 @@
-"""Draw the pictures of docs/editor.md and docs/tas-editor.md from the program: `python3 tools/dev.py docs`."""
+"""Draw the pictures of docs/ that show screens of the program: `python3 tools/dev.py docs`."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from threading import Event
 
 from ninja_game.files.writing import write_atomically
 from ninja_game.generator.generate import EASIEST, HARDEST, generate
-from ninja_game.solver.solve import compile_solver
+from ninja_game.search.solve import compile_solver
 
 
 def _stop_when_late(stop: Event, until: float, _: str) -> None:

@@ -24,9 +24,9 @@ from typing import Any
 
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.solver.certificate import VerifiedRun
-from ninja_game.solver.solve import Progress, Task, compile_solver, solve
-from ninja_game.solver.task import WORK_PER_SECOND
+from ninja_game.search.certificate import VerifiedRun
+from ninja_game.search.solve import Progress, Task, compile_solver, solve
+from ninja_game.search.task import WORK_PER_SECOND
 from tools import ROOT
 
 EPISODES = ("00", "10", "20", "30", "40", "50", "60", "70", "80", "90")

@@ -22,8 +22,8 @@ from typing import Any
 
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.solver.certificate import VerifiedRun
-from ninja_game.solver.solve import Progress, Task, compile_solver, solve
+from ninja_game.search.certificate import VerifiedRun
+from ninja_game.search.solve import Progress, Task, compile_solver, solve
 from tests.support.reference import RunRow, recordings
 
 COUNT = 30

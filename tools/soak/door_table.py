@@ -16,8 +16,6 @@ from typing import Any, NamedTuple
 import numpy as np
 import pygame
 
-from ninja_game.directed.formula import parse_truth
-from ninja_game.directed.view import FACTS, SPAN_NAMES
 from ninja_game.editor import autosave
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import draft_of_text
@@ -53,6 +51,8 @@ from ninja_game.runs.recording_reader import recordings_of, records_of
 from ninja_game.runs.run_trace import RunTrace, trace_level
 from ninja_game.runs.trace import first_difference, rows, trace_digests
 from ninja_game.runs.trace_files import FiledTrace, read_csv, read_traces
+from ninja_game.search.formula.language import parse_truth
+from ninja_game.search.formula.names import FACTS, SPAN_NAMES
 from ninja_game.tas import journal
 from ninja_game.tas.files import branches_path, inputs_of_text, open_run, replay_of_track, runs_of_level
 from ninja_game.tas.session import Session

@@ -72,9 +72,10 @@ def _once(data: bytes, other: bytes, rng: random.Random) -> bytes:
 
 
 def as_text(data: bytes) -> str:
-    """Bytes as a text: halves of surrogate pairs may be in it, and what is no UTF-8 is Latin-1."""
+    """Bytes as a text: lone halves of surrogate pairs may be in it, two make a character; no UTF-8: Latin-1."""
     try:
-        return data.decode("utf-8", "surrogatepass")
+        text = data.decode("utf-8", "surrogatepass")
+        return text.encode("utf-16", "surrogatepass").decode("utf-16", "surrogatepass")
     except UnicodeDecodeError:
         return data.decode("latin-1")
 

@@ -21,8 +21,8 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
-    from ninja_game.solver.certificate import VerifiedRun
-    from ninja_game.solver.certify import Certified
+    from ninja_game.search.certificate import VerifiedRun
+    from ninja_game.search.certify import Certified
 
 
 class GoldGoals(options.GoldCount):
@@ -91,7 +91,7 @@ def command(
     """
     from ninja_game.cli.main import BAD_INPUT, complain
     from ninja_game.formats.load import load_levels
-    from ninja_game.solver.certify import Wanted, certify_all
+    from ninja_game.search.certify import Wanted, certify_all
 
     chosen = [level for path in levels for level in load_levels(path)]
     kept = list(_files(chosen, goals, replays))

@@ -45,7 +45,7 @@ def command(
     from ninja_game.errors import FileError
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.generator.generate import generate
-    from ninja_game.solver.certificate import replay_of, save_replay
+    from ninja_game.search.certificate import replay_of, save_replay
 
     for path in filter(None, (output, replay)):
         check_output(path)

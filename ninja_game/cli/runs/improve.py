@@ -11,7 +11,7 @@ from ninja_game.cli import solver_options as options
 from ninja_game.cli.run_options import choose, level_given, level_option
 
 if TYPE_CHECKING:
-    from ninja_game.solver.certificate import VerifiedRun
+    from ninja_game.search.certificate import VerifiedRun
 
 
 @click.command()
@@ -49,7 +49,7 @@ def command(
       ninja-game improve demos.txt --record 3 --seconds 300 -o shorter.replay.txt
     """
     from ninja_game.formats.load import load_replays
-    from ninja_game.solver.solve import Task, solve
+    from ninja_game.search.solve import Task, solve
 
     recordings = load_replays(replay, level=level_given(level_path))
     recording = choose(recordings, "recordings", replay, record)

@@ -12,8 +12,8 @@ from ninja_game.cli import solver_options as options
 from ninja_game.cli.run_options import InputPath, choose, level_given, level_option
 
 if TYPE_CHECKING:
-    from ninja_game.directed.span import Found, SpanTask
     from ninja_game.formats.recording import Recording
+    from ninja_game.search.formula.task import Found, SpanTask
 
 
 @click.command()
@@ -63,9 +63,9 @@ def command(
       ninja-game search run.replay.txt --from 60 --to 100 --goal 'distance(300, 200) < 12' --rest
       ninja-game search run.replay.txt --from 90 --to 102 --maximise speed --method exhaustive --every 2
     """
-    from ninja_game.directed.methods import search_span
-    from ninja_game.directed.span import SpanTask, score_in_words
     from ninja_game.formats.load import load_replays
+    from ninja_game.search.formula.methods import search_span
+    from ninja_game.search.formula.task import SpanTask, score_in_words
 
     if maximise and minimise:
         raise click.UsageError("--maximise and --minimise exclude each other")

@@ -50,7 +50,7 @@ def command(
       ninja-game solve 00-0-first-steps -o first.replay.txt
       ninja-game solve userlevels.txt --record 17 --gold all --seconds 300 -o gold.replay.txt
     """
-    from ninja_game.solver.solve import Task, solve
+    from ninja_game.search.solve import Task, solve
 
     chosen = choose_level(level, record)
     output = output or free_path(Path(), level.stem, ".replay.txt")

@@ -174,7 +174,7 @@ class EditorSession:
         if run is None or self.certifier.is_stale(self.draft.level):
             self.app.notify("Certify the level first (F7)")
             return
-        from ninja_game.solver.certificate import replay_of
+        from ninja_game.search.certificate import replay_of
 
         replay = replay_of(run, name=self.name, author="solver", level_author=self.draft.author)
         self.app.notify(keep_replay(self.app.player, replay))

@@ -53,7 +53,7 @@ COMMANDS = (
     Command("ghosts", "Other runs, on or off", ("g",)),
     Command("whole_level", "All of the level, after the wheel has zoomed", ("0", "kp_0")),
     Command("splice", "The selected ticks from the other run", ("ctrl+p",)),
-    Command("splice_here", "Replace the rest with the other run, from the tick nearest to here", ("ctrl+shift+p",)),
+    Command("splice_here", "The rest from the other run, from its nearest tick", ("ctrl+shift+p",)),
     Command("next_other", "Next other run", ("o",)),
     Command("zoom_in", "Zoom in", ("ctrl+equals", "ctrl+kp_plus")),
     Command("zoom_out", "Zoom out", ("ctrl+minus", "ctrl+kp_minus")),

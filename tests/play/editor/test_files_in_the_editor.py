@@ -81,7 +81,7 @@ def test_a_file_that_changed_meanwhile_is_not_replaced_unasked(room: Maker, tmp_
     room.chord("s", pygame.KMOD_LCTRL)
     assert isinstance(room.top(), Menu)
     assert "changed by another program" in room.top().title  # type: ignore[attr-defined]
-    room.choose("Stay")
+    room.choose("Cancel")
     assert path.read_text("utf-8").endswith("; by hand\n")
     assert not room.editor.session.is_saved
     room.chord("s", pygame.KMOD_LCTRL)
@@ -95,7 +95,7 @@ def test_leaving_asks_about_what_is_not_saved(room: Maker, tmp_path: Path) -> No
     room.press("escape")
     room.choose("Leave the editor")
     assert isinstance(room.top(), Menu)
-    room.choose("Stay")
+    room.choose("Cancel")
     assert isinstance(room.top(), EditorScreen)
     room.press("escape")
     room.choose("Leave the editor")
@@ -135,7 +135,7 @@ def test_saving_first_stays_where_it_was_not_saved(room: Maker, tmp_path: Path) 
     room.choose("Leave the editor")
     room.choose("Save")
     assert "changed by another program" in room.top().title  # type: ignore[attr-defined]
-    room.choose("Stay")
+    room.choose("Cancel")
     assert isinstance(room.top(), EditorScreen)
     room.press("escape")
     room.choose("Leave the editor")

@@ -33,8 +33,11 @@ def overlap(a: Area, b: Area) -> bool:
     return a[0] < b[0] + b[2] and b[0] < a[0] + a[2] and a[1] < b[1] + b[3] and b[1] < a[1] + a[3]
 
 
+CHOSEN = [LayoutPreferences(), LayoutPreferences(100, 99, 99), LayoutPreferences(400, 1, 1)]
+
+
 @pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("preferences", [LayoutPreferences(), LayoutPreferences(100, 99, 99), LayoutPreferences(400, 1, 1)])
+@pytest.mark.parametrize("preferences", CHOSEN)
 def test_parts_are_in_the_window_beside_each_other(size: tuple[int, int], preferences: LayoutPreferences) -> None:
     canvas = tas_canvas(size, preferences.text_scale)
     width, height = size[0] / canvas.scale, size[1] / canvas.scale

@@ -94,7 +94,7 @@ def test_it_is_saved_under_another_name_and_asks_before_it_replaces(at: TasDrive
     form.texts[0] = "taken"
     at.choose("Save")
     assert at.top().title == "There is a file taken.replay.txt already"  # type: ignore[attr-defined]
-    at.choose("Stay")
+    at.choose("Cancel")
     assert taken.read_text("utf-8") == "somebody's"
     path.write_text(path.read_text("utf-8") + "\n", "utf-8")
     at.chord("s", CTRL)
@@ -120,7 +120,7 @@ def test_leaving_asks_if_the_run_is_not_saved(at: TasDriver) -> None:
     at.press("escape")
     at.choose("Leave")
     assert isinstance(at.top(), Menu)
-    at.choose("Stay")
+    at.choose("Cancel")
     assert isinstance(at.top(), TasScreen)
     at.press("escape")
     at.choose("Leave")

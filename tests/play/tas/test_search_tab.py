@@ -10,13 +10,13 @@ import numpy as np
 import pygame
 import pytest
 
-from ninja_game.directed import background
-from ninja_game.directed.methods import fewest_ticks
-from ninja_game.directed.span import Found
 from ninja_game.play.input.scancodes import SCANCODES
 from ninja_game.play.tas.tabs import span_results
 from ninja_game.play.tas.tabs.search_tab import SearchTab
 from ninja_game.play.tas.tabs.span_results import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SpanResults
+from ninja_game.search.formula import background
+from ninja_game.search.formula.methods import fewest_ticks
+from ninja_game.search.formula.task import Found
 from ninja_game.sim.inputs import Input
 from tests.support.tas_driver import TasDriver
 from tests.support.waiting import LONGEST

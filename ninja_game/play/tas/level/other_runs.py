@@ -119,7 +119,7 @@ class OtherRunScreen(ReplaysScreen):
 
     title = "Another run of this level"
     heads = "Run", "Player", "Result", "From"
-    hint = "Enter: show it beside the run in the TAS editor"
+    hint = "Enter shows it beside the run"
 
     def __init__(self, app: App, others: OtherRuns) -> None:
         self.others = others

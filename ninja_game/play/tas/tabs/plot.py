@@ -14,7 +14,7 @@ from ninja_game.play.ui.palette import Palette
 from ninja_game.play.ui.theme import Area, Theme
 
 if TYPE_CHECKING:
-    from ninja_game.directed.formula import Numbers
+    from ninja_game.search.formula.language import Numbers
 
 SHORTEST = 10.0
 """Ticks that are shown at least."""

@@ -7,9 +7,6 @@ from functools import partial
 
 import pygame
 
-from ninja_game.directed.formula import FormulaError
-from ninja_game.directed.methods import fewest_ticks
-from ninja_game.directed.span import Found, SpanTask
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.play.menus.panels import Menu
 from ninja_game.play.tas.editor import Span, TasEditor
@@ -19,6 +16,9 @@ from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab,
 from ninja_game.play.ui.text_layout import wrapped
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button, Choice
+from ninja_game.search.formula.language import FormulaError
+from ninja_game.search.formula.methods import fewest_ticks
+from ninja_game.search.formula.task import Found, SpanTask
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.tas.goals import PRESETS, SearchedSpan, Wanted
 

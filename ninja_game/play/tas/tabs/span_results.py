@@ -8,11 +8,11 @@ from time import monotonic
 import numpy as np
 
 from ninja_game.batch.thread_pool import cores
-from ninja_game.directed.background import SpanSearch
-from ninja_game.directed.methods import KEPT
-from ninja_game.directed.span import Found, SpanTask, score_in_words
 from ninja_game.play.tas.editor import OtherRun, TasEditor
 from ninja_game.play.ui.text_layout import counted
+from ninja_game.search.formula.background import SpanSearch
+from ninja_game.search.formula.methods import KEPT
+from ninja_game.search.formula.task import Found, SpanTask, score_in_words
 from ninja_game.tas.input_track import InputTrack, first_difference
 from ninja_game.tas.timeline import Timeline
 

@@ -7,7 +7,6 @@ from typing import ClassVar
 
 import pygame
 
-from ninja_game.directed.formula import FormulaError
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.part import Part
@@ -15,6 +14,7 @@ from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button, Widget
+from ninja_game.search.formula.language import FormulaError
 
 SMALL = 9.0
 """Size of the text in lists and buttons, px."""

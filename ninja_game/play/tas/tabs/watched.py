@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ninja_game.directed.formula import Numbers
 from ninja_game.errors import NinjaGameError
+from ninja_game.search.formula.language import Numbers
 from ninja_game.tas.watch import Watch, parse_watch
 
 USUAL = ("speed", "vx", "vy")

@@ -1,0 +1,227 @@
+"""One search of one level, driven in slices of work: set up, run on, read the best run so far."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ninja_game.compile_cache import compiled
+from ninja_game.search.engine import MORE, add_root, expand, load_node
+from ninja_game.search.heuristics import POINTS, Field, Heuristics
+from ninja_game.search.macros import action_inputs
+from ninja_game.search.nodes import (
+    Entry,
+    Guide,
+    Resolution,
+    Start,
+    Words,
+    back_up_values,
+    clear,
+    new_memory,
+    new_table,
+    zeroed,
+)
+from ninja_game.search.states import MAX_SWITCH_STATES, NOT_MADE, WANTED, Goals
+
+NO_GUIDE = Guide(zeroed(Entry, 1), Resolution())
+SWEEPS = 40
+"""Most sweeps over all links that make a guide's values."""
+
+
+FieldOf = Callable[[int, float, float], Field]
+"""The field of a switch state, for a ninja at (x, y)."""
+
+
+class Leg(NamedTuple):
+    """From some moments to the next piece of gold or switch, or to the exit.
+
+    ``until``: gold at which it ends, as where what is open differs from ``mask``; 0: only at the exit, with ``gold``
+    pieces at least; ``ends``: how many are enough, ``rollouts``: tries to survive there;
+    ``field``: what makes the fields; ``wanted``: switches of which one must have been touched there, but for a few
+    ends (0: any).
+    """
+
+    roots: Sequence[Words]
+    until: int
+    mask: int
+    gold: int
+    ends: int
+    rollouts: int
+    field: FieldOf
+    wanted: int = 0
+
+
+class End(NamedTuple):
+    """A moment at which a leg has ended: from which root, by which inputs, its state, ticks, gold (a bit a piece).
+
+    ``mask``: what is open, ``place``: where the ninja is (px), ``routines``: what
+    the enemies do.
+    """
+
+    root: int
+    inputs: bytes
+    words: Words
+    tick: int
+    taken: int
+    mask: int
+    place: tuple[float, float]
+    routines: bytes
+    pace: bytes
+
+
+class Search:
+    """Best-first searches of a level, one after the other, in memory for so many ``nodes``."""
+
+    def __init__(self, start: Start, heuristics: Heuristics, *, nodes: int) -> None:
+        self.start = start
+        self.heuristics = heuristics
+        self.goals = Goals(
+            gold=0,
+            leg=0,
+            mask=0,
+            wanted=0,
+            ends=1,
+            rollouts=0,
+            gold_slots=heuristics.gold_slots,
+            enemies=heuristics.enemies,
+            switch_slots=heuristics.slots,
+            masks=np.full(MAX_SWITCH_STATES, -1, np.int64),
+            places=np.zeros((MAX_SWITCH_STATES, 2)),
+            fields=np.zeros((MAX_SWITCH_STATES, POINTS), np.float32),
+        )
+        self.goals.fields[:, 0] = NOT_MADE
+        self.resolution = Resolution()
+        self.memory = new_memory(nodes)
+        self.counters = self.memory.counters[0]
+        self.guide = NO_GUIDE
+        self._nodes = nodes
+        self._other_table: Any = None
+        self._field: FieldOf = heuristics.field
+
+    def begin(self, resolution: Resolution, *, seed: int, bound: int, guided: bool = False) -> None:
+        """Begin a new search from the start to the exit. ``bound``: only runs of fewer ticks count (0: any).
+
+        ``guided``: by what the last search has learned; otherwise that is forgotten.
+        """
+        self.guide = self._learned() if guided else NO_GUIDE
+        self._begin([self.start.base], resolution, seed, bound)
+
+    def begin_leg(self, leg: Leg, resolution: Resolution, *, seed: int, bound: int) -> None:
+        """Begin a new search from other moments to another goal; ``bound`` as for ``begin``."""
+        self.guide = NO_GUIDE
+        self.goals = self.goals._replace(
+            gold=leg.gold, leg=leg.until, mask=leg.mask, wanted=leg.wanted, ends=leg.ends, rollouts=leg.rollouts
+        )
+        self.goals.fields[:, 0] = NOT_MADE
+        self._field = leg.field
+        self._begin(leg.roots, resolution, seed, bound)
+
+    def _begin(self, roots: Sequence[Words], resolution: Resolution, seed: int, bound: int) -> None:
+        clear(self.memory)
+        random = np.random.default_rng([seed, 6])
+        shifts = random.random(2) * resolution.cell
+        speed_shifts = resolution.speed * 0.5 + random.random(2) * resolution.speed * 0.5
+        self.resolution = resolution._replace(
+            shift_x=float(shifts[0]),
+            shift_y=float(shifts[1]),
+            shift_vx=float(speed_shifts[0]),
+            shift_vy=float(speed_shifts[1]),
+        )
+        self.counters.best_ticks = bound
+        self.counters.random = int(random.integers(1, 1 << 62))
+        for words in roots:
+            self.start.work_words[:] = words
+            compiled(add_root)(self.start, self.memory, self.goals, self.resolution)
+        self._fill_fields()
+
+    def _learned(self) -> Guide:
+        """The table of the search just made, with its values; the next search gets the other table."""
+        table = self.memory.table
+        compiled(back_up_values)(table, self.memory.links, int(self.counters.links), SWEEPS)
+        other = new_table(self._nodes) if self._other_table is None else self._other_table
+        other[:] = 0
+        self.memory = self.memory._replace(table=other)
+        self._other_table = table
+        return Guide(table, self.resolution)
+
+    def run(self, budget: int) -> int:
+        """Search on for about ``budget`` ticks; MORE, EXHAUSTED or NO_ROOM."""
+        end = self.ticks + budget
+        while self.ticks < end:
+            left = end - self.ticks
+            ended = compiled(expand)(self.start, self.memory, self.goals, self.guide, self.resolution, left)
+            if self.counters.wanted_fields:
+                self._fill_fields()
+            elif ended != MORE or self._enough_ends:
+                return int(ended)
+        return MORE
+
+    def run_leg(self, budget: int, over: Callable[[int], bool], *, part: int, least: int = 0) -> None:
+        """Run a leg's search for at most so many ticks, in parts; ``over`` is told the ticks of each, and may end it.
+
+        From the first end or run to the exit on it goes on only as long again, or up to ``least`` ticks.
+        """
+        stop = budget
+        while self.ticks < stop:
+            before = self.ticks
+            self.run(min(part, stop - before))
+            if over(self.ticks - before) or self.ticks == before or self._enough_ends:
+                return
+            if self.counters.ends > self.counters.others or self.counters.best_node >= 0:
+                stop = min(stop, max(2 * self.ticks, least)) if stop == budget else stop
+
+    @property
+    def _enough_ends(self) -> bool:
+        return bool(self.counters.ends - self.counters.others >= self.goals.ends)
+
+    def _fill_fields(self) -> None:
+        """Make the distance fields that the search wants."""
+        goals = self.goals
+        for index in np.flatnonzero(goals.fields[:, 0] == WANTED):
+            x, y = goals.places[index]
+            goals.fields[index] = self._field(int(goals.masks[index]), float(x), float(y))
+        self.counters.wanted_fields = 0
+
+    def ends(self) -> list[End]:
+        """The moments at which the leg has ended so far."""
+        found = []
+        for index in self.memory.ends[: int(self.counters.ends)].tolist():
+            compiled(load_node)(self.start, self.memory, index)
+            root, inputs = self._path(index)
+            words = self.start.work_words.copy()
+            world = self.start.worlds[1]
+            place = (float(world["ninja"]["x"]), float(world["ninja"]["y"]))
+            mask = int(self.goals.masks[self.memory.nodes[index].switch_state])
+            taken, routines = self.heuristics.taken(world), self.heuristics.routines(world)
+            ninja = world["ninja"]
+            moved = (float(ninja["x"] - ninja["prev_x"]) / 1.5, float(ninja["y"] - ninja["prev_y"]) / 1.5)
+            pace = bytes(128 + max(-100, min(100, round(part))) for part in moved)
+            found.append(End(root, inputs, words, int(world["tick"]), taken, mask, place, routines, pace))
+        return found
+
+    def _path(self, index: int) -> tuple[int, bytes]:
+        """From which root a node comes, and the inputs from there, one byte a tick."""
+        nodes: Any = self.memory.nodes
+        parents, actions = nodes["parent"], nodes["action"]
+        parts = []
+        while parents[index] >= 0:
+            parts.append(action_inputs(int(actions[index])))
+            index = int(parents[index])
+        return index, b"".join(reversed(parts))
+
+    @property
+    def ticks(self) -> int:
+        """Ticks simulated since ``begin``."""
+        return int(self.counters.ticks)
+
+    @property
+    def worlds(self) -> int:
+        """Save-states expanded since ``begin``."""
+        return int(self.counters.expanded)
+
+    def best(self) -> tuple[int, bytes] | None:
+        """The shortest run to the exit that this search has found: the root it begins at, its inputs; None if none."""
+        index = int(self.counters.best_node)
+        return self._path(index) if index >= 0 else None

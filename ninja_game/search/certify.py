@@ -1,0 +1,160 @@
+"""Certify levels: runs that are known and still right are kept, others are searched, better ones are written."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from threading import Event
+from typing import Any
+
+from ninja_game.errors import NinjaGameError
+from ninja_game.files.reading import read_text
+from ninja_game.files.tree import Tree
+from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.formats.named_level import NamedLevel
+from ninja_game.formats.recording import parse_replays
+from ninja_game.formats.replay.text import write_replay
+from ninja_game.search.certificate import UnverifiedRunError, VerifiedRun, replay_of, verified_run
+from ninja_game.search.solve import Progress, Task, solve
+from ninja_game.sim.kinds import GOLD
+
+AUTHOR = "ninja-game check"
+
+
+@dataclass(frozen=True)
+class Certified:
+    """What is known of a goal of a level: the best run, None if there is none, and how it came about.
+
+    ``gold``: pieces that the run had to collect; ``how``: "kept" (it was there), "found", "shortened", or "not found";
+    ``progress``: where the search stood at its end, None where there was none.
+    """
+
+    run: VerifiedRun | None
+    gold: int
+    how: str
+    progress: Progress | None = None
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is to be certified: the gold of each goal (-1: all), by its name.
+
+    ``task``: what a ``Task`` is made with, for any level; ``improve``: also runs that are kept are shortened.
+    """
+
+    goals: Mapping[str, int]
+    task: Mapping[str, Any]
+    improve: bool = False
+
+
+def certify_all(
+    levels: Sequence[NamedLevel],
+    files: Sequence[Mapping[str, Path]],
+    wanted: Wanted,
+    *,
+    jobs: int,
+    report: Callable[[str, Progress], None],
+) -> Iterator[dict[str, Certified] | NinjaGameError]:
+    """Certify levels, ``jobs`` at a time; by level, in order, what was found by goal, or what was wrong.
+
+    ``files``: by level, where the runs of its goals are kept (empty: nowhere); ``report`` gets a level's name.
+    """
+    stop = Event()
+    threads = max(1, jobs // max(1, len(levels)))
+    wanted = replace(wanted, task={**wanted.task, "jobs": threads})
+    with ThreadPoolExecutor(jobs) as pool:
+        waiting: list[Future[dict[str, Certified]]] = []
+        try:
+            for level, where in zip(levels, files, strict=True):
+                shown = partial(report, Path(level.file).stem)
+                waiting.append(pool.submit(_certify, level, where, wanted, shown, stop))
+            for future in waiting:
+                try:
+                    yield future.result()
+                except NinjaGameError as error:
+                    yield error
+        finally:
+            stop.set()
+            pool.shutdown(cancel_futures=True)
+
+
+def _certify(
+    level: NamedLevel, where: Mapping[str, Path], wanted: Wanted, report: Callable[[Progress], None], stop: Event
+) -> dict[str, Certified]:
+    """Certify a level: one goal after the other; a run that serves another goal better is its run too."""
+    found: dict[str, Certified] = {}
+    there = sum(record.kind == GOLD for record in level.level.objects)
+    amounts = {name: there if gold < 0 else gold for name, gold in wanted.goals.items()}
+    for name, gold in amounts.items():
+        task = Task(level.level, gold=gold, **wanted.task)
+        kept = kept_run(level, where[name], task) if where else None
+        found[name] = _certify_goal(level, where.get(name), task, kept, found, report, stop, wanted.improve)
+    for name, other in [(name, other) for name in found for other in found if name != other]:
+        run, best = found[other].run, found[name].run
+        if run and run.gold >= amounts[name] and (not best or run.end_tick < best.end_tick):
+            found[name] = replace(found[name], run=run, how="found")
+            _write(level, where.get(name), run)
+    return found
+
+
+def _certify_goal(
+    level: NamedLevel, path: Path | None, task: Task, kept: tuple[VerifiedRun, bool] | None,
+    others: Mapping[str, Certified], report: Callable[[Progress], None], stop: Event, improve: bool,
+) -> Certified:  # fmt: skip
+    """The best run for a goal: the kept one, one found for another goal, or one that is searched now."""
+    run, of_this_level = kept or (None, False)
+    if run and of_this_level and not improve:
+        return Certified(run, task.gold, "kept")
+    for other in others.values():
+        if other.run and other.run.gold >= task.gold and (not run or other.run.end_tick < run.end_tick):
+            _write(level, path, other.run)
+            return Certified(other.run, task.gold, other.how)
+    last: list[Progress] = []
+
+    def remember(progress: Progress) -> None:
+        last[:] = [progress]
+        report(progress)
+
+    def keep(better: VerifiedRun) -> None:
+        if not (run and of_this_level and better.end_tick >= run.end_tick):
+            _write(level, path, better)
+
+    if run and of_this_level:
+        task = replace(task, first=run.inputs, first_only=False)
+    best = None
+    # A run that no keyboard makes is kept as it is.
+    with suppress(UnverifiedRunError):
+        best = solve(task, report=remember, on_better=keep, stop=stop)
+    if run and (not best or run.end_tick <= best.end_tick):
+        if not of_this_level:
+            _write(level, path, run)
+        return Certified(run, task.gold, "kept", *last)
+    how = "not found" if not best else "shortened" if run else "found"
+    return Certified(best, task.gold, how, *last)
+
+
+def kept_run(level: NamedLevel, path: Path, task: Task) -> tuple[VerifiedRun, bool] | None:
+    """A replay's run, if it still does on a level what is wanted, and whether it was made on just this level.
+
+    None if the file is missing, or if its run does not pass this level any more. Raises NinjaGameError for a file that
+    is no replay.
+    """
+    if not path.exists():
+        return None
+    recordings = parse_replays(read_text(path), file=str(path), level=level.level)
+    inputs = recordings[0].playback(recordings[0].ticks)
+    same = level_digest(recordings[0].level) == level_digest(level.level) and recordings[0].body == task.body
+    try:
+        return verified_run(level.level, inputs, body=task.body, gold=task.gold), same
+    except UnverifiedRunError:
+        return None
+
+
+def _write(level: NamedLevel, path: Path | None, run: VerifiedRun) -> None:
+    if path:
+        replay = replay_of(run, name=level.name, author=AUTHOR, level_author=level.author)
+        Tree(path.parent).write(path.name, write_replay(replay))

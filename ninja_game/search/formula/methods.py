@@ -1,0 +1,210 @@
+"""Ways to search a span: small changes of its keys, beams of the most promising states, all keys there are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.batch.batch import Batch
+from ninja_game.compile_cache import compiled
+from ninja_game.errors import ArgumentError
+from ninja_game.search.formula.task import Found, Keys, Report, SpanTask, SpanWorlds, Trials
+from ninja_game.search.local_search import mutate
+from ninja_game.search.nodes import RandomState, random_below, zeroed
+from ninja_game.sim.memory.declare import entry_point
+
+METHODS = ("local", "beam", "exhaustive")
+
+WORLDS = 1024
+"""Worlds that are tried at once."""
+KEPT = 8
+"""Results that are kept."""
+ACTIONS = np.array([0, 1, 2, 4, 5, 6], np.uint8)
+"""Left, right or neither, with and without jump."""
+STEPS = (4, 6, 3, 8, 2, 12, 1)
+"""Ticks between two choices of a beam, in turn."""
+MOST_ENDS = 2_000_000
+"""Ends of a span up to which all are tried."""
+
+
+@entry_point
+def mutate_rows(rows: Keys, length: int, source: list[RandomState]) -> None:
+    """Change each row of keys by one or more small edits."""
+    for index in range(len(rows)):
+        row = rows[index]
+        mutate(row, length, random_below(source[0], length), source[0])
+        while random_below(source[0], 2):
+            mutate(row, length, random_below(source[0], length), source[0])
+
+
+def _chance_for_kernels(seed: int) -> list[RandomState]:
+    source: list[RandomState] = zeroed(RandomState, 1)
+    source[0].random = seed
+    return source
+
+
+class Results:
+    """The best keys so far, different ones, and whom to tell of them."""
+
+    def __init__(self, worlds: SpanWorlds, report: Report) -> None:
+        self.worlds = worlds
+        self.best: tuple[Found, ...] = ()
+        self.going = True
+        self._report = report
+
+    def try_all(self, keys: Keys) -> Trials:
+        """Try keys, (ticks, worlds), and keep what is good; ``going`` is then whether to go on."""
+        trials = self.worlds.try_all(keys)
+        for index in trials.order[:KEPT]:
+            if not np.isfinite(trials.scores[index]):
+                break
+            found = self.worlds.found(trials, int(index), keys[:, index])
+            if any(np.array_equal(found.keys[: found.ticks], old.keys[: old.ticks]) for old in self.best):
+                continue
+            self.best = tuple(sorted([*self.best, found])[:KEPT])
+        self.tell()
+        return trials
+
+    def tell(self) -> None:
+        """Report how it stands."""
+        self.going = self._report(self.worlds.ticks_run, self.best)
+
+
+def search_span(
+    task: SpanTask, report: Report, *, method: str = "auto", every: int = 1, seed: int = 1, memory: str = "auto",
+    threads: int | None = None,
+) -> tuple[Found, ...]:  # fmt: skip
+    """The best keys that were found, best first, at most KEPT; none where nothing reached the goal.
+
+    ``method``: one of METHODS, or "auto": a beam, then small changes of what it found, again and again. ``every``: for
+    "exhaustive", how many ticks each choice of keys holds. ``report`` is called first when all is compiled. The search
+    goes on until it gives False; "exhaustive" ends when all is tried. The same seed does the same work in the same
+    order. Raises ArgumentError for a span with too many ways through it, and what SpanTask does.
+    """
+    if method == "exhaustive":
+        count_ways(task, every)
+    worlds = SpanWorlds(task, WORLDS, memory=memory, threads=threads)
+    mutated = compiled(mutate_rows) if worlds.batch.memory == "compiled" else mutate_rows
+    mutated(np.zeros((1, 1), np.uint8), 1, _chance_for_kernels(1))
+    results = Results(worlds, report)
+    chance = np.random.default_rng(seed)
+    results.try_all(np.tile(task.base[:, np.newaxis], (1, WORLDS)))
+    if method == "exhaustive":
+        exhaust(task, every, results)
+    turn = 0
+    while results.going and method != "exhaustive":
+        if method != "local":
+            beam(task, STEPS[turn % len(STEPS)], results, chance, noise=0.1 * (turn // len(STEPS)))
+        if method != "beam":
+            change(task, mutated, results, chance, rounds=40)
+        turn += 1
+    return results.best
+
+
+def count_ways(task: SpanTask, every: int) -> int:
+    """How many ways there are through a span. Raises ArgumentError for too many, with how many there may be."""
+    choices = -(-task.length // every)
+    if len(ACTIONS) ** choices > MOST_ENDS:
+        few = fewest_ticks(task.length)
+        what = f"{task.length} ticks with a choice every {every} have over {MOST_ENDS:,} ways through"
+        raise ArgumentError(f"{what}; a choice every {few} ticks has few enough")
+    return int(len(ACTIONS) ** choices)
+
+
+def exhaust(task: SpanTask, every: int, results: Results) -> None:
+    """Try all keys that change every so many ticks."""
+    ways, choices = count_ways(task, every), -(-task.length // every)
+    weights = len(ACTIONS) ** np.arange(choices)[:, np.newaxis]
+    for first in range(0, ways, WORLDS):
+        numbers = np.arange(first, first + WORLDS) % ways
+        digits = numbers // weights % len(ACTIONS)
+        results.try_all(np.repeat(ACTIONS[digits], every, axis=0)[: task.length])
+        if not results.going:
+            return
+
+
+def change(
+    task: SpanTask, mutated: Callable[..., None], results: Results, chance: np.random.Generator, rounds: int
+) -> None:
+    """Change keys a little, many ways at once, and go on from the best of them."""
+    source = _chance_for_kernels(int(chance.integers(1, 1 << 62)))
+    chosen = results.best[int(chance.integers(len(results.best)))].keys if results.best else task.base
+    current, standing = chosen.copy(), (np.inf, np.inf)
+    for _ in range(rounds):
+        rows = np.tile(current, (WORLDS, 1))
+        mutated(rows[1:], task.length, source)
+        trials = results.try_all(rows.T.copy())
+        best = int(trials.order[0])
+        reached = (float(trials.scores[best]), -float(trials.margins[best]))
+        if reached <= standing:
+            # What is as good is taken too, so that the search does not stand still.
+            others = np.flatnonzero((trials.scores == reached[0]) & (-trials.margins == reached[1]))
+            current, standing = rows[int(chance.choice(others))].copy(), reached
+        if not results.going:
+            return
+
+
+def beam(task: SpanTask, step: int, results: Results, chance: np.random.Generator, noise: float) -> None:
+    """Go through the span in steps of so many ticks, all actions at each, and keep the most promising states only."""
+    worlds, batch = results.worlds, results.worlds.batch
+    batch.restore(worlds.start)
+    survivors = np.zeros(1, np.intp)
+    keys = np.zeros((task.length, batch.count), np.uint8)
+    found: list[Keys] = []
+    for tick in range(0, task.length, step):
+        parents = np.repeat(survivors, len(ACTIONS))[: batch.count]
+        chosen = np.tile(ACTIONS, len(survivors))[: len(parents)]
+        used = np.arange(len(parents))
+        batch.copy(parents, used)
+        keys[:, used] = keys[:, parents]
+        ticks = min(step, task.length - tick)
+        keys[tick : tick + ticks, used] = chosen
+        margin = score = np.zeros(0)
+        for each in range(ticks):
+            batch.run(keys[np.newaxis, tick + each], stop=True, press=True)
+            worlds.ticks_run += len(used)
+            at_goal, margin, score = worlds.measured()
+            for index in np.flatnonzero(at_goal[used])[:KEPT]:
+                ended = keys[:, index].copy()
+                ended[tick + each + 1 :] = 0
+                found.append(ended)
+        promising = (margin if worlds.measure is None else -score) * chance.normal(1.0, noise, len(margin))
+        alive = used[batch.outcomes[used] == 0]
+        halves = [alive[np.argsort(-each[alive], kind="stable")] for each in (margin, promising)]
+        survivors = _different(batch, halves, batch.count // len(ACTIONS))
+        if not len(survivors) or not results.going:
+            break
+    if found:
+        picked = [found[int(index)] for index in chance.permutation(len(found))[:WORLDS]]
+        picked[:KEPT] = found[-KEPT:]
+        results.try_all(np.stack((picked * (WORLDS // len(picked) + 1))[:WORLDS], axis=1))
+    else:
+        results.tell()
+
+
+def _different(batch: Batch, orders: list[NDArray[np.intp]], most: int) -> NDArray[np.intp]:
+    """The first worlds of some orders, by turns, that are not in about the same state."""
+    velocity = batch.velocities()
+    in_air = batch.records["ninja"]["in_air"]
+    cells = np.column_stack([np.floor(batch.positions / 4), np.floor(velocity * 4), batch.states, batch.gold, in_air])
+    seen: set[bytes] = set()
+    chosen = []
+    for index in np.column_stack(orders).ravel().tolist() if orders[0].size else ():
+        cell = cells[index].tobytes()
+        if cell not in seen:
+            seen.add(cell)
+            chosen.append(index)
+            if len(chosen) == most:
+                break
+    return np.array(chosen, np.intp)
+
+
+def fewest_ticks(length: int) -> int:
+    """How many ticks each choice of keys must hold so that all ways through a span can be tried.
+
+    >>> fewest_ticks(8), fewest_ticks(40)
+    (1, 5)
+    """
+    return next(each for each in range(1, length + 1) if len(ACTIONS) ** -(-length // each) <= MOST_ENDS)

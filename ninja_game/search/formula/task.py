@@ -1,0 +1,215 @@
+"""What is searched in a span of a run, and how keys for it are tried: many at once, tick by tick."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.batch.batch import Batch
+from ninja_game.errors import ArgumentError
+from ninja_game.search.formula.language import Formula, FormulaError, Numbers, parse_number, parse_truth
+from ninja_game.search.formula.names import FACTS, SPAN_NAMES, difference_from, view_of
+from ninja_game.sim.inputs import KEYS_DOWN, press_jumps
+from ninja_game.sim.level import Level
+from ninja_game.simulation import Body
+
+Keys = NDArray[np.uint8]
+"""Keys that are down, a sum of left, right and jump."""
+
+LONGEST = 4000
+"""Ticks of a span."""
+
+
+@dataclass(frozen=True)
+class SpanTask:
+    """Other keys for the ticks ``first`` … ``last`` - 1 of a run, so that the goal is reached, and the measure is best.
+
+    ``inputs``: the run, a byte a tick. ``goal``: a formula that must be true after one of these ticks; "": after the
+    last one, whatever it is. ``measure``: a formula that is to be as great as possible at that moment, or, with
+    ``least``, as small; "": the goal is to be reached as early as possible. ``rest``: from that moment on is played
+    what follows in the run after its own first moment at the goal (or after the span, if it has none there); the
+    exit must still be reached, as early as possible.
+
+    Raises FormulaError for a broken formula, ArgumentError for a span that is not in the run.
+    """
+
+    level: Level
+    inputs: bytes
+    first: int
+    last: int
+    goal: str = ""
+    measure: str = ""
+    least: bool = False
+    rest: bool = False
+    body: Body = "circle"
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.first < self.last <= self.first + LONGEST:
+            expected = f"expected a later tick, at most {LONGEST} later"
+            raise ArgumentError(f"a span from tick {self.first} to {self.last}; {expected}")
+        if self.first > len(self.inputs):
+            raise ArgumentError(f"the span begins in tick {self.first}, the run ends in tick {len(self.inputs) - 1}")
+        if self.rest and self.measure:
+            raise ArgumentError("with the rest of the run its length is the measure; leave the other one out")
+
+    @property
+    def length(self) -> int:
+        """Ticks of the span."""
+        return self.last - self.first
+
+    @property
+    def base(self) -> Keys:
+        """The keys that the run has there."""
+        given = np.frombuffer(self.inputs[self.first : self.last], np.uint8) & KEYS_DOWN
+        return np.pad(given, (0, self.length - len(given)))
+
+    def formulas(self) -> tuple[Formula, Formula | None]:
+        """Goal and measure. Raises FormulaError, which says in which of them."""
+        what = "goal"
+        try:
+            goal = parse_truth(self.goal or f"tick >= {self.last - 1}", SPAN_NAMES, FACTS)
+            what = "measure"
+            return goal, parse_number(self.measure, SPAN_NAMES, FACTS) if self.measure else None
+        except FormulaError as error:
+            error.file = what
+            raise
+
+
+@dataclass(order=True)
+class Found:
+    """Keys that reach the goal; the smaller, the better.
+
+    ``score``: minus the measure (or the measure, for ``least``), or the ticks to the goal or to the exit; ``ticks``: of
+    the span, up to the goal; ``inputs``: the whole run with them, up to the goal or to its end; ``gold``: pieces that
+    it has in the end; ``end``: x, y (px), vx, vy (px/tick) at the goal.
+    """
+
+    score: float
+    ticks: int
+    keys: Keys = field(compare=False, repr=False)
+    inputs: bytes = field(compare=False, repr=False, default=b"")
+    gold: int = field(compare=False, default=0)
+    end: tuple[float, ...] = field(compare=False, default=(0.0,) * 4)
+
+
+def score_in_words(task: SpanTask, found: Found) -> str:
+    """What keys bring."""
+    last = task.first + found.ticks - 1
+    if task.rest:
+        return f"exit in tick {found.score - 1:.0f}"
+    if task.measure:
+        return f"{task.measure} is {found.score if task.least else -found.score:.6g} after tick {last}"
+    return f"goal after tick {last}"
+
+
+@dataclass
+class Trials:
+    """What came of many keys: of each its score (infinite: no goal), its ticks to it, its best margin on the way.
+
+    ``ends``: x, y (px), vx, vy (px/tick) at the goal.
+    """
+
+    scores: Numbers
+    ticks: NDArray[np.int64]
+    margins: Numbers
+    ends: Numbers
+
+    @property
+    def order(self) -> NDArray[np.intp]:
+        """The trials, best first: those that reach the goal by score, then the others by margin."""
+        return np.lexsort((-self.margins, self.scores))
+
+
+class SpanWorlds:
+    """Many worlds at the start of a span."""
+
+    def __init__(self, task: SpanTask, count: int, *, memory: str = "auto", threads: int | None = None) -> None:
+        self.task = task
+        self.batch = Batch(task.level, count, body=task.body, memory=memory, threads=threads)
+        self.view = {
+            **view_of(self.batch), "difference": difference_from(task.level, task.inputs, self.batch)
+        }  # fmt: skip
+        self.goal, self.measure = task.formulas()
+        before = np.frombuffer(task.inputs[: task.first], np.uint8)
+        single = Batch(task.level, 1, body=task.body, memory=memory)
+        single.run(before[:, np.newaxis], stop=True)
+        if single.outcomes[0]:
+            raise ArgumentError(f"the run is over before tick {task.first}")
+        self.start = single.save([0] * count)
+        self.batch.restore(self.start)
+        self.ticks_run = task.first
+        own = int(self._try(np.tile(task.base[:, np.newaxis], (1, count))).ticks[0]) if task.rest and task.goal else 0
+        self.rest = np.frombuffer(task.inputs[task.first + own if own else task.last :], np.uint8) & KEYS_DOWN
+
+    def measured(self) -> tuple[NDArray[np.bool_], Numbers, Numbers]:
+        """Of all worlds now: whether they are at the goal, their margin, their score."""
+        with np.errstate(all="ignore"):
+            at_goal = np.broadcast_to(self.goal.value(self.view) > 0, (self.batch.count,))
+            margin = np.nan_to_num(np.broadcast_to(self.goal.margin(self.view), at_goal.shape), nan=-np.inf)
+            if self.measure is None:
+                score = self.batch.ticks.astype(float)
+            else:
+                value = np.broadcast_to(self.measure.value(self.view), at_goal.shape)
+                # What has no value, such as 1 / 0, is no result.
+                score = np.where(np.isfinite(value), value if self.task.least else -value, np.inf)
+        return at_goal, margin, score
+
+    def found(self, trials: Trials, index: int, keys: Keys) -> Found:
+        """One of the trials, with its keys."""
+        ticks = int(trials.ticks[index])
+        rest = self.rest.tolist() if self.task.rest else []
+        gold = int(self.batch.gold[index])
+        run = press_jumps([*self.task.inputs[: self.task.first], *keys[:ticks].tolist(), *rest])
+        return Found(float(trials.scores[index]), ticks, keys.copy(), run, gold, tuple(trials.ends[index].tolist()))
+
+    def try_all(self, keys: Keys) -> Trials:
+        """Play keys, (ticks of the span, worlds), from the start of the span."""
+        trials = self._try(keys)
+        if self.task.rest:
+            self._play_rest(keys, trials)
+        return trials
+
+    def _try(self, keys: Keys) -> Trials:
+        """What comes of keys in the span itself."""
+        batch, count = self.batch, self.batch.count
+        batch.restore(self.start)
+        trials = Trials(
+            np.full(count, np.inf), np.zeros(count, np.int64), np.full(count, -np.inf), np.zeros((count, 4))
+        )
+        for tick in range(self.task.length):
+            batch.run(keys[np.newaxis, tick], stop=True, press=True)
+            at_goal, margin, score = self.measured()
+            np.maximum(trials.margins, margin, out=trials.margins)
+            better = at_goal & (score < trials.scores)
+            trials.scores[better] = score[better]
+            trials.ticks[better] = tick + 1
+            if better.any():
+                trials.ends[better] = np.column_stack([batch.positions[better], batch.velocities()[better]])
+            if self.measure is None and (trials.ticks > 0).all():
+                break
+        self.ticks_run += self.task.length * count
+        return trials
+
+    def _play_rest(self, keys: Keys, trials: Trials) -> None:
+        """Play on with what follows in the run; the score becomes the tick of the exit."""
+        batch, task = self.batch, self.task
+        batch.restore(self.start)
+        following = self.rest
+        total = task.length + len(following)
+        padded = np.vstack([keys, np.zeros((len(following), batch.count), np.uint8)])
+        # Each world goes on with the rest as soon as it has reached the goal.
+        when = np.arange(total)[:, np.newaxis] - trials.ticks
+        reached = trials.ticks > 0
+        rest = np.append(following, 0)[np.clip(when, 0, len(following))]
+        played = np.where((when >= 0) & reached, rest, padded).astype(np.uint8)
+        self.ticks_run += batch.run(played, stop=True, press=True)
+        passed = (batch.outcomes == 1) & reached
+        trials.scores[:] = np.where(passed, batch.ticks, np.inf)
+        trials.margins[:] = np.where(reached & ~passed, 0.0, trials.margins)
+
+
+Report = Callable[[int, tuple[Found, ...]], bool]
+"""Told the ticks run so far and the best results so far, best first; False ends the search."""

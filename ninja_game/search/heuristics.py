@@ -1,0 +1,349 @@
+"""How far it is to a place, in ticks, from anywhere in a level: a shortest-path field over points 6 px apart.
+
+The field knows walls, mines, doors and the sides of one-way platforms, but nothing of gravity or jumps: it is a
+guide, optimistic on the whole, not a promise.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.compile_cache import fastest
+from ninja_game.sim import kinds
+from ninja_game.sim.collision.rays import solid_at
+from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.layout import Records
+from ninja_game.sim.rules import STRIDE
+from ninja_game.sim.states import AUTOMATIC, LOCKED
+
+SPACING = 6.0
+"""Px between points; cell sides (multiples of 24 px) lie on points, so that closing them closes a door."""
+ACROSS = 133
+DOWN = 101
+POINTS = ACROSS * DOWN
+
+CLEARANCE = 9.0
+"""Px; a point is free if a circle of this radius about it is. A little less than the ninja, which slides along."""
+
+UNREACHED = 1.0e9
+MINE_COST = 12.0
+"""How many times longer a step beside a mine counts: to be avoided, not impossible."""
+
+RING_X = [1.0, 0.866, 0.5, 0.0, -0.5, -0.866, -1.0, -0.866, -0.5, 0.0, 0.5, 0.866]
+RING_Y = [0.0, 0.5, 0.866, 1.0, 0.866, 0.5, 0.0, -0.5, -0.866, -1.0, -0.866, -0.5]
+
+# Moves to the eight neighbours and what they cost (ticks): running and falling are faster than climbing.
+MOVE_X = [1, 1, 0, -1, -1, -1, 0, 1]
+MOVE_Y = [0, 1, 1, 1, 0, -1, -1, -1]
+MOVE_TICKS = [1.45, 1.85, 1.2, 1.85, 1.45, 2.3, 1.9, 2.3]
+
+Field = NDArray[np.float32]
+Costs = NDArray[np.float32]
+Blocks = NDArray[np.uint8]
+
+
+@entry_point
+def free_points(levels: Any, costs: Costs) -> None:
+    """Set the cost factor of every point: 1 where the ninja fits among the tiles, 0 where it does not."""
+    level = levels[0]
+    for point in range(POINTS):
+        x = SPACING * (point % ACROSS)
+        y = SPACING * (point // ACROSS)
+        free = 24.0 < x < 768.0 and 24.0 < y < 576.0 and not solid_at(level, x, y)
+        if free:
+            for k in range(12):
+                if solid_at(level, x + CLEARANCE * RING_X[k], y + CLEARANCE * RING_Y[k]):
+                    free = False
+                    break
+        costs[point] = 1.0 if free else 0.0
+
+
+@entry_point
+def spread(costs: Costs, blocked: Blocks, field: Field, queue: NDArray[np.int32], waiting: Blocks) -> None:
+    """Lower ``field`` (ticks, UNREACHED where unknown) to the shortest way to the points that are set already.
+
+    ``costs``: factor of a step onto a point, 0: impassable. ``blocked``: bit k of a point forbids its move k.
+    ``queue``: room for POINTS + 1 indices.
+    """
+    room = POINTS + 1
+    head = 0
+    tail = 0
+    for point in range(POINTS):
+        waiting[point] = 0
+        if field[point] < UNREACHED:
+            queue[tail] = point
+            tail += 1
+            waiting[point] = 1
+    while head != tail:
+        point = queue[head]
+        head = (head + 1) % room
+        waiting[point] = 0
+        column = point % ACROSS
+        row = point // ACROSS
+        for k in range(8):
+            # The field spreads against the move: from where the move ends to where it starts.
+            i = column - MOVE_X[k]
+            j = row - MOVE_Y[k]
+            if not (0 <= i < ACROSS and 0 <= j < DOWN):
+                continue
+            start = j * ACROSS + i
+            if costs[start] == 0.0 or (blocked[start] >> k) & 1:
+                continue
+            value = np.float32(float(field[point]) + MOVE_TICKS[k] * float(costs[start]))
+            if value < field[start] - np.float32(1e-3):
+                field[start] = value
+                if not waiting[start]:
+                    waiting[start] = 1
+                    queue[tail] = start
+                    tail = (tail + 1) % room
+
+
+@fast
+def point_at(x: float, y: float) -> int:
+    """Index of the point nearest to a place; places outside the world count as at its rim."""
+    i = int((x + 3.0) / SPACING) if x > 0.0 else 0
+    j = int((y + 3.0) / SPACING) if y > 0.0 else 0
+    i = min(i, ACROSS - 1)
+    j = min(j, DOWN - 1)
+    return j * ACROSS + i
+
+
+def widened(field: Field, steps: int = 3) -> Field:
+    """The field with values also for impassable points beside passable ones (the ninja may rest between points)."""
+    grid = field.reshape(DOWN, ACROSS).copy()
+    for _ in range(steps):
+        padded = np.pad(grid, 1, constant_values=UNREACHED)
+        around = [padded[1 + dy : 1 + dy + DOWN, 1 + dx : 1 + dx + ACROSS] for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
+        nearest = np.minimum.reduce(around) + np.float32(2.0)
+        grid = np.where(grid >= UNREACHED, np.minimum(nearest, UNREACHED), grid)
+    return grid.reshape(-1)
+
+
+def points_about(x: float, y: float, radius: float) -> list[int]:
+    """All points nearer to a place than a radius (px)."""
+    reach = int(radius / SPACING) + 1
+    found = set()
+    for i in range(-reach, reach + 1):
+        for j in range(-reach, reach + 1):
+            point = point_at(x + i * SPACING, y + j * SPACING)
+            dx, dy = SPACING * (point % ACROSS) - x, SPACING * (point // ACROSS) - y
+            if dx * dx + dy * dy < radius * radius:
+                found.add(point)
+    return sorted(found)
+
+
+DOOR_COST = 40.0
+"""How many times longer a step through a closed door counts where a way through it is imagined."""
+MAX_BITS = 60
+SWITCH_COST = 3.0
+"""How many times longer a step beside a switch counts that is better touched later."""
+
+
+MOVING = (kinds.DRONE, kinds.FLOOR_GUARD, kinds.THWUMP, kinds.LAUNCHER)
+"""Kinds of enemies that the search looks at, where they are; of a launcher that is where its rocket is."""
+
+Source = tuple[float, float, float]
+"""Where a field begins (px), and its value there (ticks)."""
+
+
+class Switchable(NamedTuple):
+    """Something with a switch: an exit (``door`` is False) or a locked or trap door, and the points it bars."""
+
+    slot: int
+    door: bool
+    trap: bool
+    x: float
+    y: float
+    switch_x: float
+    switch_y: float
+    bars: tuple[int, ...]
+
+
+class Heuristics:
+    """Distance fields of one level, by switch_state.
+
+    ``levels``: the level as kernels take it; ``worlds``: a new world in it, in records.
+    """
+
+    def __init__(self, levels: Any, worlds: Records) -> None:
+        used = int(worlds["slots_used"][0])
+        objects = worlds["objects"][0][:used]
+        self.costs = np.zeros(POINTS, np.float32)
+        fastest(free_points)(levels, self.costs)
+        self.blocked = np.zeros(POINTS, np.uint8)
+        self._queue = np.zeros(POINTS + 1, np.int32)
+        self._waiting = np.zeros(POINTS, np.uint8)
+        exits, doors, gold = [], [], []
+        for slot in range(1, used):
+            record = objects[slot]
+            kind = int(record["kind"])
+            x, y = float(record["x"]), float(record["y"])
+            if kind == kinds.EXIT:
+                switch = objects[int(record["partner"])]
+                exits.append(Switchable(slot, False, False, x, y, float(switch["x"]), float(switch["y"]), ()))
+            elif kind == kinds.DOOR and int(record["mechanism"]) != AUTOMATIC:
+                trap = int(record["mechanism"]) != LOCKED
+                doors.append(Switchable(slot, True, trap, x, y, x, y, _bars(int(record["edge_1"]))))
+            elif kind == kinds.GOLD:
+                gold.append((slot, x, y))
+            elif kind == kinds.MINE:
+                self._avoid(x, y)
+            elif kind == kinds.ONE_WAY:
+                self._bar_one_way(x, y, float(record["face_x"]), float(record["face_y"]))
+        self.exits = exits
+        self.switches = (exits + doors)[:MAX_BITS]
+        self.slots = np.array([switch.slot for switch in self.switches], np.int64)
+        self.enemies = np.array([slot for slot in range(1, used) if int(objects[slot]["kind"]) in MOVING], np.int64)
+        self.gold_slots = np.array([slot for slot, _, _ in gold], np.int64)
+        self.gold_ids = [int(objects[slot]["id"]) for slot, _, _ in gold]
+        self.gold_places = [(x, y) for _, x, y in gold]
+
+    def taken(self, world: Any) -> int:
+        """Which pieces of gold a world's ninja has collected, a bit a piece."""
+        bits = world["objects"]["taken"][self.gold_slots] != 0
+        return sum(1 << k for k in np.flatnonzero(bits).tolist())
+
+    def opened(self, world: Any) -> int:
+        """The switch state of a world."""
+        switches = world["objects"][self.slots]
+        bits = np.where(switches["kind"] == kinds.EXIT, switches["is_open"], switches["switched"]) != 0
+        return sum(1 << k for k in np.flatnonzero(bits).tolist())
+
+    def routines(self, world: Any) -> bytes:
+        """What the moving enemies of a world do."""
+        return bytes(world["objects"]["routine"][self.enemies].astype(np.uint8))
+
+    def tour_fields(self, switch_state: int) -> Field:
+        """Ticks to each piece of gold and, last, to the exit by way of its switch (pieces + 1 x points).
+
+        Closed locked doors count as passable but dear.
+        """
+        dear = self._closed(switch_state, DOOR_COST / 4)
+        careful = self._careful(dear.copy(), switch_state)
+        fields = [self._field(careful, [(*place, 0.0)]) for place in self.gold_places]
+        fields.append(self._field(dear, self._exit_sources(switch_state, dear)))
+        return np.array([widened(field) for field in fields], np.float32)
+
+    def field_to(self, place: tuple[float, float], switch_state: int, x: float, y: float) -> Field:
+        """Ticks from every point to what a ninja at (x, y) should do next to get to a place, and on to it."""
+        costs = self._careful(self._closed(switch_state, 0.0), switch_state)
+        dear = self._careful(self._closed(switch_state, DOOR_COST), switch_state)
+        return self._toward([(*place, 0.0)], costs, dear, switch_state, point_at(x, y))
+
+    def field(self, switch_state: int, x: float, y: float) -> Field:
+        """Ticks from every point to what a ninja at (x, y) should do next in this switch state, and on to the exit."""
+        costs = self._closed(switch_state, 0.0)
+        dear = self._closed(switch_state, DOOR_COST)
+        return self._toward(self._exit_sources(switch_state, dear), costs, dear, switch_state, point_at(x, y))
+
+    def may_leave(self, switch_state: int, x: float, y: float) -> bool:
+        """Whether an exit is open to which a ninja at (x, y) could go without opening a door, as the fields see it."""
+        places = [(e.x, e.y, 0.0) for bit, e in enumerate(self.exits) if bit < MAX_BITS and switch_state >> bit & 1]
+        field = widened(self._field(self._closed(switch_state, 0.0), places))
+        return bool(field[point_at(x, y)] < UNREACHED)
+
+    def _exit_sources(self, switch_state: int, dear: Costs) -> list[Source]:
+        """The open exits, and the switches of the others, worth what lies behind them."""
+        sources = []
+        for bit, exit_ in enumerate(self.exits):
+            if bit < MAX_BITS and switch_state >> bit & 1:
+                sources.append((exit_.x, exit_.y, 0.0))
+            else:
+                home = widened(self._field(dear, [(exit_.x, exit_.y, 0.0)]))
+                rest = min(float(home[point_at(exit_.switch_x, exit_.switch_y)]), 5000.0)
+                sources.append((exit_.switch_x, exit_.switch_y, rest + 30.0))
+        return sources
+
+    def _toward(self, sources: list[Source], costs: Costs, dear: Costs, switch_state: int, here: int) -> Field:
+        """The field of some places, by way of the switches of locked doors that are in the way from a point."""
+        visited: set[int] = set()
+        while True:
+            field = widened(self._field(costs, sources))
+            if field[here] < UNREACHED:
+                return field
+            imagined = widened(self._field(dear, sources))
+            door = self._first_door(imagined, here, switch_state)
+            if door is None or door.slot in visited:
+                return imagined
+            visited.add(door.slot)
+            # First to its switch; from there on as imagined, which goes down by a lot once the door is open.
+            rest = min(float(imagined[point_at(door.switch_x, door.switch_y)]), 5000.0)
+            sources = [(door.switch_x, door.switch_y, rest)]
+
+    def _field(self, costs: Costs, sources: list[Source]) -> Field:
+        field = np.full(POINTS, UNREACHED, np.float32)
+        for x, y, value in sources:
+            # The ninja touches an object from up to 16 px away: any free point about it will do.
+            near = points_about(x, y, 15.0)
+            free = [point for point in near if costs[point] > 0.0]
+            free = free or [point for point in points_about(x, y, 22.0) if costs[point] > 0.0] or near
+            field[free] = np.minimum(field[free], np.float32(value))
+        fastest(spread)(costs, self.blocked, field, self._queue, self._waiting)
+        return field
+
+    def _closed(self, switch_state: int, door_cost: float) -> Costs:
+        """The cost factors with the doors as they are in a switch_state."""
+        costs = self.costs.copy()
+        for bit, switch in enumerate(self.switches):
+            if switch.door and switch.trap == bool(switch_state >> bit & 1):
+                bars = [point for point in switch.bars if costs[point] > 0.0]
+                costs[bars] = np.float32(0.0 if switch.trap else door_cost)
+        return costs
+
+    def _careful(self, costs: Costs, switch_state: int) -> Costs:
+        """The cost factors as long as gold is fetched: open exits, switches of exits and trap doors are avoided."""
+        for bit, switch in enumerate(self.switches):
+            done = bool(switch_state >> bit & 1)
+            if not switch.door and done:
+                costs[points_about(switch.x, switch.y, 26.0)] *= np.float32(MINE_COST)
+            elif not done and (switch.trap or not switch.door):
+                costs[points_about(switch.switch_x, switch.switch_y, 18.0)] *= np.float32(SWITCH_COST)
+        return costs
+
+    def _first_door(self, field: Field, here: int, switch_state: int) -> Switchable | None:
+        """The first closed locked door on the way down a field."""
+        closed = {
+            point: switch
+            for bit, switch in enumerate(self.switches)
+            if switch.door and not switch.trap and not switch_state >> bit & 1
+            for point in switch.bars
+        }
+        for _ in range(POINTS):
+            if here in closed:
+                return closed[here]
+            steps = [here + MOVE_Y[k] * ACROSS + MOVE_X[k] for k in range(8)]
+            there = min((step for step in steps if 0 <= step < POINTS), key=lambda step: float(field[step]))
+            if field[there] >= field[here]:
+                return None
+            here = there
+        return None
+
+    def _avoid(self, x: float, y: float) -> None:
+        for point in points_about(x, y, 15.0):
+            self.costs[point] *= np.float32(MINE_COST)
+
+    def _bar_one_way(self, x: float, y: float, face_x: float, face_y: float) -> None:
+        """Forbid the moves through a one-way platform's face; the ninja's centre meets it 22 px from its middle."""
+        for point in points_about(x, y, 40.0):
+            px, py = SPACING * (point % ACROSS), SPACING * (point // ACROSS)
+            along = abs(px - x) if face_x == 0.0 else abs(py - y)
+            depth = (px - x) * face_x + (py - y) * face_y
+            if along > 14.0 or not 22.0 <= depth < 22.0 + SPACING:
+                continue
+            for k in range(8):
+                if MOVE_X[k] * face_x + MOVE_Y[k] * face_y < 0.0:
+                    self.blocked[point] |= np.uint8(1 << k)
+
+
+def _bars(edge: int) -> tuple[int, ...]:
+    """The points on the cell side that an edge index stands for (right or down side of its cell)."""
+    cell, side = divmod(edge, 4)
+    if cell == 0:
+        return ()
+    column, row = cell % STRIDE - 1, cell // STRIDE - 1
+    if side == 0:
+        return tuple((row * 4 + k) * ACROSS + (column + 1) * 4 for k in range(5))
+    return tuple((row + 1) * 4 * ACROSS + column * 4 + k for k in range(5))

@@ -1,0 +1,101 @@
+"""A run that is known, as a search along it sees it: where it was, how fast, with what open, under which keys.
+
+What a search reaches is compared with it: *ahead* are the ticks that the known run still has from its moment that is
+most like this one, and a price for the difference.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.search.nodes import Start
+from ninja_game.search.states import open_mask
+from ninja_game.sim.inputs import pressed
+from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.schema import World
+from ninja_game.sim.states import OUTCOME_RUNNING
+from ninja_game.sim.world import step
+
+NEVER = 1.0e9
+"""Ticks to the exit where nothing of the known run is like this."""
+LATER, EARLIER = 128, 24
+"""By how many ticks a moment may be ahead of the known run, or behind it."""
+SLOW = 0.5
+"""Px/tick; a known run that is slower counts as that fast."""
+
+
+class KnownRun(NamedTuple):
+    """A run of n ticks to the exit. Row k is what is so after k ticks; row 0 is the start.
+
+    ``span``: the first tick, and the tick behind the last, in which a search may fall behind the run; ``behind``: by
+    how many ticks; ``far``: px, across or down, by which a moment may differ; ``place_price``: of a difference of
+    place, in ticks a tick of the run's way; ``speed_price``: ticks a px/tick.
+    """
+
+    moves: NDArray[np.float64]  #: x, y (px), velocity (px/tick); (n + 1, 4)
+    keys: NDArray[np.uint8]  #: of each tick, without triggers
+    masks: NDArray[np.int64]  #: what is open
+    gold: NDArray[np.int64]  #: pieces that whoever is as far must have collected
+    span: tuple[int, int]
+    behind: float
+    far: float
+    place_price: float
+    speed_price: float
+
+
+@fast
+def note(run: KnownRun, w: World, switch_slots: NDArray[np.int64]) -> None:
+    """Note the present moment of a world."""
+    n = w.ninja
+    row = run.moves[w.tick]
+    row[0] = n.x
+    row[1] = n.y
+    row[2] = n.x - n.prev_x
+    row[3] = n.y - n.prev_y
+    run.masks[w.tick] = open_mask(w, switch_slots)
+    run.gold[w.tick] = w.gold
+
+
+@entry_point
+def play_known(start: Start, run: KnownRun, switch_slots: NDArray[np.int64], until: int, noted: int) -> int:
+    """Play the run's keys from the start to before tick ``until``, noted if that is 1; the ticks played."""
+    w = start.worlds[1]
+    for k in range(len(start.base)):
+        start.work_words[k] = start.base[k]
+    if noted:
+        note(run, w, switch_slots)
+    for tick in range(until):
+        step(start.levels[0], w, pressed(run.keys[tick], w.ninja.jump_held))
+        if noted:
+            note(run, w, switch_slots)
+        if w.outcome != OUTCOME_RUNNING:
+            return tick + 1
+    return until
+
+
+@fast
+def nearest(run: KnownRun, w: World, mask: int) -> tuple[int, float]:
+    """The row of the run that is most like this moment, and the ticks ahead from there, price included."""
+    n = w.ninja
+    ticks = len(run.keys)
+    vx = n.x - n.prev_x
+    vy = n.y - n.prev_y
+    best = -1
+    least = NEVER
+    for k in range(max(0, w.tick - EARLIER), min(ticks, w.tick + LATER)):
+        row = run.moves[k]
+        dx = abs(n.x - row[0])
+        dy = abs(n.y - row[1])
+        if dx > run.far or dy > run.far or ticks - k >= least or run.masks[k] != mask or run.gold[k] > w.gold:
+            continue
+        way = sqrt(row[2] * row[2] + row[3] * row[3])
+        price = sqrt(dx * dx + dy * dy) * run.place_price / max(way, SLOW)
+        price += (abs(vx - row[2]) + abs(vy - row[3])) * run.speed_price
+        if ticks - k + price < least:
+            least = ticks - k + price
+            best = k
+    return best, least

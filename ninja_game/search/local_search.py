@@ -1,0 +1,331 @@
+"""Small random changes of a run's inputs: what a speedrunner tries by hand. Inputs here have no trigger bit.
+
+Rows of keys are moved, stretched, cut out, doubled or overwritten. Each edit works on ``keys[:length]`` in place and
+answers (first changed tick, by how many ticks what follows has moved forward).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import sqrt
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.compile_cache import compiled
+from ninja_game.search.nodes import RandomState, Start, Words, random_below, zeroed
+from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, press_jumps, pressed
+from ninja_game.sim.kinds import EXIT
+from ninja_game.sim.memory.declare import entry_point, f8, fast, i8, struct
+from ninja_game.sim.memory.schema import TileMap, World
+from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
+from ninja_game.sim.world import step
+
+Keys = NDArray[np.uint8]
+
+ALL_KEYS = 7
+
+
+@fast
+def cut(keys: Keys, length: int, tick: int, count: int) -> None:
+    """Leave ticks out; what follows moves forward, the last input is repeated at the end."""
+    for k in range(tick, length):
+        keys[k] = keys[min(k + count, length - 1)]
+
+
+@fast
+def stretch(keys: Keys, length: int, tick: int, count: int) -> None:
+    """Repeat the input of a tick; what follows moves back."""
+    for k in range(length - 1, tick + count - 1, -1):
+        keys[k] = keys[k - count]
+    for k in range(tick + 1, min(tick + count, length)):
+        keys[k] = keys[tick]
+
+
+@fast
+def overwrite(keys: Keys, length: int, start: int, end: int, mask: int, value: int) -> None:
+    """Set some keys in the ticks from start to before end."""
+    for k in range(max(start, 0), min(end, length)):
+        keys[k] = (keys[k] & (ALL_KEYS - mask)) | value
+
+
+@fast
+def next_change(keys: Keys, length: int, tick: int, mask: int) -> int:
+    """The first tick after ``tick`` whose keys under the mask differ from the tick before; ``length`` if none."""
+    for k in range(tick + 1, length):
+        if (keys[k] ^ keys[k - 1]) & mask:
+            return k
+    return length
+
+
+@fast
+def shift_boundary(keys: Keys, length: int, tick: int, mask: int, by: int) -> int:
+    """Move the next change of some keys earlier or later; the first changed tick."""
+    change = next_change(keys, length, tick, mask)
+    if change >= length:
+        return length
+    before = keys[change - 1] & mask
+    after = keys[change] & mask
+    if by < 0:
+        overwrite(keys, length, change + by, change, mask, after)
+        return max(change + by, 0)
+    overwrite(keys, length, change, change + by, mask, before)
+    return change
+
+
+@fast
+def shift_pulse(keys: Keys, length: int, tick: int, by: int) -> int:
+    """Move the next jump as a whole; the first changed tick."""
+    start = next_change(keys, length, tick, JUMP_HELD)
+    if start < length and not keys[start] & JUMP_HELD:
+        start = next_change(keys, length, start, JUMP_HELD)
+    if start >= length:
+        return length
+    end = next_change(keys, length, start, JUMP_HELD)
+    overwrite(keys, length, start, end, JUMP_HELD, 0)
+    overwrite(keys, length, start + by, end + by, JUMP_HELD, JUMP_HELD)
+    return max(min(start, start + by), 0)
+
+
+@fast
+def mutate(keys: Keys, length: int, tick: int, source: RandomState) -> tuple[int, int]:
+    """One random edit at or after a tick."""
+    kind = random_below(source, 12)
+    by = 1 + random_below(source, 2 if random_below(source, 2) else 8)
+    sign = 1 if random_below(source, 2) else -1
+    if kind == 0:
+        cut(keys, length, tick, min(by, 3))
+        return tick, min(by, 3)
+    if kind == 1:
+        stretch(keys, length, tick, min(by, 3))
+        return tick, -min(by, 3)
+    if kind == 2:
+        # Some ticks less here, as many more a little later: what lies between comes earlier.
+        other = min(tick + 1 + random_below(source, 60), length - 1)
+        if sign > 0:
+            cut(keys, length, tick, by)
+            stretch(keys, length, other, by)
+        else:
+            stretch(keys, length, tick, by)
+            cut(keys, length, min(other + by, length - 1), by)
+        return tick, 0
+    if kind <= 4:
+        return shift_boundary(keys, length, tick, 3, sign * by), 0
+    if kind <= 6:
+        return shift_boundary(keys, length, tick, JUMP_HELD, sign * by), 0
+    if kind <= 8:
+        return shift_pulse(keys, length, tick, sign * by), 0
+    span = 1 + random_below(source, 4 if random_below(source, 2) else 24)
+    if kind == 9:
+        overwrite(keys, length, tick, tick + span, 3, random_below(source, 3))
+    elif kind == 10:
+        overwrite(keys, length, tick, tick + span, JUMP_HELD, JUMP_HELD * random_below(source, 2))
+    else:
+        overwrite(
+            keys,
+            length,
+            tick,
+            tick + span,
+            KEYS_DOWN,
+            random_below(source, 3) + JUMP_HELD * random_below(source, 2),
+        )
+    return tick, 0
+
+
+CHECKPOINT = 8
+"""Ticks between the save-states of the current run."""
+ROOM = 64
+"""Ticks by which a current run may be longer than the run that the local search began with."""
+LEASH = 90.0
+"""Px; a trial run that is farther from the current run's path is given up."""
+
+
+@struct
+class LocalCounters(RandomState):
+    """Where a local search stands. A score is in ticks, see ``score_of``."""
+
+    ticks: i8  #: of the current run
+    score: f8
+    best_ticks: i8  #: of the best run
+    best_score: f8
+    trials: i8  #: runs tried
+    played: i8  #: ticks simulated
+
+
+class Runs(NamedTuple):
+    """The best, the current and the trial run, one byte a tick without trigger bit; more about the current one."""
+
+    best: Keys
+    current: Keys
+    trial: Keys
+    path: NDArray[np.float64]  #: px, after each tick of the current run
+    checkpoints: NDArray[np.int64]  #: its save-states, as words
+    counters: Sequence[LocalCounters]
+
+
+@fast
+def score_of(w: World) -> float:
+    """Ticks of a run that has just ended at the exit, less the depth of the contact (0 to 0.99)."""
+    n = w.ninja
+    nearest = 22.0
+    for slot in range(1, w.id_count + 1):
+        o = w.objects[slot]
+        if o.kind == EXIT and o.is_open:
+            nearest = min(nearest, sqrt((o.x - n.x) * (o.x - n.x) + (o.y - n.y) * (o.y - n.y)))
+    return float(w.tick) - 0.99 * (1.0 - nearest / 22.0)
+
+
+@fast
+def copy_words(target: Words, source: Words) -> None:
+    """Copy a save-state."""
+    for k in range(len(target)):
+        target[k] = source[k]
+
+
+@entry_point
+def retrace(start: Start, runs: Runs, tick: int, limit: int) -> int:
+    """Play the current run on from the checkpoint at or before ``tick``: its path and checkpoints; its ticks.
+
+    0 if it does not reach the exit before ``limit``.
+    """
+    w = start.worlds[1]
+    first = min(tick, limit - 1) // CHECKPOINT
+    copy_words(start.work_words, start.base if first == 0 else runs.checkpoints[first])
+    for k in range(first * CHECKPOINT, limit):
+        if k % CHECKPOINT == 0:
+            copy_words(runs.checkpoints[k // CHECKPOINT], start.work_words)
+        step(start.levels[0], w, pressed(runs.current[k], w.ninja.jump_held))
+        runs.path[k, 0] = w.ninja.x
+        runs.path[k, 1] = w.ninja.y
+        if w.outcome != OUTCOME_RUNNING:
+            return int(w.tick) if w.outcome == OUTCOME_EXIT else 0
+    return 0
+
+
+@fast
+def try_run(level: TileMap, w: World, runs: Runs, first: int, shift: int, limit: int) -> int:
+    """Play the trial run from tick ``first`` on; the ticks played. It is given up far from the current run's path."""
+    path = runs.path
+    ticks = runs.counters[0].ticks
+    for k in range(first, limit):
+        step(level, w, pressed(runs.trial[k], w.ninja.jump_held))
+        if w.outcome != OUTCOME_RUNNING:
+            return k + 1 - first
+        if k % 8 == 7:
+            now = min(k, ticks - 1)
+            then = min(max(k + shift, 0), ticks - 1)
+            near = abs(w.ninja.x - path[now, 0]) + abs(w.ninja.y - path[now, 1])
+            if near > LEASH and abs(w.ninja.x - path[then, 0]) + abs(w.ninja.y - path[then, 1]) > LEASH:
+                return k + 1 - first
+    return limit - first
+
+
+@fast
+def make_trial(runs: Runs, room: int) -> tuple[int, int]:
+    """Make the trial run of the current one by mutations near each other: the first changed tick, ticks of delay."""
+    current = runs.current
+    trial = runs.trial
+    counters = runs.counters[0]
+    ticks = counters.ticks
+    for k in range(room):
+        trial[k] = current[k]
+    first = random_below(counters, ticks)
+    tick, shift = mutate(trial, room, first, counters)
+    while random_below(counters, 2):
+        near = max(0, min(first + random_below(counters, 80) - 40, ticks - 1))
+        again, more = mutate(trial, room, near, counters)
+        tick = min(tick, again)
+        shift += more
+    while tick < ticks and trial[tick] == current[tick]:
+        tick += 1
+    return tick, shift
+
+
+@entry_point
+def local_search(start: Start, runs: Runs, gold: int, temperature: float, budget: int) -> None:
+    """Try mutations of the current run until about ``budget`` ticks were played."""
+    w = start.worlds[1]
+    counters = runs.counters[0]
+    stop = counters.played + budget
+    while counters.played < stop:
+        counters.trials += 1
+        ticks = counters.ticks
+        room = min(ticks + 4, len(runs.trial))
+        tick, shift = make_trial(runs, room)
+        if tick >= ticks:
+            counters.played += 2
+            continue
+        luck = random_below(counters, 1000) / 1000.0
+        allowed = counters.score + temperature * luck * luck * luck * luck
+        checkpoint = tick // CHECKPOINT
+        copy_words(start.work_words, runs.checkpoints[checkpoint])
+        limit = min(int(allowed) + 1, room)
+        counters.played += try_run(start.levels[0], w, runs, checkpoint * CHECKPOINT, shift, limit) + 4
+        if w.outcome != OUTCOME_EXIT or w.gold < gold:
+            continue
+        score = score_of(w)
+        if score > allowed:
+            continue
+        for k in range(room):
+            runs.current[k] = runs.trial[k]
+        counters.score = score
+        counters.ticks = w.tick
+        if score < counters.best_score:
+            counters.best_score = score
+            counters.best_ticks = w.tick
+            for k in range(room):
+                runs.best[k] = runs.trial[k]
+        retrace(start, runs, tick, w.tick)
+
+
+class LocalSearch:
+    """Improves a run by random mutations.
+
+    ``inputs`` must reach the exit; ``gold``: pieces that every run must collect.
+    """
+
+    def __init__(self, start: Start, inputs: bytes, *, gold: int, seed: int) -> None:
+        self.start = start
+        self.gold = gold
+        room = len(inputs) + ROOM
+        best, current, trial = np.zeros((3, room), np.uint8)
+        checkpoints = np.zeros((room // CHECKPOINT + 1, len(start.base)), np.int64)
+        self.runs = Runs(best, current, trial, np.zeros((room, 2)), checkpoints, zeroed(LocalCounters, 1))
+        self.counters = self.runs.counters[0]
+        self.counters.random = int(np.random.default_rng([seed, 7]).integers(1, 1 << 62))
+        self.counters.best_ticks = len(inputs)
+        self.counters.best_score = len(inputs)
+        best[: len(inputs)] = np.frombuffer(inputs, np.uint8) & 7
+        self.return_to_best()
+
+    def return_to_best(self) -> None:
+        """Make the best run the current one. Raises ValueError if it does not reach the exit."""
+        self.runs.current[:] = self.runs.best
+        if not compiled(retrace)(self.start, self.runs, 0, self.ticks):
+            raise ValueError("the run does not reach the exit with triggers only where the jump key goes down")
+        self.counters.score = self.counters.best_score
+        self.counters.ticks = self.ticks
+
+    def run(self, budget: int, *, temperature: float) -> None:
+        """Try mutations for about ``budget`` ticks; ``temperature``: how many ticks longer a kept run may be."""
+        compiled(local_search)(self.start, self.runs, self.gold, temperature, budget)
+
+    def best(self) -> bytes:
+        """The inputs of the best run, up to the tick of the exit contact."""
+        return press_jumps(self.runs.best[: self.ticks].tolist())
+
+    @property
+    def ticks(self) -> int:
+        """Ticks of the best run."""
+        return int(self.counters.best_ticks)
+
+    @property
+    def played(self) -> int:
+        """Ticks simulated so far."""
+        return int(self.counters.played)
+
+    @property
+    def trials(self) -> int:
+        """Edited runs tried so far."""
+        return int(self.counters.trials)

@@ -1,0 +1,349 @@
+"""What a search holds: plain arrays and records under names, no Python objects inside.
+
+The groups are named tuples, which compiled code takes as they are; what it counts is a record, alone in its array.
+
+A node's save-state is kept as the words (8 bytes) in which it differs from the start of the level, in chunks from a
+pool; a node that has been expanded gives its chunks back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.compile_cache import compiled
+from ninja_game.sim.level import Level
+from ninja_game.sim.memory.compiled import load_worlds
+from ninja_game.sim.memory.declare import entry_point, f4, fast, i4, i8, part, struct
+from ninja_game.sim.memory.layout import STATE_START, Records, dtype_of, new_worlds, used_bytes
+
+Words = NDArray[np.int64]
+Indices = NDArray[np.int32]
+
+CHUNK = 32
+"""Words in a chunk."""
+BUCKETS = 1 << 14
+MAX_ENDS = 96
+"""Ends of a leg that are kept, with room for those of a last expansion."""
+UNKNOWN = 1.0e9
+"""Value of an entry from which no way to the exit is known."""
+
+
+@part
+class RandomState:
+    """A stream of pseudo-random numbers."""
+
+    random: i8  #: never 0
+
+
+@fast
+def random_below(source: RandomState, limit: int) -> int:
+    """A pseudo-random number from 0 to limit - 1 (xorshift)."""
+    x = source.random
+    x ^= x << 13
+    x ^= (x >> 7) & 0x01FFFFFFFFFFFFFF
+    x ^= x << 17
+    source.random = x
+    return int(((x >> 20) & 0x7FFFFFFF) % limit)
+
+
+@struct
+class Node:
+    """A moment that a search has reached."""
+
+    parent: i4  #: index of the node it came from, -1: the root
+    tick: i4  #: ticks run
+    action: i4  #: see macro_actions.py
+    chunk: i4  #: first chunk of its save-state, -1: none (any more)
+    words: i4  #: words in it
+    next: i4  #: next node of its bucket, -1: last
+    priority: i4  #: its bucket
+    switch_state: i4  #: index of its switch state (heuristics.py)
+    entry: i4  #: its place in the table
+    ahead: f4  #: estimated ticks to the exit
+
+
+@struct
+class Entry:
+    """What the table knows of the moments that count as the same."""
+
+    key: i8  #: 0: empty
+    first: i4  #: earliest tick at which it was reached
+    last: i4  #: latest accepted tick
+    visits: i4  #: how many were accepted
+    value: f4  #: ticks from here to the exit, as far as known
+
+
+@struct
+class Link:
+    """One macro played: from table entry to table entry (-1: the exit)."""
+
+    source: i4
+    target: i4
+    ticks: i4
+
+
+@struct
+class Counters(RandomState):
+    """What a search counts, and what its kernels and their caller tell each other."""
+
+    nodes: i8  #: made so far
+    entries: i8  #: of the table, in use
+    links: i8  #: noted so far
+    free_chunk: i8  #: the first, -1: none
+    waiting: i8  #: nodes in buckets
+    lowest: i8  #: no node waits in a bucket below it
+    highest: i8  #: nor above it
+    ticks: i8  #: simulated
+    expanded: i8  #: nodes
+    best_ticks: i8  #: of the shortest run; at first the bound, 0: none
+    best_node: i8  #: its last node, -1: none found
+    wanted_fields: i8  #: switch states reached that have no field yet
+    ends: i8  #: ends of a leg found so far
+    others: i8  #: those of them that are not at a wanted switch
+
+
+class Resolution(NamedTuple):
+    """How finely a search looks: size of a place (px), of a velocity (px/tick), length of a macro (ticks).
+
+    ``weight``: of the estimated ticks to go against those run; ``patience``: ticks after which the same place counts
+    as new, at most ``visits`` times; ``enemy_cell``: size of a place (px) of enemies nearer than ``enemy_reach`` (px,
+    across and down together), 0: they do not count. Guided searches only: ``slack``: ticks by
+    which an estimate may exceed the best run, in a plan as a share of it; ``off_guide``: how much a tick counts where
+    the guide knows nothing. The shifts move the cells of places and velocities; each search draws its own.
+    """
+
+    cell: float = 12.0
+    speed: float = 1.0
+    macro: int = 5
+    jitter: int = 0
+    weight: float = 2.0
+    patience: int = 40
+    visits: int = 1
+    enemy_cell: float = 0.0
+    enemy_reach: float = 100.0
+    slack: float = 0.0
+    off_guide: float = 1.0
+    shift_x: float = 0.0
+    shift_y: float = 0.0
+    shift_vx: float = 0.0
+    shift_vy: float = 0.0
+
+
+class Start(NamedTuple):
+    """A level at tick 0 and two more worlds: of the node that is expanded, and to work in.
+
+    The words are views of the states of all three; those of the level at tick 0 never change.
+    """
+
+    levels: Any
+    worlds: Any
+    base: Words
+    node_words: Words
+    work_words: Words
+
+
+class SearchMemory(NamedTuple):
+    """The arrays of one search: nodes and what links them, the pool of save-states, the open list, a leg's ends."""
+
+    nodes: Sequence[Node]
+    table: Sequence[Entry]
+    links: Sequence[Link]
+    chunk_next: Indices
+    chunk_index: Indices
+    chunk_value: Words
+    buckets: Indices
+    ends: Indices
+    counters: Sequence[Counters]
+
+
+class Guide(NamedTuple):
+    """The table of an earlier search, whose values are the estimates (length 1: none), and how finely that looked."""
+
+    table: Sequence[Entry]
+    resolution: Resolution
+
+
+def open_start(level: Level, *, box: bool) -> Start:
+    """Load a level. Raises LevelError for one that cannot be played."""
+    levels, first = load_worlds(compiled, [level], box=box)
+    used = int(first["slots_used"][0])
+    size = (used_bytes(used) - STATE_START) // 8
+    base = _words(first, 0, size).copy()
+    worlds = new_worlds(2, used)
+    start = Start(levels, worlds, base, _words(worlds, 0, size), _words(worlds, 1, size))
+    start.node_words[:] = base
+    start.work_words[:] = base
+    return start
+
+
+def _words(worlds: Records, index: int, size: int) -> Words:
+    """The state of a world as words, as a view."""
+    return np.ndarray((size,), np.int64, worlds.base, index * worlds.strides[0] + STATE_START)
+
+
+def zeroed(kind: type, count: int) -> Any:
+    """Records of a kind, all zero; memory is only touched as it is used."""
+    return np.zeros(count, dtype_of(kind)).view(np.recarray)
+
+
+def new_table(nodes: int) -> Any:
+    """An empty table for so many nodes; its length is a power of two."""
+    return zeroed(Entry, 1 << (2 * nodes - 1).bit_length())
+
+
+def new_memory(nodes: int) -> SearchMemory:
+    """The arrays of a search of at most so many nodes, with as many chunks. To be cleared before each search."""
+    return SearchMemory(
+        nodes=zeroed(Node, nodes), table=new_table(nodes), links=zeroed(Link, 6 * nodes),
+        chunk_next=np.empty(nodes, np.int32), chunk_index=np.empty(nodes * CHUNK, np.int32),
+        chunk_value=np.empty(nodes * CHUNK, np.int64), buckets=np.empty(BUCKETS, np.int32),
+        ends=np.zeros(MAX_ENDS, np.int32), counters=zeroed(Counters, 1),
+    )  # fmt: skip
+
+
+def clear(memory: Any) -> None:
+    """Forget all nodes, entries, links and save-states. The table is that of the nodes, or an empty one."""
+    memory.table[memory.nodes["entry"][: int(memory.counters[0].nodes)]] = 0
+    memory.chunk_next[:] = np.arange(1, len(memory.chunk_next) + 1, dtype=np.int32)
+    memory.chunk_next[-1] = -1
+    memory.buckets[:] = -1
+    memory.counters[:] = 0
+    memory.counters[0].lowest = BUCKETS
+    memory.counters[0].best_node = -1
+
+
+@entry_point
+def back_up_values(table: Sequence[Entry], links: Sequence[Link], count: int, sweeps: int) -> int:
+    """Set ``value`` of all entries to the least ticks to the exit over the first ``count`` links; the sweeps made.
+
+    The macros that were played link the entries; values spread backwards over them from the exit. Places that count as
+    the same are not quite the same, so values are estimates, on the whole too low.
+    """
+    for slot in range(len(table)):
+        table[slot].value = UNKNOWN
+    for sweep in range(sweeps):
+        changed = False
+        for index in range(count - 1, -1, -1):
+            link = links[index]
+            value = 0.0 + link.ticks
+            if link.target >= 0:
+                value += table[link.target].value
+            if value < table[link.source].value - 0.5:
+                table[link.source].value = value
+                changed = True
+        if not changed:
+            return sweep + 1
+    return sweeps
+
+
+@fast
+def keep_state(words: Words, base: Words, node: Node, memory: SearchMemory) -> bool:
+    """Store the first word and those that differ from the start; False, and nothing stored, if the pool is empty."""
+    counters = memory.counters[0]
+    first = -1
+    chunk = -1
+    count = 0
+    for k in range(len(words)):
+        if words[k] != base[k] or k == 0:
+            if count % CHUNK == 0:
+                free = counters.free_chunk
+                if free < 0:
+                    if first >= 0:
+                        memory.chunk_next[chunk] = -1
+                        free_state(first, memory)
+                    return False
+                counters.free_chunk = memory.chunk_next[free]
+                if first < 0:
+                    first = free
+                else:
+                    memory.chunk_next[chunk] = free
+                chunk = free
+            place = chunk * CHUNK + count % CHUNK
+            memory.chunk_index[place] = k
+            memory.chunk_value[place] = words[k]
+            count += 1
+    if first >= 0:
+        memory.chunk_next[chunk] = -1
+    node.chunk = first
+    node.words = count
+    return True
+
+
+@fast
+def free_state(first: int, memory: SearchMemory) -> None:
+    """Give a chain of chunks back."""
+    counters = memory.counters[0]
+    last = first
+    while memory.chunk_next[last] >= 0:
+        last = memory.chunk_next[last]
+    memory.chunk_next[last] = counters.free_chunk
+    counters.free_chunk = first
+
+
+@fast
+def load_state(words: Words, base: Words, node: Node, memory: SearchMemory) -> None:
+    """Make the world of a node: the start with the node's words."""
+    for k in range(len(base)):
+        words[k] = base[k]
+    chunk = node.chunk
+    left = node.words
+    while left > 0:
+        place = chunk * CHUNK
+        for k in range(place, place + min(left, CHUNK)):
+            words[memory.chunk_index[k]] = memory.chunk_value[k]
+        left -= CHUNK
+        chunk = memory.chunk_next[chunk]
+
+
+@fast
+def push(index: int, priority: float, memory: SearchMemory) -> None:
+    """Put a node into its bucket."""
+    counters = memory.counters[0]
+    bucket = int(priority)
+    bucket = 0 if bucket < 0 else min(bucket, BUCKETS - 1)
+    memory.nodes[index].priority = bucket
+    memory.nodes[index].next = memory.buckets[bucket]
+    memory.buckets[bucket] = index
+    counters.waiting += 1
+    counters.lowest = min(counters.lowest, bucket)
+    counters.highest = max(counters.highest, bucket)
+
+
+@fast
+def pop_lowest(memory: SearchMemory) -> int:
+    """Take the most promising node; -1 if there is none."""
+    counters = memory.counters[0]
+    bucket = counters.lowest
+    while bucket < BUCKETS and memory.buckets[bucket] < 0:
+        bucket += 1
+    counters.lowest = bucket
+    return take_first(bucket, memory) if bucket < BUCKETS else -1
+
+
+@fast
+def drop_highest(memory: SearchMemory) -> None:
+    """Give up the least promising node, for the sake of its memory."""
+    counters = memory.counters[0]
+    bucket = counters.highest
+    while bucket >= 0 and memory.buckets[bucket] < 0:
+        bucket -= 1
+    counters.highest = bucket
+    if bucket < 0:
+        return
+    node = memory.nodes[take_first(bucket, memory)]
+    if node.chunk >= 0:
+        free_state(node.chunk, memory)
+        node.chunk = -1
+
+
+@fast
+def take_first(bucket: int, memory: SearchMemory) -> int:
+    """Take the first node out of a bucket that has one."""
+    index = memory.buckets[bucket]
+    memory.buckets[bucket] = memory.nodes[index].next
+    memory.counters[0].waiting -= 1
+    return int(index)

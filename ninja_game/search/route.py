@@ -1,0 +1,246 @@
+"""A run in legs: from gold to gold along a tour and from switch to switch, several moments kept at each.
+
+Moments with the same gold and the same switches form a *front*. A step takes the most promising front, searches from
+all its moments to the next piece of its tour, or to the next switch or the exit, and puts the moments at which a piece
+was collected or a switch touched - that one or another - into their fronts. A front that leads nowhere is tried again,
+later, with another piece, another resolution and more work; the more often it was tried, the sooner others come first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from ninja_game.search.best_first import FieldOf, Leg, Search
+from ninja_game.search.heuristics import UNREACHED, Field, Heuristics, point_at
+from ninja_game.search.legs import Front, Moment, pieces_of
+from ninja_game.search.nodes import Resolution
+from ninja_game.search.tour import short_tour
+
+LEGS = (
+    (Resolution(cell=12.0, speed=1.0, macro=5, weight=1.6), 400_000),
+    (Resolution(cell=8.0, speed=0.5, macro=5, weight=2.0, enemy_cell=24.0), 1_000_000),
+    (Resolution(cell=12.0, speed=1.0, macro=6, weight=1.3, visits=12, patience=15, enemy_cell=24.0), 2_000_000),
+    (Resolution(cell=6.0, speed=0.5, macro=4, weight=2.0), 3_000_000),
+    (Resolution(cell=9.0, speed=0.6, macro=7, jitter=3, weight=1.5, visits=5, patience=40, enemy_cell=24.0), 5_000_000),
+    (Resolution(cell=6.0, speed=0.4, macro=4, weight=1.2, visits=2), 8_000_000),
+)
+"""How a front is searched at its first, second … try, and the most ticks."""
+LEG_NODES = 250_000
+ROLLOUTS = 16
+CAREFUL_TRIES = 4
+"""A piece must be survived, as far as so many random runs tell, at a front's first tries."""
+NEVER = 1 << 30
+"""More gold than there is: what a leg wants at the exit that is to end elsewhere."""
+EXTRA = 40_000
+"""Ticks that a leg goes on at least after its first end, for others."""
+TRY_PENALTY = 1.5
+"""Pieces of gold that a try counts against a front."""
+STALL_STEPS = 120
+STALL_TICKS = 6_000_000
+"""Steps and ticks without another piece of gold after which it begins again from the start."""
+DOOR_WORTH = 0.5
+"""Pieces of gold that an open door counts like."""
+DOOR_TICKS = 3_000_000
+"""Ticks of search that an open door counts like, without gold."""
+FAR = 20_000.0
+"""Ticks that an unreachable piece counts in a tour."""
+FIELDS_KEPT = 400
+WIDTH = 12
+ENDS = 24
+"""Moments kept a front, and ends of a leg that are enough."""
+
+
+class Route:
+    """A search for runs with ``gold`` pieces (0: straight to the exit)."""
+
+    def __init__(self, search: Search, *, gold: int, seed: int) -> None:
+        self.search = search
+        self.heuristics: Heuristics = search.heuristics
+        self.gold = gold
+        self.seed = seed
+        self.steps = 0
+        self.most = 0
+        self.ever_taken = 0
+        self.urgency = np.zeros(len(self.heuristics.gold_places))
+        self.fronts: dict[tuple[int, int], Front] = {}
+        self._stalled_steps = self._stalled_ticks = self._restarts = 0
+        self._most_now = 0.0
+        self._leaving: dict[tuple[int, int], bool] = {}
+        self._fields: dict[tuple[int, int], Field] = {}
+        self._distances: dict[int, Field] = {}
+        self._points = np.array([point_at(x, y) for x, y in self.heuristics.gold_places], np.int64)
+        switches = list(enumerate(self.heuristics.switches))
+        self._exits = sum(1 << bit for bit, switch in switches if not switch.door)
+        self._doors = sum(1 << bit for bit, switch in switches if switch.door and not switch.trap)
+        start = search.start
+        ninja = start.worlds[0]["ninja"]
+        start.node_words[:] = start.base
+        self._first = Moment(
+            start.base, 0, 0, self.heuristics.opened(start.worlds[0]), (float(ninja["x"]), float(ninja["y"]))
+        )
+        self._add(self._first, [])
+
+    def step(self, over: Callable[[int], bool]) -> bytes | None:
+        """Search one leg; a run to the exit with the gold, if it ends in one.
+
+        ``over``: called now and then with the ticks just simulated; true: stop.
+        """
+        stalled = self._stalled_steps > STALL_STEPS or self._stalled_ticks > STALL_TICKS * (1 + self._restarts)
+        if self.gold and stalled:
+            self._restart()
+        front = max(self.fronts.values(), key=self._promise)
+        target = self._target(front)
+        ways = 1 if self.gold else 1 + (self._doors & ~front.mask).bit_count()
+        resolution, budget = LEGS[min(front.tries // ways, len(LEGS) - 1)]
+        front.tries += 1
+        self.steps += 1
+        leg = self._leg(front, target)
+        budget *= 4 if target < 0 and ways == 1 else 1
+        self.search.begin_leg(leg, resolution, seed=self.seed * 10_000 + self.steps, bound=0)
+        before = self._most_now
+        self.search.run_leg(budget, over, part=EXTRA, least=EXTRA)
+        self._stalled_ticks += self.search.ticks
+        front.spent += self.search.ticks
+        self._stalled_steps += 1
+        if leg.gold < NEVER:
+            best = self.search.best()
+            if not best:
+                return None
+            return front.moments[best[0]].run() + best[1]
+        ends = self.search.ends()
+        if target >= 0 and not any(end.taken >> target & 1 for end in ends):
+            front.failed[target] += 1
+            self.urgency[target] *= 0.5
+        for end in ends:
+            before_it = front.moments[end.root]
+            moment = Moment(
+                end.words, end.tick, end.taken, end.mask, end.place, end.routines, before=before_it, inputs=end.inputs
+            )
+            self._add(moment, front.tour)
+        if self._most_now > before:
+            self._stalled_steps = self._stalled_ticks = 0
+        return None
+
+    def _promise(self, front: Front) -> tuple[float, int, int]:
+        """How far a front is, less what its tries count; without gold, less the ticks that were spent on it."""
+        if self.gold:
+            return self._done(front) - TRY_PENALTY * front.tries, front.taken, front.mask
+        # The exit is opened last, or the way to the doors may be shut.
+        early = bool(front.mask & self._exits) and not self._may_leave(front)
+        doors = (front.mask & self._doors).bit_count()
+        return doors - early - front.spent / DOOR_TICKS, -front.tries, front.mask
+
+    def _done(self, front: Front) -> float:
+        """Pieces collected and doors opened."""
+        useful = self._doors | (self._exits if front.count >= self.gold else 0)
+        return front.count + DOOR_WORTH * (front.mask & useful).bit_count()
+
+    def _may_leave(self, front: Front) -> bool:
+        """Whether an open exit can be reached, as far as walls and doors tell; asked once a front."""
+        key = (front.taken, front.mask)
+        if key not in self._leaving:
+            self._leaving[key] = self.heuristics.may_leave(front.mask, *front.moments[0].place)
+        return self._leaving[key]
+
+    def never_taken(self) -> list[int]:
+        """The pieces that were collected at no moment."""
+        return [piece for piece in range(len(self._points)) if not self.ever_taken >> piece & 1]
+
+    def _restart(self) -> None:
+        """Begin again from the start; what was left over this time is more urgent from now on."""
+        last = max(self.fronts.values(), key=lambda front: (front.count, -front.tries))
+        pieces = set(range(len(self._points)))
+        left = pieces - set(pieces_of(last.taken))
+        if last.count >= self.gold:
+            # The way to the exit is shut: what was taken last comes earlier.
+            moment: Moment | None = last.moments[0]
+            while moment and moment.before and len(left) < len(pieces) // 4 + 1:
+                left |= set(pieces_of(moment.taken & ~moment.before.taken))
+                moment = moment.before
+        self.urgency[list(left)] += 1.0
+        self.fronts = {}
+        self._stalled_steps = self._stalled_ticks = 0
+        self._most_now = 0.0
+        self._restarts += 1
+        self._add(self._first, [])
+
+    def _leg(self, front: Front, target: int) -> Leg:
+        roots = [moment.words for moment in front.moments]
+        rollouts = ROLLOUTS if front.tries <= CAREFUL_TRIES else 0
+        if target >= 0:
+            return Leg(roots, front.count + 1, front.mask, NEVER, ENDS, rollouts, partial(self._field, target))
+        if self._may_leave(front):
+            return Leg(roots, 0, front.mask, self.gold, 1, 0, self.heuristics.field)
+        field, wanted = self._way_to_a_switch(front)
+        return Leg(roots, NEVER, front.mask, NEVER, ENDS, rollouts, field, wanted)
+
+    def _way_to_a_switch(self, front: Front) -> tuple[FieldOf, int]:
+        """The fields of the first door in the way; at later tries, by turns, those of the other doors' switches.
+
+        And the bit of the switch that it is then about.
+        """
+        switches = enumerate(self.heuristics.switches)
+        closed = [(bit, s) for bit, s in switches if s.door and not s.trap and not front.mask >> bit & 1]
+        turn = (front.tries - 1) % (len(closed) + 1)
+        if turn == 0:
+            return self.heuristics.field, 0
+        x, y = front.moments[0].place
+        closed.sort(key=lambda pair: abs(pair[1].switch_x - x) + abs(pair[1].switch_y - y))
+        bit, switch = closed[turn - 1]
+        return partial(self.heuristics.field_to, (switch.switch_x, switch.switch_y)), 0 if self.gold else 1 << bit
+
+    def _add(self, moment: Moment, tour: list[int]) -> None:
+        """Put a moment into its front, which keeps the best."""
+        key = (moment.taken if self.gold else 0, moment.mask)
+        if key not in self.fronts:
+            self.fronts[key] = Front(*key, tour=[k for k in tour if not moment.taken >> k & 1])
+        front = self.fronts[key]
+        self.ever_taken |= moment.taken
+        self.most = max(self.most, front.count)
+        self._most_now = max(self._most_now, self._done(front))
+        front.add(moment, WIDTH)
+
+    def _target(self, front: Front) -> int:
+        """The piece to fetch next from a front, -1: the exit or its switch.
+
+        Pieces from which no way leads to others, or to the switch, come last: they are behind one-way platforms, say.
+        """
+        left = [piece for piece in range(len(self._points)) if not front.taken >> piece & 1]
+        if front.count >= self.gold:
+            return -1
+        moment = front.moments[0]
+        fields = self._tour_fields(moment.mask)
+        here = fields[:, point_at(*moment.place)].astype(np.float64)
+        start = here[left]
+        home = fields[-1, self._points[left]]
+        between = fields[left][:, self._points[left]].T.astype(np.float64)
+        no_return = (home >= UNREACHED) & (here[-1] < UNREACHED)
+        if not front.mask & self._exits and no_return.all():
+            return -1
+        shut = no_return | ((between >= UNREACHED) & (start < UNREACHED)).any(axis=1)
+        names = {piece: k for k, piece in enumerate(left)}
+        order = [names[piece] for piece in front.tour]
+        tour = short_tour(np.minimum(start, FAR), np.minimum(between, FAR), np.minimum(home, FAR).astype(float), order)
+        front.tour = [left[k] for k in tour]
+        nearest = np.argsort(start, kind="stable").tolist()
+        ranks = [min(tour.index(k), nearest.index(k) + 0.5) + 2.5 * front.failed[left[k]] for k in range(len(left))]
+        ranked = zip(start >= UNREACHED, shut, -self.urgency[left], ranks, left, strict=True)
+        return min(ranked)[-1]
+
+    def _tour_fields(self, mask: int) -> Field:
+        if mask not in self._distances:
+            if len(self._distances) >= 16:
+                self._distances.clear()
+            self._distances[mask] = self.heuristics.tour_fields(mask)
+        return self._distances[mask]
+
+    def _field(self, target: int, mask: int, x: float, y: float) -> Field:
+        """The field of a piece in a switch state, made when it is first wanted."""
+        if (target, mask) not in self._fields:
+            if len(self._fields) >= FIELDS_KEPT:
+                self._fields.clear()
+            self._fields[target, mask] = self.heuristics.field_to(self.heuristics.gold_places[target], mask, x, y)
+        return self._fields[target, mask]

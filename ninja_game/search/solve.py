@@ -1,0 +1,250 @@
+"""Find a run to the exit, then shorten it: searches and local searches on all threads, the best run so far at any time.
+
+With one job a solver does the same work in the same order for the same seed: the clock only says when it ends.
+"""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
+from functools import cache, cached_property
+from math import inf
+from threading import Event
+
+from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.search.best_first import Search
+from ninja_game.search.certificate import VerifiedRun, with_plain_triggers
+from ninja_game.search.engine import MORE
+from ninja_game.search.heuristics import Heuristics
+from ninja_game.search.nodes import Resolution, open_start
+from ninja_game.search.route import LEG_NODES, Route
+from ninja_game.search.spans import RunShortener
+from ninja_game.search.sweeps import Shortener
+from ninja_game.search.task import (
+    FOUND_BOUND,
+    GIVEN_BOUND,
+    SEARCH_COST,
+    SLICE,
+    SWEEP_TICKS,
+    VARY,
+    VARY_TICKS,
+    VARY_TURNS,
+    Progress,
+    Report,
+    SearchState,
+    Shares,
+    Task,
+    find_order,
+)
+
+__all__ = ["Progress", "Task", "compile_solver", "solve"]
+
+
+class _Job:
+    """One thread's work."""
+
+    def __init__(self, state: SearchState, number: int) -> None:
+        task = state.task
+        self.state = state
+        self.number = number
+        self.seed = task.seed * 1000 + number
+        self.work = 0.0
+        self.shares = Shares()
+        self.start = open_start(task.level, box=task.body == "box")
+        self.heuristics = Heuristics(self.start.levels, self.start.worlds)
+        self._sweeper: Shortener | None = None
+        self._turn = self._varied = 2 * number
+        self.shortener = RunShortener(
+            self.start, self.heuristics, gold=task.gold_wanted, seed=self.seed, submit=state.submit, over=self._spend
+        )
+
+    def run(self) -> None:
+        """Find, vary, local search, until the end."""
+        state, shares = self.state, self.shares
+        if not state.runs:
+            self._find()
+        while not self._over and state.runs:
+            self._turn += 1
+            if state.task.gold_wanted:
+                self._sweep()
+            elif self._early or (self.work > 0 and self._turn % VARY_TURNS == 2):
+                self._vary()
+            else:
+                # The best run most of the time; now and then another one that may have more in it.
+                rank = (0, 1, 0, 2, 0)[self._turn % 5] if not state.task.first else 0
+                with state.lock:
+                    inputs = state.runs[min(rank, len(state.runs) - 1)]
+                if state.task.first and not self.work:
+                    inputs = self.shortener.climb(inputs, shares.first_climb)
+                inputs = self.shortener.search_spans(inputs, shares.spans)
+                self.shortener.climb(inputs, shares.climb)
+
+    @property
+    def _early(self) -> bool:
+        """Whether it is the time in which only other routes are looked for; a run that was given has none."""
+        task = self.state.task
+        return not task.first and self.work < self.shares.vary_until * task.work_planned
+
+    def _spend(self, played: int, cost: float) -> bool:
+        """Count ticks of shortening; whether the job is over."""
+        self.work += cost
+        self.state.count(played, 0, "shortening")
+        return self._over
+
+    @property
+    def _over(self) -> bool:
+        return self.state.over or bool(self.state.task.work and self.work >= self.state.task.work)
+
+    @cached_property
+    def _search(self) -> Search:
+        nodes = int(min(1_500_000, max(100_000, self.state.task.work_planned / 80)))
+        return Search(self.start, self.heuristics, nodes=nodes)
+
+    @cached_property
+    def _leg_search(self) -> Search:
+        return Search(self.start, self.heuristics, nodes=LEG_NODES)
+
+    def _find(self) -> None:
+        route = Route(self._leg_search, gold=self.state.task.gold_wanted, seed=self.seed * 1000 + 1)
+        if self.state.task.gold_wanted:
+            self._follow(route, inf)
+            return
+        for resolution, ticks, turn in find_order(self.number):
+            if self._over or self.state.runs:
+                return
+            if turn:
+                self._follow(route, ticks)  # switch by switch: for long ways
+            self._search_once(resolution, ticks, seed=turn, bound=0, until_found=True)
+
+    def _sweep(self) -> None:
+        """Make a run with gold shorter, by sweeps of legs and then by a local search; what is found is submitted."""
+        best = self.state.runs[0]
+        if self._sweeper is None:
+            self._sweeper = Shortener(self._leg_search, best, seed=self.seed)
+        elif len(best) < self._sweeper.ticks:
+            self._sweeper.add_run(best)
+        until = self.work + SWEEP_TICKS * SEARCH_COST
+
+        def over(played: int) -> bool:
+            return self._spend(played, played * SEARCH_COST)
+
+        while self.work < until and not over(0):
+            found = self._sweeper.sweep(over)
+            if found:
+                self.state.submit(found)
+        best, shares = self.state.runs[0], self.shares
+        self.shortener.search_spans(self.shortener.climb(best, shares.climb), shares.spans_with_gold)
+
+    def _follow(self, route: Route, ticks: float) -> None:
+        """Search a run in legs, for so many ticks; one that is found is submitted."""
+        doing = f" of {route.gold} gold" if route.gold else ""
+        until = self.work + ticks * SEARCH_COST
+        first = not self.state.runs
+
+        def over(played: int) -> bool:
+            self.work += played * SEARCH_COST
+            self.state.count(played, 0, f"{route.most}{doing}" if doing else "searching")
+            return self._over or self.work >= until or bool(self.state.runs and first)
+
+        found = None
+        while not found and not over(0):
+            found = route.step(over)
+        if route.gold:
+            self.state.note_gold(route.most, [self.heuristics.gold_ids[piece] for piece in route.never_taken()])
+        if found:
+            self.state.submit(found)
+
+    def _vary(self) -> None:
+        """Search a run from the start, maybe by another route than that of the best; shorten what is found."""
+        turn, self._varied = self._varied, self._varied + 1
+        resolution = VARY[turn % len(VARY)]
+        with self.state.lock:
+            shortest = len(self.state.runs[0])
+        resolution = resolution._replace(slack=resolution.slack * shortest)
+        given, early = bool(self.state.task.first), self._early
+        bound = shortest + max(4, int(shortest * (GIVEN_BOUND if given else FOUND_BOUND)))
+        found = self._search_once(resolution, VARY_TICKS, seed=100 + turn, bound=bound, guided=resolution.slack > 0.0)
+        if not early and not found:
+            return
+        run = self.shortener.climb(found or self.state.runs[0], self.shares.climb)
+        if not early and len(run) < shortest * (1.0 + FOUND_BOUND):
+            self.shortener.search_spans(run, self.shares.spans)
+
+    def _search_once(
+        self, resolution: Resolution, ticks: int, *, seed: int, bound: int, guided: bool = False,
+        until_found: bool = False,
+    ) -> bytes | None:  # fmt: skip
+        search = self._search
+        search.begin(resolution, seed=self.seed * 1000 + seed, bound=bound, guided=guided)
+        ended, worlds = MORE, 0
+        while ended == MORE and search.ticks < ticks and not self._over:
+            before = search.ticks
+            ended = search.run(min(SLICE, ticks - before))
+            self.work += (search.ticks - before) * SEARCH_COST
+            self.state.count(search.ticks - before, search.worlds - worlds, "searching")
+            worlds = search.worlds
+            if until_found and (self.state.runs or search.best()):
+                break
+        best = search.best()
+        if not best:
+            return None
+        self.state.submit(best[1])
+        return best[1]
+
+
+_SMALL = "0" * 713 + "|5^100,566!11^160,564,130,564!0^115,566"
+
+
+@cache
+def compile_solver() -> None:
+    """Compile all kernels: a small level is solved first, so that no clock runs while Numba works.
+
+    Raises MemoryUnavailableError without Numba.
+    """
+    for gold in (0, -1):
+        job = _Job(SearchState(Task(parse_level_string(_SMALL), gold=gold, work=30_000), None), 0)
+        job.run()
+        job.shortener.compile(job.state.runs[0])
+
+
+def solve(
+    task: Task,
+    *,
+    report: Report | None = None,
+    on_better: Callable[[VerifiedRun], None] | None = None,
+    stop: Event | None = None,
+) -> VerifiedRun | None:
+    """The best run to the exit that was found in the time, None if there is none.
+
+    ``report`` is called a few times a second, ``on_better`` with every verified run that is shorter than those before.
+    ``task.first`` is a run to start from: then it is only improved, and is itself the first that ``on_better`` gets.
+    ``stop``: ends the search when it is set. Raises LevelError for a level that cannot be played,
+    MemoryUnavailableError without Numba, UnverifiedRunError for a first run that does not reach the exit.
+    """
+    compile_solver()
+    state = SearchState(task, report, on_better=on_better, cancelled=stop or Event())
+    if task.first:
+        state.submit(with_plain_triggers(task.level, task.first, body=task.body, gold=task.gold_wanted))
+    try:
+        _work(state)
+    finally:
+        gc.collect()  # a job and its shortener hold each other, and up to 1 GB
+    return state.best
+
+
+def _work(state: SearchState) -> None:
+    """Have all jobs run until the end."""
+    jobs = [_Job(state, number) for number in range(state.task.jobs)]
+    if len(jobs) == 1:
+        jobs[0].run()
+        return
+    with ThreadPoolExecutor(len(jobs)) as pool:
+        running = {pool.submit(job.run) for job in jobs}
+        try:
+            while running:
+                done, running = wait(running, timeout=0.2, return_when=FIRST_COMPLETED)
+                for job in done:
+                    job.result()
+        finally:
+            state.stop.set()

@@ -1,0 +1,154 @@
+"""What a search asks of a moment: whether it was seen before, its switch state, its gold, how far the exit is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import floor
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.search.nodes import Counters, Entry, Resolution
+from ninja_game.sim.kinds import LAUNCHER
+from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.schema import World
+from ninja_game.sim.states import JUMPING, LAUNCHER_FLIGHT, SLIDING
+from ninja_game.sim.traces import is_open
+
+MIX = 0x2545F4914F6CDD1D
+MAX_SWITCH_STATES = 512
+NOT_MADE, WANTED = -1.0, -2.0
+"""What a field has at point 0, outside the world, as long as it is not there."""
+
+
+class Goals(NamedTuple):
+    """Where to go in a level, by switch state (heuristics.py). Masks, places and fields have MAX_SWITCH_STATES rows.
+
+    A search is one for the exit, or one *leg*: it ends where another piece of gold is collected or a switch
+    touched.
+    """
+
+    gold: int  #: pieces that a run must have at the exit
+    leg: int  #: a leg ends where this many pieces are collected; 0: only the exit counts
+    mask: int  #: and where what is open differs from this
+    wanted: int  #: of these switches one at least must be open at the end of a leg, but for a few ends; 0: any
+    ends: int  #: how many ends of a leg are enough
+    rollouts: int  #: tries to survive at the end of a leg, 0: it need not be survived
+    gold_slots: NDArray[np.int64]
+    enemies: NDArray[np.int64]  #: slots of what moves and kills
+    switch_slots: NDArray[np.int64]  #: the slot of each bit of a mask
+    masks: NDArray[np.int64]  #: what is open in each switch state, -1: not reached yet
+    places: NDArray[np.float64]  #: where the ninja was when its field was wanted
+    fields: NDArray[np.float32]  #: ticks to the goal from each point; NOT_MADE or WANTED at point 0
+
+
+@fast
+def state_class(w: World) -> int:
+    """What the ninja could do next, as a small number."""
+    n = w.ninja
+    if not n.in_air:
+        return 0 if not n.jump_held else 1
+    if n.state == JUMPING:
+        return 2 + n.jump_timer // 11
+    if n.state == SLIDING:
+        return 5
+    return 6 if n.near_wall else 7
+
+
+@fast
+def key_of(w: World, goals: Goals, switch_state: int, gold: int, resolution: Resolution) -> int:
+    """The key of a moment, never 0. ``gold``: a hash (16 bits) of what was collected, 0 where gold does not matter."""
+    n = w.ninja
+    x = int((n.x + resolution.shift_x) / resolution.cell) & 511
+    y = int((n.y + resolution.shift_y) / resolution.cell) & 511
+    vx = floor((n.x - n.prev_x + resolution.shift_vx) / resolution.speed) & 255
+    vy = floor((n.y - n.prev_y + resolution.shift_vy) / resolution.speed) & 255
+    near = near_enemies(w, goals, resolution) if resolution.enemy_cell > 0.0 else 0
+    key = x | y << 9 | vx << 18 | vy << 26 | state_class(w) << 34 | (switch_state & 511) << 37 | (gold & 0xFFFF) << 46
+    return int((key ^ near) + 1)
+
+
+@fast
+def near_enemies(w: World, goals: Goals, resolution: Resolution) -> int:
+    """A hash of where the enemies near the ninja are, in coarse cells, and of what they do; 0 where there are none."""
+    n = w.ninja
+    mixed = 0
+    for k in range(len(goals.enemies)):
+        o = w.objects[goals.enemies[k]]
+        # A rocket in flight matters from afar: it must be led somewhere.
+        in_flight = o.kind == LAUNCHER and o.routine == LAUNCHER_FLIGHT
+        if not in_flight and abs(o.x - n.x) + abs(o.y - n.y) > resolution.enemy_reach:
+            continue
+        place = int(o.x / resolution.enemy_cell) & 255 | (int(o.y / resolution.enemy_cell) & 255) << 8
+        mixed += (place | o.routine << 16 | (k + 1) << 20) * MIX
+    mixed ^= mixed >> 31
+    return (mixed & 0x3FFFFFFF) << 33 if mixed else 0
+
+
+@fast
+def find(table: Sequence[Entry], key: int) -> int:
+    """The slot of a key, or of the empty entry where it belongs. The table must have empty entries."""
+    mask = len(table) - 1
+    mixed = key * MIX
+    slot = (mixed ^ (mixed >> 29)) & mask
+    while table[slot].key != 0 and table[slot].key != key:
+        slot = (slot + 1) & mask
+    return slot
+
+
+@fast
+def is_news(entry: Entry, tick: int, resolution: Resolution) -> bool:
+    """Is it worth going on from here? Yes for a new key, an earlier arrival, or (a few times) a much later one.
+
+    Later arrivals matter where things move: a gap that is deadly now may be open in a second.
+    """
+    if entry.visits == 0 or tick < entry.first:
+        return True
+    return bool(entry.visits < resolution.visits and tick >= entry.last + resolution.patience)
+
+
+@fast
+def open_mask(w: World, switch_slots: NDArray[np.int64]) -> int:
+    """What is open, a bit a switch: exits that are open, doors that are not as they began."""
+    mask = 0
+    for k in range(len(switch_slots)):
+        if is_open(w, switch_slots[k]):
+            mask |= 1 << k
+    return mask
+
+
+@fast
+def switch_state_of(w: World, goals: Goals, counters: Counters, guess: int) -> int:
+    """Index of the present switch state, -1: too many. One without a field wants it."""
+    mask = open_mask(w, goals.switch_slots)
+    index = guess
+    if goals.masks[guess] != mask:
+        index = 0
+        while index < MAX_SWITCH_STATES and goals.masks[index] != mask and goals.masks[index] >= 0:
+            index += 1
+        if index == MAX_SWITCH_STATES:
+            return -1
+    if goals.fields[index, 0] == NOT_MADE:
+        goals.masks[index] = mask
+        goals.places[index, 0] = w.ninja.x
+        goals.places[index, 1] = w.ninja.y
+        goals.fields[index, 0] = WANTED
+        counters.wanted_fields += 1
+    return index
+
+
+@fast
+def gold_hash(w: World, goals: Goals) -> int:
+    """Sixteen bits that tell which pieces have been collected."""
+    mixed = 0
+    for k in range(len(goals.gold_slots)):
+        if w.objects[goals.gold_slots[k]].taken:
+            mixed ^= (k + 1) * MIX
+    return (mixed >> 40) & 0xFFFF
+
+
+@fast
+def estimate(goals: Goals, switch_state: int, point: int, before: float) -> float:
+    """Ticks to the goal by the field of a switch state; ``before`` (the parent's) where that is not made yet."""
+    return float(goals.fields[switch_state, point]) if goals.fields[switch_state, 0] >= 0.0 else before

@@ -1,0 +1,205 @@
+"""Shorter runs with gold from a known one: sweeps of legs over its pieces, in orders that measured legs suggest.
+
+The moments of the known run at which it collects or switches something are the first *fronts*. A sweep begins at one
+of them and goes on level by level (a level: so much is collected and switched): it takes the few fronts with the least
+ticks so far and to come, and searches from all their moments to the next piece. Fronts stay from sweep to sweep.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+
+from ninja_game.compile_cache import compiled
+from ninja_game.search.best_first import Leg, Search
+from ninja_game.search.legs import Front, Moment, pieces_of
+from ninja_game.search.nodes import Resolution, Start
+from ninja_game.search.tour import PieceTicks, short_tour
+from ninja_game.sim.inputs import pressed
+from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.world import step
+
+LEGS = (
+    Resolution(cell=12.0, speed=1.0, macro=5, weight=1.3),
+    Resolution(cell=12.0, speed=0.7, macro=7, jitter=3, weight=1.1, enemy_cell=24.0),
+    Resolution(cell=8.0, speed=0.7, macro=5, weight=1.2),
+    Resolution(cell=10.0, speed=0.7, macro=9, weight=1.0),
+)
+"""How the legs of a sweep are searched, in turn."""
+LEG_TICKS = 150_000
+LEG_EXTRA = 20_000
+"""Most ticks of a leg, and how many it goes on at least after its first end."""
+EXIT_FACTOR = 10
+"""How many times more the last leg, to the exit, may take."""
+WIDTH = 40
+ENDS = 80
+"""Moments kept in a front, and ends of a leg."""
+EFFORTS = (1, 4)
+"""How many times the ticks of a leg a front gets; the second only if the first found nothing: far pieces need more."""
+BREADTHS = (3, 6, 3, 6, 10)
+"""Fronts that are searched on from at each level, sweep by sweep."""
+SPARE = 2
+"""Fronts that may take the place of others whose legs found nothing."""
+FRONTS_KEPT = 10
+"""Fronts kept at each level from sweep to sweep."""
+ROLLOUTS = 16
+NEVER = 1 << 30
+NOISE = 0.4
+"""By which part the ticks between pieces are changed at random, for other orders."""
+HOPE = 1.1
+"""What share more a run from a level on may seem to take than the best run before a sweep is given up."""
+
+
+@entry_point
+def play_on(start: Start, keys: int) -> None:
+    """Play one tick of the working world."""
+    w = start.worlds[1]
+    step(start.levels[0], w, pressed(keys & 7, w.ninja.jump_held))
+
+
+class Shortener:
+    """Sweeps that make a run shorter which reaches the exit; all pieces that it collects are collected again.
+
+    ``seed``: of its random numbers.
+    """
+
+    def __init__(self, search: Search, run: bytes, *, seed: int) -> None:
+        self.search = search
+        self.heuristics = search.heuristics
+        self.random = np.random.default_rng([seed, 9])
+        self.seed = seed
+        self.sweeps = 0
+        self.legs = 0
+        self.levels: dict[int, dict[tuple[int, int], Front]] = {}
+        self.ticks = NEVER
+        self.wanted = 0
+        self.piece_ticks = PieceTicks(self.heuristics)
+        self.order: list[int] = []
+        self.add_run(run)
+
+    def add_run(self, run: bytes) -> None:
+        """Add the moments of a run; it sets the bound and the order if it is the shortest."""
+        start, heuristics = self.search.start, self.heuristics
+        start.work_words[:] = start.base
+        world = start.worlds[1]
+        moment = self._moment(world, None, b"")
+        moments = [moment]
+        begun, last = 0, (moment.taken, moment.mask)
+        for tick, keys in enumerate(run[:-1], 1):
+            compiled(play_on)(start, keys)
+            now = (heuristics.taken(world), heuristics.opened(world))
+            if now != last:
+                moment = self._moment(world, moment, run[begun:tick])
+                begun, last = tick, now
+                moments.append(moment)
+        if not self.wanted:
+            self.wanted = moments[-1].taken
+        order = [p for a, b in pairwise(moments) for p in pieces_of(b.taken & ~a.taken)]
+        if len(run) < self.ticks:
+            self.ticks = len(run)
+            self.order = [piece for piece in order if self.wanted >> piece & 1]
+        for moment in moments:
+            if moment.before:
+                self.piece_ticks.learn(moment.before, moment)
+            self._add(moment, self.order)
+
+    def _moment(self, world: object, before: Moment | None, inputs: bytes) -> Moment:
+        ninja = world["ninja"]  # type: ignore[index]
+        return Moment(
+            self.search.start.work_words.copy(), int(world["tick"]), self.heuristics.taken(world),  # type: ignore[index]
+            self.heuristics.opened(world), (float(ninja["x"]), float(ninja["y"])),
+            self.heuristics.routines(world), before=before, inputs=inputs,
+        )  # fmt: skip
+
+    def sweep(self, over: Callable[[int], bool]) -> bytes | None:
+        """Search on from one of the levels to the exit; a shorter run, None if there is none.
+
+        ``over``: called now and then with the ticks just simulated; true: stop.
+        """
+        resolution = LEGS[self.sweeps % len(LEGS)]
+        self.piece_ticks.change(self.random, NOISE * (self.sweeps % 3) / 2)
+        first = 0 if self.sweeps % 3 == 0 else int(self.random.integers(max(self.levels)))
+        breadth = BREADTHS[self.sweeps % len(BREADTHS)]
+        self.sweeps += 1
+        level = first
+        while level <= max(self.levels):
+            fronts = sorted(self.levels.get(level, {}).values(), key=self._value)
+            self.levels[level] = {(front.taken, front.mask): front for front in fronts[:FRONTS_KEPT]}
+            led_on = 0
+            for front in fronts[: breadth + SPARE]:
+                if led_on == breadth or (front is not fronts[0] and self._value(front) > self.ticks * HOPE):
+                    break
+                for effort in EFFORTS:
+                    found, ends = self._leg(front, resolution, effort, over)
+                    if found:
+                        self.add_run(found)
+                        return found
+                    if over(0):
+                        return None
+                    if ends:
+                        led_on += 1
+                        break
+            level += 1
+        return None
+
+    def _leg(
+        self, front: Front, resolution: Resolution, effort: int, over: Callable[[int], bool]
+    ) -> tuple[bytes | None, int]:
+        """Search from a front to the next piece, or to the exit: a run that is shorter than the best; ends found."""
+        self.legs += 1
+        target = self._target(front)
+        roots = [moment.words for moment in front.moments]
+        if target < 0:
+            leg = Leg(roots, 0, front.mask, front.count, 1, 0, self.heuristics.field)
+        else:
+            leg = Leg(
+                roots, front.count + 1, front.mask, NEVER, ENDS, ROLLOUTS, partial(self.piece_ticks.field, target)
+            )
+        self.search.begin_leg(leg, resolution, seed=self.seed * 100_000 + self.legs, bound=self.ticks)
+        budget = LEG_TICKS * (EXIT_FACTOR if target < 0 else effort)
+        self.search.run_leg(budget, over, part=LEG_EXTRA)
+        if target < 0:
+            best = self.search.best()
+            return (front.moments[best[0]].run() + best[1] if best else None), 1
+        ends = self.search.ends()
+        moments = [
+            Moment(
+                end.words, end.tick, end.taken, end.mask, end.place, end.routines + end.pace,
+                before=front.moments[end.root], inputs=end.inputs,
+            )
+            for end in ends
+        ]  # fmt: skip
+        if not any(moment.taken >> target & 1 for moment in moments):
+            self.piece_ticks.note_failure(front.moments[0], target)
+        for moment in moments:
+            self.piece_ticks.learn(front.moments[0], moment)
+            self._add(moment, front.tour)
+        return None, len(moments)
+
+    def _add(self, moment: Moment, tour: list[int]) -> None:
+        key = (moment.taken, moment.mask)
+        fronts = self.levels.setdefault(moment.taken.bit_count() + moment.mask.bit_count(), {})
+        if key not in fronts:
+            fronts[key] = Front(*key, tour=[piece for piece in tour if not moment.taken >> piece & 1])
+        fronts[key].add(moment, WIDTH)
+
+    def _value(self, front: Front) -> float:
+        """Ticks so far, and about how many to come along the front's tour."""
+        between, start, home = self.piece_ticks.estimate(front.moments[0])
+        tour = front.tour
+        if not tour:
+            return front.moments[0].tick + float(home[-1])
+        return front.moments[0].tick + float(start[tour[0]] + between[tour[:-1], tour[1:]].sum() + home[tour[-1]])
+
+    def _target(self, front: Front) -> int:
+        """The piece to fetch next from a front, -1: the exit. Its tour is made shorter."""
+        left = [piece for piece in front.tour if not front.taken >> piece & 1]
+        if not left:
+            return -1
+        between, start, home = self.piece_ticks.estimate(front.moments[0])
+        tour = short_tour(start[left], between[np.ix_(left, left)], home[left], range(len(left)))
+        front.tour = [left[k] for k in tour]
+        return front.tour[0]

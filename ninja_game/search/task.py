@@ -1,0 +1,187 @@
+"""What to solve, in which order a solver looks, and what its jobs share.
+
+Coarse and greedy searches come first, then finer, patient and varied ones, then local searches. Amounts of work are in
+ticks of a local search; a tick of a search counts more, for its save-states and tables.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from threading import Event, Lock
+
+from ninja_game.search.certificate import VerifiedRun, verified_run
+from ninja_game.search.nodes import Resolution
+from ninja_game.sim.kinds import GOLD
+from ninja_game.sim.level import Level
+from ninja_game.simulation import Body
+
+CANDIDATES = 4
+"""Runs that are remembered for local searches."""
+
+Report = Callable[["Progress"], None]
+
+
+@dataclass
+class Progress:
+    """Where a solver stands. ``best``: end tick of the best run, -1: none yet.
+
+    Where gold is wanted and as long as there is no run: ``gold``, the most pieces that were collected at once, and
+    ``untaken``, ids of those that never were.
+    """
+
+    best: int = -1
+    worlds: int = 0
+    ticks: int = 0
+    seconds: float = 0.0
+    doing: str = ""
+    gold: int = 0
+    untaken: tuple[int, ...] | None = None
+
+
+@dataclass(frozen=True)
+class Task:
+    """What to solve: ``gold`` pieces at least (-1: all), for ``seconds``, or for so many ticks of ``work`` a job.
+
+    ``first``: a run to shorten; ``first_only``: the first run that is found will do.
+    """
+
+    level: Level
+    body: Body = "circle"
+    gold: int = 0
+    seconds: float = 60.0
+    seed: int = 1
+    jobs: int = 1
+    work: int = 0
+    first: bytes = b""
+    first_only: bool = False
+
+    @property
+    def gold_wanted(self) -> int:
+        """Pieces of gold that a run must collect."""
+        return sum(record.kind == GOLD for record in self.level.objects) if self.gold < 0 else self.gold
+
+    @property
+    def work_planned(self) -> float:
+        """Ticks of work that each job plans with."""
+        return self.work or self.seconds * WORK_PER_SECOND
+
+
+@dataclass
+class SearchState:
+    """What the jobs share: the best runs, the count of work, and the end."""
+
+    task: Task
+    report: Report | None
+    began: float = field(default_factory=time.monotonic)
+    lock: Lock = field(default_factory=Lock)
+    stop: Event = field(default_factory=Event)
+    cancelled: Event = field(default_factory=Event)  #: by the caller
+    runs: list[bytes] = field(default_factory=list)
+    best: VerifiedRun | None = None
+    progress: Progress = field(default_factory=Progress)
+    on_better: Callable[[VerifiedRun], None] | None = None
+
+    def submit(self, inputs: bytes) -> None:
+        """Remember a run if it is among the best; a new best one is verified first."""
+        with self.lock:
+            if self.best is None or len(inputs) <= self.best.end_tick:
+                task = self.task
+                self.best = verified_run(task.level, inputs, body=task.body, gold=task.gold_wanted)
+                self.progress.best = self.best.end_tick
+                if self.on_better:
+                    self.on_better(self.best)
+            if inputs not in self.runs:
+                self.runs = sorted([*self.runs, inputs], key=lambda run: (len(run), run))[:CANDIDATES]
+
+    def note_gold(self, most: int, untaken: list[int]) -> None:
+        """Note how far a search for gold has come: pieces at once, and ids of those that it never collected."""
+        with self.lock:
+            self.progress.gold = max(self.progress.gold, most)
+            earlier = self.progress.untaken
+            self.progress.untaken = tuple(id_ for id_ in untaken if earlier is None or id_ in earlier)
+            if self.report:
+                self.report(replace(self.progress))
+
+    def count(self, ticks: int, worlds: int, doing: str) -> None:
+        """Add to the progress and show it."""
+        with self.lock:
+            self.progress.ticks += ticks
+            self.progress.worlds += worlds
+            self.progress.doing = doing
+            self.progress.seconds = time.monotonic() - self.began
+            if self.report:
+                self.report(replace(self.progress))
+
+    @property
+    def over(self) -> bool:
+        """Whether time is up or the caller wants to stop."""
+        late = not self.task.work and time.monotonic() - self.began >= self.task.seconds
+        return late or self.stop.is_set() or self.cancelled.is_set() or bool(self.task.first_only and self.best)
+
+
+WORK_PER_SECOND = 6_000_000
+"""What one thread is expected to do; plans are made with this number, never with the clock."""
+SEARCH_COST = 2.0
+
+FIND = (
+    (Resolution(), 8_000_000),
+    (Resolution(enemy_cell=24.0), 12_000_000),
+    (Resolution(cell=8.0, speed=0.5, macro=8, weight=1.5), 12_000_000),
+    (Resolution(cell=12.0, speed=1.0, macro=6, weight=1.2, visits=20, patience=12, enemy_cell=24.0), 12_000_000),
+    (Resolution(cell=12.0, speed=0.7, weight=2.0, visits=10), 16_000_000),
+    (Resolution(cell=6.0, speed=0.5, macro=4, weight=2.0, enemy_cell=24.0, enemy_reach=150.0), 20_000_000),
+    (Resolution(cell=9.0, speed=0.6, macro=6, weight=1.0, visits=4, patience=60, enemy_cell=24.0), 30_000_000),
+    (Resolution(cell=5.0, speed=0.4, macro=4, weight=3.0, visits=2), 40_000_000),
+    (Resolution(cell=10.0, speed=0.4, macro=7, jitter=4, weight=1.2, visits=6, patience=25), 40_000_000),
+)
+"""Searches for a first run, with their ticks; then over again with other seeds.
+
+Before each but the first, a run from switch to switch is looked for, as long.
+"""
+
+VARY = (
+    Resolution(cell=8.0, speed=0.5, macro=8, weight=1.0),
+    Resolution(cell=8.0, speed=0.4, macro=6, jitter=3, weight=1.1),
+    Resolution(cell=6.0, speed=0.35, macro=6, weight=1.0, slack=0.2, off_guide=0.3),
+    Resolution(cell=12.0, speed=0.4, macro=7, weight=1.0),
+    Resolution(cell=10.0, speed=0.35, macro=9, weight=1.2),
+    Resolution(cell=6.0, speed=0.5, macro=10, weight=1.1),
+)
+"""Searches for other routes. Those with ``slack`` (part of the best run's ticks) are guided by the search before."""
+VARY_TICKS = 12_000_000
+FOUND_BOUND, GIVEN_BOUND = 0.05, 0.15
+"""By what share a run of theirs may be longer than the best: one that was found here, or one that was given."""
+VARY_TURNS = 4
+"""One of them is made every so many turns, once runs are shortened."""
+
+SWEEP_TICKS = 12_000_000
+"""Ticks that a run with gold is swept before it gets a local search."""
+
+SLICE = 1_000_000
+"""Ticks between two looks at the clock."""
+SHORT_CLIMB = 3_000_000
+"""Ticks of the local search from a run that came of the search of a span."""
+COOLING = (6.0, 4.0, 2.5, 1.2, 0.4)
+"""Temperatures of a local search, one after the other."""
+
+
+@dataclass(frozen=True)
+class Shares:
+    """How a solver's work is divided: the part of it that only looks for other routes; ticks of the others."""
+
+    vary_until: float = 0.25
+    spans: int = 20_000_000
+    spans_with_gold: int = 6_000_000
+    first_climb: int = 20_000_000
+    climb: int = 8_000_000
+
+
+def find_order(job: int) -> Iterator[tuple[Resolution, int, int]]:
+    """Resolution, ticks and seed number of one search for a first run after the other; each job begins elsewhere."""
+    turn = job
+    while True:
+        resolution, ticks = FIND[turn % len(FIND)]
+        yield resolution, ticks, turn
+        turn += 1 if job == 0 else 4

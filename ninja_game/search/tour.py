@@ -1,0 +1,161 @@
+"""In which order to fetch pieces of gold: a short open tour, by insertion and then by moving parts of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.search.heuristics import Field, Heuristics, point_at
+from ninja_game.search.legs import Moment, pieces_of
+
+Distances = NDArray[np.float64]
+"""Ticks from each stop (row) to each stop (column)."""
+
+LONGEST_SEGMENT = 4
+"""Stops that are moved together."""
+
+
+def short_tour(start: Distances, between: Distances, end: Distances, order: Sequence[int] = ()) -> list[int]:
+    """All stops in an order with a short way from the start over all of them to the end.
+
+    ``start``, ``end``: ticks from the start to each stop, from each stop to the end; ``between``: from stop to stop.
+    ``order``: stops in an order to begin with; those that it lacks are inserted where they cost least.
+    """
+    tour = list(order)
+    missing = set(range(len(start))) - set(tour)
+    while missing:
+        # The nearest to what is in the tour first, so that a far one joins the neighbours it passes.
+        costs = {stop: _best_place(stop, stop, tour, start, between, end) for stop in sorted(missing)}
+        stop = min(costs, key=lambda stop: (costs[stop][0], stop))
+        tour.insert(costs[stop][1], stop)
+        missing.remove(stop)
+    while _move_a_segment(tour, start, between, end):
+        pass
+    return tour
+
+
+def _best_place(
+    first: int, last: int, tour: list[int], start: Distances, between: Distances, end: Distances
+) -> tuple[float, int]:
+    """The least cost of a segment (its first and last stop) within a tour, and before which stop that is."""
+    if not tour:
+        return float(start[first] + end[last]), 0
+    stops = np.array(tour)
+    into = np.append(start[first], between[stops, first])
+    out = np.append(between[last, stops], end[last])
+    skipped = np.concatenate(([start[stops[0]]], between[stops[:-1], stops[1:]], [end[stops[-1]]]))
+    added = into + out - skipped
+    place = int(np.argmin(added))
+    return float(added[place]), place
+
+
+def _move_a_segment(tour: list[int], start: Distances, between: Distances, end: Distances) -> bool:
+    """Move the first segments that are better elsewhere, also turned round; whether any was moved."""
+    moved = False
+    for length in range(1, min(LONGEST_SEGMENT, len(tour) - 1) + 1):
+        for index in range(len(tour) - length + 1):
+            segment = tour[index : index + length]
+            rest = tour[:index] + tour[index + length :]
+            before = start[segment[0]] if index == 0 else between[rest[index - 1], segment[0]]
+            after = end[segment[-1]] if index == len(rest) else between[segment[-1], rest[index]]
+            if index == 0:
+                direct = start[rest[0]]
+            elif index == len(rest):
+                direct = end[rest[-1]]
+            else:
+                direct = between[rest[index - 1], rest[index]]
+            present = float(before + after - direct)
+            added, place = _best_place(segment[0], segment[-1], rest, start, between, end)
+            turned_added, turned_place = _best_place(segment[-1], segment[0], rest, start, between, end)
+            if length > 1:
+                inside = float(between[segment[:-1], segment[1:]].sum())
+                turned_added += float(between[segment[1:], segment[:-1]].sum()) - inside
+            if min(added, turned_added) > present - 1.0:
+                continue
+            if turned_added < added:
+                segment.reverse()
+                place = turned_place
+            tour[:] = rest[:place] + segment + rest[place:]
+            moved = True
+    return moved
+
+
+FAR = 20_000.0
+"""Ticks that an unreachable piece counts."""
+FAILED = 200.0
+"""Ticks that a way counts at least which a leg did not find."""
+SLOWER, TURN = 1.4, 10.0
+"""What legs take, against distance fields, which know no run-ups: so many times the ticks, and ticks more a piece."""
+FIELDS_KEPT = 400
+MASKS_KEPT = 16
+
+
+class PieceTicks:
+    """Ticks between the pieces of a level, to be learned from the legs of its runs."""
+
+    def __init__(self, heuristics: Heuristics) -> None:
+        self._heuristics = heuristics
+        self._points = np.array([point_at(x, y) for x, y in heuristics.gold_places], np.int64)
+        count = len(self._points)
+        # The last row: from the start of the level.
+        self._measured: Distances = np.full((count + 1, count), np.nan)
+        self._factors: Distances = np.ones((count + 1, count))
+        self._distances: dict[int, Field] = {}
+        self._fields: dict[tuple[int, int], Field] = {}
+
+    def change(self, random: np.random.Generator, noise: float) -> None:
+        """Change all estimates at random by up to half of ``noise`` (a part of them), for other tours."""
+        self._factors = 1.0 + noise * (random.random(self._factors.shape) - 0.5)
+
+    def learn(self, before: Moment, after: Moment) -> None:
+        """Learn from a leg how many ticks it is from one piece to the next."""
+        new = list(pieces_of(after.taken & ~before.taken))
+        if len(new) == 1 and before.mask == after.mask:
+            row, ticks = _last_piece(before), max(1.0, float(after.tick - before.tick))
+            self._measured[row, new[0]] = np.fmin(self._measured[row, new[0]], ticks)
+
+    def note_failure(self, before: Moment, piece: int) -> None:
+        """Note that a leg did not reach a piece: it counts as farther from now on."""
+        row = _last_piece(before)
+        known = np.nan_to_num(self._measured[row, piece], nan=0.0)
+        self._measured[row, piece] = min(FAR, max(FAILED, 1.5 * known))
+
+    def estimate(self, moment: Moment) -> tuple[Distances, Distances, Distances]:
+        """Ticks from each piece to each, from a moment to each piece, and to the exit from each (last: the moment)."""
+        mask, here = moment.mask, point_at(*moment.place)
+        if mask not in self._distances:
+            if len(self._distances) >= MASKS_KEPT:
+                self._distances.clear()
+            self._distances[mask] = self._heuristics.tour_fields(mask)
+        fields = self._distances[mask]
+        far = np.vstack([fields[:-1, self._points].T, fields[:-1, here]]).astype(float)
+        far = np.minimum(SLOWER * far + TURN, FAR)
+        row = _last_piece(moment)
+        known = np.vstack([self._measured[:-1], self._measured[row]])
+        factors = np.vstack([self._factors[:-1], self._factors[row]])
+        ticks = np.where(np.isnan(known), far, known) * factors
+        home = SLOWER * np.append(fields[-1, self._points], fields[-1, here]).astype(float)
+        return ticks[:-1], ticks[-1], np.minimum(home, FAR)
+
+    def field(self, target: int, mask: int, x: float, y: float) -> Field:
+        """The field of a piece (-1: the exit) in a switch state, made when it is first wanted."""
+        if (target, mask) not in self._fields:
+            if len(self._fields) >= FIELDS_KEPT:
+                self._fields.clear()
+            heuristics = self._heuristics
+            field = (
+                heuristics.field(mask, x, y)
+                if target < 0
+                else heuristics.field_to(heuristics.gold_places[target], mask, x, y)
+            )
+            self._fields[target, mask] = field
+        return self._fields[target, mask]
+
+
+def _last_piece(moment: Moment) -> int:
+    """The piece collected last before a moment, -1 if there is none."""
+    while moment.before and moment.before.taken == moment.taken:
+        moment = moment.before
+    return max(pieces_of(moment.taken & ~(moment.before.taken if moment.before else 0)), default=-1)

@@ -1,1 +1,0 @@
-"""Runs that are put together from legs: from switch to switch, from gold to gold, to the exit."""

@@ -1,0 +1,338 @@
+"""Search under direction: formulas, what their names mean, and keys for a span of a run."""
+
+from __future__ import annotations
+
+import json
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner, Result
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ninja_game import ArgumentError, Simulation, parse_level
+from ninja_game.batch.batch import Batch
+from ninja_game.cli.main import cli
+from ninja_game.formats.load import load_replays
+from ninja_game.search.formula.language import FormulaError, parse_number, parse_truth
+from ninja_game.search.formula.methods import count_ways, search_span
+from ninja_game.search.formula.names import FACTS, NAMES, SPAN_NAMES, difference_from, view_of
+from ninja_game.search.formula.task import Found, SpanTask
+from ninja_game.sim.digest import state_digest
+from ninja_game.sim.inputs import press_jumps
+from tests.support.memories import BOTH
+from tests.support.samples import loose_replay
+
+TEXT = "0" * 713 + "|5^100,566!11^200,564,170,564!0^140,566!12^400,400"
+LEVEL = parse_level(TEXT)
+WAITING = bytes([0] * 6 + [2] * 60)
+"""Stands for six ticks, then runs over gold and switch into the exit."""
+
+
+def at_ten_ticks() -> Batch:
+    """Three worlds after ten ticks: standing, going left, going right."""
+    batch = Batch(LEVEL, 3, memory="plain")
+    batch.run([[0, 1, 2]] * 10)
+    return batch
+
+
+# --- Formulas ---
+
+numbers = st.floats(0, 100, allow_nan=False).map(lambda value: f"{value:.3f}")
+
+
+def formulas() -> st.SearchStrategy[str]:
+    """Truths and numbers that Python understands too."""
+    values = st.recursive(
+        numbers | st.sampled_from(["x", "y", "vx", "gold"]),
+        lambda part: st.builds("({} {} {})".format, part, st.sampled_from("+-*"), part)
+        | st.builds("-{}".format, part)
+        | st.builds("max({}, abs({}))".format, part, part),
+        max_leaves=6,
+    )  # fmt: skip
+    comparisons = st.builds("{} {} {}".format, values, st.sampled_from(["<", "<=", ">", ">=", "==", "!="]), values)
+    return st.recursive(
+        comparisons,
+        lambda part: st.builds("({} {} {})".format, part, st.sampled_from(["and", "or"]), part)
+        | st.builds("(not {})".format, part),
+        max_leaves=4,
+    )  # fmt: skip
+
+
+@given(formulas())
+def test_a_formula_means_what_it_means_in_python(text: str) -> None:
+    batch = at_ten_ticks()
+    found = parse_truth(text, NAMES, FACTS).value(view_of(batch))
+    for index, ((x, y), vx) in enumerate(zip(batch.positions.tolist(), batch.velocities()[:, 0].tolist(), strict=True)):
+        names = {"x": x, "y": y, "vx": vx, "gold": int(batch.gold[index]), "max": max, "abs": abs}
+        assert bool(np.broadcast_to(found, 3)[index]) == bool(eval(text, {"__builtins__": {}}, names)), index
+
+
+@given(formulas())
+def test_the_margin_is_positive_only_where_the_formula_is_true(text: str) -> None:
+    view, formula = view_of(at_ten_ticks()), parse_truth(text, NAMES, FACTS)
+    value, margin = np.broadcast_to(formula.value(view), 3), np.broadcast_to(formula.margin(view), 3)
+    assert not (margin[value == 0] > 0).any()
+    assert not (margin[value > 0] < 0).any()
+
+
+def test_names_mean_what_a_simulation_shows() -> None:
+    batch, run = at_ten_ticks(), Simulation(LEVEL)
+    for _ in range(10):
+        run.step_keys(2)
+    view = view_of(batch)
+    assert float(view["x"]()[2]) == run.ninja.x
+    assert float(view["vx"]()[2]) == run.ninja.vx
+    assert float(view["distance"](100.0, 566.0)[2]) == run.ninja.x - 100
+    assert view["tick"]().tolist() == [9, 9, 9]
+    batch.run([[0, 0, 2]] * 60, stop=True)
+    for text, expected in {"taken(2)": [0, 0, 1], "opened(1)": [0, 0, 1], "won": [0, 0, 1], "dead": [0, 0, 0]}.items():
+        assert parse_truth(text, NAMES, FACTS).value(view).tolist() == expected, text
+    assert view["object_x"](3.0).tolist() == [400] * 3
+
+
+@pytest.mark.parametrize(
+    "text, column, message",
+    [
+        ("x >", 4, "not a formula; found the end"),
+        ("", 1, "not a formula; found the end"),
+        ("x > 3 4", 7, "not a formula; found '4'"),
+        ("__import__(x)", 1, "an unknown name; found '__import__(x)'"),
+        ("import os", 1, "not a formula"),
+        ("x > 1; y", 6, "a character that no formula has; found ';'"),
+        ("taken(2", 6, "not a formula; found '(2'"),
+        ("taken", 1, "'taken' with 0 numbers; found 'taken'; expected taken(number)"),
+        ("taken(1, 2)", 1, "'taken' with 2 numbers"),
+        ("x and y > 1", 1, "a number beside"),
+        ("(x > 1) + 2", 2, "true or false where a number belongs"),
+        ("  x.real > 1", 3, "not a part of a formula; found 'x.real'"),
+        ("x in y", 1, "an unknown comparison"),
+        ("1j > x", 1, "not a part of a formula; found '1j'"),
+        ("True", 1, "not a part of a formula"),
+        ("-" * 50 + "x > 1", 40, "too many brackets"),
+        ("(" * 500, 201, "not a formula"),
+        ("x", 0, "a number, neither true nor false; found 'x'"),
+        ("x" * 2000, 0, "a formula that is too long"),
+    ],
+)
+def test_what_is_no_formula_is_named_with_its_place(text: str, column: int, message: str) -> None:
+    with pytest.raises(FormulaError) as caught:
+        parse_truth(text, NAMES, FACTS)
+    assert message in str(caught.value)
+    assert caught.value.column == column
+
+
+def test_comparisons_in_a_row_hold_together() -> None:
+    view = view_of(at_ten_ticks())
+    chained, joined = (parse_truth(text, NAMES, FACTS) for text in ("90 < x < 110", "90 < x and x < 110"))
+    assert chained.value(view).tolist() == joined.value(view).tolist() == [1, 1, 1]
+    assert chained.margin(view).tolist() == joined.margin(view).tolist()
+
+
+@given(st.text("xyvtick<>=!()+-*/ 0123.andornot,_$", max_size=40))
+def test_any_text_is_a_formula_or_an_error_of_ours(text: str) -> None:
+    for parse in (parse_truth, parse_number):
+        try:
+            formula = parse(text, NAMES, FACTS)
+        except FormulaError:
+            continue
+        with np.errstate(all="ignore"):
+            formula.value(view_of(at_ten_ticks()))
+
+
+def test_an_unknown_object_is_named() -> None:
+    view = view_of(at_ten_ticks())
+    wrong = {"taken(9)": "no object 9", "taken(1)": "object 1 is of kind exit", "opened(0.5)": "no object 0.5"}
+    for text, message in wrong.items():
+        with pytest.raises(ArgumentError, match=message):
+            parse_truth(text, NAMES, FACTS).value(view)
+
+
+# --- Spans ---
+
+
+def searched(task: SpanTask, *, rounds: int = 30, **options: object) -> tuple[Found, ...]:
+    """A search of so many reports, on the plain memory where none is asked for."""
+    reports: list[int] = []
+
+    def report(ticks: int, _: tuple[Found, ...]) -> bool:
+        reports.append(ticks)
+        return len(reports) < rounds
+
+    return search_span(task, report, **{"memory": "auto", **options})  # type: ignore[arg-type]
+
+
+def outcome_of(inputs: bytes) -> tuple[str, int]:
+    run = Simulation(LEVEL)
+    for keys in inputs:
+        run.step_keys(keys)
+        if run.outcome != "running":
+            break
+    return run.outcome, run.tick
+
+
+@pytest.mark.parametrize("method", ["local", "beam", "auto"])
+def test_the_goal_is_reached_earlier_than_in_the_run(method: str) -> None:
+    task = SpanTask(LEVEL, WAITING, 0, 40, goal="x > 130")
+    best = searched(task, method=method)[0]
+    run = Simulation(LEVEL)
+    places = []
+    for keys in best.inputs:
+        run.step_keys(keys)
+        places.append(run.ninja.x)
+    assert [x > 130 for x in places] == [False] * (len(places) - 1) + [True]
+    assert len(best.inputs) == best.ticks == best.score < 24
+
+
+def test_the_exhaustive_search_finds_the_best_there_is() -> None:
+    task = SpanTask(LEVEL, WAITING, 10, 22, measure="y", least=True)
+    best = searched(task, rounds=10**6, method="exhaustive", every=4)[0]
+    heights = []
+    for choice in product([0, 1, 2, 4, 5, 6], repeat=3):
+        run = Simulation(LEVEL)
+        for keys in press_jumps([*WAITING[:10], *(keys for keys in choice for _ in range(4))]):
+            run.step_keys(keys)
+        heights.append(run.ninja.y)
+    assert best.score == min(heights)
+
+
+def test_the_rest_of_the_run_follows_and_must_reach_the_exit() -> None:
+    before = outcome_of(WAITING)
+    best = searched(SpanTask(LEVEL, WAITING, 0, 30, goal="x > 120", rest=True))[0]
+    after = outcome_of(best.inputs)
+    assert after == ("exit", int(best.score))
+    assert after[1] < before[1]
+
+
+@pytest.mark.parametrize("memory", BOTH)
+def test_exactly_the_same_state_is_reached_sooner_and_the_rest_follows(memory: str) -> None:
+    """It stands still for six ticks."""
+    task = SpanTask(LEVEL, WAITING, 0, 20, goal="difference(19) == 0", rest=True)
+    best = searched(task, memory=memory, method="local", rounds=3 if memory == "plain" else 30)[0]
+    assert outcome_of(best.inputs) == ("exit", int(best.score)) == ("exit", outcome_of(WAITING)[1] - 20 + best.ticks)
+    assert best.ticks < 20
+    runs = Simulation(LEVEL), Simulation(LEVEL)
+    for run, inputs in zip(runs, (WAITING[:20], best.inputs[: best.ticks]), strict=True):
+        for keys in inputs:
+            run.step_keys(keys)
+    assert state_digest(runs[0].world) == state_digest(runs[1].world)
+
+
+def test_the_difference_is_that_of_place_and_velocity_until_all_is_the_same() -> None:
+    batch = at_ten_ticks()
+    difference = difference_from(LEVEL, bytes([2] * 12), batch)
+    right, x = Simulation(LEVEL), batch.positions[:, 0]
+    for _ in range(10):
+        right.step_keys(2)
+    away = 1 + np.abs(x - right.ninja.x) + np.abs(batch.velocities()[:, 0] - right.ninja.vx)
+    assert difference(9.0).tolist() == pytest.approx([away[0], away[1], 0])
+    for text, message in {"difference(12)": "the run has ticks 0 to 11", "difference(x)": "is a plain number"}.items():
+        with pytest.raises(ArgumentError, match=message):
+            parse_number(text, SPAN_NAMES, FACTS).value({**view_of(batch), "difference": difference})
+
+
+def test_the_same_place_in_another_world_is_a_difference() -> None:
+    batch = Batch(LEVEL, 2, memory="plain")
+    batch.run([[0, 0]] * 6)
+    batch.world(1).objects[2].is_open = 1
+    batch.copy([1], [1])
+    assert difference_from(LEVEL, WAITING, batch)(5.0).tolist() == [0, 1]
+
+
+def test_the_same_seed_finds_the_same() -> None:
+    task = SpanTask(LEVEL, WAITING, 0, 30, measure="vx - y / 10")
+    first, second = (searched(task, rounds=12, seed=3) for _ in range(2))
+    assert [(each.score, each.keys.tolist()) for each in first] == [(each.score, each.keys.tolist()) for each in second]
+
+
+@pytest.mark.parametrize("measure", ["1 / (x - x)", "0 / 0", "-1 / 0"])
+def test_what_has_no_value_is_no_result(measure: str) -> None:
+    for least in (False, True):
+        assert not searched(SpanTask(LEVEL, WAITING, 0, 10, measure=measure, least=least), rounds=2)
+
+
+def test_results_are_different_and_sorted() -> None:
+    found = searched(SpanTask(LEVEL, WAITING, 0, 30, goal="x > 110"))
+    assert list(found) == sorted(found)
+    assert len({each.keys[: each.ticks].tobytes() for each in found}) == len(found) > 1
+
+
+@pytest.mark.parametrize(
+    "changes, message",
+    [
+        ({"first": 5, "last": 5}, "expected a later tick"),
+        ({"last": 9000}, "at most 4000"),
+        ({"first": 900, "last": 950}, "the run ends in tick 65"),
+        ({"rest": True, "measure": "vx"}, "its length is the measure"),
+    ],
+)
+def test_a_span_that_is_none_is_refused(changes: dict[str, object], message: str) -> None:
+    with pytest.raises(ArgumentError, match=message):
+        SpanTask(**{"level": LEVEL, "inputs": WAITING, "first": 0, "last": 30, **changes})  # type: ignore[arg-type]
+
+
+def test_a_span_after_the_end_and_too_many_ways_are_refused() -> None:
+    with pytest.raises(ArgumentError, match="over before tick 60"):
+        searched(SpanTask(LEVEL, WAITING, 60, 66, goal="x > 1"))
+    with pytest.raises(ArgumentError, match="a choice every 5 ticks has few enough"):
+        count_ways(SpanTask(LEVEL, WAITING, 0, 40), 1)
+
+
+# --- The command ---
+
+
+def called(*words: str | Path | float) -> Result:
+    return CliRunner().invoke(cli, ["search", *map(str, words)])
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Path:
+    path = tmp_path / "run.inputs.txt"
+    path.write_text(loose_replay(TEXT, ".*6 R*60", headers="author: A. Player\n"))
+    return path
+
+
+def test_command_writes_the_best_run_and_keeps_its_author(run: Path, tmp_path: Path) -> None:
+    out = tmp_path / "best.replay.txt"
+    result = called(run, "--from", 0, "--to", 30, "--goal", "x > 120", "--rest", "--seconds", 1.5, "-o", out)
+    assert result.exit_code == 0, result.output
+    (recording,) = load_replays(out)
+    assert recording.author == "A. Player"
+    assert f"exit in tick {recording.ticks - 1}: " in result.stdout
+    assert recording.ticks < outcome_of(WAITING)[1]
+    before = run.read_text()
+    assert called(run, "--from", 0, "--to", 30, "--goal", "x > 120", "--seconds", 1, "-o", run).exit_code == 2
+    assert run.read_text() == before
+
+
+def test_command_keeps_the_end_of_a_span_exactly(run: Path, tmp_path: Path) -> None:
+    out = tmp_path / "shorter.replay.txt"
+    goal = "difference(19) == 0"
+    result = called(run, "--from", 0, "--to", 20, "--goal", goal, "--rest", "--seconds", 1.5, "-o", out)
+    assert result.exit_code == 0, result.output
+    (recording,) = load_replays(out)
+    assert recording.ticks < outcome_of(WAITING)[1]
+
+
+def test_command_says_what_is_wrong(run: Path) -> None:
+    assert (
+        "--maximise and --minimise" in called(run, "--from", 0, "--to", 9, "--maximise", "x", "--minimise", "y").stderr
+    )
+    wrong = called(run, "--from", 0, "--to", 9, "--goal", "x >")
+    assert wrong.exit_code == 2
+    assert "ninja-game: goal, column 4: not a formula; found the end" in wrong.stderr
+    number = called(run, "--from", 0, "--to", 9, "--maximise", "x > 3")
+    assert "ninja-game: measure: true or false, no number; found 'x > 3'" in number.stderr
+    assert "say what is wanted" in called(run, "--from", 0, "--to", 9).stderr
+    assert "--every is for" in called(run, "--from", 0, "--to", 9, "--goal", "x > 1", "--every", 2).stderr
+    none = called(run, "--from", 0, "--to", 9, "--goal", "x > 700", "--seconds", 0.3)
+    assert none.exit_code == 1
+    assert "not reached" in none.stdout
+
+
+def test_the_page_explains_every_name() -> None:
+    page = (Path(__file__).resolve().parents[2] / "docs" / "speedruns.md").read_text("utf-8")
+    missing = [name for name in SPAN_NAMES if f"`{name}" not in page]
+    assert json.dumps(missing) == "[]"

@@ -1,0 +1,127 @@
+"""A span's search beside a program: live results, the end, what goes wrong."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable
+from threading import Event
+from time import process_time, thread_time
+from typing import Any
+
+import numpy as np
+import pytest
+
+from ninja_game import ArgumentError, Simulation, parse_level
+from ninja_game.compile_cache import compiled_available
+from ninja_game.search.formula import background
+from ninja_game.search.formula.background import SpanSearch
+from ninja_game.search.formula.language import FormulaError
+from ninja_game.search.formula.task import Found, SpanTask
+from tests.support.waiting import LONGEST
+
+LEVEL = parse_level("0" * 713 + "|5^100,566!11^200,564,170,564!0^140,566!12^400,400")
+WAITING = bytes([0] * 6 + [2] * 60)
+"""Stands for six ticks, then runs over gold and switch into the exit."""
+
+
+def task(**changes: object) -> SpanTask:
+    given: dict[str, Any] = {"first": 0, "last": 30, "goal": "x > 130", **changes}
+    return SpanTask(LEVEL, WAITING, **given)
+
+
+def until_found(search: SpanSearch) -> Found:
+    deadline = time.monotonic() + LONGEST
+    while not search.found:
+        assert time.monotonic() < deadline
+        assert not search.done, search.problem
+        time.sleep(0.005)
+    return search.found[0]
+
+
+def test_results_show_while_it_goes_on_and_stay_after_the_end() -> None:
+    search = SpanSearch(task())
+    assert (search.found, search.done, search.seconds) == ((), False, 0.0)
+    search.start()
+    first = until_found(search)
+    before = search.done
+    run = Simulation(LEVEL)
+    for keys in first.inputs:
+        run.step_keys(keys)
+    assert run.ninja.x > 130
+    assert search.ticks_run > 0
+    search.cancel()
+    search.finish(LONGEST)
+    assert (before, search.done) == (False, True)
+    assert search.found[0] <= first
+    assert list(search.found) == sorted(search.found)
+    assert search.problem == ""
+    assert search.seconds > 0
+
+
+def test_it_ends_by_itself_after_its_time_or_when_all_is_tried() -> None:
+    for search in (SpanSearch(task(), seconds=0.05), SpanSearch(task(last=12, goal=""), "exhaustive", every=12)):
+        search.start()
+        search.start()
+        search.finish(LONGEST)
+        assert search.done
+        assert search.found or search._limit
+
+
+def test_what_cannot_be_searched_is_said() -> None:
+    with pytest.raises(FormulaError):
+        SpanSearch(task(goal="x >"))
+    with pytest.raises(ArgumentError, match="expected 'auto', 'local'"):
+        SpanSearch(task(), "magic")
+    for search in (
+        SpanSearch(task(first=60, last=70)),
+        SpanSearch(task(), "exhaustive"),
+        SpanSearch(task(goal="taken(1)")),
+    ):
+        search.start()
+        search.finish(LONGEST)
+        assert search.done
+        assert search.problem
+        assert not search.found
+
+
+def test_it_is_over_at_once_where_it_is_cancelled_while_kernels_are_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
+    compiled, asked = Event(), Event()
+
+    def slow(_: SpanTask, report: Callable[[int, tuple[Found, ...]], bool], **__: object) -> None:
+        assert compiled.wait(60.0)
+        assert not report(1, (Found(1.0, 1, np.zeros(1, np.uint8)),))
+        asked.set()
+
+    monkeypatch.setattr(background, "search_span", slow)
+    search = SpanSearch(task())
+    search.start()
+    before = search.done
+    search.cancel()
+    assert (before, search.done) == (False, True)
+    search.finish(60.0)
+    compiled.set()
+    assert asked.wait(60.0)
+    assert (search.found, search.ticks_run, search.seconds) == ((), 0, 0.0)
+
+
+@pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+def test_the_interpreter_is_free_for_a_window_meanwhile() -> None:
+    """The search works on while this thread keeps the interpreter for itself, as a window does that draws."""
+    search = SpanSearch(task(last=60), jobs=1)
+    search.start()
+    until_found(search)
+    interval, worked, deadline = sys.getswitchinterval(), 0.0, time.monotonic() + 120
+    sys.setswitchinterval(1.0)  # nothing takes the interpreter away from this thread meanwhile
+    try:
+        while worked < 0.02:
+            assert time.monotonic() < deadline, worked
+            time.sleep(0.001)
+            before, end = process_time() - thread_time(), thread_time() + 0.003
+            while thread_time() < end:
+                pass
+            worked += process_time() - thread_time() - before
+    finally:
+        sys.setswitchinterval(interval)
+        search.cancel()
+        search.finish(LONGEST)
