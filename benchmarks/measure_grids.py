@@ -14,7 +14,7 @@ import numpy as np
 
 from benchmarks import arena, normal_grid
 from benchmarks.charts import Chart, seconds_per
-from ninja_game.compile_cache import compiled
+from ninja_game.backend.memories import compiled
 
 NUMBERS = (10, 30, 100, 300, 1000, 3000, 10_000)
 QUERIES = 16_384
@@ -105,7 +105,7 @@ def pairs() -> Chart:
 
 
 def moves() -> Chart:
-    """Filing anew after a move by up to a tenth of a cell, and bullets that are in the grid or only read it."""
+    """Filing again after a move by up to a tenth of a cell, and bullets that are in the grid or only read it."""
     chart = Chart("moves-against-objects", "Moving one object, one object a cell", "objects", "ns an object", "x")
     for count in NUMBERS[2:]:
         here = Arena(count)

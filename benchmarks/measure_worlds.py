@@ -14,14 +14,14 @@ from numpy.typing import NDArray
 
 from benchmarks import game_kernels
 from benchmarks.charts import Chart, seconds_per
+from ninja_game.backend.memories import compiled
 from ninja_game.batch.batch import Batch
 from ninja_game.batch.thread_pool import cores
-from ninja_game.compile_cache import compiled
 from ninja_game.formats.recording import Recording
 from ninja_game.sim.kinds import GOLD, MINE, NINJA
 from ninja_game.sim.level import TILES, Level, ObjectSpec
 from ninja_game.sim.memory.compiled import load_worlds
-from ninja_game.sim.memory.kernels import race_world
+from ninja_game.sim.memory.kernels import count_ticks
 from ninja_game.sim.memory.layout import used_bytes
 from ninja_game.simulation import Simulation
 
@@ -37,7 +37,7 @@ def crowd(recordings: Sequence[Recording], count: int, threads: int) -> tuple[Ba
     """Worlds that play the recordings, and the inputs of their first ticks."""
     chosen = [recordings[number % len(recordings)] for number in range(count)]
     batch = Batch([recording.level for recording in recordings], count, memory="compiled", threads=threads)
-    inputs = np.frombuffer(b"".join(recording.playback(TICKS) for recording in chosen), np.uint8)
+    inputs = np.frombuffer(b"".join(recording.replay.playback(TICKS) for recording in chosen), np.uint8)
     return batch, np.ascontiguousarray(inputs.reshape(count, TICKS).T)
 
 
@@ -121,7 +121,7 @@ def objects() -> Chart:
 def whole_ticks() -> Chart:
     """A whole tick against the objects in the level, that rest as gold and mines do; the cost of a save-state."""
     chart = Chart("tick-against-objects", "A tick and a save-state", "objects in the level", "ns")
-    call = compiled(race_world)
+    call = compiled(count_ticks)
     keys = np.zeros(400, np.uint8)
     for count in NUMBERS:
         levels, world = load_worlds(compiled, [scattered(count)], box=False)

@@ -1,4 +1,4 @@
-"""How cost grows: every chart of docs/performance.md, measured anew. `ninja-game bench --scaling FOLDER` calls this."""
+"""How cost grows: every chart of docs/performance.md. `ninja-game bench --scaling FOLDER` calls this."""
 
 from __future__ import annotations
 

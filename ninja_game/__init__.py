@@ -23,8 +23,8 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
+    from ninja_game.backend.memories import MemoryUnavailableError
     from ninja_game.batch.batch import Batch, BatchState
-    from ninja_game.compile_cache import MemoryUnavailableError
     from ninja_game.errors import ArgumentError, DemoError, FormatError, LevelError, NinjaGameError, ReplayError
     from ninja_game.formats.load import load_level, load_levels, load_replays, parse_level
     from ninja_game.formats.n14.demo import parse_demo, write_demo
@@ -42,7 +42,7 @@ __version__ = "0.1.0"
 
 _NAMES = {
     "batch.batch": ("Batch", "BatchState"),
-    "compile_cache": ("MemoryUnavailableError",),
+    "backend.memories": ("MemoryUnavailableError",),
     "errors": ("ArgumentError", "DemoError", "FormatError", "LevelError", "NinjaGameError", "ReplayError"),
     "formats.load": ("load_level", "load_levels", "load_replays", "parse_level"),
     "formats.n14.demo": ("parse_demo", "write_demo"),

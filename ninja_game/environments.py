@@ -21,7 +21,7 @@ ENVIRONMENTS: dict[str, dict[str, Any]] = {
     "NinjaTest-v0": {"level": "test"},
     "NinjaCurriculum-v0": {"level": "curriculum"},
 }
-"""The registered ids and what they set beside the defaults; docs/learning.md tells what their version fixes."""
+"""The registered ids and what they set besides the defaults; docs/learning.md tells what their version fixes."""
 
 
 def register() -> None:

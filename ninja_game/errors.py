@@ -84,7 +84,7 @@ class BudgetError(FormatError):
 
 
 class LinkError(FormatError):
-    """A link to a level, a pack or a replay that was cut or changed, or that carries too much."""
+    """A link to a level, a pack or a replay that is truncated, changed or too large."""
 
 
 class PackError(FormatError):

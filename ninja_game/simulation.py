@@ -21,7 +21,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from ninja_game.compile_cache import open_memory
+from ninja_game.backend.memories import open_memory
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.digest import differences, replay_digest, world_digest
 from ninja_game.sim.events import EVENT_NAMES
@@ -180,7 +180,7 @@ class Simulation:
 
     @property
     def outcome(self) -> str:
-        """What came first: "exit" or "dead"; "running" while neither has."""
+        """The outcome: "exit" or "dead"; "running" while neither has."""
         return OUTCOME_NAMES[self._memory.outcome]
 
     @property

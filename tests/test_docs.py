@@ -114,7 +114,7 @@ def test_security_page_states_the_limits_that_hold() -> None:
 @pytest.mark.parametrize("page", API_PAGES, ids=named)
 def test_the_page_of_an_api_tells_every_public_name_with_its_signature(page: Path) -> None:
     told, made = page.read_text("utf-8").partition(HEADING)[2], reference(API_PAGES[page]).partition(HEADING)[2]
-    assert told == made, "write it anew: python3 tools/dev.py golden"
+    assert told == made, "write it again: python3 tools/dev.py golden"
     entries = re.split(r"\n(?=- |\n)", made)
     assert all(re.search(r"`:\s", entry) for entry in entries if entry.strip()), "something has no docstring"
 

@@ -7,10 +7,10 @@ usage: python3 tools/dev.py COMMAND ...
   run              any `ninja-game` command: `run info levels/00-0-first-steps.txt`
   test             `lint`, then all tests; with words of your own (a file, `-k NAME`) pytest alone, with them
   lint             style, format, types, import contract; `lint --fix` mends what a program can mend
-  golden           write the golden files of the tests anew, after a change of the rules that is meant
+  golden           write the golden files of the tests again, after a change of the rules that is meant
   change-rules     test the tests: break the rules one at a time and tell which breaks no test notices
-  accept-pictures  record the screens and pictures of the tests anew, after a change of the looks that is meant
-  docs             draw the pictures of docs/ anew
+  accept-pictures  record the screens and pictures of the tests again, after a change of the looks that is meant
+  docs             draw the pictures of docs/ again
   tool             any script of tools/, listed in docs/tools.md: `tool soak.attract_mode --minutes 1`
   clean            remove .venv, caches and build products
 
@@ -84,7 +84,7 @@ def become(*words: str) -> int:
 
 
 def make_environment() -> None:
-    """A `.venv` with pip; a half-made one, or one whose Python has gone, is made anew."""
+    """A `.venv` with pip; a half-made one, or one whose Python has gone, is made again."""
     works = [program("python"), "-m", "pip", "--version"]
     if Path(works[0]).exists() and subprocess.run(works, capture_output=True, check=False).returncode == 0:
         return

@@ -24,9 +24,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ninja_game.backend.memories import choose_memory
 from ninja_game.batch.thread_pool import cores
 from ninja_game.batch.worlds import Numbers, make_worlds
-from ninja_game.compile_cache import choose_memory
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.digest import state_digest, world_digest
 from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, JUMP_PRESSED, KEYS_DOWN
@@ -40,7 +40,7 @@ from ninja_game.simulation import Body, is_box
 
 __all__ = ["OBJECT_FIELDS", "OUTCOME_NAMES", "Batch", "BatchState"]
 
-Which: TypeAlias = int | slice | Sequence[int] | Sequence[bool] | NDArray[np.intp] | NDArray[np.bool_] | None
+WorldChoice: TypeAlias = int | slice | Sequence[int] | Sequence[bool] | NDArray[np.intp] | NDArray[np.bool_] | None
 """Worlds: by number, a slice of numbers, or one truth value for each world; None: all of them."""
 
 OBJECT_FIELDS = {kind.name: tuple(field.name for field in fields_of(kind.fields)) for kind in KINDS}
@@ -154,7 +154,7 @@ class Batch:
             raise ArgumentError(f"inputs are {found}; expected integers, {self.count} a tick")
         if rows.size and not 0 <= rows.min() <= rows.max() <= ALL_KEYS:
             raise ArgumentError(f"inputs are {rows.min()} to {rows.max()}; expected sums of Input, 0 to {ALL_KEYS}")
-        # Writable, since a kernel is compiled anew for arrays that can only be read.
+        # Writable, since a kernel is compiled again for arrays that can only be read.
         keys = np.require(rows, np.uint8, ["C", "W"])
         return self._worlds.run(self._pressed(keys) if press else keys, self._levels_now, stop, self.threads)
 
@@ -167,7 +167,7 @@ class Batch:
 
     # --- single worlds ---
 
-    def reset(self, worlds: Which = None, levels: Which = None) -> None:
+    def reset(self, worlds: WorldChoice = None, levels: WorldChoice = None) -> None:
         """Start worlds afresh, in the levels that they have or in those given."""
         numbers = numbers_of(worlds, self.count, "worlds")
         if levels is not None:
@@ -177,12 +177,12 @@ class Batch:
             self._levels_now[numbers] = chosen
         self._worlds.load(numbers, self._levels_now[numbers])
 
-    def save(self, worlds: Which = None) -> BatchState:
+    def save(self, worlds: WorldChoice = None) -> BatchState:
         """The states of worlds, to come back to."""
         numbers = numbers_of(worlds, self.count, "worlds")
         return BatchState(self._levels_now[numbers], self._worlds.save(numbers), self._owner())
 
-    def restore(self, state: BatchState, worlds: Which = None) -> None:
+    def restore(self, state: BatchState, worlds: WorldChoice = None) -> None:
         """Put saved states into worlds, the same or others, as many. Raises ArgumentError if they do not fit."""
         numbers = numbers_of(worlds, self.count, "worlds")
         if state.owner != self._owner() or len(state.levels) != len(numbers):
@@ -190,7 +190,7 @@ class Batch:
         self._levels_now[numbers] = state.levels
         self._worlds.restore(numbers, state.states, state.levels)
 
-    def copy(self, sources: Which, targets: Which) -> None:
+    def copy(self, sources: WorldChoice, targets: WorldChoice) -> None:
         """Make worlds ``targets`` what worlds ``sources`` are, as many."""
         self.restore(self.save(sources), targets)
 
@@ -202,7 +202,7 @@ class Batch:
         """Sha256 (hex) of one world in canonical form, as ``Simulation.digest``."""
         return world_digest(self.world(index))
 
-    def state_digests(self, worlds: Which = None) -> list[str]:
+    def state_digests(self, worlds: WorldChoice = None) -> list[str]:
         """Of each world the sha256 (hex) of what decides what follows (``state_digest``), once for equal worlds."""
         known: dict[bytes, str] = {}
         found = []
@@ -217,7 +217,7 @@ class Batch:
         return self.levels, self.body, self.memory
 
 
-def numbers_of(which: Which, count: int, what: str) -> Numbers:
+def numbers_of(which: WorldChoice, count: int, what: str) -> Numbers:
     """The numbers, of ``count``, that are chosen. Raises ArgumentError for what chooses none of them."""
     everyone = np.arange(count, dtype=np.intp)
     if which is None:

@@ -13,9 +13,9 @@ from typing import Any, Protocol, TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.backend.memories import compiled
 from ninja_game.batch.kernels import run_worlds
 from ninja_game.batch.thread_pool import thread_pool
-from ninja_game.compile_cache import compiled
 from ninja_game.sim.kinds import KINDS
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.compiled import SLICE, load_worlds
@@ -173,7 +173,7 @@ class PlainWorlds:
         return [save_plain(self.worlds[index]) for index in worlds.tolist()]
 
     def restore(self, worlds: Numbers, states: Any, levels: Numbers) -> None:
-        """Put worlds back to states that ``save`` gave for as many; a world of another level is made anew."""
+        """Put worlds back to states that ``save`` gave for as many; a world of another level is made again."""
         for index, state, number in zip(worlds.tolist(), states, levels.tolist(), strict=True):
             if self._playing[index] != number:
                 self.worlds[index] = load_plain(self._levels[number], self._box)[1]

@@ -40,7 +40,7 @@ GROUPS = {
     },
     "runs": {
         "tas": "Edit a run tick by tick, in a window.",
-        "record": "Run inputs that a person wrote, and write what comes of them.",
+        "record": "Run inputs that a person wrote, and write the result.",
         "verify": "Run recordings again and judge them.",
         "trace": "Show every tick of recordings: position, velocity, state, events.",
         "splits": "Show when runs take gold, open doors and the exit, and end.",
@@ -120,7 +120,7 @@ class Commands(click.Group):
                 formatter.write_dl([(name.ljust(width), text) for name, text in group.items()])
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run the command; that nobody reads its output any more is no error."""
+        """Run the command; that nobody reads its output any more is not an error."""
         try:
             code = super().invoke(ctx)
             sys.stdout.flush()
@@ -226,7 +226,7 @@ def main() -> NoReturn:
 
 def _announce_compiling() -> None:
     """Say it before the rules are compiled, since that takes a while."""
-    from ninja_game.kernel_cache import before_compiling
+    from ninja_game.backend.kernel_cache import before_compiling
 
     text = "ninja-game: compiling the rules for this machine, the first time only; it takes a minute or two"
     before_compiling[:] = [lambda: click.echo(text, err=True)]

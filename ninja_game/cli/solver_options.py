@@ -49,7 +49,7 @@ class Seconds(click.FloatRange):
         """The number; usage error for anything else."""
         seconds: float = super().convert(value, param, ctx)
         if seconds != seconds:  # noqa: PLR0124 - NaN
-            self.fail(f"{value!r} is no number of seconds", param, ctx)
+            self.fail(f"{value!r} is not a number of seconds", param, ctx)
         return seconds
 
 

@@ -31,7 +31,7 @@ SPACING = 0.4
 class Autosave:
     """Keeps the newest draft of one document. Works in a thread of its own; ``problem``: why it cannot, or ''.
 
-    ``file``: an autosave of an editor that has died, to go on with.
+    ``file``: an autosave of an editor that has died, to continue with.
     """
 
     def __init__(self, folder: Path, file: Path | None = None) -> None:

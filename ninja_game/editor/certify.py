@@ -6,7 +6,7 @@ from struct import iter_unpack
 from time import monotonic
 from typing import TYPE_CHECKING
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.editor.background import NewestJob
 from ninja_game.errors import BudgetError, LevelError
 from ninja_game.files.resources import how_to_install

@@ -9,7 +9,7 @@ from itertools import accumulate, groupby
 from ninja_game.errors import ReplayError
 from ninja_game.formats.lines import Line, numbered_lines
 from ninja_game.formats.replay.input_runs import KEY_NAMES, Marker
-from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, press_jumps
+from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, with_press_bits
 
 KEYSYMS = {"ff51": "L", "ff53": "R", "ffe1": "J", "ffe2": "J", "7a": "J", "20": "J"}
 """Keys by their X11 numbers: the arrows; the shift keys, Z and space jump. The first of each is written."""
@@ -133,7 +133,7 @@ def _letters(keys: int) -> str:
 
 
 def _check_keyboard(inputs: bytes) -> None:
-    expected = press_jumps(inputs)
+    expected = with_press_bits(inputs)
     if inputs != expected:
         tick = next(tick for tick, (keys, wanted) in enumerate(zip(inputs, expected, strict=True)) if keys != wanted)
         what = "held" if inputs[tick] & JUMP_HELD else "not held"
@@ -142,7 +142,7 @@ def _check_keyboard(inputs: bytes) -> None:
 
 
 def _libtas_word(line: str, file: str, number: int) -> str:
-    """The keys of a line ``|Kff53:ffe1|…``, as one of our words; fields of other devices are passed by."""
+    """The keys of a line ``|Kff53:ffe1|…``, as one of our words; fields of other devices are skipped."""
     fields = line.strip("|").split("|")
     keys = [field[1:] for field in fields if field.startswith("K")]
     if not keys and _KEYS.fullmatch(fields[0]):

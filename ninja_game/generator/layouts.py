@@ -99,7 +99,7 @@ def ring(board: Board, chance: Random) -> None:
 
 
 def storeys(board: Board, chance: Random) -> None:
-    """Floors over each other with gaps in the middle and at the sides by turns."""
+    """Floors over each other with gaps in the middle and at the sides in turn."""
     thick, apart = chance.choice(((1, 5), (2, 5), (2, 6), (1, 4)))
     for number, row in enumerate(range(ROWS - apart, 3, -apart)):
         gap = chance.choice((3, 4))

@@ -76,7 +76,7 @@ def _outer(board: Board, cell: Cell, style: Style) -> Iterator[tuple[Cell, str]]
         second = (column - dx, row) if sort == "flat" else (column, row - dy)
         # Room for the slope of the other end.
         beyond = [(column - k * dx, row) if sort == "flat" else (column, row - k * dy) for k in (2, 3)]
-        # Where the next cell is no plain side of the stone, a short slope.
+        # Where the next cell is not a plain side of the stone, a short slope.
         side = (second[0], row + dy) if sort == "flat" else (column + dx, second[1])
         under = (second[0], row - dy) if sort == "flat" else (column - dx, second[1])
         if inside(second) and all(map(board.solid, beyond)) and board.solid(under) and not board.solid(side):

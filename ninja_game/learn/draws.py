@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ninja_game.batch.worlds import Numbers
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.levels import LevelSource, Which
+from ninja_game.learn.levels import LevelChoice, LevelSource
 
 Draws = NDArray[np.uint64]
 
@@ -51,7 +51,7 @@ class LevelSequences:
         self._seeds[worlds] = [seed % 2**64 for seed in seeds]
         self._episodes[worlds] = 0
 
-    def next(self, worlds: Numbers, chosen: Which | None) -> Numbers:
+    def next(self, worlds: Numbers, chosen: LevelChoice | None) -> Numbers:
         """The numbers of the levels of the next episodes of these worlds, drawn or ``chosen``; either is an episode."""
         drawn = draws(self._seeds[worlds], self._episodes[worlds])
         self._episodes[worlds] += np.uint64(1)

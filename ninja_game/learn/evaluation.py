@@ -114,7 +114,7 @@ class Evaluation:
         return "\n".join(lines)
 
     def json(self) -> str:
-        """Everything as one JSON object; what is no number is null."""
+        """Everything as one JSON object; what is not a number is null."""
         rows = [{**asdict(each), "rate": each.rate} for each in self.results]
         for row in rows:
             row["ticks"] = None if isnan(row["ticks"]) else row["ticks"]

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from ninja_game.backend.memories import choose_memory
 from ninja_game.batch.worlds import Numbers, make_worlds
-from ninja_game.compile_cache import choose_memory
 from ninja_game.learn.observations.part import Ragged, Setting, clamp
 from ninja_game.search.heuristics import POINTS, Heuristics, point_at
 from ninja_game.sim.level import Level

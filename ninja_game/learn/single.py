@@ -163,7 +163,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         return bytes(self._inputs)
 
     def save(self) -> SavedEpisode:
-        """This moment, to come back to; which levels later episodes play is no part of it."""
+        """This moment, to come back to; which levels later episodes play is not part of it."""
         self._check_started("save")
         return SavedEpisode(self.worlds.save(), self.inputs, self._running)
 

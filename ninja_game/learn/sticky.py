@@ -16,7 +16,7 @@ from ninja_game.learn.actions import ACTION_NAMES
 REPEAT = 0.25
 """Chance that a world gets the action of the step before once more instead of the one that was chosen."""
 LONGEST_WAIT = 7
-"""Steps at most that an episode begins with no key down; how many is drawn anew for each episode, from 0 on."""
+"""Steps at most that an episode begins with no key down; how many is drawn again for each episode, from 0 on."""
 
 NONE = ACTION_NAMES.index("none")
 

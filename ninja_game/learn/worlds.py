@@ -19,17 +19,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.batch.batch import Which, numbers_of
+from ninja_game.backend.memories import choose_memory
+from ninja_game.batch.batch import WorldChoice, numbers_of
 from ninja_game.batch.thread_pool import cores, thread_pool
 from ninja_game.batch.worlds import Numbers, make_worlds
-from ninja_game.compile_cache import choose_memory
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Keys
 from ninja_game.learn.draws import LevelSequences
 from ninja_game.learn.goal_distance import GoalDistance
 from ninja_game.learn.kernels import advance_worlds
-from ninja_game.learn.levels import Origin, level_source
-from ninja_game.learn.levels import Which as LevelWhich
+from ninja_game.learn.levels import LevelChoice, Origin, level_source
 from ninja_game.learn.observations.observation import Observation, PartLike
 from ninja_game.learn.observations.part import Setting
 from ninja_game.learn.rewards import DistanceShaping, RewardTerm, reward_terms, weights_of
@@ -70,7 +69,7 @@ class EnvWorlds:
     ``goal`` (``GoalDistance``: how far each world is from the exit) even if no reward and no part needs it. ``body``,
     ``memory``, ``threads``: as of a ``Batch``; neither memory nor threads change a result.
 
-    What it shows is written anew by each call; copy what you want to keep. (n: the number of worlds.)
+    What it shows is written again by each call; copy what you want to keep. (n: the number of worlds.)
 
     ============  ====================  =======================================================================
     observations  (n, …), or a dict     what the parts of the observation say
@@ -191,7 +190,7 @@ class EnvWorlds:
     # --- single worlds ---
 
     def reset(
-        self, worlds: Which = None, *, seeds: Sequence[int] | None = None, levels: LevelWhich | None = None
+        self, worlds: WorldChoice = None, *, seeds: Sequence[int] | None = None, levels: LevelChoice | None = None
     ) -> None:
         """Begin new episodes. ``seeds``: new seeds of these worlds; ``levels``: what they play, else it is drawn."""
         numbers = numbers_of(worlds, self.count, "worlds")
@@ -200,7 +199,7 @@ class EnvWorlds:
         self._restart(numbers, levels)
         self._conclude()
 
-    def _restart(self, numbers: Numbers, levels: LevelWhich | None = None) -> None:
+    def _restart(self, numbers: Numbers, levels: LevelChoice | None = None) -> None:
         self.levels_now[numbers] = self._levels.next(numbers, levels)
         self._worlds.load(numbers, self.levels_now[numbers])
         self._facts[numbers] = 0
@@ -216,14 +215,14 @@ class EnvWorlds:
             self._shaping.begin(numbers)
         self._observe(numbers)
 
-    def save(self, worlds: Which = None) -> EnvState:
+    def save(self, worlds: WorldChoice = None) -> EnvState:
         """The states of worlds and of their episodes, to come back to."""
         numbers = numbers_of(worlds, self.count, "worlds")
         starts = self.goal.start[numbers] if self.goal else np.zeros(len(numbers))
         saved = self._worlds.save(numbers), starts, self._facts[numbers]
         return EnvState(self.levels_now[numbers], *saved, self._owner())
 
-    def restore(self, state: EnvState, worlds: Which = None) -> None:
+    def restore(self, state: EnvState, worlds: WorldChoice = None) -> None:
         """Put saved states into worlds, the same or others, as many. Raises ArgumentError if they do not fit.
 
         They show the observation of that moment, and no reward and no events.

@@ -108,7 +108,7 @@ PACK_RULES = {
     "no-certificate": Rule(
         "no certificate, so nobody knows whether it can be passed", "Find one with `ninja-game check --replays`."
     ),
-    "certificate": Rule("{why}", "Make it anew with `ninja-game check --replays`."),
+    "certificate": Rule("{why}", "Make it again with `ninja-game check --replays`."),
     "no-pars": Rule("no table of par times", _MAKE_PARS),
     "old-pars": Rule("made from other levels or certificates", _MAKE_PARS),
 }

@@ -24,7 +24,7 @@ class Attempt:
 
     ``lifetime``: ticks left, which gold adds to. ``inputs``: the recording, one byte a tick. ``score``: ticks, taken at
     the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``assisted``: tools
-    were used (or it is practice), so it is no record.
+    were used (or it is practice), so it does not count as a record.
     """
 
     def __init__(
@@ -47,7 +47,7 @@ class Attempt:
 
     @property
     def outcome(self) -> str:
-        """What came first: "exit", "dead" or, so far, "running"."""
+        """The outcome: "exit", "dead" or, so far, "running"."""
         return self.simulation.outcome
 
     @property

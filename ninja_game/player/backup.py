@@ -111,9 +111,9 @@ def _left_out(name: str, problem: str) -> str:
 
 
 def read_backup(player: PlayerData, data: bytes) -> list[str]:
-    """Take a backup in; what came of it, in words. The settings count from the next start on.
+    """Take a backup in; returns the result in words. The settings count from the next start on.
 
-    Raises FileError for what is no backup, or too much of one; OSError, sqlite3.Error. Then nothing has changed.
+    Raises FileError for what is not a backup, or too much of one; OSError, sqlite3.Error. Then nothing has changed.
     """
     with TemporaryDirectory() as scratch:
         path = Path(scratch) / RECORDS
@@ -122,7 +122,7 @@ def read_backup(player: PlayerData, data: bytes) -> list[str]:
             path.write_bytes(files.pop(RECORDS))
             store = _opened(path)
         except ValueError as error:
-            raise FileError("this is no backup of a player's data", found=shown_text(str(error))) from None
+            raise FileError("this is not a backup of a player's data", found=shown_text(str(error))) from None
         with closing(store.connection):
             replays, taken = _take(player, store, files)
     return [f"{replays} new replays in the records", f"{len(taken)} new files", *taken, *left_out, *store.messages]

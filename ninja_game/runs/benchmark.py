@@ -15,12 +15,12 @@ from typing import Any
 
 import numpy as np
 
-from ninja_game.compile_cache import compiled, compiled_available
+from ninja_game.backend.memories import compiled, compiled_available
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.trace import trace_digests, trace_recording
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.kernels import race_world
+from ninja_game.sim.memory.kernels import count_ticks
 from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.world import step
 from ninja_game.simulation import Simulation
@@ -72,10 +72,7 @@ def _objects(level: Level) -> int:
 
 def corpus_digest(recordings: Sequence[Recording]) -> str:
     """Sha256 (hex) of all levels, bodies and inputs."""
-    parts = (
-        f"{level_digest(recording.level)} {recording.body} {recording.playback(recording.ticks).hex()}\n"
-        for recording in recordings
-    )
+    parts = (f"{level_digest(recording.level)} {recording.body} {recording.inputs.hex()}\n" for recording in recordings)
     return sha256("".join(parts).encode()).hexdigest()
 
 
@@ -89,7 +86,7 @@ def plain_speed(recordings: Sequence[Recording]) -> float:
 
     def race(recording: Recording) -> tuple[int, float]:
         level, world = load_plain(recording.level, recording.body == "box")
-        inputs = recording.playback(recording.ticks)
+        inputs = recording.inputs
         start = time.perf_counter()
         for keys in inputs:
             step(level, world, keys)
@@ -106,12 +103,12 @@ def compiled_speed(recordings: Sequence[Recording]) -> float:
 
     def race(recording: Recording) -> tuple[int, float]:
         levels, worlds = load_worlds(compiled, [recording.level], box=recording.body == "box")
-        inputs = np.frombuffer(recording.playback(recording.ticks), np.uint8)
+        inputs = np.frombuffer(recording.inputs, np.uint8)
         start = time.perf_counter()
         ticks = kernel(levels, worlds, 0, inputs)
         return ticks, time.perf_counter() - start
 
-    kernel = compiled(race_world)
+    kernel = compiled(count_ticks)
     race(recordings[0])
     return _speed(race, recordings)
 

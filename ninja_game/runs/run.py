@@ -1,4 +1,4 @@
-"""Whole runs at once: what came of a recording. On both memories, bit for bit; NumPy comes in only with its arrays.
+"""Whole runs at once: the result of a recording. On both memories, bit for bit; NumPy comes in only with its arrays.
 
 >>> from ninja_game import parse_level, run_level
 >>> level = parse_level("0" * 713 + "|5^100,566!11^160,564,130,564")
@@ -15,8 +15,8 @@ from array import array
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from ninja_game.backend.memories import open_memory
 from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget
-from ninja_game.compile_cache import open_memory
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.replay.sections import Waypoint
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RunResult:
-    """What came of a run, up to and including the tick of the first exit contact or death.
+    """The result of a run, up to and including the tick of the first exit contact or death.
 
     ``outcome``: "exit", "dead" or "running"; ``end_tick``: the tick of that contact or death, -1 while running;
     ``places``: the ninja after each tick, x and y in turn as little-endian float64, px; ``state_numbers``: a byte each.
@@ -148,7 +148,7 @@ def record_replay(
     author: str = "",
     budget: int = RUN_BUDGET,
 ) -> Replay:
-    """A replay of ours, with its level in it: what comes of these inputs in that many ticks (None: as many as inputs).
+    """A replay of ours, with its level in it: the result of these inputs in that many ticks (None: as many as inputs).
 
     Ends with the first exit contact or death. Always runs on the plain memory, so that what it claims is what anybody
     can check. Raises LevelError for a level that cannot be played, ArgumentError for a run without ticks, BudgetError

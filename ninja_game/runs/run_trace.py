@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.compile_cache import open_memory
+from ninja_game.backend.memories import open_memory
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import check_inputs

@@ -46,9 +46,8 @@ def trace_recording(
     body = recording.body
     with named_errors(recording):
         if ticks is None:
-            inputs = recording.playback(recording.ticks)
-            ticks = run_level(recording.level, inputs, body=body, memory=memory, budget=budget).ticks + after
-        inputs = recording.playback(ticks)
+            ticks = run_level(recording.level, recording.inputs, body=body, memory=memory, budget=budget).ticks + after
+        inputs = recording.replay.playback(ticks)
         if ticks > affordable_ticks(recording.level, budget):
             raise over_budget(recording.level, ticks, budget)
         return trace_level(recording.level, inputs, body=body, memory=memory, with_objects=objects, events=events)

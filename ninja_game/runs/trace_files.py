@@ -82,7 +82,7 @@ def read_csv(text: Iterable[str], *, file: str = "") -> Iterator[FiledTrace]:
         header = ("no table",)
     if header != COLUMNS:
         raise FormatError(
-            "this is no trace", file=file, line=1, found=repr(",".join(header)[:80]),
+            "this is not a trace", file=file, line=1, found=repr(",".join(header)[:80]),
             expected=f"the header {','.join(COLUMNS)}", hint="`ninja-game trace -o` writes it",
         )  # fmt: skip
     try:
@@ -93,7 +93,7 @@ def read_csv(text: Iterable[str], *, file: str = "") -> Iterator[FiledTrace]:
 
 
 def _read_run(table: Iterable[Mapping[str, str]], record: int, file: str) -> FiledTrace:
-    """One record's rows as a trace. Raises an error of ``_UNREADABLE`` where a row is missing or is no number."""
+    """One record's rows as a trace. Raises an error of ``_UNREADABLE`` where a row is missing or is not a number."""
     ninja, objects, inputs = bytearray(), bytearray(), bytearray()
     columns: list[tuple[int, str]] = []
     events: list[str] = []
@@ -159,7 +159,7 @@ def read_npz(data: IO[bytes], path: Path) -> Iterator[FiledTrace]:
             for number in sorted(int(name.removeprefix("ninja_")) for name in found if name.startswith("ninja_")):
                 yield _read_arrays(archive, found, number)
     except _UNREADABLE as error:
-        raise FormatError(f"this is no trace ({error})", file=str(path)) from None
+        raise FormatError(f"this is not a trace ({error})", file=str(path)) from None
 
 
 def _read_arrays(archive: ZipFile, found: Mapping[str, ZipInfo], number: int) -> FiledTrace:
@@ -185,7 +185,7 @@ def _too_large(path: Path) -> FileError:
 
 
 def is_trace(path: Path) -> bool:
-    """Whether a file is a trace, by what it begins with. Raises FileError for what is no regular file; OSError."""
+    """Whether a file is a trace, by what it begins with. Raises FileError for what is not a regular file; OSError."""
     with open_regular(path) as file:
         return file.readline(len(COLUMNS[0]) + 1).startswith((f"{COLUMNS[0]},".encode(), ZIPPED))
 
@@ -205,4 +205,4 @@ def read_traces(path: Path) -> Iterator[FiledTrace]:
                 yield from read_csv(text, file=str(path))
         except UnicodeDecodeError:
             expected = "CSV or .npz of `ninja-game trace`"
-            raise FormatError("this is no trace", file=str(path), expected=expected) from None
+            raise FormatError("this is not a trace", file=str(path), expected=expected) from None

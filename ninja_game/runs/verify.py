@@ -10,15 +10,15 @@ from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from ninja_game.backend.memories import open_memory, proven_memory
 from ninja_game.budget import RUN_BUDGET
-from ninja_game.compile_cache import open_memory, proven_memory
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import RULES_VERSION, Replay
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import RunResult, run_level
-from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.memory.interface import TRACED_NUMBERS
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.simulation import Simulation, is_box
@@ -44,7 +44,7 @@ class OutOfRangeError(NinjaGameError):
 
 @dataclass(frozen=True)
 class Verdict:
-    """What came of a recording, and what it was (docs/verification.md).
+    """The result of a recording, and what it was (docs/verification.md).
 
     ``name``, ``author``, ``practice``: as the recording says. ``level_digest``: of the level that was played;
     ``level_name``: of the level with that digest among those that count, else ''. ``body``, ``rules``: of the run.
@@ -103,42 +103,42 @@ def verify_recording(
     when its ``budget`` of work is (``ninja_game.budget``), OutOfRangeError for a run that leads out
     of its world, KnownRunError where no run can be judged.
     """
-    replay = recording.replay if recording.replay and not recording.replay.loose else None
+    claimed = None if recording.replay.unclaimed else recording.replay
     verdict = Verdict(
         recording.file, recording.record, recording.name, recording.author, level_digest(recording.level),
-        level_name="", body=recording.body, rules=replay.rules if replay else RULES_VERSION,
+        level_name="", body=recording.body, rules=recording.replay.rules,
         outcome=NOT_RUN, end_tick=-1, gold=0, score_ticks=None, ticks=0, xy_sha256="",
         possible_by_keyboard=None, in_time=None,
-        practice=bool(recording.replay and recording.replay.practice), complete=not recording.demo.missing,
+        practice=recording.replay.practice, complete=not recording.missing,
     )  # fmt: skip
     if counting is not None and verdict.level_digest not in counting:
         return verdict
     one_memory = proven_memory("plain" if memory == "both" else memory)
     with named_errors(recording):
-        inputs = recording.playback(recording.ticks)
+        inputs = recording.inputs
         try:
             run = run_level(
                 recording.level,
                 inputs,
                 body=recording.body,
                 memory=one_memory,
-                digest=bool(replay and replay.digest),
+                digest=bool(recording.replay.digest),
                 budget=budget,
             )
             in_time = _in_time(recording, run, one_memory)
         except IndexError as error:
             what = "the run leads out of its world's arrays and is not judged: a fault of this program, worth a report"
             raise OutOfRangeError(f"{recording.file}: record {recording.record}: {what}") from error
-        problems = list(_broken_claims(replay, run)) if replay else []
+        problems = list(_broken_claims(claimed, run)) if claimed else []
         if memory == "both":
             problems += filter(None, [memory_difference(recording, run.ticks)])
-    if not replay and run.outcome != "exit":
+    if not claimed and run.outcome != "exit":
         problems.append(f"does not reach the exit: {_ending(recording, run)}")
-    sampled = run.ticks - 1 if run.outcome != "running" else min(run.ticks, len(recording.demo.inputs))
+    sampled = run.ticks - 1 if run.outcome != "running" else min(run.ticks, len(recording.replay.inputs))
     return replace(
         verdict, outcome=run.outcome, end_tick=run.end_tick, gold=run.gold,
         score_ticks=run.score_ticks if run.outcome == "exit" else None, ticks=run.ticks, xy_sha256=run.xy_sha256,
-        possible_by_keyboard=press_jumps(inputs[:sampled]) == inputs[:sampled], in_time=in_time,
+        possible_by_keyboard=with_press_bits(inputs[:sampled]) == inputs[:sampled], in_time=in_time,
         problems=tuple(problems),
     )  # fmt: skip
 
@@ -170,9 +170,9 @@ def _ending(recording: Recording, run: RunResult) -> str:
     """An outcome in words."""
     if run.outcome != "running":
         return f"{run.outcome} in tick {run.end_tick}"
-    missing, end = recording.demo.missing, recording.demo.end
-    if missing:
-        return f"the demo is cut, it holds {end - missing} of its {end} ticks"
+    if recording.missing:
+        held = len(recording.replay.inputs)
+        return f"the demo is truncated, it holds {held} of its {held + recording.missing} ticks"
     return f"still running after {run.ticks} ticks"
 
 
@@ -184,7 +184,7 @@ def _in_time(recording: Recording, run: RunResult, memory: str) -> bool:
     lived = run.ticks - (run.outcome != "running")
     if LIFETIME + GOLD_BONUS * run.gold <= lived:
         return False
-    inputs = recording.playback(run.ticks)
+    inputs = recording.inputs[: run.ticks]
     record = open_memory(memory, recording.level, box=is_box(recording.body)).trace(inputs, [], events=False)
     width, at = len(TRACED_NUMBERS), TRACED_NUMBERS.index("gold")
     gold = map(int, record.numbers[at : width * lived : width])
@@ -232,7 +232,7 @@ def memory_difference(recording: Recording, ticks: int) -> str:
     plain, compiled = (
         Simulation(recording.level, body=recording.body, memory=memory) for memory in ("plain", "compiled")
     )
-    for keys in recording.playback(ticks):
+    for keys in recording.inputs[:ticks]:
         plain.step_keys(keys)
         compiled.step_keys(keys)
         difference = plain.first_difference(compiled)

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ninja_game.compile_cache import compiled
+from ninja_game.backend.memories import compiled
 from ninja_game.search.engine import MORE, add_root, expand, load_node
 from ninja_game.search.heuristics import POINTS, Field, Heuristics
 from ninja_game.search.macros import action_inputs
@@ -159,7 +159,7 @@ class Search:
         return MORE
 
     def run_leg(self, budget: int, over: Callable[[int], bool], *, part: int, least: int = 0) -> None:
-        """Run a leg's search for at most so many ticks, in parts; ``over`` is told the ticks of each, and may end it.
+        """Run a leg's search for at most so many ticks, in parts; ``over`` gets the ticks of each, and may end it.
 
         From the first end or run to the exit on it goes on only as long again, or up to ``least`` ticks.
         """

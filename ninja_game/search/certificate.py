@@ -10,7 +10,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.runs.run import record_replay, run_level
-from ninja_game.sim.inputs import KEYS_DOWN, press_jumps
+from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Body, Simulation
 
@@ -62,7 +62,7 @@ def with_plain_triggers(level: Level, inputs: bytes, *, body: Body = "circle", g
     Raises UnverifiedRunError where the run does not reach the exit, or only by triggers that no keyboard makes.
     """
     try:
-        return verified_run(level, press_jumps(inputs), body=body, gold=gold).inputs
+        return verified_run(level, with_press_bits(inputs), body=body, gold=gold).inputs
     except UnverifiedRunError:
         verified_run(level, inputs, body=body, gold=gold)
         raise UnverifiedRunError("the run triggers jumps without a fresh press, as no keyboard does") from None
@@ -90,7 +90,7 @@ def rows_of(inputs: bytes) -> list[Row]:
 
 def playback(rows: list[Row]) -> bytes:
     """Rows of keys as inputs, with triggers where the jump key goes down."""
-    return press_jumps([keys for keys, ticks in rows for _ in range(ticks)])
+    return with_press_bits([keys for keys, ticks in rows for _ in range(ticks)])
 
 
 def smoothed(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 0, price: int = 0) -> bytes:

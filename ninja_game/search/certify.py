@@ -141,12 +141,12 @@ def kept_run(level: NamedLevel, path: Path, task: Task) -> tuple[VerifiedRun, bo
     """A replay's run, if it still does on a level what is wanted, and whether it was made on just this level.
 
     None if the file is missing, or if its run does not pass this level any more. Raises NinjaGameError for a file that
-    is no replay.
+    is not a replay.
     """
     if not path.exists():
         return None
     recordings = parse_replays(read_text(path), file=str(path), level=level.level)
-    inputs = recordings[0].playback(recordings[0].ticks)
+    inputs = recordings[0].inputs
     same = level_digest(recordings[0].level) == level_digest(level.level) and recordings[0].body == task.body
     try:
         return verified_run(level.level, inputs, body=task.body, gold=task.gold), same

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.compile_cache import fastest
+from ninja_game.backend.memories import compiled_if_possible
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.memory.declare import entry_point, fast
@@ -172,7 +172,7 @@ class Heuristics:
         used = int(worlds["slots_used"][0])
         objects = worlds["objects"][0][:used]
         self.costs = np.zeros(POINTS, np.float32)
-        fastest(free_points)(levels, self.costs)
+        compiled_if_possible(free_points)(levels, self.costs)
         self.blocked = np.zeros(POINTS, np.uint8)
         self._queue = np.zeros(POINTS + 1, np.int32)
         self._waiting = np.zeros(POINTS, np.uint8)
@@ -281,7 +281,7 @@ class Heuristics:
             free = [point for point in near if costs[point] > 0.0]
             free = free or [point for point in points_about(x, y, 22.0) if costs[point] > 0.0] or near
             field[free] = np.minimum(field[free], np.float32(value))
-        fastest(spread)(costs, self.blocked, field, self._queue, self._waiting)
+        compiled_if_possible(spread)(costs, self.blocked, field, self._queue, self._waiting)
         return field
 
     def _closed(self, switch_state: int, door_cost: float) -> Costs:

@@ -13,9 +13,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.compile_cache import compiled
+from ninja_game.backend.memories import compiled
 from ninja_game.search.nodes import RandomState, Start, Words, random_below, zeroed
-from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, press_jumps, pressed
+from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, pressed, with_press_bits
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.memory.declare import entry_point, f8, fast, i8, struct
 from ninja_game.sim.memory.schema import TileMap, World
@@ -313,7 +313,7 @@ class LocalSearch:
 
     def best(self) -> bytes:
         """The inputs of the best run, up to the tick of the exit contact."""
-        return press_jumps(self.runs.best[: self.ticks].tolist())
+        return with_press_bits(self.runs.best[: self.ticks].tolist())
 
     @property
     def ticks(self) -> int:

@@ -14,10 +14,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.compile_cache import compiled
+from ninja_game.backend.memories import compiled
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.compiled import load_worlds
-from ninja_game.sim.memory.declare import entry_point, f4, fast, i4, i8, part, struct
+from ninja_game.sim.memory.declare import entry_point, f4, fast, i4, i8, struct, struct_base
 from ninja_game.sim.memory.layout import STATE_START, Records, dtype_of, new_worlds, used_bytes
 
 Words = NDArray[np.int64]
@@ -32,7 +32,7 @@ UNKNOWN = 1.0e9
 """Value of an entry from which no way to the exit is known."""
 
 
-@part
+@struct_base
 class RandomState:
     """A stream of pseudo-random numbers."""
 

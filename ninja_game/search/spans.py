@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ninja_game.compile_cache import compiled
+from ninja_game.backend.memories import compiled
 from ninja_game.search.engine import EXHAUSTED, FOLLOWED, MORE, add_root, expand_along
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.known_run import KnownRun, play_known
@@ -17,7 +17,7 @@ from ninja_game.search.macros import action_inputs
 from ninja_game.search.nodes import Resolution, Start, clear, new_memory
 from ninja_game.search.states import MAX_SWITCH_STATES, NOT_MADE, Goals
 from ninja_game.search.task import COOLING, SEARCH_COST, SHORT_CLIMB, SLICE
-from ninja_game.sim.inputs import KEYS_DOWN, press_jumps
+from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 
 NODES = 300_000
 PART = 500_000
@@ -117,7 +117,7 @@ class SpanSearches:
     ) -> bytes | None:
         """Search the span from tick ``first`` to before ``last``; a shorter run than the known one, None if none.
 
-        ``over`` is told the ticks of each part, and may end it.
+        ``over`` gets the ticks of each part, and may end it.
         """
         run = self.run._replace(
             span=(first, last), behind=fineness.behind, far=fineness.far, place_price=fineness.place_price,
@@ -148,8 +148,8 @@ class SpanSearches:
         self._reach = min(max(self._reach * (1.15 if early else 0.8 if late else 1.0), LEAST_REACH), MOST_REACH)
         if counters.best_node < 0:
             return None
-        # A press is there where the key goes down; joined parts need it anew.
-        return press_jumps(self._inputs[:first] + self._path(int(counters.best_node)))
+        # A press is there where the key goes down; joined parts need it again.
+        return with_press_bits(self._inputs[:first] + self._path(int(counters.best_node)))
 
     def _path(self, index: int) -> bytes:
         nodes = self.memory.nodes
@@ -168,7 +168,7 @@ class SpanSearches:
 class RunShortener:
     """Shortens runs of one level that must collect so much gold.
 
-    ``submit`` is given every shorter run; ``over`` is told the ticks of each part and what they cost, and may end it.
+    ``submit`` is given every shorter run; ``over`` gets the ticks of each part and what they cost, and may end it.
     """
 
     def __init__(

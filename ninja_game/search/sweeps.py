@@ -13,7 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ninja_game.compile_cache import compiled
+from ninja_game.backend.memories import compiled
 from ninja_game.search.best_first import Leg, Search
 from ninja_game.search.legs import Front, Moment, pieces_of
 from ninja_game.search.nodes import Resolution, Start

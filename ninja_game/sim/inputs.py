@@ -35,7 +35,7 @@ def pressed(keys: int, held: int) -> int:
     return down + JUMP_PRESSED if down & JUMP_HELD and not held else down
 
 
-def press_jumps(inputs: Iterable[int]) -> bytes:
+def with_press_bits(inputs: Iterable[int]) -> bytes:
     """Inputs with JUMP_PRESSED in every tick in which the jump key goes down, and in no other."""
     fixed = bytearray()
     held = 0
@@ -75,7 +75,7 @@ class Demo:
 
     @property
     def end(self) -> int:
-        """The first tick after the recording: its length, rounded up; 0 if the length is no number.
+        """The first tick after the recording: its length, rounded up; 0 if the length is not a number.
 
         Never beyond both the inputs and the longest recording that the game makes: an absurd length costs nothing.
         """

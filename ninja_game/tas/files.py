@@ -25,7 +25,7 @@ from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, writ
 from ninja_game.formats.tas_lines import in_our_notation, is_tas_text
 from ninja_game.runs.conversion import on_level
 from ninja_game.runs.run import record_replay
-from ninja_game.sim.inputs import MAX_TICKS, Demo
+from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.level import Level
 from ninja_game.tas.branches import Branches, branches_of_json
 from ninja_game.tas.input_track import InputTrack
@@ -79,7 +79,7 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
     track = track_of(on)
     if on is not recording:
         return OpenedRun(on, track, RunFile(), Branches(), moved=True)
-    if is_link(path) or recording.replay is None or path.resolve().is_relative_to(data_folder("levels").resolve()):
+    if is_link(path) or recording.form == "file" or path.resolve().is_relative_to(data_folder("levels").resolve()):
         return OpenedRun(recording, track, RunFile(), Branches())
     if not _written_by_us(data := read_bytes(path)):
         return OpenedRun(recording, track, RunFile(), Branches())
@@ -127,10 +127,8 @@ def same_level(recording: Recording, other: Recording) -> bool:
 
 def track_of(recording: Recording) -> InputTrack:
     """A recording as an input track: the keys of all ticks that it plays."""
-    markers = recording.replay.markers if recording.replay else ()
-    return InputTrack(
-        recording.playback(recording.ticks), tuple(each for each in markers if each.tick <= recording.ticks)
-    )
+    markers = (each for each in recording.replay.markers if each.tick <= recording.ticks)
+    return InputTrack(recording.inputs, tuple(markers))
 
 
 def inputs_of_text(text: str, place: str) -> Inputs:
@@ -164,19 +162,24 @@ def _facts(text: str) -> list[str]:
 
 def recording_of(about: Recording, track: InputTrack, name: str = "") -> Recording:
     """An input track as a recording without claims, of the level and the author of another one."""
-    replay = unclaimed_replay(about, track)
-    demo = Demo(track.inputs, float(len(track)))
-    return replace(about, name=name or about.name, file=name or about.file, demo=demo, replay=replay)
+    replay = replace(unclaimed_replay(about, track), name=name or about.name)
+    return replace(about, file=name or about.file, replay=replay, form="replay")
 
 
 def unclaimed_replay(about: Recording, track: InputTrack) -> Replay:
     """An input track as a replay without claims, with its level inside."""
     old = about.replay
-    return Replay(
-        track.inputs, max(0, len(track) - 1), "", name=about.name, author=about.author, body=about.body,
-        level=about.level, level_name=old.level_name if old else about.name,
-        level_author=old.level_author if old else "", markers=track.markers, practice=bool(old and old.practice),
-    )  # fmt: skip
+    return Replay.of_inputs(
+        track.inputs,
+        about.level,
+        name=about.name,
+        author=about.author,
+        body=about.body,
+        level_name=old.level_name,
+        level_author=old.level_author,
+        markers=track.markers,
+        practice=old.practice,
+    )
 
 
 def replay_of_track(about: Recording, track: InputTrack) -> Replay:
@@ -225,7 +228,7 @@ def save_run(
 def _with_old_path(replay: Replay, about: Recording) -> Replay:
     """A replay that names its level's file, as the one that it replaces does."""
     old = about.replay
-    if old is None or old.level is not None or not old.level_path:
+    if old.level is not None or not old.level_path:
         return replay
     return replace(
         replay, level=None, level_name="", level_author="", level_digest=level_digest(about.level),

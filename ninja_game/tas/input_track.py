@@ -38,7 +38,7 @@ class InputTrack:
         ticks that are dropped go; those behind move. Raises ArgumentError for ticks that there cannot be.
         """
         if not 0 <= first <= last:
-            raise ArgumentError(f"ticks {first} to {last} are no span")
+            raise ArgumentError(f"ticks {first} to {last} are not a span")
         if first + len(keys) + max(0, len(self.inputs) - last) > MAX_TICKS:
             raise ArgumentError(f"a run has at most {MAX_TICKS} ticks")
         before = self.inputs[:first].ljust(first, b"\0")

@@ -73,7 +73,7 @@ def edited(track: InputTrack, change: dict[str, Any]) -> InputTrack:
 class Journal:
     """Writes the journal of one run, from its first edit on. ``problem``: why it cannot, or ''.
 
-    ``file``: the journal of a session that has died, to go on with. Raises FileError where another program does so.
+    ``file``: the journal of a session that has died, to continue with. Raises FileError where another program does so.
     """
 
     def __init__(self, folder: Path, opened: dict[str, Any], file: Path | None = None) -> None:
@@ -86,14 +86,14 @@ class Journal:
         if file is not None:
             self._lock = hold(file.with_suffix(LOCK_SUFFIX))
             if self._lock is None:
-                raise FileError("another window goes on with this run already", str(file))
+                raise FileError("another window continues with this run already", str(file))
 
     def note(self, line: dict[str, Any]) -> bool:
         """Write a line; whether that was possible."""
         try:
             if self._handle is None:
                 self._handle = self._open()
-            # A line that was cut, by a full disk or a kill, ends where the next one begins.
+            # A line that was truncated by a full disk or a kill, ends where the next one begins.
             data = b"\n" + json.dumps(line, separators=(",", ":")).encode()
             done = os.write(self._handle, data) == len(data)
             self.problem = "" if done else "What you edit cannot be kept safe: the disk is full"
@@ -144,7 +144,7 @@ def recovered(folder: Path) -> Iterator[Recovered]:
 
 
 def read_journal(file: Path) -> Recovered:
-    """What a journal tells; a line that is damaged is passed by.
+    """What a journal tells; a line that is damaged is skipped.
 
     Raises one of DAMAGED for one whose first line is damaged, OSError.
     """

@@ -201,7 +201,7 @@ class Session:
         for track in found.tracks:
             self.history.change(track)
         self.branches = found.branches
-        # The program may have died when the file was written, and the journal not yet begun anew.
+        # The program may have died when the file was written, and the journal not yet started again.
         self._file_differs = self.file.path is not None and digest_of(self.file.path) != self.file.digest
         self._noted = self.track
         self._follow()

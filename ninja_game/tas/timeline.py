@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.backend.memories import open_memory
 from ninja_game.budget import tick_cost
-from ninja_game.compile_cache import open_memory
 from ninja_game.errors import ArgumentError
 from ninja_game.runs.run_trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
 from ninja_game.runs.save_states import SaveStates
@@ -106,7 +106,7 @@ class Timeline:
         return same
 
     def watch(self, ids: Collection[int]) -> None:
-        """Record these objects besides the ninja, instead of those before; for others all is simulated anew.
+        """Record these objects besides the ninja, instead of those before; for others all is simulated again.
 
         Raises ArgumentError for an unknown object.
         """

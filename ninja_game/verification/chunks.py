@@ -14,13 +14,13 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
+from ninja_game.backend.known_run import KnownRunError
+from ninja_game.backend.memories import MemoryUnavailableError
 from ninja_game.budget import RUN_BUDGET
-from ninja_game.compile_cache import MemoryUnavailableError
 from ninja_game.errors import DAMAGED, NinjaGameError
 from ninja_game.files.beside import Beside, known_files
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.recording import Recording
-from ninja_game.known_run import KnownRunError
 from ninja_game.runs.recording_reader import Unreadable, recording_of_text, recordings_of, records_of, texts_in
 from ninja_game.runs.verify import NOT_RUN, Verdict, verify_recording
 from ninja_game.sim.level import Level
@@ -189,5 +189,5 @@ def result_from_data(data: object) -> Result:
         raise ValueError(f"outcome is {data['outcome']!r}"[:80])
     problems = data["problems"]
     if not isinstance(problems, (list, tuple)) or not all(isinstance(problem, str) for problem in problems):
-        raise ValueError("problems are no list of texts")
+        raise ValueError("problems are not a list of texts")
     return Verdict(**(data | {"problems": tuple(problems)}))

@@ -56,7 +56,7 @@ class Certificate:
 def certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
     """The certificate of a level file, None where there is none.
 
-    Raises ReplayError, or another error of ours, where it cannot be read.
+    Raises ReplayError, or another NinjaGameError, where it cannot be read.
     """
     name = pack.certificate(file, kind)
     if name is None:
@@ -91,6 +91,6 @@ def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
         elif tries == 0:
             hard = None
         else:
-            inputs = run.recording.playback(run.verdict.ticks)
+            inputs = run.recording.inputs[: run.verdict.ticks]
             hard = round(difficulty(named.level, inputs, tries=tries), 2)
         yield file, Pars(pars.level, pars.run, pars.exit, pars.gold, hard)

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from ninja_game import Level, Simulation, parse_level
+from ninja_game.backend.memories import MemoryUnavailableError, compiled, compiled_available
 from ninja_game.batch.batch import OBJECT_FIELDS, Batch
 from ninja_game.batch.kernels import run_worlds
 from ninja_game.batch.thread_pool import ThreadPool
-from ninja_game.compile_cache import MemoryUnavailableError, compiled, compiled_available
 from ninja_game.errors import ArgumentError, LevelError
-from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.kinds import DRONE, EXIT, MINE
 from ninja_game.sim.memory.layout import OBJECT
 from ninja_game.sim.states import OUTCOME_NAMES
@@ -189,7 +189,7 @@ def test_wrong_use_is_refused(memory: str) -> None:
             batch.reset(which)  # type: ignore[arg-type]
     with pytest.raises(ArgumentError, match="levels are 1 to 1"):
         batch.reset(0, levels=1)
-    with pytest.raises(LevelError, match="this is no level; found 'levels/01'"):
+    with pytest.raises(LevelError, match="this is not a level; found 'levels/01'"):
         Batch("levels/01", 3, memory=memory)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="1 saved worlds do not fit 2"):
         batch.restore(batch.save(0))
@@ -200,7 +200,7 @@ def test_wrong_use_is_refused(memory: str) -> None:
 
 
 def test_without_numba_the_plain_memory_does_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ninja_game.compile_cache.compiled_available", lambda: False)
+    monkeypatch.setattr("ninja_game.backend.memories.compiled_available", lambda: False)
     assert Batch(LEVELS[0], 1).memory == "plain"
     with pytest.raises(MemoryUnavailableError):
         Batch(LEVELS[0], 1, memory="compiled")
@@ -261,7 +261,7 @@ def test_worlds_are_chosen_by_truth_values_and_slices_too(memory: str) -> None:
 @pytest.mark.parametrize("memory", MEMORIES)
 def test_press_jumps_as_a_keyboard_does(memory: str) -> None:
     held = [2, 6, 6, 2, 4, 4, 4, 0, 6, 5]
-    pressed = press_jumps(held)
+    pressed = with_press_bits(held)
     ours, theirs = (Batch(LEVELS[1], 1, memory=memory) for _ in range(2))
     theirs.run([[down] for down in pressed])
     ours.run([[down] for down in held[:6]], press=True)

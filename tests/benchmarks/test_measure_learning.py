@@ -6,7 +6,7 @@ import pytest
 
 from benchmarks import measure_learning as measured
 from benchmarks.measure_worlds import resident_bytes
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.learn.vector import NinjaVectorEnv
 
 pytestmark = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")

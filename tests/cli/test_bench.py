@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from ninja_game.backend.memories import compiled_available
 from ninja_game.cli.main import cli
-from ninja_game.compile_cache import compiled_available
 from ninja_game.runs import benchmark
 from tests.support.samples import WALK, running, write_records
 

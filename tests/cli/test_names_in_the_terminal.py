@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records
 
 pty = pytest.importorskip("pty", reason="there are no pseudo-terminals")
@@ -51,7 +51,7 @@ COMMANDS = {
     "eval": "learn eval random --levels LEVEL --episodes 1 --memory plain",
 }
 BYTES = {"trace", "splits as csv", "compare as csv", "convert", "convert to a level"}
-"""What these write on standard output is for programs: every byte of it, where it is no terminal."""
+"""What these write on standard output is for programs: every byte of it, where it is not a terminal."""
 
 COMPILED = {"check", "solve"}
 

@@ -15,15 +15,15 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game import kernel_cache
-from ninja_game.compile_cache import compiled_available
-from ninja_game.numba_import import HONOURED
+from ninja_game.backend import kernel_cache
+from ninja_game.backend.memories import compiled_available
+from ninja_game.backend.numba_import import HONOURED
 from tests.support.samples import SPIKED, WALK, replay_of_walk, running, write_records
 
 PROGRAM = Path(sys.executable).with_name("ninja-game")
 MODULES = (
     "ninja_game", "numba", "numpy", "yaml", "click", "llvmlite", "json", "hashlib", "struct", "math", "re",
-    "encodings", "sitecustomize", "usercustomize", "resource", "sim", "verification", "known_run",
+    "encodings", "sitecustomize", "usercustomize", "resource", "sim", "verification", "backend",
 )  # fmt: skip
 
 YAML = {
@@ -186,7 +186,7 @@ def test_settings_of_whoever_imported_numba_before_do_not_count() -> None:
     code = (
         "import os; os.environ.update(NUMBA_OPT='0', NUMBA_CPU_NAME='generic', NUMBA_BOUNDSCHECK='0')\n"
         "import numba.core.config as config\n"
-        "from ninja_game.numba_import import import_numba\n"
+        "from ninja_game.backend.numba_import import import_numba\n"
         "import_numba(); os.environ['NUMBA_OPT'] = '1'; config.reload_config()\n"
         "print(int(config.OPT), config.CPU_NAME, config.BOUNDSCHECK)\n"
     )

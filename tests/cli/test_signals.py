@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.runs import benchmark
 from ninja_game.signals import GRACE, held_back
 from tests.support.samples import WALK, WALK_END, running, write_records

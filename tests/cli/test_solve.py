@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+from ninja_game.backend.memories import compiled_available
 from ninja_game.cli import run_options
 from ninja_game.cli.main import cli
 from ninja_game.cli.solver_options import default_threads, progress_text
-from ninja_game.compile_cache import compiled_available
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.ascii.reader import write_ascii_level
 from ninja_game.formats.load import load_levels, load_replays
@@ -289,7 +289,7 @@ def test_progress_is_told_now_and_then_where_nobody_watches(
 
     def items() -> Iterator[int]:
         for item in range(2):
-            # The first item may be the long one: it is told before it is there.
+            # The first item may be the long one: it is reported before it is there.
             seen = ""
             while f"s: {item} run{'s' * (item != 1)} done\n" not in seen:
                 seen += capsys.readouterr().err

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+from ninja_game.backend.memories import compiled_available
 from ninja_game.cli.main import cli
-from ninja_game.compile_cache import compiled_available
 from tests.support.samples import SPIKED, WALK, WALK_END, running, write_records
 
 

@@ -17,12 +17,12 @@ from ninja_game.formats.recording import parse_replays
 from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.formats.tas_lines import in_our_notation, is_tas_text, write_celeste, write_libtas
-from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.inputs import with_press_bits
 from tests.support.samples import WALK
 
 LEVEL = parse_level(WALK)
 
-keyboard_inputs = st.lists(st.integers(0, 7), max_size=80).map(press_jumps)
+keyboard_inputs = st.lists(st.integers(0, 7), max_size=80).map(with_press_bits)
 
 
 def read_lines(text: str) -> bytes:
@@ -82,14 +82,14 @@ def test_inputs_of_other_tools_need_a_level() -> None:
     with pytest.raises(ReplayError, match="give it with --level"):
         parse_replays(text, file="a.tas")
     (recording,) = parse_replays(text, file="a.tas", level=LEVEL)
-    assert recording.playback(31) == bytes([2] * 30 + [0])
+    assert recording.replay.playback(31) == bytes([2] * 30 + [0])
 
 
 def test_celeste_lines_that_begin_with_a_label_are_no_record_of_n() -> None:
     level = parse_level_string(WALK)
     for text in ("#start\n  30,R,J\n", "# a comment\n#start\n\n  30,R\n#end\n   1,J", "##\n30\n"):
         (recording,) = parse_replays(text, level=level)
-        assert len(recording.demo.inputs) >= 30
+        assert len(recording.replay.inputs) >= 30
     for demo in ("##3:801#", "##902:35791394|\n35791394#"):
         assert is_level_file(demo)
 
@@ -125,7 +125,7 @@ def test_a_file_of_celestetas_with_all_that_may_stand_in_it(end: str, tmp_path: 
     path = tmp_path / "a.tas"
     path.write_bytes(CELESTE.replace("\n", end).encode())
     (recording,) = load_replays(path, level=LEVEL)
-    assert recording.demo.inputs == press_jumps([0, 6, 6, 3, 0, 3, 0, 4, 4, 4])
+    assert recording.replay.inputs == with_press_bits([0, 6, 6, 3, 0, 3, 0, 4, 4, 4])
     assert recording.replay is not None
     assert recording.replay.markers == (Marker(0, "Start"), Marker(1, "Start-2"), Marker(7, "1-23.456-last-room"))
 
@@ -143,7 +143,7 @@ LIBTAS = """\ufeff|K0000FF53:ffe1|M-1:12:R:1....:0|C10:0:0:0:0:0:...............
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
 def test_lines_of_libtas_with_other_devices(end: str) -> None:
     assert is_tas_text(LIBTAS)
-    assert read_lines(LIBTAS.replace("\n", end)) == press_jumps([6, 2, 5, 0, 0, 0])
+    assert read_lines(LIBTAS.replace("\n", end)) == with_press_bits([6, 2, 5, 0, 0, 0])
     assert read_lines("|ff53:ffe1|0:0:.....|\n||0:0:.....|\n") == bytes([14, 0]), "without letters, as older movies"
     with pytest.raises(ReplayError, match="a key that the ninja has not; found 'ff52'"):
         read_lines("|ff52|")
@@ -153,7 +153,7 @@ def test_long_lines_of_celestetas_are_split() -> None:
     text = write_celeste(bytes([2] * 20_000))
     assert text == "9999,R\n9999,R\n   2,R\n"
     assert read_lines(text) == bytes([2] * 20_000)
-    assert write_celeste(press_jumps([4] * 10_001)) == "9999,J\n   2,J\n"
+    assert write_celeste(with_press_bits([4] * 10_001)) == "9999,J\n   2,J\n"
 
 
 def test_labels_that_come_again_get_numbers() -> None:

@@ -12,8 +12,9 @@ from ninja_game import Recording, load_replays
 from ninja_game.cli.main import cli
 from ninja_game.errors import ArgumentError
 from ninja_game.files.resources import bundled_replays
-from ninja_game.formats.n14.demo import parse_demo
+from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.recording import demo_replay, recording_of
 from ninja_game.learn.demonstrations import (
     Demonstration,
     UnplayableRecordingError,
@@ -23,14 +24,14 @@ from ninja_game.learn.demonstrations import (
     write_npz,
 )
 from ninja_game.learn.single import NinjaEnv
-from ninja_game.sim.inputs import Demo, press_jumps
+from ninja_game.sim.inputs import Demo, with_press_bits
 from tests.support.reference import recordings, require_reference
 
 FLAT = parse_level_string("0" * 713 + "|5^100,566!0^130,566!11^260,564,230,564")
 
 
 def recorded(keys: list[int]) -> Recording:
-    return Recording("run", "", "", FLAT, Demo(bytes(keys), len(keys)), "runs.txt")
+    return Recording(FLAT, demo_replay(Demo(bytes(keys), len(keys)), FLAT, "run"), file="runs.txt")
 
 
 @pytest.mark.parametrize("path", bundled_replays()[::10], ids=lambda path: path.name)
@@ -69,7 +70,7 @@ def test_what_ends_before_the_exit_is_truncated_and_both_keys_are_none() -> None
 def test_recordings_that_press_jump_anew_while_it_is_held_are_refused() -> None:
     held = [4 + 8] + [4] * 200
     assert demonstration(recorded([0] * 3 + held), memory="plain").outcome == "running"
-    with pytest.raises(UnplayableRecordingError, match=r"runs.txt: run: it presses jump anew"):
+    with pytest.raises(UnplayableRecordingError, match=r"runs.txt: run: it presses jump again"):
         demonstration(recorded([0] * 3 + held + [4 + 8] * 3), memory="plain")
     # A press in the air, far from any wall, makes no other run.
     assert demonstration(recorded([0] * 3 + [4 + 8, 4, 4 + 8, 4]), memory="plain").outcome == "running"
@@ -148,13 +149,13 @@ def test_reference_recordings_are_demonstrations_unless_they_press_jump_anew() -
     require_reference()
     unplayable = []
     for row in recordings()[::40]:
-        recording = Recording(row.label, "", "", parse_level_string(row.data), parse_demo(row.demo), "")
+        recording = recording_of(LevelRecord(row.label, "", "", row.data, row.demo), "", parse_level_string(row.data))
         try:
             made = demonstration(recording)
         except UnplayableRecordingError:
-            keys = recording.playback(row.ticks)
+            keys = recording.replay.playback(row.ticks)
             unplayable.append(row.row)
-            assert press_jumps(keys) != keys
+            assert with_press_bits(keys) != keys
         else:
             assert (made.outcome, made.gold, len(made.rewards)) == (row.outcome, row.gold, row.ticks)
     # Of all 1,108 recordings 10 are.

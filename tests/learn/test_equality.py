@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.learn import NinjaEnv, NinjaVectorEnv
 from ninja_game.learn.observations.observation import PARTS
 from ninja_game.learn.rewards import REWARD_TERMS
@@ -25,7 +25,7 @@ actions_of_all = st.lists(st.tuples(*[st.integers(0, 5)] * WORLDS), min_size=1, 
 
 
 class Singles:
-    """Single environments, of which one that has ended begins anew in the next step, as the vector's worlds do."""
+    """Single environments, of which one that has ended starts again in the next step, as the vector's worlds do."""
 
     def __init__(self, levels: list[Level], seed: int, **more: Any) -> None:
         self.envs = [NinjaEnv(levels, memory="plain", **EVERYTHING, **more) for _ in range(WORLDS)]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ninja_game import parse_level
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.goal_distance import FARTHEST
@@ -63,7 +63,7 @@ def test_the_distance_goes_by_the_switches_and_is_the_same_on_both_memories() ->
 def test_fields_are_the_same_bytes_without_numba(monkeypatch: pytest.MonkeyPatch) -> None:
     fields = []
     for available in (True, False):
-        monkeypatch.setattr("ninja_game.compile_cache.compiled_available", lambda answer=available: answer)
+        monkeypatch.setattr("ninja_game.backend.memories.compiled_available", lambda answer=available: answer)
         worlds = EnvWorlds(LOCKED, 1, memory="plain", goal_distance=True)
         assert worlds.goal is not None
         fields.append(worlds.goal.fields[worlds.goal.rows[0]].tobytes())

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ninja_game import Simulation
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.rewards import DeathPenalty, ExitReward, GoldReward, TimePenalty
@@ -23,7 +23,7 @@ needs_numba = pytest.mark.skipif(not compiled_available(), reason="Numba is not 
 
 
 def history(actions: Any, *, worlds: EnvWorlds, seeds: list[int]) -> list[bytes]:
-    """What the worlds show after each step, ended ones beginning anew, as bytes."""
+    """What the worlds show after each step, ended ones beginning again, as bytes."""
     worlds.reset(seeds=seeds)
     shown = []
     for row in actions:

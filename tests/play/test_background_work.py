@@ -1,4 +1,4 @@
-"""Work beside the window: whatever goes wrong in it, the screen that waits for it says so and can be used again."""
+"""Work in the background: whatever goes wrong in it, the screen that waits for it says so and can be used again."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ RUN = PACK / "certificates" / "00-2-the-chimney.exit.replay.txt"
 
 
 class LibraryPanic(BaseException):
-    """What is no Exception."""
+    """What is not an Exception."""
 
 
 WRONG = {
@@ -44,7 +44,7 @@ WRONG = {
 
 @pytest.fixture(name="why", params=list(WRONG))
 def sentence(request: pytest.FixtureRequest) -> str:
-    """What a user is told."""
+    """What a user sees."""
     why: str = request.param
     return why
 

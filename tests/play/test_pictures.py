@@ -49,7 +49,7 @@ def scene(
     if overlays:
         view.overlays = Overlays()
         view.overlays.on = set(OVERLAY_ACTIONS)
-    inputs = recording.playback(ticks)
+    inputs = recording.replay.playback(ticks)
     for frame in inputs:
         run.step_keys(frame)
         view.on_tick()

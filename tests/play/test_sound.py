@@ -101,7 +101,7 @@ def heard(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
 
 
 def test_each_event_sounds_as_accepted(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Write the list anew with ACCEPT_PICTURES=1 in the environment."""
+    """Write the list again with ACCEPT_PICTURES=1 in the environment."""
     text = "\n".join(heard(folder, monkeypatch)) + "\n"
     if os.environ.get("ACCEPT_PICTURES"):
         SOUNDS.write_text(text, "utf-8")

@@ -19,6 +19,7 @@ from ninja_game.formats.load import load_replays, parse_level
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import Replay
 from ninja_game.runs import comparison
 from ninja_game.runs.comparison import aligned
 from ninja_game.runs.run import record_replay
@@ -39,7 +40,7 @@ CROWD = heavy_level(90)
 
 
 def recording(level: Level, ticks: int) -> Recording:
-    return Recording("run", "me", "", level, Demo(bytes(ticks), float(ticks)), "run.txt", 3)
+    return Recording(level, Replay.of_inputs(bytes(ticks), level, name="run"), file="run.txt", record=3)
 
 
 def command(*words: object) -> Result:
@@ -75,7 +76,7 @@ def test_a_run_that_ends_in_time_passes_whatever_its_text_goes_on_to_say() -> No
         lambda each: trace_recording(each, memory="plain", budget=1000),
         lambda each: trace_recording(each, ticks=40, memory="plain", budget=1000),
         lambda each: run_splits(each, budget=1000),
-        lambda each: record_replay(each.level, each.demo.inputs, budget=1000),
+        lambda each: record_replay(each.level, each.inputs, budget=1000),
     ],
 )
 def test_every_path_refuses_what_costs_too_much(path: Callable[[Recording], object]) -> None:

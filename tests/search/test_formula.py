@@ -21,9 +21,9 @@ from ninja_game.search.formula.methods import count_ways, search_span
 from ninja_game.search.formula.names import FACTS, NAMES, SPAN_NAMES, difference_from, view_of
 from ninja_game.search.formula.task import Found, SpanTask
 from ninja_game.sim.digest import state_digest
-from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.inputs import with_press_bits
 from tests.support.memories import BOTH
-from tests.support.samples import loose_replay
+from tests.support.samples import unclaimed_text
 
 TEXT = "0" * 713 + "|5^100,566!11^200,564,170,564!0^140,566!12^400,400"
 LEVEL = parse_level(TEXT)
@@ -192,7 +192,7 @@ def test_the_exhaustive_search_finds_the_best_there_is() -> None:
     heights = []
     for choice in product([0, 1, 2, 4, 5, 6], repeat=3):
         run = Simulation(LEVEL)
-        for keys in press_jumps([*WAITING[:10], *(keys for keys in choice for _ in range(4))]):
+        for keys in with_press_bits([*WAITING[:10], *(keys for keys in choice for _ in range(4))]):
             run.step_keys(keys)
         heights.append(run.ninja.y)
     assert best.score == min(heights)
@@ -290,7 +290,7 @@ def called(*words: str | Path | float) -> Result:
 @pytest.fixture
 def run(tmp_path: Path) -> Path:
     path = tmp_path / "run.inputs.txt"
-    path.write_text(loose_replay(TEXT, ".*6 R*60", headers="author: A. Player\n"))
+    path.write_text(unclaimed_text(TEXT, ".*6 R*60", headers="author: A. Player\n"))
     return path
 
 

@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 import pytest
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level

@@ -7,7 +7,7 @@ from itertools import islice
 
 import pytest
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import LevelError
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.runs.run import run_level

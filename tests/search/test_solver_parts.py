@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ninja_game.compile_cache import compiled, compiled_available
+from ninja_game.backend.memories import compiled, compiled_available
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.level import Level
@@ -29,7 +29,7 @@ from ninja_game.search.macros import PRESSED, PRESSED_AGAIN, RELEASED, action_co
 from ninja_game.search.nodes import UNKNOWN, Entry, Link, Resolution, back_up_values, open_start, zeroed
 from ninja_game.search.states import key_of, open_mask
 from ninja_game.search.tour import short_tour
-from ninja_game.sim.inputs import KEY_RIGHT, press_jumps
+from ninja_game.sim.inputs import KEY_RIGHT, with_press_bits
 from ninja_game.sim.memory.plain import PlainMemory
 from tests.support.own_fields import apart, own_fields_only
 
@@ -58,7 +58,7 @@ def test_an_action_says_its_inputs(direction: int, mode: int, held: int, inputs:
 
 
 def test_triggers_are_put_where_the_key_goes_down() -> None:
-    assert press_jumps(b"\x04\x0c\x00\x06\x06") == b"\x0c\x04\x00\x0e\x06"
+    assert with_press_bits(b"\x04\x0c\x00\x06\x06") == b"\x0c\x04\x00\x0e\x06"
 
 
 def test_the_field_leads_to_the_switch_and_then_to_the_exit() -> None:

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from ninja_game import ArgumentError, Simulation, parse_level
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.search.formula import background
 from ninja_game.search.formula.background import SpanSearch
 from ninja_game.search.formula.language import FormulaError

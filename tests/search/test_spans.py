@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.plain import PlainMemory

@@ -8,7 +8,7 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle
 from ninja_game.sim.collision.rays import ray_tiles, sees
-from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, press_jumps
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bits
 from ninja_game.sim.memory.plain import load_plain
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.simulation import Simulation
@@ -103,7 +103,7 @@ def test_a_ray_without_length_sees_nothing() -> None:
 
 def keys(*spans: tuple[int, int]) -> list[int]:
     """Inputs from (number of ticks, keys) spans; jump is pressed in the tick in which it goes down."""
-    return list(press_jumps(down for ticks, down in spans for _ in range(ticks)))
+    return list(with_press_bits(down for ticks, down in spans for _ in range(ticks)))
 
 
 def places(level: str, inputs: list[int], x_y_state_of: list[int]) -> dict[int, tuple[float, float, str]]:

@@ -6,12 +6,12 @@ from itertools import combinations
 
 import pytest
 
-from ninja_game.compile_cache import compiled_available
-from ninja_game.numba_import import import_numba
+from ninja_game.backend.memories import compiled_available
+from ninja_game.backend.numba_import import import_numba
 from ninja_game.sim.events import emit
 from ninja_game.sim.memory.compiled import CompiledMemory
 from ninja_game.sim.memory.compiler import Compiler
-from ninja_game.sim.memory.declare import ENTRY_POINTS, REGISTERED, entry_point, f8, fields_of, part
+from ninja_game.sim.memory.declare import ENTRY_POINTS, REGISTERED, entry_point, f8, fields_of, struct_base
 from ninja_game.sim.memory.layout import (
     OBJECT,
     STATE_START,
@@ -56,7 +56,7 @@ def test_every_field_is_aligned() -> None:
 
 
 def test_a_field_that_numpy_would_hide_is_refused() -> None:
-    @part
+    @struct_base
     class Bad:
         shape: f8
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import LevelError
 from ninja_game.sim.digest import OVERWRITTEN, differences, state_digest
 from ninja_game.sim.kinds import DRONE, GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 
 PLAIN = pytest.param("plain", id="plain")
 COMPILED = pytest.param(

@@ -107,7 +107,7 @@ class MenuDriver:
     def play_replay(self, number: int) -> None:
         """Feed the certificate of a bundled level (from 1) to the level on top; it runs to its end and a little on."""
         recording = load_replays(bundled_replays()[number - 1])[0]
-        self.keys.script = [keys & 7 for keys in recording.playback(recording.ticks)]
+        self.keys.script = [keys & 7 for keys in recording.inputs]
         self.frames(len(self.keys.script) + 10)
 
     def close(self) -> None:

@@ -51,7 +51,7 @@ class _Sheet(pygame.Surface):
 class TasLog(DrawLog):
     """Notes what the TAS editor draws, too, and what is drawn right into the window.
 
-    Pictures that are kept from one redraw to the next, the rows of a roll and the paths of runs, are drawn anew.
+    Pictures that are kept from one redraw to the next, the rows of a roll and the paths of runs, are drawn again.
     """
 
     containers = (LevelPart, "paint"), (RowSheet, "draw"), (RowSheet, "_row")

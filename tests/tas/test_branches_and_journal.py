@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from ninja_game.errors import DAMAGED, FileError
 from ninja_game.formats.load import load_replays
-from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.inputs import with_press_bits
 from ninja_game.tas.branches import Branch, Branches, branches_of_json
 from ninja_game.tas.files import open_run, save_run
 from ninja_game.tas.input_track import InputTrack
@@ -187,7 +187,7 @@ def test_a_run_goes_on_where_a_killed_session_was(session: Session, tmp_path: Pa
     assert third.undo()
     assert third.track == stroke
     third.save(tmp_path / "walk.replay.txt")
-    assert load_replays(tmp_path / "walk.replay.txt")[0].playback(9)[:5] == press_jumps([4] * 5)
+    assert load_replays(tmp_path / "walk.replay.txt")[0].replay.playback(9)[:5] == with_press_bits([4] * 5)
     assert list((tmp_path / FOLDER).iterdir()) == []
 
 

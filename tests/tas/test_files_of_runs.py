@@ -18,7 +18,7 @@ from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.runs.verify import Verdict
-from ninja_game.sim.inputs import Demo, first_ticks
+from ninja_game.sim.inputs import first_ticks
 from ninja_game.tas.branches import Branches
 from ninja_game.tas.files import OpenedRun, RunFile, branches_path, open_run, save_run, track_of
 from ninja_game.tas.input_track import InputTrack
@@ -42,8 +42,8 @@ def saved_take(opened: OpenedRun, track: InputTrack, path: Path) -> OpenedRun:
 def test_what_is_saved_opens_again_as_it_was(track: InputTrack, body: str) -> None:
     from tempfile import TemporaryDirectory
 
-    recording = Recording("Töm\n", '"us"', "", LEVEL, Demo(b"", 0.0), "a.txt")
-    recording = replace(recording, replay=replace(parse_replay(replay_of_walk()), body=body, level_author="somebody"))  # type: ignore[arg-type]
+    replay = replace(parse_replay(replay_of_walk()), name="Töm\n", author='"us"', body=body, level_author="somebody")  # type: ignore[arg-type]
+    recording = Recording(LEVEL, replay, file="a.txt")
     with TemporaryDirectory() as folder:
         path = Path(folder) / "a.replay.txt"
         if not track.inputs:
@@ -68,7 +68,7 @@ def test_an_exit_behind_the_last_key_is_saved(tmp_path: Path) -> None:
     opened = open_run(path)
     short = opened.track.replaced(WALK_END - 2, len(opened.track), [])
     again = saved_take(opened, short, path)
-    assert again.recording.replay.outcome == "exit"  # type: ignore[union-attr]
+    assert again.recording.replay.outcome == "exit"
     assert again.recording.ticks > len(short)
     assert again.track.inputs == first_ticks(short.inputs, again.recording.ticks)
 
@@ -85,11 +85,11 @@ def test_keys_behind_the_end_are_kept_without_claims(tmp_path: Path) -> None:
     path.write_text(replay_of_walk(), "utf-8")
     opened = open_run(path)
     with_claims = saved_take(opened, opened.track.replaced(40, 60, [0] * 20), path)
-    assert (with_claims.recording.ticks, with_claims.recording.replay.loose) == (WALK_END + 1, False)  # type: ignore[union-attr]
+    assert (with_claims.recording.ticks, with_claims.recording.replay.unclaimed) == (WALK_END + 1, False)
     for track in (opened.track.replaced(40, 41, [4]), opened.track.named(40, "later")):
         unclaimed = saved_take(open_run(path), track, path)
         assert unclaimed.track == track
-        assert unclaimed.recording.replay.loose  # type: ignore[union-attr]
+        assert unclaimed.recording.replay.unclaimed
 
 
 def test_a_demo_of_n_opens_and_is_saved_as_a_new_replay(tmp_path: Path) -> None:
@@ -232,7 +232,7 @@ def test_a_replay_goes_on_naming_the_file_of_its_level(tmp_path: Path) -> None:
     assert replay is not None
     assert (replay.level_path, replay.level, replay.level_digest) == ("level", None, level_digest(LEVEL))
     elsewhere = saved_take(opened, opened.track, tmp_path / "b.replay.txt")
-    assert elsewhere.recording.replay.level is not None  # type: ignore[union-attr]
+    assert elsewhere.recording.replay.level is not None
 
 
 def test_branches_travel_beside_their_run(tmp_path: Path) -> None:

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 
 from ninja_game.errors import ArgumentError, ReplayError
 from ninja_game.formats.replay.input_runs import Marker
-from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, MAX_TICKS, press_jumps
+from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, MAX_TICKS, with_press_bits
 from ninja_game.tas.input_track import InputTrack
 from tests.support.strategies import tracks
 
-keyboards = st.lists(st.integers(0, 7), max_size=30).map(press_jumps)
+keyboards = st.lists(st.integers(0, 7), max_size=30).map(with_press_bits)
 
 spans = st.tuples(st.integers(0, 40), st.integers(0, 40)).map(lambda span: (min(span), max(span)))
 new_keys = st.lists(st.integers(0, 7), max_size=12)
@@ -25,7 +25,7 @@ def test_keys_of_a_keyboard_stay_those_of_a_keyboard(track: InputTrack, span: tu
     first, last = span
     down = [key & KEYS_DOWN for key in track.inputs]
     wanted = (down + [0] * first)[:first] + keys + down[last:]
-    assert track.replaced(first, last, keys).inputs == press_jumps(wanted)
+    assert track.replaced(first, last, keys).inputs == with_press_bits(wanted)
 
 
 @given(tracks(), spans, new_keys)
@@ -38,9 +38,9 @@ def test_ticks_that_are_not_edited_stay_as_they_are(track: InputTrack, span: tup
     assert [key & KEYS_DOWN for key in new.inputs[first:behind]] == keys
     if last < len(track):
         held = bool(last and track.inputs[last - 1] & JUMP_HELD)
-        odd = track.inputs[last] != press_jumps([JUMP_HELD * held, track.inputs[last]])[1]
+        odd = track.inputs[last] != with_press_bits([JUMP_HELD * held, track.inputs[last]])[1]
         held_now = bool(behind and new.inputs[behind - 1] & JUMP_HELD)
-        joined = press_jumps([JUMP_HELD * held_now, track.inputs[last]])[1]
+        joined = with_press_bits([JUMP_HELD * held_now, track.inputs[last]])[1]
         assert new.inputs[behind] == (track.inputs[last] if odd else joined)
 
 

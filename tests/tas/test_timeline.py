@@ -17,7 +17,7 @@ from ninja_game.runs import save_states
 from ninja_game.runs.run_trace import trace_level
 from ninja_game.runs.save_states import SaveStates
 from ninja_game.search.formula.names import FLAGS, NAMES, view_of
-from ninja_game.sim.inputs import MAX_TICKS, first_ticks, press_jumps
+from ninja_game.sim.inputs import MAX_TICKS, first_ticks, with_press_bits
 from ninja_game.simulation import Simulation
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.timeline import AFTERMATH, Timeline
@@ -55,7 +55,7 @@ def test_after_any_edits_every_row_is_that_of_a_straight_run(memory: str, data: 
     most, save_states.MOST_STATES = save_states.MOST_STATES, data.draw(st.sampled_from([2, 3, 300]))
     try:
         track = InputTrack(
-            press_jumps(data.draw(st.lists(st.integers(0, 7), max_size=20))) * data.draw(st.integers(1, 12))
+            with_press_bits(data.draw(st.lists(st.integers(0, 7), max_size=20))) * data.draw(st.integers(1, 12))
         )
         timeline = Timeline(RUNS["01-2-the-works"].level, track.inputs, memory=memory)
         ids = [id_ for id_, seen in enumerate(timeline._seen) if seen[0] in {0, 9, 11}][:3]
@@ -98,7 +98,7 @@ def test_an_edit_keeps_what_comes_before_it() -> None:
 
 def test_states_of_a_timeline_begin_simulations() -> None:
     recording = RUNS["01-0-springtime"]
-    timeline = Timeline(recording.level, recording.playback(recording.ticks), memory="plain")
+    timeline = Timeline(recording.level, recording.inputs, memory="plain")
     timeline.simulate(10**6)
     for tick in (0, 59, 60, 61, recording.ticks, 10**9):
         state = timeline.save_state(tick)
@@ -139,7 +139,7 @@ def test_save_states_are_thinned_and_never_far_apart() -> None:
 @pytest.mark.parametrize("memory", BOTH)
 def test_watched_values_are_those_of_a_search(name: str, memory: str) -> None:
     recording = RUNS[name]
-    inputs = recording.playback(recording.ticks)
+    inputs = recording.inputs
     timeline = Timeline(recording.level, inputs, memory=memory)
     timeline.simulate(10**6)
     formulas = [each for each, count in NAMES.items() if not count] + ["distance(100, 200)", "hypot(vx, vy) * 2"]

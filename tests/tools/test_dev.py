@@ -103,7 +103,7 @@ def test_run_installs_what_its_command_uses() -> None:
 
 
 def test_a_command_that_uses_numba_says_when_it_compiles() -> None:
-    """All but the editor, whose solver is made ready beside the window and says so there."""
+    """All but the editor, whose solver is made ready in the background and says so there."""
     compiling = {command for command in COMMANDS if "fast" in dev.extras_of([command])}
     assert compiling - {"edit"} == set(COMPILING), "COMPILING of ninja_game/cli/main.py, USES of tools/dev.py"
 

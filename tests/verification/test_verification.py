@@ -18,7 +18,7 @@ from typing import Any
 import pytest
 
 from ninja_game import parse_level
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import FileError, FormatError
 from ninja_game.files.beside import Beside
 from ninja_game.files.reading import files_below
@@ -53,7 +53,16 @@ from ninja_game.verification.workers import (
     in_order,
     workers,
 )
-from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, loose_replay, replay_of_walk, running, write_records
+from tests.support.samples import (
+    NO_NINJA,
+    SPIKED,
+    WALK,
+    WALK_END,
+    replay_of_walk,
+    running,
+    unclaimed_text,
+    write_records,
+)
 
 verify_plainly = partial(verify_all, memory="plain")
 
@@ -341,8 +350,8 @@ def test_a_piece_for_another_machine_holds_its_level(tmp_path: Path) -> None:
         ("a.tas", "Read,part.tas\n", "part.tas"),
         ("b.tas", "Read,part\n", "part.tas"),
         ("c.tas", "Read,other.txt\n", "part.tas"),
-        ("d.replay.txt", loose_replay(WALK, "include part.tas"), "part.tas"),
-        ("e.replay.txt", loose_replay(WALK, "include other.txt"), "part.tas"),
+        ("d.replay.txt", unclaimed_text(WALK, "include part.tas"), "part.tas"),
+        ("e.replay.txt", unclaimed_text(WALK, "include other.txt"), "part.tas"),
     ],
 )
 def test_a_file_that_was_taken_in_and_changed_is_verified_again(

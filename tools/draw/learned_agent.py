@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 import pygame
 
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import Replay
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.agents.load import learned_file
 from ninja_game.learn.agents.policy import PolicyAgent, load_policy
@@ -23,10 +25,9 @@ from ninja_game.learn.sticky import StickyActions
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.play.replay.film import Film, film_pictures
 from ninja_game.play.replay.film_files import write_gif
-from ninja_game.play.replay.playback import RecordedRun
 from ninja_game.play.ui.palette import palette_named
 from ninja_game.player.settings import Settings
-from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.inputs import with_press_bits
 from tools import ROOT
 
 FOLDER = ROOT / "docs" / "pictures" / "learn"
@@ -56,7 +57,7 @@ def draw_curve(training: dict[str, Any], path: Path) -> None:
     plt.close(figure)
 
 
-def played(agent: PolicyAgent, name: str, seed: int) -> RecordedRun:
+def played(agent: PolicyAgent, name: str, seed: int) -> Recording:
     """An episode of the agent, with sticky actions, as it is evaluated."""
     worlds = EnvWorlds(name, 1, **agent.settings)
     sticky = StickyActions(1, seed)
@@ -66,7 +67,8 @@ def played(agent: PolicyAgent, name: str, seed: int) -> RecordedRun:
         before = worlds.ticks[0]
         worlds.step(down)
         keys += down.tolist() * int(worlds.ticks[0] - before)
-    return RecordedRun(f"{name} - learned agent", worlds.levels[0], press_jumps(keys))
+    level = worlds.levels[0]
+    return Recording(level, Replay.of_inputs(with_press_bits(keys), level, name=f"{name} - learned agent"))
 
 
 def draw_film(agent: PolicyAgent, names: Sequence[str], path: Path) -> None:

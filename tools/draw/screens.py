@@ -30,7 +30,7 @@ def editor_picture(folder: Path) -> pygame.Surface:
     editor = maker.editor
     editor.commands.edit(open_source(Path(copy(PACK / "00-4-locksmith.txt", folder / "levels"))))
     run = load_replays(PACK / "certificates" / "00-4-locksmith.exit.replay.txt")[0]
-    editor.session.tried(run.level, run.playback(run.ticks))
+    editor.session.tried(run.level, run.inputs)
     maker.frames()
     maker.press("grave", "6")
     maker.mouse(*maker.at(132, 204))

@@ -21,7 +21,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.run import RunResult, run_level
-from ninja_game.sim.inputs import KEYS_DOWN, press_jumps
+from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.web.board.copies import Course, course_of, nearest
 from tests.support.reference import RunRow, positions, recordings
 
@@ -84,13 +84,13 @@ EDITS: dict[str, Callable[[bytearray, random.Random], None]] = {
 
 
 def edited(recording: Recording, kind: str) -> Iterator[tuple[int, bytes, RunResult]]:
-    """A run after each of COUNTS changes, as far as it gets: how many, inputs, what came of them."""
+    """A run after each of COUNTS changes, as far as it gets: how many, inputs, the result."""
     rng = random.Random(f"{recording.name} {kind}")
-    keys, done = bytearray(each & KEYS_DOWN for each in recording.playback(recording.ticks)), 0
+    keys, done = bytearray(each & KEYS_DOWN for each in recording.inputs), 0
     for _ in range(MOST_TRIES):
         tried = keys.copy()
         EDITS[kind](tried, rng)
-        inputs = press_jumps(bytes(tried) + bytes(LONGEST_BLOCK))
+        inputs = with_press_bits(bytes(tried) + bytes(LONGEST_BLOCK))
         run = run_level(recording.level, inputs)
         if run.outcome == "exit":
             keys, done = tried, done + 1
@@ -102,7 +102,7 @@ def edited(recording: Recording, kind: str) -> Iterator[tuple[int, bytes, RunRes
 
 def noticed(recording: Recording, kind: str) -> Iterator[tuple[int, bool]]:
     """For each of COUNTS changes whether the board notices: a copy, or near enough for a remark."""
-    inputs = recording.playback(recording.ticks)
+    inputs = recording.inputs
     run = run_level(recording.level, inputs)
     first = course_of(inputs[: run.ticks], run)
     for count, changed, result in edited(recording, kind):

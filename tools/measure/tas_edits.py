@@ -28,7 +28,7 @@ from ninja_game.files.resources import bundled_levels
 from ninja_game.formats.load import load_level
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.runs.run import run_level
-from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.level import Level
 
 TICKS = 4000
@@ -42,7 +42,7 @@ def random_keys(seed: int) -> bytes:
     keys: list[int] = []
     while len(keys) < TICKS:
         keys += [chance.choice((0, 1, 2, 1, 2, 5, 6))] * chance.randrange(1, 25)
-    return press_jumps(keys[:TICKS])
+    return with_press_bits(keys[:TICKS])
 
 
 def long_run() -> tuple[Level, bytes]:
@@ -102,7 +102,7 @@ def edit_times(run: Path, size: tuple[int, int], edits: int, clock: Callable[[],
 def measure_times(run: Path, edits: int, clock: Callable[[], float], *, plain: bool) -> bool:
     """Print the table; whether anything is above its limit."""
     slow = False
-    with patch("ninja_game.compile_cache.compiled_available", return_value=False) if plain else nullcontext():
+    with patch("ninja_game.backend.memories.compiled_available", return_value=False) if plain else nullcontext():
         for size in SIZES:
             times = edit_times(run, size, edits, clock)
             print(f"{size[0]} x {size[1]}, {'plain' if plain else 'compiled'} memory")

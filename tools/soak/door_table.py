@@ -373,5 +373,5 @@ OTHER_ERRORS: dict[str, tuple[type[Exception], ...]] = {"journal": DAMAGED, "bac
 
 
 def errors_of(name: str) -> tuple[type[Exception], ...]:
-    """What a door may raise: errors of ours, and what its own callers catch besides."""
+    """What a door may raise: our own errors, and what its own callers catch besides."""
     return NinjaGameError, *OTHER_ERRORS.get(name, ())

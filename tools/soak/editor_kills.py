@@ -2,7 +2,7 @@
 
     python3 tools/dev.py tool soak.editor_kills --kills 100
 
-A child process opens the editor in the player's folder, goes on with what the last one left, draws, saves now and
+A child process opens the editor in the player's folder, continues with what the last one left, draws, saves now and
 then, and says what it has drawn and saved. It is killed (SIGKILL) after a random time. Then the folder must offer a
 draft that is at most two seconds old, and the saved file must be readable and as it was last saved.
 """

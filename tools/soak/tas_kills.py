@@ -3,9 +3,9 @@
     python3 tools/dev.py tool soak.tas_kills --kills 100
     python3 tools/dev.py tool soak.tas_kills --kills 100 --what window
 
-A child process opens a run in the player's folder, goes on with what the last one left, edits, saves now and then, and
-says after each edit what the run is. It is killed (SIGKILL) after a random time, also in the middle of a stroke. Then
-the folder must offer the run as it was said last, or later, and the file must be as it was saved last.
+A child process opens a run in the player's folder, continues with what the last one left, edits, saves now and then,
+and says after each edit what the run is. It is killed (SIGKILL) after a random time, also in the middle of a stroke.
+Then the folder must offer the run as it was said last, or later, and the file must be as it was saved last.
 """
 
 from __future__ import annotations
@@ -113,7 +113,7 @@ def kill_test(
             saved = {last}
         words, seconds = chance.randrange(1, MOST_WORDS + 1), chance.random() * LONGEST_LIFE
         facts = life(PLAYERS[what], home, chance.randrange(2**31), seconds, words=words)
-        # What changes nothing, such as undo without an edit, is no edit that could be lost.
+        # What changes nothing, such as undo without an edit, is not an edit that could be lost.
         said = [each for each, _ in groupby([last, *(each for kind, each, _ in facts if kind == "edited")])]
         for kind, each, _ in facts:
             saved = {each} if kind == "saved" else saved | {each} if kind == "about" else saved

@@ -20,9 +20,9 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.backend.kernel_cache import attach_cache
+from ninja_game.backend.numba_import import import_numba
 from ninja_game.batch.batch import Batch
-from ninja_game.kernel_cache import keep
-from ninja_game.numba_import import import_numba
 from ninja_game.sim.kinds import GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS
 from ninja_game.sim.level import TILES, Level, ObjectSpec
 from ninja_game.sim.memory.compiled import CompiledMemory
@@ -65,7 +65,7 @@ def _number(rng: random.Random) -> float:
 
 def out_of_range(count: int, seed: int) -> Iterator[str]:
     """Reports of hostile levels that lead out of range, or to any other error."""
-    checked = Compiler(import_numba(), checked=True, keep=keep)
+    checked = Compiler(import_numba(), checked=True, attach_cache=attach_cache)
     for number in range(seed, seed + count):
         rng = random.Random(number)
         try:
@@ -102,7 +102,7 @@ def _batch_problems(seed: int) -> Iterator[str]:
         batch.run(part, press=True)
         outcomes, gold, used = before
         if not ((batch.outcomes == outcomes) | (outcomes == 0)).all():
-            yield "an outcome changed after it was told"
+            yield "an outcome changed after it was reported"
         if (batch.gold < gold).any() or (batch.used != used).any() or (batch.ticks != look * TICKS // LOOKS).any():
             yield "gold, slots or ticks are counted wrong"
         before = batch.outcomes.copy(), batch.gold.copy(), used
@@ -126,7 +126,7 @@ def _state_problems(batch: Batch) -> Iterator[str]:
     golds = [sum(record.kind == GOLD for record in level.objects) for level in batch.levels]
     places = batch.positions
     if not np.isfinite(places).all() or not np.isfinite(batch.velocities()).all():
-        yield "a ninja's place is no number"
+        yield "a ninja's place is not a number"
     if (calm & ((places < 24.0) | (places > (768.0, 576.0))).any(axis=1)).any():
         yield "a ninja left the room without a launch pad"
     if ((batch.outcomes < 0) | (batch.outcomes > 2)).any() or (batch.gold > np.array(golds)[batch.levels_now]).any():

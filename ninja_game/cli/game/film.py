@@ -74,12 +74,9 @@ def command(
     os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from ninja_game.play.replay.film import Film, write_film
-    from ninja_game.play.replay.playback import recorded_run
 
-    runs = tuple(map(recorded_run, others))
-    film = Film(
-        recorded_run(recordings[record]), width_and_height, speed, ghosts=runs, keys=keys, first=first, last=last
-    )
+    ghost_runs = tuple(others)
+    film = Film(recordings[record], width_and_height, speed, ghosts=ghost_runs, keys=keys, first=first, last=last)
     told = "looking for the end of the run"
 
     def report(made: int) -> bool:

@@ -40,7 +40,7 @@ def command(
     """Make demonstrations of recordings: observations, actions and rewards of each tick.
 
     FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Recordings that
-    no agent could have made, since they press jump anew while it is held, are left out and named.
+    no agent could have made, since they press jump again while it is held, are left out and named.
 
     \b
     Examples:

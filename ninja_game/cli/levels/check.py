@@ -74,7 +74,7 @@ def command(
 
     LEVEL is a file of levels or a folder. A level is solvable if a run to the exit was found; not finding one in the
     time proves nothing. The time is that of the best run found; `levels pars` makes the longer par times from it. A
-    locked door that this run does not open is told: the level may not need it.
+    locked door that this run does not open is reported: the level may not need it.
 
     --replays keeps the runs as NAME.exit.replay.txt and NAME.gold.replay.txt. Runs that are there are played again: if
     the level has not changed and they pass it, they are kept as they are (--improve shortens them); the others are

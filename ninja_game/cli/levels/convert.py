@@ -54,7 +54,7 @@ def command(
 
     Without --to: replay where OUT ends in .replay.txt or .replay, inputs for .inputs.txt, celeste for .tas, file for
     .demo, string for .nlevel; else levels of N become ascii and readable ones a level file. What the form cannot hold
-    is told.
+    is reported.
 
     \b
     Examples:

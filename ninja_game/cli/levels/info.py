@@ -148,9 +148,9 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
     console.print(Text(objects or "no objects"))
     if run:
         last = run.ticks - 1
-        cut = f", cut: {run.demo.missing} ticks of inputs are missing" if run.demo.missing else ""
+        cut = f", truncated: {run.missing} ticks of inputs are missing" if run.missing else ""
         console.print(Text(f"recording: to tick {last} at most, {last / TICKS_PER_SECOND:.3f} s{cut}"))
-    if run and run.replay and not run.replay.loose:
+    if run and not run.replay.unclaimed:
         replay = run.replay
         console.print(Text(f"claims: {replay.outcome}, gold {replay.gold}, body {replay.body}, rules {replay.rules}"))
     for warning in level_warnings(level.level):

@@ -81,7 +81,7 @@ def _scale(recordings: Sequence[Recording], folder: Path, only: str) -> None:
     """Run the measurements of benchmarks/, which only a checkout has. Raises NinjaGameError without them."""
     from importlib import import_module
 
-    from ninja_game.compile_cache import choose_memory
+    from ninja_game.backend.memories import choose_memory
     from ninja_game.files.resources import PACKAGE
 
     choose_memory("compiled")

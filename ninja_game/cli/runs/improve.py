@@ -53,7 +53,7 @@ def command(
 
     recordings = load_replays(replay, level=level_given(level_path))
     recording = choose(recordings, "recordings", replay, record)
-    first = recording.playback(recording.ticks)
+    first = recording.inputs
     task = Task(recording.level, body=recording.body, first=first, jobs=options.default_threads(jobs), **task_options)
     options.check_gold(task)
     before: list[int] = []

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 @click.option("--rest", is_flag=True, help="Play on with what follows in RUN: it must still reach the exit, sooner.")
 @click.option(
     "--method", type=click.Choice(["auto", "local", "beam", "exhaustive"]), default="auto", show_default=True,
-    help="Small changes, a beam of promising states, all keys there are; auto: the first two by turns.",
+    help="Small changes, a beam of promising states, all keys there are; auto: the first two in turn.",
 )  # fmt: skip
 @click.option(
     "--every", type=click.IntRange(min=1), default=1, show_default=True,
@@ -75,7 +75,7 @@ def command(
         raise click.UsageError("--every is for --method exhaustive")
     recording = choose(load_replays(replay, level=level_given(level_path)), "recordings", replay, record)
     task = SpanTask(
-        recording.level, recording.playback(recording.ticks), first, last, goal=goal, measure=maximise or minimise,
+        recording.level, recording.inputs, first, last, goal=goal, measure=maximise or minimise,
         least=bool(minimise), rest=rest, body=recording.body,
     )  # fmt: skip
     start = 0.0
@@ -106,9 +106,9 @@ def command(
 def _keys(found: Found) -> str:
     """The keys in a line, as replays have them."""
     from ninja_game.formats.replay.input_runs import write_inputs
-    from ninja_game.sim.inputs import press_jumps
+    from ninja_game.sim.inputs import with_press_bits
 
-    return " ".join(write_inputs(press_jumps(found.keys[: found.ticks].tolist())))
+    return " ".join(write_inputs(with_press_bits(found.keys[: found.ticks].tolist())))
 
 
 def _save(output: Path, recording: Recording, task: SpanTask, found: Found) -> None:

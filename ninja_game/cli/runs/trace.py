@@ -122,7 +122,7 @@ def _check_output(digests: bool, against: Path | None, against_record: int | Non
 
 
 class Traces:
-    """The traces of all recordings, one after the other; what cannot be read is told on stderr and counted."""
+    """The traces of all recordings, one after the other; what cannot be read is reported on stderr and counted."""
 
     def __init__(self, files: Sequence[Path], **options: Any) -> None:
         from ninja_game.verification.archive_tracing import trace_all
@@ -165,7 +165,7 @@ def _expected(against: Path, record: int | None, options: dict[str, Any]) -> Ite
 
 
 def _compare(traces: Traces, expected: Iterator[FiledTrace], against: Path, record: int | None) -> int:
-    """How many runs differ from the expected ones; each is told with its first difference.
+    """How many runs differ from the expected ones; each is reported with its first difference.
 
     Runs are paired by file and record, else by record alone; with ``record`` each is compared with that one.
     """

@@ -39,7 +39,7 @@ def command(
 
     FOLDER holds replays, as people send them to a repository; nothing in them is believed but the inputs. Runs on
     other levels, with another body, under other rules, practice runs, copies and whatever says something that is not
-    so are kept apart, with the reason. `ninja-game site OUT` puts the page with the game beside the board, which shows
+    so are kept apart, with the reason. `ninja-game site OUT` puts the page with the game next to the board, which shows
     each run. How to keep a board in a repository: docs/board.md.
 
     \b

@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 
 from ninja_game.errors import DemoError
-from ninja_game.sim.inputs import Demo, check_inputs, fitted_demo, press_jumps
+from ninja_game.sim.inputs import Demo, check_inputs, fitted_demo, with_press_bits
 
 MAX_DIGITS = 50_000
 """The game stops recording at 5000 words of ten ticks."""
@@ -38,10 +38,10 @@ def parse_legacy_demo(text: str, *, length: float | None = None) -> Demo:
     """
     if not text.startswith("A"):
         raise DemoError("not a legacy demo", column=1, found=repr(text[:1]), expected="'A'")
-    # Defect (b): a last 3 is dropped also when it was no padding, and what it leaves of a run with it.
+    # Defect (b): a last 3 is dropped also when it was not padding, and what it leaves of a run with it.
     digits = _DIGIT_RUN.sub(_expanded, _digits_of_chars(text).removesuffix(_PADDING))
     _check_length(len(digits))
-    return fitted_demo(press_jumps(map(int, digits)), float(len(digits)) if length is None else length)
+    return fitted_demo(with_press_bits(map(int, digits)), float(len(digits)) if length is None else length)
 
 
 def _digits_of_chars(text: str) -> str:

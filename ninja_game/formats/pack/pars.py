@@ -64,7 +64,7 @@ def parse_pars(text: str, *, file: str = "") -> dict[str, Pars]:
     found = {}
     for name, table in tables.items():
         if not isinstance(table, dict) or not _is_whole(table):
-            raise PackError(f"the pars of {name!r}", file, hint="`ninja-game levels pars` makes the table anew")
+            raise PackError(f"the pars of {name!r}", file, hint="`ninja-game levels pars` makes the table again")
         found[name] = Pars(**table)
     return found
 

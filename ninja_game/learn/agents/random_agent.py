@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ninja_game.learn.actions import ACTION_NAMES
 
 KEPT = 0.8
-"""Chance that a world keeps its action for another step: keys pressed anew ten times a second lead nowhere."""
+"""Chance that a world keeps its action for another step: keys pressed again ten times a second lead nowhere."""
 
 
 class RandomAgent:

@@ -48,7 +48,7 @@ class SearchResult(NamedTuple):
 
 @dataclass(frozen=True)
 class SearchAgent:
-    """Searches each level anew, with ``ticks`` of all its worlds together at most.
+    """Searches each level again, with ``ticks`` of all its worlds together at most.
 
     ``worlds``: walks at a time. ``kept``: moments that are remembered, each in a world of its own; the least promising
     ones are forgotten. The same seed finds the same run. ``settings``: the keywords of the environment in which the

@@ -119,7 +119,7 @@ def runs_through(name: str, level: Level, seed: int, searches: int) -> list[NDAr
     for path in bundled_replays():
         if path.name == f"{name}.exit.replay.txt":
             with suppress(NinjaGameError):
-                inputs = load_replays(path, level=level)[0].demo.inputs
+                inputs = load_replays(path, level=level)[0].replay.inputs
                 runs.append(np.frombuffer(inputs, np.uint8) & np.uint8(KEYS_DOWN))
     agent = SearchAgent()
     plans = (agent.plan(level, seed + k) for k in range(searches))

@@ -1,4 +1,4 @@
-"""Training an agent: a thousand worlds play, the networks learn from what came of it, over and over."""
+"""Training an agent: a thousand worlds play, the networks learn from the results, over and over."""
 
 from __future__ import annotations
 
@@ -179,7 +179,7 @@ class Trainer:
         rewards = worlds.rewards.astype(np.float32)
         late = (worlds.truncated | (worlds.ticks >= self._limits)) & ~worlds.terminated
         if late.any():
-            # The time limit is no end of the task: what would have come is expected to come.
+            # The time limit is not an end of the task: what would have come is expected to come.
             _, values = self.learner.play(self._seen())
             rewards[late] += self.task.method.discount * values[late]
         ended = worlds.terminated | late

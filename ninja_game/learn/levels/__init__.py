@@ -3,6 +3,6 @@
 from __future__ import annotations
 
 from ninja_game.learn.levels.origins import DEFAULT_LEVEL, Origin, generated_levels, level_source
-from ninja_game.learn.levels.source import LevelSource, Which
+from ninja_game.learn.levels.source import LevelChoice, LevelSource
 
-__all__ = ["DEFAULT_LEVEL", "LevelSource", "Origin", "Which", "generated_levels", "level_source"]
+__all__ = ["DEFAULT_LEVEL", "LevelChoice", "LevelSource", "Origin", "generated_levels", "level_source"]

@@ -15,7 +15,7 @@ from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.sim.level import Level
 
-Which: TypeAlias = str | int | Sequence[str | int] | NDArray[np.integer]
+LevelChoice: TypeAlias = str | int | Sequence[str | int] | NDArray[np.integer]
 """Levels of a source, by name or number."""
 
 
@@ -46,7 +46,7 @@ class LevelSource:
     def report(self, numbers: NDArray[np.intp], passed: NDArray[np.bool_]) -> None:
         """Take note of episodes that have ended: the numbers of their levels (k,), whether they were passed (k,)."""
 
-    def numbers(self, which: Which, count: int = 1) -> NDArray[np.intp]:
+    def numbers(self, which: LevelChoice, count: int = 1) -> NDArray[np.intp]:
         """The numbers (count,) of levels chosen by name or number, one for all or one for each.
 
         Raises ArgumentError for others.

@@ -1,4 +1,4 @@
-"""Sound: hears the events of each tick and what goes on, and plays it. A machine without sound is no error."""
+"""Sound: hears the events of each tick and what goes on, and plays it. A machine without sound is not an error."""
 
 from __future__ import annotations
 

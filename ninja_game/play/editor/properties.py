@@ -23,7 +23,7 @@ ROW = 23.0
 
 
 def subject(tools: EditorTools) -> tuple[object, ...]:
-    """What the panel is about: when it changes, the panel is built anew."""
+    """What the panel is about: when it changes, the panel is rebuilt."""
     if tools.selection:
         record = tools.chosen
         kind = (record.kind, len(record.values)) if record else None

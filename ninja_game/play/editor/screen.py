@@ -230,7 +230,7 @@ class EditorScreen(MenuScreen):
     # --- time and picture ---
 
     def update(self, real_ms: int) -> None:
-        """What works beside the window tells its news."""
+        """What works in the background tells its news."""
         super().update(real_ms)
         self._drag_on()
         self.session.update()

@@ -90,7 +90,7 @@ class EditorSession:
         return self._checks.result[0] if self._checks.result else None
 
     def update(self) -> None:
-        """Keep the level safe and examine it, both beside the window."""
+        """Keep the level safe and examine it, both in the background."""
         self.autosave.poll(self.draft, self.source)
         if self.autosave.problem:
             self.app.notify(self.autosave.problem)

@@ -56,7 +56,7 @@ class Attract:
                 simulation = Simulation(recording.level)
             except (NinjaGameError, OSError):
                 continue
-            self._playback = Playback(simulation, recording.playback(recording.ticks), spacing=0)
+            self._playback = Playback(simulation, recording.inputs, spacing=0)
             self._until = len(self._playback.inputs) + REST_TICKS
             self.view = LevelView(self.app, simulation, chance=self.shown, audible=False)
             self.name = recording.name

@@ -44,7 +44,7 @@ SORTS: list[tuple[str, object]] = [
 
 
 class Browser(ThumbnailScreen):
-    """A list at the left, the selected level at the right. The list is read anew whenever the screen is entered.
+    """A list at the left, the selected level at the right. The list is read again whenever the screen is entered.
 
     ``edit``: opens a level in the editor.
     """

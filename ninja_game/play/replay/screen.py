@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pygame
@@ -10,13 +11,14 @@ import pygame
 from ninja_game.budget import TURN_WORK, affordable_ticks, tick_cost
 from ninja_game.formats.links.making import replay_link
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import Replay
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.level.run_clock import RunClock
 from ninja_game.play.replay.film_job import FilmJob
-from ninja_game.play.replay.playback import Playback, RecordedRun, recorded_run, recording_of, replay_of
+from ninja_game.play.replay.playback import Playback
 from ninja_game.play.replay.seek_bar import ReplayBar
 from ninja_game.play.screen import Screen
 from ninja_game.play.view.level_view import LevelView
@@ -48,10 +50,10 @@ class ReplayScreen(Screen):
     until it is found ``end`` is the last tick of the recording; to seek far ahead takes several turns.
     """
 
-    def __init__(self, app: App, runs: Sequence[RecordedRun | Recording], *, editable: bool = True) -> None:
+    def __init__(self, app: App, runs: Sequence[Recording], *, editable: bool = True) -> None:
         super().__init__(app)
         self.open_tas_editor = app.open_tas_editor if editable else None
-        self.runs = [run if isinstance(run, RecordedRun) else recorded_run(run) for run in runs]
+        self.runs = runs
         self.clock = RunClock()
         self.overlays = Overlays()
         self.bar = ReplayBar()
@@ -260,14 +262,12 @@ class ReplayScreen(Screen):
 
     def copy_link(self) -> None:
         """This run as a link, in the clipboard."""
-        copy_link(self.app, lambda: replay_link([replay_of(self.run)]), title=self.run.title)
+        copy_link(self.app, lambda: replay_link([_with_claims(self.run)]), title=self.run.title)
 
     def edit(self) -> None:
         """Open the TAS editor on this run, at this tick, with the others beside it."""
         if self.open_tas_editor:
-            player = self.app.settings.name
-            beside = [recording_of(run, player) for run in self.runs if run is not self.run]
-            self.open_tas_editor(recording_of(self.run, player), beside, max(0, self.tick - 1))
+            self.open_tas_editor(self.run, [run for run in self.runs if run is not self.run], max(0, self.tick - 1))
 
     # --- picture ---
 
@@ -301,3 +301,13 @@ class ReplayScreen(Screen):
             + f"{key('edit')}: edit    " * bool(self.open_tas_editor)
             + f"{key('link')}: link    {key('back')}: leave"
         )
+
+
+def _with_claims(run: Recording) -> Replay:
+    """A run as others are sent it: one that was only played, or is of N, with the result of it."""
+    if not run.replay.unclaimed:
+        return replace(run.replay, level=run.level)
+    # It imports modules that playing does without.
+    from ninja_game.runs.conversion import recorded_again
+
+    return recorded_again(run)

@@ -106,7 +106,7 @@ class TasEditor:
         return True
 
     def edit(self, make: Callable[[InputTrack], InputTrack]) -> bool:
-        """Change the run as a function of what it is; a refusal is told. Whether it was done."""
+        """Change the run as a function of what it is; a refusal is reported. Whether it was done."""
         return self.attempt(lambda: self.session.change(make(self.track)))
 
     def edit_selected(self, make: Callable[[InputTrack], InputTrack]) -> bool:

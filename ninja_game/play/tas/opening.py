@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.compile_cache import compiled_available, is_compiled
+from ninja_game.backend.kernel_cache import before_compiling
+from ninja_game.backend.memories import compiled_available, is_compiled
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.formats.recording import Recording
-from ninja_game.kernel_cache import before_compiling
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.screen import Screen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
@@ -70,7 +70,7 @@ def prepare(run: Recording) -> None:
 class OpeningScreen(Screen):
     """Says what is being done until the rules are there; then the TAS editor, which ``make`` gives, takes its place.
 
-    What is wrong then is told on the screen below, or raised where there is none: NinjaGameError, OSError.
+    What is wrong then is reported on the screen below, or raised where there is none: NinjaGameError, OSError.
     """
 
     def __init__(self, app: App, run: Recording, make: Callable[[], TasScreen]) -> None:

@@ -41,7 +41,7 @@ class TasScreen(MenuScreen):
 
     ``beside``: other runs of its level; ``found``: what was not saved of the run last time. Raises LevelError for a run
     on a level that cannot be played, ReplayError for one beside that is of another level or has another body, FileError
-    for what another window goes on with.
+    for what another window continues with.
     """
 
     def __init__(

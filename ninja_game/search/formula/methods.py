@@ -7,8 +7,8 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.backend.memories import compiled
 from ninja_game.batch.batch import Batch
-from ninja_game.compile_cache import compiled
 from ninja_game.errors import ArgumentError
 from ninja_game.search.formula.task import Found, Keys, Report, SpanTask, SpanWorlds, Trials
 from ninja_game.search.local_search import mutate
@@ -185,7 +185,7 @@ def beam(task: SpanTask, step: int, results: Results, chance: np.random.Generato
 
 
 def _different(batch: Batch, orders: list[NDArray[np.intp]], most: int) -> NDArray[np.intp]:
-    """The first worlds of some orders, by turns, that are not in about the same state."""
+    """The first worlds of some orders, in turn, that are not in about the same state."""
     velocity = batch.velocities()
     in_air = batch.records["ninja"]["in_air"]
     cells = np.column_stack([np.floor(batch.positions / 4), np.floor(velocity * 4), batch.states, batch.gold, in_air])

@@ -12,7 +12,7 @@ from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
 from ninja_game.search.formula.language import Formula, FormulaError, Numbers, parse_number, parse_truth
 from ninja_game.search.formula.names import FACTS, SPAN_NAMES, difference_from, view_of
-from ninja_game.sim.inputs import KEYS_DOWN, press_jumps
+from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.level import Level
 from ninja_game.simulation import Body
 
@@ -107,7 +107,7 @@ def score_in_words(task: SpanTask, found: Found) -> str:
 
 @dataclass
 class Trials:
-    """What came of many keys: of each its score (infinite: no goal), its ticks to it, its best margin on the way.
+    """The results of many key sequences: score (infinite: no goal), ticks to the goal, best margin on the way.
 
     ``ends``: x, y (px), vx, vy (px/tick) at the goal.
     """
@@ -153,7 +153,7 @@ class SpanWorlds:
                 score = self.batch.ticks.astype(float)
             else:
                 value = np.broadcast_to(self.measure.value(self.view), at_goal.shape)
-                # What has no value, such as 1 / 0, is no result.
+                # What has no value, such as 1 / 0, is not a result.
                 score = np.where(np.isfinite(value), value if self.task.least else -value, np.inf)
         return at_goal, margin, score
 
@@ -162,7 +162,7 @@ class SpanWorlds:
         ticks = int(trials.ticks[index])
         rest = self.rest.tolist() if self.task.rest else []
         gold = int(self.batch.gold[index])
-        run = press_jumps([*self.task.inputs[: self.task.first], *keys[:ticks].tolist(), *rest])
+        run = with_press_bits([*self.task.inputs[: self.task.first], *keys[:ticks].tolist(), *rest])
         return Found(float(trials.scores[index]), ticks, keys.copy(), run, gold, tuple(trials.ends[index].tolist()))
 
     def try_all(self, keys: Keys) -> Trials:
@@ -200,7 +200,7 @@ class SpanWorlds:
         following = self.rest
         total = task.length + len(following)
         padded = np.vstack([keys, np.zeros((len(following), batch.count), np.uint8)])
-        # Each world goes on with the rest as soon as it has reached the goal.
+        # Each world continues with the rest as soon as it has reached the goal.
         when = np.arange(total)[:, np.newaxis] - trials.ticks
         reached = trials.ticks > 0
         rest = np.append(following, 0)[np.clip(when, 0, len(following))]

@@ -18,7 +18,7 @@ from ninja_game.sim.memory.layout import TILE_MAP, Records, new_worlds, plain_co
 from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, TileMap, World
 
 Compile = Callable[[Callable[..., Any]], Callable[..., Any]]
-"""Gives the compiled twin of an entry point (``compile_cache.compiled``)."""
+"""Gives the compiled twin of an entry point (``memories.compiled``)."""
 
 SLICE = 400_000
 """Ticks times objects in one call of a kernel, some tens of milliseconds: between calls Python sees Ctrl-C."""
@@ -72,7 +72,7 @@ class CompiledMemory:
 
     @property
     def outcome(self) -> int:
-        """What came first, by number."""
+        """The outcome, by number."""
         return int(self._outcome[0])
 
     @property

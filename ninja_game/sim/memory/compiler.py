@@ -21,7 +21,7 @@ from ninja_game.sim.memory.declare import ENTRY_POINTS, REGISTERED
 
 R = TypeVar("R")
 
-Keep = Callable[[Any, str], None]
+AttachCache = Callable[[Any, str], None]
 """Gives a compiled entry point, before its first call, its place in a cache; with the digest of all its code."""
 
 
@@ -29,17 +29,17 @@ class Compiler:
     """``compiler(entry_point)`` is its compiled twin, which takes the same arguments.
 
     Nothing is compiled before a twin is called for the first time. ``checked``: raise IndexError for an index out of
-    range, which is silent otherwise. ``keep``: see ``Keep``. ``numba``: the module, as
+    range, which is silent otherwise. ``attach_cache``: see ``AttachCache``. ``numba``: the module, as
     ``numba_import`` gives it.
     """
 
-    def __init__(self, numba: Any, *, checked: bool = False, keep: Keep | None = None) -> None:
+    def __init__(self, numba: Any, *, checked: bool = False, attach_cache: AttachCache | None = None) -> None:
         jit: Any = numba.njit
         options: dict[str, Any] = {"nogil": True, "error_model": "python", "boundscheck": checked}
         self._inner = jit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **options)
         self._outer = jit(**options)
         self._types: Any = numba.types
-        self._keep = keep
+        self._attach_cache = attach_cache
         self._compiler = f"{sys.version} {numba.__version__} {np.__version__} {options}"
         self._twins: dict[Callable[..., Any], Any] = {}
         self._namespaces: dict[str, dict[str, Any]] = {}
@@ -47,7 +47,7 @@ class Compiler:
     def __call__(self, entry: Callable[..., R]) -> Callable[..., R]:
         """The compiled twin of an entry point. Raises TypeError for any other function."""
         if entry not in ENTRY_POINTS:
-            raise TypeError(f"{entry.__module__}.{entry.__qualname__} is no entry point")
+            raise TypeError(f"{entry.__module__}.{entry.__qualname__} is not an entry point")
         twin: Callable[..., R] = self._twin(entry)
         return twin
 
@@ -60,14 +60,14 @@ class Compiler:
             twin.__qualname__ = rule.__qualname__
             entry = rule in ENTRY_POINTS
             self._twins[rule] = compiled = self._outer(twin) if entry else self._one_for_all_integers(self._inner(twin))
-            if entry and self._keep:
-                self._keep(compiled, code_digest(rule, self._compiler))
+            if entry and self._attach_cache:
+                self._attach_cache(compiled, code_digest(rule, self._compiler))
             if len(namespace) == 1:
                 self._fill(namespace, vars(sys.modules[rule.__module__]))
         return self._twins[rule]
 
     def _one_for_all_integers(self, compiled: Any) -> Any:
-        """Have a function take any integer as int64: Numba would compile it for each type and each constant anew."""
+        """Have a function take any integer as int64: Numba would compile it for each type and each constant again."""
         template, types = compiled.get_call_template, self._types
 
         def widened(args: Iterable[Any], names: dict[str, Any]) -> Any:

@@ -94,7 +94,7 @@ def setter_of(fields: list[Field]) -> Callable[[Any, tuple[Any, ...]], None]:
     return setter
 
 
-def part(cls: type[C]) -> type[C]:
+def struct_base(cls: type[C]) -> type[C]:
     """Declare fields that a struct inherits; a class without instances, hence with empty slots."""
     body = {name: value for name, value in cls.__dict__.items() if name not in ("__dict__", "__weakref__")}
     remade: type[C] = type(cls.__name__, cls.__bases__, body | {"__slots__": ()})

@@ -55,7 +55,7 @@ class Memory(Protocol):
 
     @property
     def outcome(self) -> int:
-        """What came first, by number (sim/states.py)."""
+        """The outcome, by number (sim/states.py)."""
 
     @property
     def gold(self) -> int:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ninja_game.sim.memory.declare import f8, i4, part, struct
+from ninja_game.sim.memory.declare import f8, i4, struct, struct_base
 
 
-@part
+@struct_base
 class Header:
     """What every object has: place, cell list, update set, thinker ring, current routine."""
 
@@ -28,21 +28,21 @@ class Header:
     counter: i4  #: ticks in the present routine, or since the last contact
 
 
-@part
+@struct_base
 class Gold(Header):
     """A piece of gold."""
 
     taken: i4  #: 1: collected
 
 
-@part
+@struct_base
 class Mine(Header):
     """A mine."""
 
     exploded: i4  #: 1: gone
 
 
-@part
+@struct_base
 class Exit(Header):
     """An exit."""
 
@@ -50,14 +50,14 @@ class Exit(Header):
     partner: i4  #: slot of its switch
 
 
-@part
+@struct_base
 class Switch(Header):
     """An exit's switch: in a cell, but without an id (objects.md §2.2)."""
 
     partner: i4  #: slot of its exit
 
 
-@part
+@struct_base
 class BounceBlock(Header):
     """A block on a spring; ``counter`` sends it to sleep."""
 
@@ -67,7 +67,7 @@ class BounceBlock(Header):
     prev_y: f8
 
 
-@part
+@struct_base
 class LaunchPad(Header):
     """A launch pad."""
 
@@ -75,7 +75,7 @@ class LaunchPad(Header):
     face_y: f8
 
 
-@part
+@struct_base
 class OneWay(Header):
     """A one-way platform."""
 
@@ -83,7 +83,7 @@ class OneWay(Header):
     face_y: f8
 
 
-@part
+@struct_base
 class Door(Header):
     """A door: two edge states, one from each side of the same line."""
 
@@ -95,7 +95,7 @@ class Door(Header):
     stored_2: i4
 
 
-@part
+@struct_base
 class Thwump(Header):
     """A block that falls, then rises."""
 
@@ -113,7 +113,7 @@ class Thwump(Header):
     high: i4
 
 
-@part
+@struct_base
 class FloorGuard(Header):
     """A guard that runs along its floor."""
 
@@ -124,7 +124,7 @@ class FloorGuard(Header):
     high: i4
 
 
-@part
+@struct_base
 class Turret(Header):
     """A turret; (x, y) is where it stands."""
 
@@ -135,7 +135,7 @@ class Turret(Header):
     think: i4  #: waiting or targeting: a think routine of states.py
 
 
-@part
+@struct_base
 class Launcher(Header):
     """A launcher; (x, y) is its rocket, until the first one flies its own place."""
 
@@ -147,7 +147,7 @@ class Launcher(Header):
     acceleration: f8
 
 
-@part
+@struct_base
 class Drone(Header):
     """A drone with or without a weapon."""
 

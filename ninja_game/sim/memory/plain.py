@@ -78,7 +78,7 @@ class PlainMemory:
 
     @property
     def outcome(self) -> int:
-        """What came first, by number."""
+        """The outcome, by number."""
         return self._world.outcome
 
     @property

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.learn.agents import load_agent
 from ninja_game.learn.agents.load import learned_file
 from ninja_game.learn.agents.policy import PolicyAgent

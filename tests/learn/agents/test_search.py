@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from ninja_game import parse_level
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.agents.search import SearchAgent
 from ninja_game.learn.levels import level_source

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.learn.agents.policy import PolicyAgent, load_policy
 from ninja_game.learn.agents.ppo import Method
 from ninja_game.learn.agents.starts import SPACING, Starts, runs_through

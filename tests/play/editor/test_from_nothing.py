@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.formats.load import load_levels
 from ninja_game.play.editor.view import LAYOUT
 from ninja_game.sim.kinds import DOOR

@@ -1,4 +1,4 @@
-"""The daily level: made once from the date, kept as a pack, played with par times and records; problems are told."""
+"""The daily level: made once from the date, kept as a pack, played with par times and records; problems are shown."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Self
 
 import pytest
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.generator import daily
 from ninja_game.play.level.screen import LevelScreen

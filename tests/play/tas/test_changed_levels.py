@@ -79,8 +79,8 @@ def test_any_recording_opens_on_a_level_that_is_given(old: Path, tmp_path: Path)
         opened = open_run(path, level=now)
         assert (opened.moved, opened.file, opened.recording.level) == (True, RunFile(), now)
         assert opened.recording.replay is not None
-        assert opened.recording.replay.loose
+        assert opened.recording.replay.unclaimed
     for path in (demos, inside):
         assert open_run(path, level=was).recording == open_run(path).recording
     again = open_run(old, level=was).recording
-    assert (again.level, again.replay and again.replay.loose) == (was, True), "the level as it was, from elsewhere"
+    assert (again.level, again.replay and again.replay.unclaimed) == (was, True), "the level as it was, from elsewhere"

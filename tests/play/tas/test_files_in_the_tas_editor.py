@@ -55,7 +55,7 @@ def test_a_run_is_saved_into_its_file(at: TasDriver) -> None:
     at.chord("s", CTRL)
     assert at.app.notice == f"Saved: {path}"
     assert at.session.is_saved
-    assert load_replays(path)[0].playback(30) == at.editor.track.inputs[:30]
+    assert load_replays(path)[0].replay.playback(30) == at.editor.track.inputs[:30]
     assert journals(at) == []
 
 
@@ -74,7 +74,7 @@ def test_a_run_of_n_is_saved_beside_its_file_under_a_name_that_is_asked_for(tmp_
     at.chord("e", CTRL)
     at.chord("s", CTRL)
     assert at.app.notice == f"Saved: {first}"
-    assert load_replays(first)[0].replay.outcome == "exit"  # type: ignore[union-attr]
+    assert load_replays(first)[0].replay.outcome == "exit"
     at.press("escape")
     at.choose("Keep as a replay")
     assert "saved" in at.app.notice
@@ -136,7 +136,7 @@ def test_save_first_saves_and_leaves(at: TasDriver) -> None:
     at.choose("Leave")
     at.choose("Save")
     assert not at.app.running
-    assert load_replays(at.session.file.path or "")[0].playback(30) == wanted
+    assert load_replays(at.session.file.path or "")[0].replay.playback(30) == wanted
 
 
 def test_a_closed_window_keeps_what_is_not_saved_and_it_is_offered(at: TasDriver, tmp_path: Path) -> None:
@@ -159,7 +159,7 @@ def test_a_closed_window_keeps_what_is_not_saved_and_it_is_offered(at: TasDriver
     assert screen.session.file.path == tmp_path / "run.replay.txt"
     again.chord("z", CTRL)
     again.chord("s", CTRL)
-    assert screen.editor.track.inputs == load_replays(RUN)[0].playback(10**4)[: len(screen.editor.track)]
+    assert screen.editor.track.inputs == load_replays(RUN)[0].replay.playback(10**4)[: len(screen.editor.track)]
     screen.editor.edit(lambda track: track.replaced(0, 0, [1]))
     again.app.stack.clear()
     last = TasDriver(tmp_path / "player", tmp_path / "run.replay.txt")

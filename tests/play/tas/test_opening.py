@@ -8,10 +8,10 @@ from threading import Event
 
 import pytest
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.kernel_cache import before_compiling
+from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import NinjaGameError, ReplayError
 from ninja_game.formats.load import load_replays
-from ninja_game.kernel_cache import before_compiling
 from ninja_game.play.tas import opening
 from ninja_game.play.tas.opening import OpeningScreen, is_prepared, open_tas_editor
 from ninja_game.play.tas.screen import TasScreen

@@ -12,13 +12,13 @@ from ninja_game.play.menus.panels import Menu
 from ninja_game.play.tas.level.other_runs import OtherRunScreen
 from ninja_game.play.tas.roll.differences import compared, different_rows
 from ninja_game.play.tas.roll.facts import row_facts
-from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, press_jumps
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bits
 from ninja_game.tas.input_track import InputTrack
 from tests.support.samples import running, write_records
 from tests.support.tas_driver import TasDriver
 
-OURS = InputTrack(press_jumps([KEY_RIGHT] * 60))
-THEIRS = InputTrack(press_jumps([KEY_RIGHT] * 20 + [KEY_LEFT] * 5 + [KEY_RIGHT | JUMP_HELD] * 5 + [KEY_RIGHT] * 34))
+OURS = InputTrack(with_press_bits([KEY_RIGHT] * 60))
+THEIRS = InputTrack(with_press_bits([KEY_RIGHT] * 20 + [KEY_LEFT] * 5 + [KEY_RIGHT | JUMP_HELD] * 5 + [KEY_RIGHT] * 34))
 SHIFT = pygame.KMOD_LSHIFT
 
 

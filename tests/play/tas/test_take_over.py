@@ -10,7 +10,7 @@ import pytest
 
 from ninja_game.play.input.scancodes import SCANCODES
 from ninja_game.play.tas.level.take_over import TakeOver
-from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.inputs import with_press_bits
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.timeline import AFTERMATH
 from tests.support.tas_driver import TasDriver
@@ -48,7 +48,7 @@ def test_what_is_pressed_is_what_is_recorded_and_it_is_one_edit(at: TasDriver) -
     at.press("escape")
     assert not taken.on
     assert at.top() is at.screen
-    inputs = press_jumps(k & 7 for k in at.editor.track.inputs[: START + 51])
+    inputs = with_press_bits(k & 7 for k in at.editor.track.inputs[: START + 51])
     assert at.editor.track.inputs[START + 1 : START + 51] == inputs[START + 1 :]
     assert len(at.session.history._done) == edits + 1
     assert at.session.timeline.complete

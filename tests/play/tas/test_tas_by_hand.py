@@ -7,13 +7,13 @@ import subprocess
 import sys
 from pathlib import Path
 
-from ninja_game.compile_cache import compiled_available
+from ninja_game.backend.memories import compiled_available
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import LevelRecord, write_level_file
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
 from ninja_game.runs.run import run_level
-from ninja_game.sim.inputs import KEY_LEFT, Demo, press_jumps
+from ninja_game.sim.inputs import KEY_LEFT, Demo, with_press_bits
 from ninja_game.sim.level import Level
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.journal import FOLDER, read_journal
@@ -37,7 +37,7 @@ def exit_tick(level: Level, inputs: bytes) -> int:
 
 def late(inputs: bytes, ticks: int) -> bytes:
     """The same after standing for so many ticks."""
-    return press_jumps([0] * ticks + list(inputs))
+    return with_press_bits([0] * ticks + list(inputs))
 
 
 def two_runs() -> tuple[Level, bytes, bytes]:
@@ -53,7 +53,7 @@ def two_runs() -> tuple[Level, bytes, bytes]:
                 if all(exit_tick(level, late(inputs, delay)) < 10**6 for delay in DELAYS):
                     return level, people[row.data], inputs
     recording = load_replays(RUN)[0]
-    inputs = recording.playback(recording.ticks)
+    inputs = recording.inputs
     return recording.level, late(inputs, 5), inputs
 
 
@@ -99,7 +99,7 @@ def test_a_speedrun_is_made_shorter_by_hand(tmp_path: Path, root: Path) -> None:
     level, mine, theirs = two_runs()
     file = written(tmp_path / "mine.txt", "a person", level, mine)
     other = written(tmp_path / "theirs.txt", "a tool", level, theirs)
-    opened = load_replays(file)[0].playback(10**4).rstrip(b"\0")
+    opened = load_replays(file)[0].replay.playback(10**4).rstrip(b"\0")
     places = TasDriver(tmp_path / "places", file)
     cell = places.cell(8, "left")
     places.press("f")
@@ -157,4 +157,4 @@ def test_a_speedrun_is_made_shorter_by_hand(tmp_path: Path, root: Path) -> None:
         verify, env=os.environ | {"PYTHONPATH": str(root)}, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stdout + done.stderr
-    assert exit_tick(level, recording.playback(recording.ticks)) == slow
+    assert exit_tick(level, recording.inputs) == slow

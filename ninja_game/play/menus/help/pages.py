@@ -11,7 +11,7 @@ from pathlib import Path
 from ninja_game.errors import LevelError
 from ninja_game.files.resources import data_folder
 from ninja_game.formats.ascii.reader import parse_ascii_level
-from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, press_jumps
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bits
 from ninja_game.sim.level import COLUMNS, ROWS, Level
 
 PAGES_FILE = "help/pages.toml"
@@ -74,4 +74,4 @@ def strokes(text: str) -> bytes:
         if match is None:
             raise LevelError("not a key stroke", found=repr(stroke), expected="letters of lrj and a number of ticks")
         inputs += bytes([sum(KEY_BITS[letter] for letter in match[1])]) * int(match[2])
-    return press_jumps(inputs)
+    return with_press_bits(inputs)

@@ -21,7 +21,6 @@ from ninja_game.play.tas.editor import OtherRun, TasEditor
 from ninja_game.play.tas.part import Commands
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.records import SavedReplay
-from ninja_game.sim.inputs import Demo
 from ninja_game.tas.files import runs_of_level, same_level, track_of
 from ninja_game.tas.timeline import Timeline
 
@@ -104,7 +103,7 @@ def other_run(editor: TasEditor, recording: Recording) -> OtherRun:
 def _free_name(recording: Recording, about: Recording, taken: set[str]) -> str:
     """What tells a run from the others: its author, or its file and number, or its name."""
     # The author of a record of N is its level's.
-    author = recording.author if recording.replay and recording.author != about.author else ""
+    author = recording.author if recording.form != "file" and recording.author != about.author else ""
     name = author or _place_of(recording) or recording.name or "another run"
     return next(each for each in (name, *(f"{name} {n}" for n in range(2, len(taken) + 3))) if each not in taken)
 
@@ -174,8 +173,7 @@ class OtherRunScreen(ReplaysScreen):
             if replay is None or replay.level is None:
                 self.app.notify("This replay is not there any more")
                 return
-            demo = Demo(replay.inputs, float(len(replay.inputs)))
-            source = Recording(replay.name, replay.author, "", replay.level, demo, "", replay=replay)
+            source = Recording(replay.level, replay)
         recording = source
         if self.others.editor.attempt(lambda: self.others.open([recording])):
             self.app.pop()
@@ -186,7 +184,7 @@ def _named(row: ReplayRow) -> ReplayRow:
     if not isinstance(row.source, Recording):
         return row
     text = f"{_place_of(row.source)}   {row.source.comment}".rstrip()
-    return row._replace(text=text, who=row.who if row.source.replay else "")
+    return row._replace(text=text, who="" if row.source.form == "file" else row.who)
 
 
 def _ticks(row: ReplayRow) -> int:

@@ -75,7 +75,7 @@ class LevelPicture:
         return self.run.tick - 1
 
     def fit(self, size: tuple[int, int]) -> bool:
-        """Have a size, px, the player's settings and what the camera shows; whether all is to be drawn anew."""
+        """Have a size, px, the player's settings and what the camera shows; whether all is to be drawn again."""
         app, seen = self.editor.app, (size, *self.camera.render_key)
         settings = app.settings.changed(show_ghost=True)
         if self._view is not None and self._context.settings.palette == settings.palette and size == self._seen[0]:

@@ -103,7 +103,7 @@ class SearchTab(Tab):
         self.wants = self.goal
 
     def use_selection(self) -> None:
-        """Search the selected ticks; where only one is, a second from there on. A goal out of the menu is made anew."""
+        """Search the selected ticks; where only one is, a second from there on. A goal from the menu is made again."""
         first, last = self.editor.selection
         second = min(first + TICKS_PER_SECOND, max(len(self.editor.track), last))
         before, self.span = self.span, (first, last if last > first + 1 else second)
@@ -153,7 +153,7 @@ class SearchTab(Tab):
     # --- the search ---
 
     def start(self) -> None:
-        """Search; a search that is going on ends. What is wrong is told."""
+        """Search; a search that is going on ends. What is wrong is reported."""
         self.close()
         self.list.over = -1
         try:

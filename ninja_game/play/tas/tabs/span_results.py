@@ -27,7 +27,7 @@ NOTHING = "The goal was not reached. More time, a longer span or another method 
 
 
 class SpanResults:
-    """Runs a task beside the window, and puts results into the run, while nothing that they rely on has changed.
+    """Runs a task in the background, and puts results into the run, while nothing that they rely on has changed.
 
     ``better``: the results that bring more than the run's own keys, best first; of those that end alike the best one.
     Raises what SpanSearch does.

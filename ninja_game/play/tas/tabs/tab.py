@@ -54,7 +54,7 @@ class Tab(Part):
         theme.panel(surface, *self.area)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """What the mouse is over is told in the line below; all else is up to the widgets."""
+        """What the mouse is over is reported in the line below; all else is up to the widgets."""
         if event.type == pygame.MOUSEMOTION:
             self._leave_lists(x, y)
             self.editor.hint = next((each.hint for each in self.widgets if each.contains(x, y)), "")

@@ -83,7 +83,7 @@ class ValuesTab(Tab):
         self.editor.app.push(Form(self.editor.app, "Watch a value", fields, "Watch", lambda texts: self.add(texts[0])))
 
     def add(self, text: str) -> None:
-        """Watch a formula; what is wrong with it is told, and asked again."""
+        """Watch a formula; what is wrong with it is reported, and the question is put again."""
         try:
             watch = parse_watch(text)
             watch.values(self.editor.session.timeline)

@@ -170,7 +170,7 @@ class Ragdoll:
     def _bounce(self, p: VerletParticle, nx: float, ny: float) -> None:
         """Lose part of the velocity into and along a surface."""
         vx, vy = p.x - p.ox, p.y - p.oy
-        # The push itself is no motion: the speed is that of before it.
+        # The push itself is not a motion: the speed is that of before it.
         ux, uy = p.sx - p.ox, p.sy - p.oy
         into = ux * nx + uy * ny
         along = -ny * ux + nx * uy

@@ -1,4 +1,4 @@
-"""Containers of strangers: TOML that is read in time, zips that take no more memory than they may."""
+"""Untrusted containers: TOML that is read in time, zips that take no more memory than they may."""
 
 from __future__ import annotations
 

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from ninja_game import compile_cache, known_run
+from ninja_game.backend import known_run, memories
+from ninja_game.backend.known_run import DIGEST, KnownRunError, known_digest
+from ninja_game.backend.memories import compiled_available, open_memory, proven_memory
 from ninja_game.cli.main import cli
-from ninja_game.compile_cache import compiled_available, open_memory, proven_memory
-from ninja_game.known_run import DIGEST, KnownRunError, known_digest
 from ninja_game.sim.kinds import VALUE_COUNTS
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.ninja import tick
@@ -21,13 +21,13 @@ from tests.support.samples import WALK, WALK_END, running, write_records
 @pytest.fixture
 def as_at_the_start(monkeypatch: pytest.MonkeyPatch) -> None:
     """A process that has not judged anything yet."""
-    monkeypatch.setattr(compile_cache, "_KERNELS", {})
-    compile_cache._prove_plain.cache_clear()
+    monkeypatch.setattr(memories, "_KERNELS", {})
+    memories._prove_plain.cache_clear()
 
 
 @pytest.mark.parametrize("memory", [*BOTH, pytest.param("checked", marks=BOTH[1].marks)])
 def test_the_known_run_has_its_digest_on_every_memory(memory: str) -> None:
-    """After a change of a rule that is meant, `python3 tools/dev.py golden` writes the digest anew."""
+    """After a change of a rule that is meant, `python3 tools/dev.py golden` writes the digest again."""
     assert known_digest(lambda level, box: open_memory(memory, level, box=box)) == DIGEST
 
 

@@ -12,9 +12,9 @@ from importlib.util import find_spec
 from threading import Lock
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from ninja_game.backend.known_run import check_known_run
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.files.resources import how_to_install
-from ninja_game.known_run import check_known_run
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import Memory, MemoryName
 from ninja_game.sim.memory.kernels import load_world
@@ -94,8 +94,8 @@ def _prove_plain() -> None:
 def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[..., R]:
     """The compiled twin of an entry point, which takes the same arguments; any thread may ask.
 
-    Raises MemoryUnavailableError without Numba, TypeError for a function that is no entry point, KnownRunError where
-    compiled worlds are not as they must be.
+    Raises MemoryUnavailableError without Numba, TypeError for a function that is not an entry point, KnownRunError
+    where compiled worlds are not as they must be.
     """
     checked = checked or _ALL_CHECKED
     kernel: Callable[..., R] | None = _KERNELS.get((entry, checked))
@@ -115,7 +115,7 @@ def is_compiled(entry: Callable[..., Any]) -> bool:
     return (entry, _ALL_CHECKED) in _KERNELS
 
 
-def fastest(entry: Callable[..., R]) -> Callable[..., R]:
+def compiled_if_possible(entry: Callable[..., R]) -> Callable[..., R]:
     """The compiled twin of an entry point that only takes arrays of numbers; without Numba the function itself."""
     return compiled(entry) if compiled_available() else entry
 
@@ -124,8 +124,8 @@ def fastest(entry: Callable[..., R]) -> Callable[..., R]:
 def _compiler(checked: bool) -> Compiler:
     """One of the two compilers of this process. NINJA_GAME_CHECKED=1 leaves only the one that checks indices."""
     choose_memory("compiled")
-    from ninja_game.kernel_cache import keep
-    from ninja_game.numba_import import import_numba
+    from ninja_game.backend.kernel_cache import attach_cache
+    from ninja_game.backend.numba_import import import_numba
 
     try:
         numba = import_numba()
@@ -134,4 +134,4 @@ def _compiler(checked: bool) -> Compiler:
         raise MemoryUnavailableError(f"Numba cannot be loaded ({type(error).__name__}: {error}); {hint}") from error
     from ninja_game.sim.memory.compiler import Compiler
 
-    return Compiler(numba, checked=checked, keep=keep)
+    return Compiler(numba, checked=checked, attach_cache=attach_cache)

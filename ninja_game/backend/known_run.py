@@ -1,6 +1,6 @@
 """A run whose end is known: what computes another one must not judge runs.
 
-The arithmetic of a process can be spoiled from outside: by what a compiler is told, by what other code does to the
+The arithmetic of a process can be spoiled from outside: by how a compiler is set up, by what other code does to the
 processor's modes, by machine code that is not ours. A level with every kind of object and most shapes of tiles, played
 eight times with other keys, costs some milliseconds and shows it.
 """
@@ -14,7 +14,7 @@ from typing import Any
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.sim.digest import replay_digest
-from ninja_game.sim.inputs import press_jumps
+from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.level import TILES, Level, ObjectSpec
 from ninja_game.sim.memory.interface import Memory
 
@@ -74,4 +74,4 @@ def _keys(number: int) -> bytes:
     while len(found) < TICKS:
         number = (number * 1103515245 + 12345) % 2**31
         found += bytes([b"\0\1\2\1\2\3\5\6\4\6\5\6"[(number >> 16) % 12]] * (1 + (number >> 20) % 20))
-    return press_jumps(bytes(found[:TICKS]))
+    return with_press_bits(bytes(found[:TICKS]))

@@ -26,7 +26,7 @@ before_compiling: list[Callable[[], None]] = []
 """What is called once, before the first kernel that has to be compiled: it takes a while."""
 
 
-def keep(dispatcher: Any, digest: str) -> None:
+def attach_cache(dispatcher: Any, digest: str) -> None:
     """Let a kernel's machine code be read from the cache folder, and written there."""
     dispatcher._cache = KernelCache(cache_folder(), f"{dispatcher.py_func.__name__}-{digest[:32]}")  # noqa: SLF001
 
@@ -86,7 +86,7 @@ class KernelCache:
             data = path.read_bytes()
             if sha256(data[32:]).digest() == data[:32]:
                 return rebuild(context, *pickle.loads(data[32:]))  # noqa: S301 - our own file
-        except Exception:  # noqa: BLE001, S110 - whatever a damaged file leads to: it is compiled and written anew
+        except Exception:  # noqa: BLE001, S110 - whatever a damaged file leads to: it is compiled and written again
             pass
         while before_compiling:
             before_compiling.pop()()

@@ -10,18 +10,18 @@ from types import FunctionType
 
 import pytest
 
-from ninja_game import compile_cache
-from ninja_game.compile_cache import MemoryUnavailableError, choose_memory
+from ninja_game.backend import memories
+from ninja_game.backend.kernel_cache import KEPT_FILES, cache_folder, forget_old_code
+from ninja_game.backend.memories import MemoryUnavailableError, choose_memory
 from ninja_game.errors import ArgumentError, FileError
-from ninja_game.kernel_cache import KEPT_FILES, cache_folder, forget_old_code
 from ninja_game.sim.memory.kernels import step_world
 from ninja_game.sim.ninja import tick
 
-needs_numba = pytest.mark.skipif(not compile_cache.compiled_available(), reason="Numba is not installed")
+needs_numba = pytest.mark.skipif(not memories.compiled_available(), reason="Numba is not installed")
 
 # Compiles one small kernel, so that it takes a second, and says whether it was compiled.
 PROGRAM = """
-from ninja_game import compile_cache, kernel_cache
+from ninja_game.backend import kernel_cache, memories
 from ninja_game.sim.memory.compiled import load_worlds
 from ninja_game.sim.memory.declare import entry_point
 from ninja_game.sim.memory.schema import World
@@ -31,7 +31,7 @@ FACTOR = {factor}
 def scaled(numbers: World, count: int) -> int:
     return numbers[count - 1] * FACTOR + count
 kernel_cache.before_compiling.append(lambda: print("compiles"))
-print(compile_cache.compiled(scaled)(np.array([3]), {count}))
+print(memories.compiled(scaled)(np.array([3]), {count}))
 """
 
 
@@ -68,7 +68,7 @@ def test_where_nothing_can_be_written_it_works_and_says_so_once(tmp_path: Path) 
     out, errors = run(tmp_path / "file" / "cache")
     assert out == "compiles\n7\n"
     assert errors.count("compiled code cannot be kept in") == len(errors.splitlines()) == 1
-    assert not list(Path(compile_cache.__file__).parent.rglob("*.nbi"))
+    assert not list(Path(memories.__file__).parent.rglob("*.nbi"))
 
 
 @needs_numba
@@ -123,7 +123,7 @@ def test_only_the_newest_files_are_kept(tmp_path: Path) -> None:
 def test_threads_may_ask_for_kernels_at_once_whoever_imported_numba(first: str) -> None:
     program = (
         f"{first}from concurrent.futures import ThreadPoolExecutor as Pool\n"
-        "from ninja_game.compile_cache import compiled\n"
+        "from ninja_game.backend.memories import compiled\n"
         "from ninja_game.sim.memory.kernels import run_world\n"
         "with Pool(8) as pool: twins = list(pool.map(lambda _: compiled(run_world), range(8)))\n"
         "print(len({id(twin) for twin in twins}))\n"
@@ -133,7 +133,7 @@ def test_threads_may_ask_for_kernels_at_once_whoever_imported_numba(first: str) 
 
 
 def test_without_numba_auto_is_plain_and_compiled_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(compile_cache, "compiled_available", lambda: False)
+    monkeypatch.setattr(memories, "compiled_available", lambda: False)
     assert choose_memory("auto") == "plain"
     with pytest.raises(MemoryUnavailableError, match="needs Numba"):
         choose_memory("compiled")
