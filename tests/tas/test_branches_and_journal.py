@@ -74,14 +74,12 @@ def test_a_long_line_of_branches_is_shown() -> None:
     assert list(branches.in_tree())[-1] == (2999, 2999)
 
 
-def damaged(text: str, chance: Random) -> str:
+def damaged(text: str, rng: Random) -> str:
     """A text with a few characters changed, or cut."""
-    for _ in range(chance.choice((1, 1, 3))):
-        at = chance.randrange(len(text) + 1)
-        new = chance.choice(
-            ("", "}", '"', ",", "1e999", "null", "[" * 3000, "-1", "9" * 5000, "\ud800", "x", "\n", "{}")
-        )
-        text = text[:at] + new + text[at + chance.choice((0, 1, 5, 200)) :]
+    for _ in range(rng.choice((1, 1, 3))):
+        at = rng.randrange(len(text) + 1)
+        new = rng.choice(("", "}", '"', ",", "1e999", "null", "[" * 3000, "-1", "9" * 5000, "\ud800", "x", "\n", "{}"))
+        text = text[:at] + new + text[at + rng.choice((0, 1, 5, 200)) :]
     return text
 
 
@@ -90,10 +88,10 @@ def test_damaged_branches_are_told() -> None:
     branches.keep(Branch("one", InputTrack(b"\1\2").named(1, "a")))
     branches.keep(Branch("two", InputTrack(b"\1\2\3")))
     text = json.dumps(branches.as_json())
-    chance = Random(2)
+    rng = Random(2)
     for _ in range(4000):
         try:
-            found = branches_of_json(json.loads(damaged(text, chance)))
+            found = branches_of_json(json.loads(damaged(text, rng)))
         except DAMAGED:
             continue
         list(found.in_tree())
@@ -113,7 +111,7 @@ def journal_of(folder: Path) -> Path:
 
 
 def test_a_kill_at_any_byte_loses_at_most_the_last_edit(session: Session, tmp_path: Path) -> None:
-    chance = Random(3)
+    rng = Random(3)
     states = [(session.track, list(session.branches.all))]
     sizes = []
     session.change(session.track.replaced(0, 0, [1]))
@@ -121,7 +119,7 @@ def test_a_kill_at_any_byte_loses_at_most_the_last_edit(session: Session, tmp_pa
     for _ in range(60):
         states.append((session.track, list(session.branches.all)))
         sizes.append(file.stat().st_size)
-        edit_at_random(session, chance, strokes=False)
+        edit_at_random(session, rng, strokes=False)
     whole = file.read_bytes()
     session.close(keep=True)
     begun = whole.index(b"\n")
@@ -140,16 +138,16 @@ def test_a_kill_at_any_byte_loses_at_most_the_last_edit(session: Session, tmp_pa
 
 
 def test_damaged_journals_give_only_takes_that_there_were(session: Session, tmp_path: Path) -> None:
-    chance = Random(4)
+    rng = Random(4)
     there = {session.track}
     for _ in range(25):
-        edit_at_random(session, chance, strokes=False)
+        edit_at_random(session, rng, strokes=False)
         there.add(session.track)
     session.close(keep=True)
     file = journal_of(tmp_path)
     whole = file.read_bytes().decode()
     for _ in range(500):
-        file.write_bytes(damaged(whole, chance).encode("utf-8", "surrogatepass"))
+        file.write_bytes(damaged(whole, rng).encode("utf-8", "surrogatepass"))
         begin = file.read_bytes().split(b"\n")[0] == whole.encode().split(b"\n")[0]
         for found in recovered(tmp_path):
             if begin:
@@ -224,14 +222,14 @@ def test_a_place_without_files_is_told(tmp_path: Path) -> None:
 def test_undo_and_redo_bring_back_every_take(seed: int) -> None:
     from tempfile import TemporaryDirectory
 
-    chance = Random(seed)
+    rng = Random(seed)
     with TemporaryDirectory() as folder:
         path = Path(folder) / "walk.replay.txt"
         path.write_text(replay_of_walk(), "utf-8")
         session = Session(open_run(path), Path(folder), memory="plain")
         tracks = [session.track]
         for _ in range(20):
-            session.change(session.track.replaced(chance.randrange(30), 30, [chance.randrange(8)]))
+            session.change(session.track.replaced(rng.randrange(30), 30, [rng.randrange(8)]))
             if session.track != tracks[-1]:
                 tracks.append(session.track)
         last = tracks[-1]

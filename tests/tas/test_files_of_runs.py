@@ -265,13 +265,13 @@ def test_markers_that_no_text_can_hold_are_not_written() -> None:
 
 
 def test_mutated_replays_open_or_are_refused(tmp_path: Path) -> None:
-    chance = Random(5)
+    rng = Random(5)
     path = tmp_path / "walk.replay.txt"
     whole = replay_of_walk().replace("R*24", "#a R*10 ; c\n  (R RJ)*3 #b R*8")
     for _ in range(300):
-        at = chance.randrange(len(whole))
+        at = rng.randrange(len(whole))
         path.write_text(
-            whole[:at] + chance.choice(["", "9", "(", ")*9", "#a", "\0", "é", "\n"]) + whole[at + 1 :], "utf-8"
+            whole[:at] + rng.choice(["", "9", "(", ")*9", "#a", "\0", "é", "\n"]) + whole[at + 1 :], "utf-8"
         )
         try:
             opened = open_run(path)

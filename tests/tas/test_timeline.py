@@ -119,15 +119,15 @@ def test_the_longest_run_has_states_too() -> None:
 
 
 def test_save_states_are_thinned_and_never_far_apart() -> None:
-    chance = Random(1)
+    rng = Random(1)
     states: SaveStates[int] = SaveStates(0, 0, spacing=4)
     tick = 0
     for _ in range(3000):
         tick += 1
         if states.wants(tick):
             states.keep(tick, tick)
-        if chance.random() < 0.003:
-            tick = chance.randrange(tick)
+        if rng.random() < 0.003:
+            tick = rng.randrange(tick)
             states.forget_after(tick)
         at, state = states.nearest(tick)
         assert at == state <= tick

@@ -38,10 +38,10 @@ MOST_MEDIAN, MOST_WORST, MOST_PLAIN, MOST_MIB = 16.0, 50.0, 200.0, 500.0
 
 def random_keys(seed: int) -> bytes:
     """Keys for 4,000 ticks, each for up to 24 ticks."""
-    chance = Random(seed)
+    rng = Random(seed)
     keys: list[int] = []
     while len(keys) < TICKS:
-        keys += [chance.choice((0, 1, 2, 1, 2, 5, 6))] * chance.randrange(1, 25)
+        keys += [rng.choice((0, 1, 2, 1, 2, 5, 6))] * rng.randrange(1, 25)
     return with_press_bits(keys[:TICKS])
 
 
@@ -83,16 +83,16 @@ def edit_times(run: Path, size: tuple[int, int], edits: int, clock: Callable[[],
                 super().frames(1, ms)
                 self.worst = max(self.worst, 1000 * (clock() - began))
 
-    chance = Random(1)
+    rng = Random(1)
     at = Timed(run.parent / "player", run, size)
     at.frames(20)
     times: dict[str, list[float]] = {name: [] for name in EDITS}
     for number in range(edits):
         name = list(EDITS)[number % len(EDITS)]
-        go_at_random(at, chance)
+        go_at_random(at, rng)
         at.frames(3)
         at.worst = 0.0
-        EDITS[name](at, chance)
+        EDITS[name](at, rng)
         times[name].append(at.worst)
     at.session.close()
     at.close()
@@ -125,15 +125,15 @@ def measure_memory(run: Path, edits: int) -> bool:
     from tests.support.tas_driver import TasDriver
     from tests.support.tas_edits import edit_at_random, use_at_random
 
-    chance = Random(1)
+    rng = Random(1)
     at = TasDriver(run.parent / "player", run)
     session, first = at.session, at.session.track
     print(f"{peak_mib():7.0f} MiB  opened")
     for number in range(edits):
         if number % 10:
-            edit_at_random(session, chance)
+            edit_at_random(session, rng)
         else:
-            use_at_random(at, chance)
+            use_at_random(at, rng)
     print(f"{peak_mib():7.0f} MiB  after {edits} edits")
     undone = 0
     while session.undo():

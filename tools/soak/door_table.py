@@ -39,7 +39,6 @@ from ninja_game.formats.pack.pars import parse_pars
 from ninja_game.formats.recording import parse_replays, record_of
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.formats.tas_lines import write_celeste, write_libtas
-from ninja_game.learn.agents.policy import load_policy
 from ninja_game.levels.warnings import level_warnings
 from ninja_game.play.ui.edited_text import EditedText
 from ninja_game.play.ui.stroke_font import StrokeFont
@@ -362,7 +361,6 @@ DOORS: dict[str, Door] = {
     "journal": _of_file(_journal, "tas/odd.jsonl", 6),
     "branches": Door(_branches),
     "autosave": _of_file(lambda path: list(autosave.recovered(path.parent.parent)), "editing/odd.json"),
-    "agent": _of_file(load_policy),
     "backup": Door(_backup, 2),
     "database": Door(_database, 1),
     "database rows": Door(_rows, 1),

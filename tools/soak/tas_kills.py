@@ -62,10 +62,10 @@ def await_locks(folder: Path) -> None:
             os.close(handle)
 
 
-def say_and_save(session: Session, chance: Random, pipe: Connection) -> None:
+def say_and_save(session: Session, rng: Random, pipe: Connection) -> None:
     """Say what the run is; now and then save it."""
     pipe.send(("edited", digest(session.track), 0))
-    if chance.random() < 0.05:
+    if rng.random() < 0.05:
         pipe.send(("about", digest(session.track), 0))
         session.save(session.file.path or Path(), replacing=True)
         pipe.send(("saved", digest(session.track), 0))
@@ -73,25 +73,25 @@ def say_and_save(session: Session, chance: Random, pipe: Connection) -> None:
 
 def edit(folder: str, seed: int, pipe: Connection) -> None:
     """Edit for ever, without a window: far more edits a second."""
-    chance = Random(seed)
+    rng = Random(seed)
     session = opened(Path(folder))
     while True:
-        edit_at_random(session, chance)
-        say_and_save(session, chance, pipe)
+        edit_at_random(session, rng)
+        say_and_save(session, rng, pipe)
 
 
 def edit_in_window(folder: str, seed: int, pipe: Connection) -> None:
     """The whole program: the TAS editor with its own keys and mouse."""
     from tests.support.tas_driver import TasDriver
 
-    chance = Random(seed)
+    rng = Random(seed)
     at = TasDriver(Path(folder), Path(folder) / RUN)
     if at.top() is not at.screen:
         at.choose("Recover")
         at.adopt()
     while True:
-        use_at_random(at, chance)
-        say_and_save(at.session, chance, pipe)
+        use_at_random(at, rng)
+        say_and_save(at.session, rng, pipe)
 
 
 PLAYERS = {"session": edit, "window": edit_in_window}
@@ -101,7 +101,7 @@ def kill_test(
     kills: int, seed: int, folder: Path, *, what: str = "session", report: bool = False
 ) -> tuple[int, list[str]]:
     """Kill so many benches; how many edits they had told of, and everything that is wrong."""
-    chance = Random(seed)
+    rng = Random(seed)
     told, last, saved = 0, "", {""}
     wrong: list[str] = []
     for number in range(kills):
@@ -111,8 +111,8 @@ def kill_test(
             (home / RUN).write_text(replay_of_walk(), "utf-8")
             last = digest(open_run(home / RUN).track)
             saved = {last}
-        words, seconds = chance.randrange(1, MOST_WORDS + 1), chance.random() * LONGEST_LIFE
-        facts = life(PLAYERS[what], home, chance.randrange(2**31), seconds, words=words)
+        words, seconds = rng.randrange(1, MOST_WORDS + 1), rng.random() * LONGEST_LIFE
+        facts = life(PLAYERS[what], home, rng.randrange(2**31), seconds, words=words)
         # What changes nothing, such as undo without an edit, is not an edit that could be lost.
         said = [each for each, _ in groupby([last, *(each for kind, each, _ in facts if kind == "edited")])]
         for kind, each, _ in facts:

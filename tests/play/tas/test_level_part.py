@@ -32,16 +32,16 @@ def run() -> Path:
 
 
 def test_any_tick_is_that_of_a_straight_run_after_any_edits(at: TasDriver) -> None:
-    editor, chance = at.editor, Random(7)
+    editor, rng = at.editor, Random(7)
     for _ in range(40):
-        if chance.random() < 0.5:
-            first = chance.randrange(len(editor.track))
-            keys = [chance.randrange(8) for _ in range(chance.randrange(1, 30))]
-            edited = editor.track.replaced(first, first + chance.randrange(9), keys)
+        if rng.random() < 0.5:
+            first = rng.randrange(len(editor.track))
+            keys = [rng.randrange(8) for _ in range(rng.randrange(1, 30))]
+            edited = editor.track.replaced(first, first + rng.randrange(9), keys)
             assert editor.attempt(partial(at.session.change, edited))
             at.frames()
             assert at.shown_digest() == at.straight_digest(editor.cursor), "the cursor stays, the run is another"
-        editor.go(chance.choice([chance.randrange(editor.last_tick + 1), editor.cursor + chance.randrange(-3, 4)]))
+        editor.go(rng.choice([rng.randrange(editor.last_tick + 1), editor.cursor + rng.randrange(-3, 4)]))
         at.frames()
         assert at.screen.level.picture.tick == editor.cursor
         assert at.shown_digest() == at.straight_digest(editor.cursor)

@@ -29,8 +29,8 @@ def take_over(at: TasDriver, tick: int = START) -> TakeOver:
 
 def random_keys(count: int) -> list[int]:
     """Keys of a player who lets none of them be down all the time; the first one is down at once."""
-    chance = Random(count)
-    return [2, *(chance.choice([0, 1, 2, 2, 6, 4]) for _ in range(count - 1))]
+    rng = Random(count)
+    return [2, *(rng.choice([0, 1, 2, 2, 6, 4]) for _ in range(count - 1))]
 
 
 def test_what_is_pressed_is_what_is_recorded_and_it_is_one_edit(at: TasDriver) -> None:

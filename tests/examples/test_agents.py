@@ -1,30 +1,28 @@
-"""A learned agent's file: what is written is read, and what is none is named."""
+"""The agents: what is written is read, a file without one is named; the learned one passes levels without JAX."""
 
 from __future__ import annotations
 
 import json
-import struct
-import tracemalloc
+import sys
 from pathlib import Path
-from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
 import pytest
 
+from examples.agents import LEARNED, PolicyAgent, RandomAgent, load_agent, load_policy
+from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import ArgumentError, FileError
-from ninja_game.learn.agents import load_agent
-from ninja_game.learn.agents.policy import PolicyAgent, load_policy
-from ninja_game.learn.agents.random_agent import RandomAgent
+from ninja_game.learn.evaluation import evaluate
 from ninja_game.learn.observations.observation import Observation
 
 
 def small_agent() -> PolicyAgent:
     """An agent with random weights."""
-    chance = np.random.default_rng(0)
+    rng = np.random.default_rng(0)
     shapes = [(30, 8), (8, 6)]
-    layers = [(chance.random(shape).astype(np.float32), chance.random(shape[1]).astype(np.float32)) for shape in shapes]
+    layers = [(rng.random(shape).astype(np.float32), rng.random(shape[1]).astype(np.float32)) for shape in shapes]
     settings = {"observation": Observation("state").parts, "flat": True, "frame_skip": 4, "time_limit": 400}
-    mean, scale = chance.random((2, 30)).astype(np.float32)
+    mean, scale = rng.random((2, 30)).astype(np.float32)
     return PolicyAgent(layers, mean, scale, settings, {"seed": 3})
 
 
@@ -75,70 +73,14 @@ def changed(path: Path, **arrays: object) -> Path:
     ids=str,
 )
 def test_a_file_that_holds_no_agent_is_named(tmp_path: Path, arrays: dict[str, object]) -> None:
-    with pytest.raises(FileError, match=r"agent\.npz: (no agent|an agent of another format)"):
+    with pytest.raises(FileError, match=r"agent\.npz: (not an agent|an agent of another format)"):
         load_policy(changed(tmp_path / "agent.npz", **arrays))
-
-
-def packed(path: Path, *, size: int, header: str = "") -> Path:
-    """An agent's file whose ``mean`` says that it is so many zeros; or what ``header`` says."""
-    small_agent().save(path)
-    text = header or f"{{'descr': '<f4', 'fortran_order': False, 'shape': ({size},), }}"
-    raw = text.ljust(117).encode() + b"\n"
-    with ZipFile(path) as stored:
-        entries = {entry: stored.read(entry) for entry in stored.namelist()}
-    entries["mean.npy"] = b"\x93NUMPY\x01\x00" + struct.pack("<H", len(raw)) + raw + bytes(4 * size)
-    with ZipFile(path, "w", ZIP_DEFLATED) as made:
-        for name, content in entries.items():
-            made.writestr(name, content)
-    return path
-
-
-@pytest.mark.parametrize(
-    "size, header, why",
-    [
-        (2**24, "", "more than 64 MiB, unpacked"),
-        (2**17, "", "an array of the shape"),
-        (1, "{'descr': '<f4', 'fortran_order': False, 'shape': (999999,), }", "an array of the shape"),
-        (1, "{'descr': '<f4', 'fortran_order': False, 'shape': (60000,60000,), }", "buffer"),
-        (1, "{'descr': '|O', 'fortran_order': False, 'shape': (1,), }", "instead of float32"),
-        (1, "{'descr': '<f4', 'fortran_order': False, 'shape': (1,), 'x': 1, }", "header"),
-        (1, "(" * 117, "header"),
-    ],
-)
-def test_what_an_array_claims_is_checked_before_memory_is_made(
-    tmp_path: Path, size: int, header: str, why: str
-) -> None:
-    path = packed(tmp_path / "agent.npz", size=size, header=header)
-    # The zeros of the test itself come before.
-    tracemalloc.start()
-    try:
-        with pytest.raises(FileError, match=f"no agent .*{why}"):
-            load_policy(path)
-        assert tracemalloc.get_traced_memory()[1] < 2**23
-    finally:
-        tracemalloc.stop()
-
-
-@pytest.mark.parametrize(
-    "about",
-    [
-        "[" * 100_000,
-        '{"format": 1, "settings": {"observation": [{"part": "pixels", "width": 1e9}]}, "training": 0}',
-        '{"format": 1, "settings": {"observation": [{"part": "tiles", "size": 1' + "0" * 300 + "}]}}",
-        '{"format": 1, "settings": {"observation": [{"part": "rays", "count": -1}]}}',
-        '{"format": 1, "settings": {"observation": []}}',
-    ],
-    ids=lambda text: text[-40:],
-)
-def test_texts_that_make_no_settings_are_named(tmp_path: Path, about: str) -> None:
-    with pytest.raises(FileError, match="no agent"):
-        load_policy(changed(tmp_path / "agent.npz", about=np.array(about)))
 
 
 @pytest.mark.parametrize("content", [b"", b"text", b"PK\x03\x04 torn"])
 def test_other_files_are_named(tmp_path: Path, content: bytes) -> None:
     (tmp_path / "agent.npz").write_bytes(content)
-    with pytest.raises(FileError, match=r"agent\.npz: no agent"):
+    with pytest.raises(FileError, match=r"agent\.npz: not an agent"):
         load_policy(tmp_path / "agent.npz")
 
 
@@ -160,3 +102,21 @@ def test_the_random_agent_plays_everything_and_the_same_by_the_same_seed() -> No
     assert set(np.ravel(rounds[0])) == set(range(6))
     kept = np.mean(np.diff(np.array(rounds[0]), axis=0) == 0)
     assert 0.78 < kept < 0.88
+
+
+@pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
+def test_it_passes_three_levels_nine_times_in_ten(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("jax", "optax"):
+        monkeypatch.setitem(sys.modules, name, None)
+    table = evaluate(load_agent("learned"), ["00-0-first-steps", "00-2-rolling-hills", "01-1-the-chimney"], episodes=50)
+    assert [each.rate >= 0.9 for each in table.results] == [True] * 3, table.text()
+    chance = evaluate(load_agent("random"), "00-2-rolling-hills", episodes=20)
+    assert chance.results[0].rate < 0.1
+
+
+def test_its_file_is_small_and_tells_how_it_was_made() -> None:
+    agent = load_agent("learned")
+    assert isinstance(agent, PolicyAgent)
+    assert LEARNED.stat().st_size < 500_000
+    assert {"levels", "seed", "curve"} <= set(agent.training)
+    assert len(agent.training["curve"][0]) == 2 + len(agent.training["levels"])

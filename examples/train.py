@@ -1,20 +1,31 @@
-"""Training an agent: a thousand worlds play, the networks learn from the results, over and over."""
+"""Train an agent by proximal policy optimisation: a thousand worlds play, the networks learn from the results.
+
+    python3 -m examples.train --levels 00-0-first-steps --seconds 240
+    python3 -m examples.train --levels train --seconds 1800 -o everything.npz
+
+The best agent so far is always in the output file, so that training may be stopped at any time (Ctrl-C). It needs the
+extra `train`. docs/learning.md says how `examples/agent.npz` was trained.
+"""
 
 from __future__ import annotations
 
+import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
+import click
 import numpy as np
 from numpy.typing import NDArray
 
+from examples.agents import PolicyAgent, normalised
+from examples.ppo import Floats, Learner, Method, Samples, advantages
+from examples.starts import Starts
+from ninja_game.errors import NinjaGameError
 from ninja_game.learn.actions import DISCRETE_KEYS
-from ninja_game.learn.agents.policy import PolicyAgent, normalised
-from ninja_game.learn.agents.ppo import Floats, Learner, Method, Samples, advantages
-from ninja_game.learn.agents.starts import Starts
-from ninja_game.learn.levels import LevelSource
+from ninja_game.learn.levels import LevelSource, level_source
 from ninja_game.learn.observations.guide import Guide
 from ninja_game.learn.observations.local_tiles import LocalTiles
 from ninja_game.learn.observations.near_objects import KIND_NAMES, NearObjects
@@ -35,6 +46,13 @@ SMALLEST_DEVIATION = 0.02
 """Of an observation; what hardly ever changes would be blown up otherwise."""
 JUDGED_EVERY = 16
 """Rounds between two points of the curve; only there an agent may be the best."""
+
+LEVELS = (
+    "00-0-first-steps", "00-1-mind-the-gap", "00-2-rolling-hills", "00-4-seven-league-boots", "01-1-the-chimney",
+    "10-2-fountain", "10-4-the-juggler", "11-2-kennel", "12-1-four-winds", "20-0-kite", "20-1-phases-of-the-moon",
+    "31-1-downhill",
+)  # fmt: skip
+"""Those of examples/agent.npz: easy ones of several columns."""
 
 OBSERVATION = (
     StateVector(),
@@ -130,7 +148,7 @@ class Trainer:
         self.worlds = EnvWorlds(task.source, task.worlds, **settings)
         self._observed = np.asarray(self.worlds.observations)
         self.starts = Starts(task.source, settings, task.seed, task.searches)
-        self._chance = np.random.default_rng([task.seed, 2])
+        self._rng = np.random.default_rng([task.seed, 2])
         self._sticky = StickyActions(task.worlds, [task.seed, 3])
         self._begun, self._limits = np.zeros((2, task.worlds), np.intp)
         self._begin(np.arange(task.worlds))
@@ -156,7 +174,7 @@ class Trainer:
         for step in range(ROUND):
             seen[step] = self._seen()
             scores, values[step] = self.learner.play(seen[step])
-            actions[step] = (scores + self._chance.gumbel(size=scores.shape)).argmax(axis=1)
+            actions[step] = (scores + self._rng.gumbel(size=scores.shape)).argmax(axis=1)
             chances[step] = np.take_along_axis(scores, actions[step][:, np.newaxis], axis=1)[:, 0]
             rewards[step], ended[step] = self._step(actions[step])
         _, values[ROUND] = self.learner.play(self._seen())
@@ -190,7 +208,7 @@ class Trainer:
 
     def _begin(self, which: NDArray[np.intp]) -> None:
         """New episodes; those that begin in the middle of a run do not wait."""
-        self._begun[which] = starts = self.starts.choose(len(which), self._chance)
+        self._begun[which] = starts = self.starts.choose(len(which), self._rng)
         self.starts.put(self.worlds, which, starts)
         self._limits[which] = self.worlds.ticks[which] + self.starts.limits[starts]
         own = starts < self.starts.levels
@@ -201,7 +219,50 @@ class Trainer:
         """Means of the observations, and what makes their deviations 1: from a round of random play."""
         rows = []
         for _ in range(ROUND):
-            self._step(self._chance.integers(len(DISCRETE_KEYS), size=self.task.worlds))
+            self._step(self._rng.integers(len(DISCRETE_KEYS), size=self.task.worlds))
             rows.append(self._observed.copy())
         every = np.concatenate(rows)
         return every.mean(axis=0), 1.0 / np.maximum(every.std(axis=0), np.float32(SMALLEST_DEVIATION))
+
+
+@click.command(help=__doc__.replace("\n    python3", "\n\b\n    python3"))
+@click.option(
+    "--levels", metavar="LEVELS", multiple=True, default=LEVELS, show_default="twelve easy ones",
+    help="train, set, a level of the game, a file or folder, generated:3:1-8. May be given several times.",
+)  # fmt: skip
+@click.option("--seconds", type=click.FloatRange(1), default=600.0, show_default=True, help="Stop after so long.")
+@click.option(
+    "--steps", type=click.IntRange(0), default=0, metavar="N",
+    help="Stop after N steps of all worlds together instead: with the same seed always the same agent.",
+)  # fmt: skip
+@click.option("--seed", type=click.IntRange(0, 999_999), default=0, show_default=True)
+@click.option("--worlds", type=click.IntRange(1), default=1024, show_default=True, help="Worlds at a time.")
+@click.option("--output", "-o", default="agent.npz", show_default=True, type=click.Path(dir_okay=False, path_type=Path))
+def main(levels: Sequence[str], seconds: float, steps: int, seed: int, worlds: int, output: Path) -> None:
+    if output.exists():
+        raise click.UsageError(f"{output} exists; name another file with -o, or remove it")
+    try:
+        task = Task(level_source(list(levels)), seconds=seconds, steps=steps, seed=seed, worlds=worlds)
+        click.echo(f"{len(task.source.names)} levels; first come runs through them, then the training", err=True)
+        agent = train(task, report=tell, on_better=lambda agent: agent.save(output))
+    except KeyboardInterrupt:
+        click.echo("\nstopped", err=True)
+        sys.exit(130)
+    except (NinjaGameError, OSError) as error:
+        raise click.ClickException(str(error)) from error
+    best, _, *rates = agent.training["curve"][-1]
+    click.echo(f"\n{output}: the best agent, after {best / 1e6:.1f}M steps")
+    for name, rate in zip(task.source.names, rates, strict=True):
+        click.echo(f"  {rate:4.0%}  {name}")
+
+
+def tell(progress: Progress) -> None:
+    """Steps, speed, and how often the levels are passed, in a line that the next one replaces."""
+    speed = progress.steps / max(progress.seconds, 1e-9)
+    often = f"{progress.passed} of {len(progress.rates)} levels nine times in ten"
+    passed = f"{progress.rates.mean():.0%} of episodes passed, {often}"
+    click.echo(f"\r{progress.steps / 1e6:.1f}M steps, {speed / 1e3:.0f}k/s: {passed}", nl=False, err=True)
+
+
+if __name__ == "__main__":
+    main()

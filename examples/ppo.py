@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.errors import MissingExtraError
-from ninja_game.files.resources import how_to_install
 from ninja_game.learn.actions import ACTION_NAMES
 
 Floats = NDArray[np.float32]
@@ -51,20 +50,20 @@ class Samples:
     returns: Floats
 
 
-def new_networks(inputs: int, hidden: int, chance: np.random.Generator) -> Networks:
+def new_networks(inputs: int, hidden: int, rng: np.random.Generator) -> Networks:
     """Two networks with orthogonal weights, small in the policy's last layer: it begins by playing anything."""
     return {
         name: [
-            (_orthogonal(inputs, hidden, 2**0.5, chance), np.zeros(hidden, np.float32)),
-            (_orthogonal(hidden, hidden, 2**0.5, chance), np.zeros(hidden, np.float32)),
-            (_orthogonal(hidden, outputs, gain, chance), np.zeros(outputs, np.float32)),
+            (_orthogonal(inputs, hidden, 2**0.5, rng), np.zeros(hidden, np.float32)),
+            (_orthogonal(hidden, hidden, 2**0.5, rng), np.zeros(hidden, np.float32)),
+            (_orthogonal(hidden, outputs, gain, rng), np.zeros(outputs, np.float32)),
         ]
         for name, outputs, gain in (("policy", len(ACTION_NAMES), 0.01), ("value", 1, 1.0))
     }
 
 
-def _orthogonal(rows: int, columns: int, gain: float, chance: np.random.Generator) -> Floats:
-    square, _ = np.linalg.qr(chance.standard_normal((max(rows, columns), min(rows, columns))))
+def _orthogonal(rows: int, columns: int, gain: float, rng: np.random.Generator) -> Floats:
+    square, _ = np.linalg.qr(rng.standard_normal((max(rows, columns), min(rows, columns))))
     return np.asarray(gain * (square if rows >= columns else square.T), np.float32)
 
 
@@ -88,8 +87,8 @@ class Learner:
 
     def __init__(self, inputs: int, settings: Method, seed: int) -> None:
         self.settings = settings
-        self._chance = np.random.default_rng([seed, 1])
-        self.networks = new_networks(inputs, settings.hidden, self._chance)
+        self._rng = np.random.default_rng([seed, 1])
+        self.networks = new_networks(inputs, settings.hidden, self._rng)
         self._play, self._update, self._memory = _compiled(self.networks, settings)
 
     def play(self, observations: Floats) -> tuple[Floats, Floats]:
@@ -107,7 +106,7 @@ class Learner:
         size = min(settings.batch, count)
         networks: Any = self.networks
         for _ in range(settings.passes):
-            order = self._chance.permutation(count)
+            order = self._rng.permutation(count)
             for first in range(0, count - size + 1, size):
                 rows = order[first : first + size]
                 batch = [column[rows] for column in vars(samples).values()]
@@ -125,7 +124,7 @@ def _compiled(networks: Networks, settings: Method) -> tuple[Callable[..., Any],
         import jax.numpy as jnp
         import optax
     except ModuleNotFoundError as error:
-        raise MissingExtraError(f"training needs JAX and Optax; {how_to_install('train')}") from error
+        raise MissingExtraError("training needs JAX and Optax: python3 -m pip install 'ninja-game[train]'") from error
 
     def network(layers: Any, values: Any) -> Any:
         for weights, biases in layers[:-1]:

@@ -1,7 +1,8 @@
-"""A learned agent: a small network from observations to the chances of the six actions, played by NumPy alone.
+"""Agents: one that plays at random, one that searches with save-states, one that has learned (docs/learning.md).
 
-Its file is a NumPy archive (.npz) of the network's arrays and one text, JSON, that says what environment it was made
-for and how it was trained.
+A learned agent is a small network from observations to the probabilities of the six actions, played by NumPy alone. Its
+file is a NumPy archive (.npz) of the network's arrays and one text, JSON, that says what environment it was made for
+and how it was trained; it is read without pickle.
 """
 
 from __future__ import annotations
@@ -10,32 +11,57 @@ import io
 import json
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
 
+from examples.search import SearchAgent
 from ninja_game.errors import ArgumentError, FileError
-from ninja_game.files.arrays import MOST_ARRAYS, UNREADABLE, read_array
-from ninja_game.files.reading import MAX_BYTES, open_regular
 from ninja_game.files.writing import write_atomically
-from ninja_game.files.zips import open_zip
 from ninja_game.learn.actions import ACTION_NAMES
 from ninja_game.learn.observations.observation import PARTS, Observation
-from ninja_game.learn.observations.part import Part
+
+LEARNED = Path(__file__).parent / "agent.npz"
+"""The agent whose training docs/learning.md describes."""
+
+KEPT = 0.8
+"""Probability that the random agent keeps an action for a step: keys pressed again ten times a second lead nowhere."""
 
 Floats = NDArray[np.float32]
 
 FORMAT = 1
 """Of the file; a later one may differ."""
 
-WIDEST = 2**16
-"""Most numbers along an array of an agent."""
+LARGEST = 5.0
+"""Observations beyond five standard deviations count as five."""
+
+
+class RandomAgent:
+    """Presses each of the six combinations of keys as often, for half a second on average."""
+
+    settings: ClassVar[dict[str, Any]] = {}
+
+    def __init__(self) -> None:
+        self.reset(1, 0)
+
+    def reset(self, count: int, seed: int) -> None:
+        """Begin with ``count`` worlds."""
+        self._rng = np.random.default_rng(seed)
+        self._actions = self._rng.integers(len(ACTION_NAMES), size=count)
+
+    def act(self, observations: Any) -> NDArray[np.int64]:  # noqa: ARG002 - as all agents
+        """An action for each world, (n,), whatever is observed."""
+        count = len(self._actions)
+        drawn = self._rng.integers(len(ACTION_NAMES), size=count)
+        self._actions = np.where(self._rng.random(count) < KEPT, self._actions, drawn)
+        return self._actions
 
 
 @dataclass(eq=False)
 class PolicyAgent:
-    """Plays actions by their chances, drawn by the seed of ``reset``.
+    """Plays actions by their probabilities, drawn by the seed of ``reset``.
 
     ``layers``: weights (inputs x outputs) and biases, with tanh between them, on observations less ``mean`` times
     ``scale``. ``settings``: the keywords of the environment it was made for. ``training``: how it was made, by name.
@@ -52,16 +78,16 @@ class PolicyAgent:
 
     def reset(self, count: int, seed: int) -> None:  # noqa: ARG002 - as all agents
         """Begin: only what is drawn is remembered from step to step."""
-        self._chance = np.random.default_rng(seed)
+        self._rng = np.random.default_rng(seed)
 
     def act(self, observations: Floats) -> NDArray[np.int64]:
         """An action of each world, (n,)."""
         scores = self.scores(observations)
-        # The largest of sums with Gumbel noise is a draw by the chances.
-        return np.asarray((scores + self._chance.gumbel(size=scores.shape)).argmax(axis=1), np.int64)
+        # The largest of sums with Gumbel noise is a draw by the probabilities.
+        return np.asarray((scores + self._rng.gumbel(size=scores.shape)).argmax(axis=1), np.int64)
 
     def scores(self, observations: Floats) -> Floats:
-        """A number for each action, (n, 6): the logarithm of its chance, up to a constant of the row."""
+        """A number for each action, (n, 6): the logarithm of its probability, up to a constant of the row."""
         return forward(self.layers, normalised(observations, self.mean, self.scale))
 
     def save(self, path: Path) -> None:
@@ -75,34 +101,35 @@ class PolicyAgent:
         write_atomically(path, content.getvalue())
 
 
+def load_agent(name: str | Path) -> RandomAgent | SearchAgent | PolicyAgent:
+    """The agent "random", "search" or "learned" (the one beside this file), or that in a file.
+
+    Raises ArgumentError for what is neither, FileError for a file without an agent, OSError as it comes.
+    """
+    if name == "random":
+        return RandomAgent()
+    if name == "search":
+        return SearchAgent()
+    path = LEARNED if name == "learned" else Path(name)
+    if not path.suffix and not path.exists():
+        raise ArgumentError(f"there is no agent {str(name)!r:.100}; expected random, search, learned or a file (.npz)")
+    return load_policy(path)
+
+
 def load_policy(path: Path) -> PolicyAgent:
-    """The agent in a file. Raises FileError for a file that holds none, OSError as it comes."""
+    """The agent in a file. Raises FileError for a file without one, OSError as it comes."""
     try:
-        arrays = _arrays(path)
-        about = json.loads(str(arrays["about"]))
-        if about["format"] != FORMAT:
-            raise FileError("an agent of another format", file=str(path), found=str(about["format"]), expected="1")
-        numbers = range(sum(name.startswith("weights_") for name in arrays))
-        layers = [(arrays[f"weights_{number}"], arrays[f"biases_{number}"]) for number in numbers]
-        agent = PolicyAgent(layers, arrays["mean"], arrays["scale"], _read(about["settings"]), about["training"])
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as arrays:
+            about = json.loads(str(arrays["about"]))
+            if about["format"] != FORMAT:
+                raise FileError("an agent of another format", file=str(path), found=str(about["format"]), expected="1")
+            numbers = range(sum(name.startswith("weights_") for name in arrays))
+            layers = [(arrays[f"weights_{number}"], arrays[f"biases_{number}"]) for number in numbers]
+            agent = PolicyAgent(layers, arrays["mean"], arrays["scale"], _read(about["settings"]), about["training"])
         _check(agent)
-    except (*UNREADABLE, ArgumentError) as error:
-        raise FileError(
-            "no agent that `ninja-game learn train` made", file=str(path), found=str(error)[:100]
-        ) from error
+    except (BadZipFile, EOFError, KeyError, TypeError, ValueError, AttributeError, ArgumentError) as error:
+        raise FileError("not an agent that examples/train.py wrote", file=str(path), found=str(error)[:100]) from error
     return agent
-
-
-def _arrays(path: Path) -> dict[str, NDArray[Any]]:
-    """The arrays of a file by name: ``about`` a text, all others of float32. Raises an error of UNREADABLE."""
-    with open_regular(path) as file, open_zip(file, most_files=MOST_ARRAYS, most_bytes=MAX_BYTES) as archive:
-        found = {entry.filename.removesuffix(".npy"): entry for entry in archive.infolist()}
-        return {
-            name: read_array(
-                archive, entry, np.dtype(np.str_ if name == "about" else np.float32), most=WIDEST, dimensions=2
-            )
-            for name, entry in found.items()
-        }
 
 
 def forward(layers: list[tuple[Floats, Floats]], values: Floats) -> Floats:
@@ -111,10 +138,6 @@ def forward(layers: list[tuple[Floats, Floats]], values: Floats) -> Floats:
         values = np.tanh(values @ weights + biases)
     weights, biases = layers[-1]
     return values @ weights + biases
-
-
-LARGEST = 5.0
-"""Observations beyond five standard deviations count as five."""
 
 
 def normalised(observations: Floats, mean: Floats, scale: Floats) -> Floats:
@@ -143,7 +166,7 @@ def _written(settings: dict[str, Any]) -> dict[str, Any]:
 
 def _read(settings: dict[str, Any]) -> dict[str, Any]:
     """The reverse."""
-    parts: list[Part] = []
+    parts = []
     for written in settings["observation"]:
         fields: dict[str, Any] = {}
         for name, value in written.items():

@@ -10,15 +10,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
 
+from examples.agents import PolicyAgent, load_policy
+from examples.ppo import Method
+from examples.starts import SPACING, Starts, runs_through
+from examples.train import ROUND, Progress, Task, main, train
 from ninja_game.backend.memories import compiled_available
-from ninja_game.learn.agents.policy import PolicyAgent, load_policy
-from ninja_game.learn.agents.ppo import Method
-from ninja_game.learn.agents.starts import SPACING, Starts, runs_through
-from ninja_game.learn.agents.training import ROUND, Progress, Task, train
 from ninja_game.learn.levels import level_source
 from ninja_game.learn.worlds import EnvWorlds
 from tests.support.waiting import LONGEST
+from tools import ROOT
 
 pytestmark = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 pytest.importorskip("jax")
@@ -91,34 +93,30 @@ def test_a_level_without_a_certificate_is_searched() -> None:
         assert worlds.outcomes[0] == 1
 
 
-def test_the_command_keeps_the_agent_and_says_how_good_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from click.testing import CliRunner
-
-    from ninja_game.cli.learn.learn import command
-
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "agent.npz").write_text("mine")
-    words = ["train", "--levels", LEVELS[0], "--steps", "500", "--worlds", "16"]
-    result = CliRunner().invoke(command, words, catch_exceptions=False)
+def test_the_program_keeps_the_agent_and_says_how_good_it_is(tmp_path: Path) -> None:
+    output = tmp_path / "agent.npz"
+    words = ["--levels", LEVELS[0], "--steps", "500", "--worlds", "16", "-o", str(output)]
+    result = CliRunner().invoke(main, words, catch_exceptions=False)
     assert result.exit_code == 0
-    assert "agent-1.npz: the best agent, after 0.0M steps" in result.output
+    assert "agent.npz: the best agent, after 0.0M steps" in result.output
     assert "%  00-0-first-steps" in result.output
-    assert load_policy(tmp_path / "agent-1.npz").training["seed"] == 0
-    assert (tmp_path / "agent.npz").read_text() == "mine"
+    assert load_policy(output).training["seed"] == 0
+    result = CliRunner().invoke(main, words)
+    assert (result.exit_code, "exists; name another file" in result.stderr) == (2, True)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals are another thing there")
 def test_a_training_that_is_stopped_leaves_the_best_agent(tmp_path: Path) -> None:
     output = tmp_path / "agent.npz"
-    words = ["learn", "train", "--levels", LEVELS[0], "--seconds", "3000", "--worlds", "16", "-o", str(output)]
-    program = [sys.executable, "-m", "ninja_game", *words]
-    with subprocess.Popen(program, stderr=subprocess.PIPE) as training:
+    words = ["--levels", LEVELS[0], "--seconds", "3000", "--worlds", "16", "-o", str(output)]
+    program = [sys.executable, "-m", "examples.train", *words]
+    with subprocess.Popen(program, stderr=subprocess.PIPE, cwd=ROOT) as training:
         while not output.exists():
             assert training.poll() is None
             time.sleep(0.2)
         training.send_signal(signal.SIGINT)
         _, errors = training.communicate(timeout=LONGEST)
     assert training.returncode == 130
-    assert b"interrupted" in errors
+    assert b"stopped" in errors
     assert load_policy(output).training["curve"]
     assert list(tmp_path.iterdir()) == [output]

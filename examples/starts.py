@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from examples.search import SearchAgent
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.resources import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.learn.actions import DISCRETE_KEYS
-from ninja_game.learn.agents.search import SearchAgent
 from ninja_game.learn.levels import LevelSource
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.inputs import KEYS_DOWN
@@ -86,7 +86,7 @@ class Starts:
                     self._saved.restore(player.save(), start)
                     start += 1
 
-    def choose(self, count: int, chance: np.random.Generator) -> Numbers:
+    def choose(self, count: int, rng: np.random.Generator) -> Numbers:
         """Where ``count`` episodes begin."""
         failing = 1.0 - self.rates
         weights = self.rates * failing + AHEAD * self.rates[self._next] * failing + FLOOR
@@ -96,7 +96,7 @@ class Starts:
         # Levels of which most is learnt come first.
         mean = np.bincount(self.level_of, self.rates) / np.bincount(self.level_of)
         weights *= np.where(self.rates[: self.levels] >= LEARNT, LEARNT_WEIGHT, LEAST_WEIGHT + mean)[self.level_of]
-        return chance.choice(len(weights), count, p=weights / weights.sum())
+        return rng.choice(len(weights), count, p=weights / weights.sum())
 
     def put(self, worlds: EnvWorlds, which: Numbers, starts: Numbers) -> None:
         """Put worlds to starts."""

@@ -1,4 +1,4 @@
-"""`ninja-game learn demos`: recordings as observations, actions and rewards."""
+"""`ninja-game demonstrations`: recordings as observations, actions and rewards."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ninja_game.cli.main import complain
 from ninja_game.cli.run_options import level_given, level_option, memory_option, with_progress
 
 
-@click.command(name="demos")
+@click.command(name="demonstrations")
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
 @click.option("--output", "-o", type=click.Path(dir_okay=False, path_type=Path), help="Write arrays to this .npz file.")
 @click.option("--minari", "dataset", metavar="NAME", help="Write a Minari data set of this name, such as ninja/set-v0.")
@@ -37,15 +37,17 @@ def command(
     level_path: Path | None,
     memory: str,
 ) -> None:
-    """Make demonstrations of recordings: observations, actions and rewards of each tick.
+    """Make demonstrations for learning agents of recordings.
+
+    A demonstration has the observation, the action and the reward of each tick. It needs Gymnasium, the extra 'learn'.
 
     FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Recordings that
     no agent could have made, since they press jump again while it is held, are left out and named.
 
     \b
     Examples:
-      ninja-game learn demos levels/certificates -o demos.npz
-      ninja-game learn demos levels/certificates --minari ninja/set-v0
+      ninja-game demonstrations levels/certificates -o demos.npz
+      ninja-game demonstrations levels/certificates --minari ninja/set-v0
     """
     if (output is None) == (dataset is None):
         raise click.UsageError("where to? give --output FILE.npz or --minari NAME")

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ninja_game.learn.agents.policy import forward
-from ninja_game.learn.agents.ppo import Learner, Method, Samples, advantages, new_networks
+from examples.agents import forward
+from examples.ppo import Learner, Method, Samples, advantages, new_networks
 
 
 def test_advantages_are_discounted_sums_of_what_was_better_than_expected() -> None:
-    chance = np.random.default_rng(1)
-    rewards = chance.random((6, 2)).astype(np.float32)
-    values = chance.random((7, 2)).astype(np.float32)
+    rng = np.random.default_rng(1)
+    rewards = rng.random((6, 2)).astype(np.float32)
+    values = rng.random((7, 2)).astype(np.float32)
     ended = np.zeros((6, 2), np.bool_)
     ended[3, 1] = True
     method = Method(discount=0.9, trace=0.8)
@@ -40,11 +40,11 @@ def test_new_networks_expect_nothing_and_prefer_nothing() -> None:
 def test_the_policy_learns_which_action_pays_by_what_it_sees() -> None:
     pytest.importorskip("jax")
     learner = Learner(2, Method(hidden=16, batch=256, learning_rate=0.01), seed=1)
-    chance = np.random.default_rng(2)
+    rng = np.random.default_rng(2)
     for _ in range(40):
-        seen = chance.choice([-1.0, 1.0], (512, 2)).astype(np.float32)
+        seen = rng.choice([-1.0, 1.0], (512, 2)).astype(np.float32)
         scores, values = learner.play(seen)
-        actions = (scores + chance.gumbel(size=scores.shape)).argmax(axis=1).astype(np.int32)
+        actions = (scores + rng.gumbel(size=scores.shape)).argmax(axis=1).astype(np.int32)
         # Where the first number is positive action 5 pays, else action 0.
         rewards = (actions == np.where(seen[:, 0] > 0, 5, 0)).astype(np.float32)
         chances = np.take_along_axis(scores, actions[:, np.newaxis], axis=1)[:, 0]
