@@ -1,8 +1,8 @@
-"""Measure the bench with a run of 4,000 ticks: the time from an edit to its picture, and the memory of many edits.
+"""Measure the TAS editor with a run of 4,000 ticks: the time from an edit to its picture, and the memory of many edits.
 
-    python3 tools/dev.py tool measure.bench_edits --edits 300
-    python3 tools/dev.py tool measure.bench_edits --plain
-    python3 tools/dev.py tool measure.bench_edits --memory 10000
+    python3 tools/dev.py tool measure.tas_edits --edits 300
+    python3 tools/dev.py tool measure.tas_edits --plain
+    python3 tools/dev.py tool measure.tas_edits --memory 10000
 
 The first two print, for windows of 792 x 600, 1920 x 1080 and 2560 x 1440, how long edits of each sort take, made by
 keys and mouse at random places of a level of median size: from the event to the finished picture, without a display.
@@ -71,10 +71,10 @@ def percentiles(times: list[float]) -> str:
 
 def edit_times(run: Path, size: tuple[int, int], edits: int, clock: Callable[[], float]) -> dict[str, list[float]]:
     """The longest turn of the program's loop during each of so many edits, ms, by the edit's name."""
-    from tests.support.bench_driver import BenchDriver
-    from tests.support.bench_edits import EDITS, go_at_random
+    from tests.support.tas_driver import TasDriver
+    from tests.support.tas_edits import EDITS, go_at_random
 
-    class Timed(BenchDriver):
+    class Timed(TasDriver):
         worst = 0.0
 
         def frames(self, count: int = 1, ms: int = 25) -> None:
@@ -122,12 +122,12 @@ def peak_mib() -> float:
 
 def measure_memory(run: Path, edits: int) -> bool:
     """Print the peak of the memory; whether it is above its limit, or an edit could not be taken back."""
-    from tests.support.bench_driver import BenchDriver
-    from tests.support.bench_edits import edit_at_random, use_at_random
+    from tests.support.tas_driver import TasDriver
+    from tests.support.tas_edits import edit_at_random, use_at_random
 
     rng = Random(1)
-    at = BenchDriver(run.parent / "player", run)
-    session, first = at.session, at.session.take
+    at = TasDriver(run.parent / "player", run)
+    session, first = at.session, at.session.track
     print(f"{peak_mib():7.0f} MiB  opened")
     for number in range(edits):
         if number % 10:
@@ -139,7 +139,7 @@ def measure_memory(run: Path, edits: int) -> bool:
     while session.undo():
         undone += 1
     print(f"{peak_mib():7.0f} MiB  after {undone} were taken back")
-    back = session.take == first
+    back = session.track == first
     session.close()
     at.close()
     return not back or peak_mib() > MOST_MIB

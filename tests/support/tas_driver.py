@@ -1,4 +1,4 @@
-"""Somebody at the bench, with mouse and keys."""
+"""Somebody at the TAS editor, with mouse and keys."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ from tests.support.menu_driver import MenuDriver, ScriptedKeys
 from tests.support.waiting import LONGEST
 
 
-class BenchDriver(MenuDriver):
-    """A run on the bench, alone in its window."""
+class TasDriver(MenuDriver):
+    """A run on the TAS editor, alone in its window."""
 
     def __init__(self, folder: Path, run: Path, size: tuple[int, int] = (792, 600)) -> None:
         self.keys = ScriptedKeys()
         self.keys.script = []
         self.app = build_app(folder, size=size, controls=self.keys)
         self.screen = TasScreen(self.app, open_run(run))
-        self.bench = self.screen.bench
+        self.editor = self.screen.editor
         self.session = self.screen.session
         self.app.push(self.screen)
         self.frames(2)
 
     @classmethod
-    def over(cls, driver: MenuDriver, run: Path, beside: Sequence[Recording] = ()) -> BenchDriver:
+    def over(cls, driver: MenuDriver, run: Path, beside: Sequence[Recording] = ()) -> TasDriver:
         """The same over the screens of a program that runs already."""
         made = cls.__new__(cls)
         made.keys, made.app = driver.keys, driver.app
@@ -43,10 +43,10 @@ class BenchDriver(MenuDriver):
         return made
 
     def adopt(self) -> None:
-        """Go on at the bench on top: it has taken the first one's place."""
+        """Go on at the TAS editor on top: it has taken the first one's place."""
         assert isinstance(self.app.top, TasScreen)
         self.screen = self.app.top
-        self.bench, self.session = self.screen.bench, self.screen.session
+        self.editor, self.session = self.screen.editor, self.screen.session
 
     def event(self, kind: int, x: float = 0, y: float = 0, **more: object) -> None:
         """A mouse event at a logical point, and a picture."""
@@ -65,7 +65,7 @@ class BenchDriver(MenuDriver):
 
     def keys_down(self, first: int, last: int) -> list[int]:
         """The keys of the ticks ``first`` … ``last`` - 1."""
-        return [self.bench.take.keys_at(tick) for tick in range(first, last)]
+        return [self.editor.track.keys_at(tick) for tick in range(first, last)]
 
     def cell(self, tick: int, column: str) -> tuple[float, float]:
         """The middle of a cell of the roll, which may be beyond its edges; a logical point."""
@@ -110,7 +110,7 @@ class BenchDriver(MenuDriver):
 
     def straight_digest(self, tick: int) -> str:
         """Of the world after a tick of the run, run from its start."""
-        about, inputs = self.session.about, self.bench.take.inputs
+        about, inputs = self.session.about, self.editor.track.inputs
         run = Simulation(about.level, body=about.body)
         for each in range(tick + 1):
             run.step_keys(inputs[each] if each < len(inputs) else 0)

@@ -19,10 +19,10 @@ from ninja_game.play.tas.roll.rows import RowSheet
 from ninja_game.play.tas.tabs.lead_tab import LeadTab
 from ninja_game.play.ui.lettering import Lettering
 from ninja_game.search.formula.task import Found, SpanTask
-from tests.support.bench_driver import BenchDriver
 from tests.support.draw_log import DrawLog, Note, _at
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
+from tests.support.tas_driver import TasDriver
 
 RUN = PACK / "certificates" / "00-4-locksmith.exit.replay.txt"
 
@@ -48,7 +48,7 @@ class _Sheet(pygame.Surface):
         return super().blit(source, dest, *more)
 
 
-class BenchLog(DrawLog):
+class TasLog(DrawLog):
     """Notes what the TAS editor draws, too, and what is drawn right into the window.
 
     Pictures that are kept from one redraw to the next, the rows of a roll and the paths of runs, are drawn again.
@@ -144,7 +144,7 @@ def tas_editor(driver: MenuDriver) -> Iterator[str]:
     """The names of the states, one after the other; in the end the screen below is shown again."""
     run = Path(copy(RUN, driver.player.folder / "locksmith.replay.txt"))
     with patch("ninja_game.play.tas.tabs.span_results.SpanSearch", FixedSearch):
-        at = BenchDriver.over(driver, run)
+        at = TasDriver.over(driver, run)
         yield "tas"
         yield from _edits(at)
         yield from _level(at)
@@ -153,8 +153,8 @@ def tas_editor(driver: MenuDriver) -> Iterator[str]:
         at.press("escape")
         at.choose("Leave")
         yield "tas-leave-unsaved"
-        at.choose("Leave it unsaved")
-    waiting = OpeningScreen(driver.app, at.session.recording(at.bench.take, "Locksmith"), lambda: at.screen)
+        at.choose("Discard changes")
+    waiting = OpeningScreen(driver.app, at.session.recording(at.editor.track, "Locksmith"), lambda: at.screen)
     waiting._thread.join()
     waiting.update = Mock()  # type: ignore[method-assign]
     driver.app.push(waiting)
@@ -166,7 +166,7 @@ def tas_editor(driver: MenuDriver) -> Iterator[str]:
     driver.app.pop()
 
 
-def _edits(at: BenchDriver) -> Iterator[str]:
+def _edits(at: TasDriver) -> Iterator[str]:
     """Keys that are changed, selected, named, behind the end, not simulated, beside those of another run."""
     at.press("end")
     at.frames(2)
@@ -174,21 +174,21 @@ def _edits(at: BenchDriver) -> Iterator[str]:
     at.press("end")
     at.frames(2)
     yield "tas-behind-the-end"
-    other = at.bench.take.replaced(60, 66, [1] * 4).replaced(300, 300, [2] * 12)
-    at.bench.select(105, 112)
+    other = at.editor.track.replaced(60, 66, [1] * 4).replaced(300, 300, [2] * 12)
+    at.editor.select(105, 112)
     at.press("z")
-    at.bench.select(96, 101)
+    at.editor.select(96, 101)
     at.press("delete")
-    at.bench.edit(lambda take: take.named(98, "the ledge").named(140, "keys"))
+    at.editor.edit(lambda track: track.named(98, "the ledge").named(140, "keys"))
     at.frames(2)
     yield "tas-edited"
     at.screen.level.others.open([at.session.recording(other, "Somebody else")])
-    at.bench.select(60, 70)
+    at.editor.select(60, 70)
     at.frames(2)
     yield "tas-another-run-beside"
-    at.bench.select(200, 201)
-    at.session.change(at.bench.take.replaced(201, 205, [0] * 4), ticks=0)
-    at.bench.go(230)
+    at.editor.select(200, 201)
+    at.session.change(at.editor.track.replaced(201, 205, [0] * 4), ticks=0)
+    at.editor.go(230)
     yield "tas-not-simulated"
     at.frames(60)
     at.chord("z", pygame.KMOD_LCTRL)
@@ -201,9 +201,9 @@ def _edits(at: BenchDriver) -> Iterator[str]:
     at.session.journal.problem = ""
 
 
-def _level(at: BenchDriver) -> Iterator[str]:
+def _level(at: TasDriver) -> Iterator[str]:
     """What is pointed at, played, taken over."""
-    at.bench.go(100)
+    at.editor.go(100)
     at.frames(2)
     part = at.screen.level
     x, y = part.picture.canvas.point(*at.session.timeline.positions[118])
@@ -221,7 +221,7 @@ def _level(at: BenchDriver) -> Iterator[str]:
     at.frames(7)
     yield "tas-playing"
     at.press("space")
-    at.bench.go(100)
+    at.editor.go(100)
     at.press("return")
     at.frames(2)
     yield "tas-take-over-waiting"
@@ -232,7 +232,7 @@ def _level(at: BenchDriver) -> Iterator[str]:
     yield "tas-take-over-still"
     at.press("return")
     at.chord("z", pygame.KMOD_LCTRL)
-    at.bench.edit(lambda take: take.replaced(100, len(take), [2] * 300))
+    at.editor.edit(lambda track: track.replaced(100, len(track), [2] * 300))
     at.frames(2)
     at.press("end")
     at.frames(20)
@@ -240,10 +240,10 @@ def _level(at: BenchDriver) -> Iterator[str]:
     at.chord("z", pygame.KMOD_LCTRL)
 
 
-def _tabs(at: BenchDriver) -> Iterator[str]:
+def _tabs(at: TasDriver) -> Iterator[str]:
     """Values, branches, lead and search, with nothing in them and with something."""
     values, branches, lead, search = at.screen.tabs
-    at.bench.select(100, 130)
+    at.editor.select(100, 130)
     at.frames(2)
     x, y, _, _ = values.list.row_area(1)  # type: ignore[attr-defined]
     at.event(pygame.MOUSEMOTION, x + 5, y + 5)
@@ -262,21 +262,21 @@ def _tabs(at: BenchDriver) -> Iterator[str]:
         if name == "first try":
             yield "tas-keep-a-branch"
         at.choose("Keep")
-        at.bench.edit(lambda take: take.replaced(20, 20, [0] * 9))
+        at.editor.edit(lambda track: track.replaced(20, 20, [0] * 9))
         at.frames(2)
     yield "tas-branches"
     at.choose("Drop")
     yield "tas-drop-a-branch"
     at.press("escape")
-    for name, take in (("ahead", at.session.branches.all[0].take), ("behind", None)):
+    for name, track in (("ahead", at.session.branches.all[0].track), ("behind", None)):
         assert isinstance(lead, LeadTab)
-        at.bench.against = take
+        at.editor.against = track
         if name == "behind":
-            first = at.session.branches.all[0].take
-            at.bench.against, at.bench.places = at.bench.take, at.bench.places
-            at.bench.edit(lambda _, first=first: first)  # type: ignore[misc]
+            first = at.session.branches.all[0].track
+            at.editor.against, at.editor.places = at.editor.track, at.editor.places
+            at.editor.edit(lambda _, first=first: first)  # type: ignore[misc]
             at.session.keep_branch("third try")
-            at.bench.against = at.session.branches.all[1].take
+            at.editor.against = at.session.branches.all[1].track
         at.screen.show_tab(lead)
         at.frames(20)
         lead._job.finish()
@@ -285,7 +285,7 @@ def _tabs(at: BenchDriver) -> Iterator[str]:
     at.screen.show_tab(search)
     at.frames(2)
     yield "tas-search-empty"
-    at.bench.select(100, 130)
+    at.editor.select(100, 130)
     at.press("f")
     at.write("x > 300")
     at.press("return")
@@ -299,12 +299,12 @@ def _tabs(at: BenchDriver) -> Iterator[str]:
     yield "tas-search-problem"
     search.results.search.problem = ""  # type: ignore[attr-defined]
     at.press("escape")
-    at.bench.edit(lambda take: take.replaced(10, 12, [4, 4]))
+    at.editor.edit(lambda track: track.replaced(10, 12, [4, 4]))
     at.frames(2)
     yield "tas-search-run-changed"
 
 
-def _panels(at: BenchDriver) -> Iterator[str]:
+def _panels(at: TasDriver) -> Iterator[str]:
     """What lies over it."""
     for key, name in (("f1", "help"), ("escape", "menu"), ("v", "watch"), ("m", "marker")):
         at.press(key)

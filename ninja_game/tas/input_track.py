@@ -14,7 +14,7 @@ from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, MAX_TICKS, pressed
 
 
 @dataclass(frozen=True)
-class Take:
+class InputTrack:
     """``inputs``: one byte a tick, the sum of its ``Input`` flags; in ticks beyond them no key is down.
 
     The jump triggers where the key goes down. A recording that is odd there (``Input.JUMP_PRESSED`` without the key, or
@@ -31,7 +31,7 @@ class Take:
         """The keys that are down in a tick, a sum of left, right and jump."""
         return self.inputs[tick] & KEYS_DOWN if 0 <= tick < len(self.inputs) else 0
 
-    def replaced(self, first: int, last: int, keys: Sequence[int]) -> Take:
+    def replaced(self, first: int, last: int, keys: Sequence[int]) -> InputTrack:
         """Other keys instead of the ticks ``first`` … ``last`` - 1; what follows moves if they are more or fewer.
 
         All edits are this one. Where the run ends before ``first``, ticks without a key are put between. Markers of
@@ -50,7 +50,7 @@ class Take:
         after = bytearray(self.inputs[last:])
         if after:
             after[0] = self._joined(last, held)
-        return Take(before + bytes(made) + bytes(after), self._markers_after(first, last, len(made)))
+        return InputTrack(before + bytes(made) + bytes(after), self._markers_after(first, last, len(made)))
 
     def _joined(self, tick: int, held: int) -> int:
         """A tick behind an edit: it triggers as the keys say, unless it was odd before."""
@@ -67,14 +67,14 @@ class Take:
                 kept.append(Marker(tick, name))
         return tuple(kept)
 
-    def with_key(self, first: int, last: int, key: int, *, down: bool) -> Take:
+    def with_key(self, first: int, last: int, key: int, *, down: bool) -> InputTrack:
         """A key down, or up, in the ticks ``first`` … ``last`` - 1. The run grows if it ends before them."""
         if last > MAX_TICKS:
             raise ArgumentError(f"a run has at most {MAX_TICKS} ticks")
         keys = [self.keys_at(tick) | key if down else self.keys_at(tick) & ~key for tick in range(first, last)]
         return self.replaced(first, last, keys)
 
-    def named(self, tick: int, name: str) -> Take:
+    def named(self, tick: int, name: str) -> InputTrack:
         """With another name for a tick, blanks as '-'; '': without one. The run grows if it ends before the tick.
 
         Raises ReplayError for a name that replay texts cannot hold, ArgumentError for a tick that there cannot be.
@@ -85,10 +85,10 @@ class Take:
             raise ArgumentError(f"a run has at most {MAX_TICKS} ticks")
         others = [marker for marker in self.markers if marker.tick != tick and marker.name != name]
         if not name:
-            return Take(self.inputs, tuple(others))
-        return Take(self.inputs.ljust(tick, b"\0"), tuple(sorted([*others, Marker(tick, name)])))
+            return InputTrack(self.inputs, tuple(others))
+        return InputTrack(self.inputs.ljust(tick, b"\0"), tuple(sorted([*others, Marker(tick, name)])))
 
-    def first_difference(self, other: Take) -> int:
+    def first_difference(self, other: InputTrack) -> int:
         """The first tick whose input differs; the length of the shorter one if none does."""
         return first_difference(self.inputs, other.inputs)
 

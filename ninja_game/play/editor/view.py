@@ -1,4 +1,4 @@
-"""The desk: the level in the middle, panels around it, and what of them has to be drawn again."""
+"""The editor's picture: the level in the middle, panels around it, and what of them has to be drawn again."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ninja_game.play.app import App
 
 
-class Layout(NamedTuple):
+class EditorLayout(NamedTuple):
     """Where things are, px of the stage."""
 
     level: Area = (6, 30, 602, 456)
@@ -33,10 +33,10 @@ class Layout(NamedTuple):
     status: Area = (0, 579, 792, 21)
 
 
-DESK = Layout()
+LAYOUT = EditorLayout()
 
 
-class Desk:
+class EditorView:
     """What is seen. ``stale``: the panels are to be drawn again; ``moved``: the pointer is somewhere else."""
 
     def __init__(self, app: App, session: EditorSession) -> None:
@@ -55,17 +55,17 @@ class Desk:
         self._marked: tuple[object, ...] = ()
         self._lay_out()
 
-    def _wanted_look(self) -> tuple[object, ...]:
+    def render_key(self) -> tuple[object, ...]:
         return self.app.canvas, self.app.theme.palette.name
 
     def _lay_out(self) -> None:
         canvas = self.app.canvas
-        x, y, w, h = DESK.level
+        x, y, w, h = LAYOUT.level
         self.sheet = LevelSheet(canvas.rect(x, y, w, h).size, self.app.theme.palette)
         self.overlay = Overlay(self.sheet, canvas.point(x, y))
         self.sheet.show(self.session.draft)
         self.sheet.show_grid(self.grid.lines())
-        self._look = self._wanted_look()
+        self._look = self.render_key()
         self._marked = ()
 
     def next_grid(self) -> None:
@@ -79,12 +79,12 @@ class Desk:
         self, surface: pygame.Surface, widgets: Sequence[Widget], focus: Widget | None, *, whole: bool
     ) -> list[pygame.Rect] | None:
         """Draw what has changed; the px that did, None for all."""
-        if self._look != self._wanted_look():
+        if self._look != self.render_key():
             self._lay_out()
             whole = True
-        bench = self.session.bench
-        if bench.draft is not self.sheet.draft:
-            self.sheet.show(bench.draft)
+        tools = self.session.tools
+        if tools.draft is not self.sheet.draft:
+            self.sheet.show(tools.draft)
         self._follow_marks()
         dirty = self.sheet.paint()
         changed = []
@@ -95,7 +95,7 @@ class Desk:
         elif dirty or self.stale or self.moved:
             changed = self.overlay.restore(surface, dirty)
         if whole or changed or self.stale or self.moved:
-            changed = changed + list(self.overlay.draw(surface, bench, hovering=self.hovering))
+            changed = changed + list(self.overlay.draw(surface, tools, hovering=self.hovering))
         if self.stale:
             changed += self._draw_panels(surface, widgets, focus)
         if self.stale or self.moved:
@@ -112,7 +112,7 @@ class Desk:
         stale = certifier.is_stale(session.draft.level)
         wanted = (
             session.draft.objects, self.lines, self.paths, session.last_try, certifier.route, stale,
-            session.findings, session.bench.symmetry,
+            session.findings, session.tools.symmetry,
         )  # fmt: skip
         if len(wanted) == len(self._marked) and all(a is b for a, b in zip(wanted, self._marked, strict=True)):
             return
@@ -121,7 +121,7 @@ class Desk:
         routes.append((certifier.route, palette.faint if stale else palette.good))
         marks = level_marks(
             self.sheet.canvas, palette, session.draft, self.sheet.marks, lines=self.lines, signs=self._signs(),
-            routes=routes if self.paths else (), axes=_AXES.get(session.bench.symmetry, ()),
+            routes=routes if self.paths else (), axes=_AXES.get(session.tools.symmetry, ()),
         )  # fmt: skip
         self.sheet.show_marks(marks)
 
@@ -137,9 +137,9 @@ class Desk:
         canvas, theme = self.app.canvas, self.app.theme
         rects = [canvas.fill_rect(surface, theme.palette.tile, 0, 0, 792, 30)]
         rects.append(canvas.fill_rect(surface, theme.palette.tile, 610, 30, 182, 548))
-        x, y, w, h = DESK.findings
+        x, y, w, h = LAYOUT.findings
         rects.append(canvas.fill_rect(surface, theme.palette.panel, x, y, w, h, 3))
-        px, py, pw, ph = DESK.properties
+        px, py, pw, ph = LAYOUT.properties
         canvas.fill_rect(surface, theme.palette.background, px - 4, py - 5, pw + 6, ph + 2, 3)
         for widget in widgets:
             widget.draw(surface, theme, focused=widget is focus)
@@ -149,7 +149,7 @@ class Desk:
     def _draw_file(self, surface: pygame.Surface) -> pygame.Rect:
         """The level's name and file, and how far the solver is."""
         canvas, theme, palette, session = self.app.canvas, self.app.theme, self.app.theme.palette, self.session
-        x, y, w, h = DESK.file
+        x, y, w, h = LAYOUT.file
         rect = canvas.fill_rect(surface, palette.panel, x - 4, y, w + 6, h, 3)
         theme.text(surface, session.name, x, y + 5, size=11, bold=True, width=w)
         file = session.source.path.name if session.source.path else "no file yet"
@@ -173,14 +173,14 @@ class Desk:
     def _draw_status(self, surface: pygame.Surface) -> pygame.Rect:
         """Where the pointer is, and what to do."""
         canvas, theme, palette = self.app.canvas, self.app.theme, self.app.theme.palette
-        bench = self.session.bench
-        rect = canvas.fill_rect(surface, palette.tile, *DESK.status)
-        (column, row), (x, y) = bench.cell, bench.pointer
-        top = DESK.status[1] + 5
+        tools = self.session.tools
+        rect = canvas.fill_rect(surface, palette.tile, *LAYOUT.status)
+        (column, row), (x, y) = tools.cell, tools.pointer
+        top = LAYOUT.status[1] + 5
         theme.text(surface, f"{column},{row}", 8, top, size=9.5, colour=palette.on_tile)
         theme.text(surface, f"{x:.0f},{y:.0f} px", 58, top, size=9.5, colour=palette.on_tile)
-        text = "Click where the switch is; Esc gives up" if bench.placing_switch else self.hint
-        tool = "brush" if bench.tool == "rectangle" and bench.draws_one else bench.tool
+        text = "Click where the switch is; Esc gives up" if tools.placing_switch else self.hint
+        tool = "brush" if tools.tool == "rectangle" and tools.draws_one else tools.tool
         theme.text(surface, text or _TOOL_HINTS[tool], 140, top, size=9.5, colour=palette.on_tile, width=640)
         return rect
 

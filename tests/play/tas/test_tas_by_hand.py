@@ -15,12 +15,12 @@ from ninja_game.formats.n14.level_string import parse_level_string, write_level_
 from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import KEY_LEFT, Demo, with_press_bits
 from ninja_game.sim.level import Level
+from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.journal import FOLDER, read_journal
-from ninja_game.tas.take import Take
 from tests.play.tas.conftest import RUN
 from tests.support import reference
-from tests.support.bench_driver import BenchDriver
 from tests.support.real_window import NEEDS_WINDOW, TIMEOUT, Player, virtual_screen
+from tests.support.tas_driver import TasDriver
 from tests.support.waiting import LONGEST
 
 DELAYS = (30, 45, 60)
@@ -66,33 +66,33 @@ def written(path: Path, author: str, level: Level, inputs: bytes) -> Path:
 
 
 class Runner(Player):
-    """Someone at the bench, whose edits are seen in the journal."""
+    """Someone at the TAS editor, whose edits are seen in the journal."""
 
     def play(self, key: str) -> None:
         """Take over, and hold a key until it is in the run."""
         self.press("Return")
 
         self.tool("keydown", key)
-        self.wait_for(lambda: self.take() is not None, "tick that was played")
+        self.wait_for(lambda: self.track() is not None, "tick that was played")
         self.tool("keyup", key)
         self.press("Return")
         self.catch_up()
 
-    def take(self) -> Take | None:
+    def track(self) -> InputTrack | None:
         """The run after the last edit; None before the first."""
         for file in (self.home / FOLDER).glob("*.jsonl"):
             found = read_journal(file)
-            return (found.opened.take, *found.takes)[-1]
+            return (found.opened.track, *found.tracks)[-1]
         return None
 
-    def edit(self, *keys: str) -> Take:
+    def edit(self, *keys: str) -> InputTrack:
         """Press keys that change the run; what it is then."""
-        before = self.take()
+        before = self.track()
         self.press(*keys)
-        self.wait_for(lambda: self.take() != before, f"edit by {keys}")
-        take = self.take()
-        assert take is not None
-        return take
+        self.wait_for(lambda: self.track() != before, f"edit by {keys}")
+        track = self.track()
+        assert track is not None
+        return track
 
 
 def test_a_speedrun_is_made_shorter_by_hand(tmp_path: Path, root: Path) -> None:
@@ -100,11 +100,11 @@ def test_a_speedrun_is_made_shorter_by_hand(tmp_path: Path, root: Path) -> None:
     file = written(tmp_path / "mine.txt", "a person", level, mine)
     other = written(tmp_path / "theirs.txt", "a tool", level, theirs)
     opened = load_replays(file)[0].replay.playback(10**4).rstrip(b"\0")
-    places = BenchDriver(tmp_path / "places", file)
+    places = TasDriver(tmp_path / "places", file)
     cell = places.cell(8, "left")
     places.press("f")
     places.frames(2)
-    what_for, start = places.button("What for ...").centre, places.button("Start").centre
+    what_for, start = places.button("Presets").centre, places.button("Start").centre
     left, top, _, _ = places.screen.tab.list.area  # type: ignore[attr-defined]
     places.close()
     with virtual_screen() as display:
@@ -117,9 +117,9 @@ def test_a_speedrun_is_made_shorter_by_hand(tmp_path: Path, root: Path) -> None:
             runner.play(key)
             assert runner.edit("ctrl+z").inputs.rstrip(b"\0") == opened
             # A click changes a key.
-            before = runner.take()
+            before = runner.track()
             runner.drag(cell)
-            runner.wait_for(lambda: runner.take() != before, "edit by the mouse")
+            runner.wait_for(lambda: runner.track() != before, "edit by the mouse")
             runner.edit("ctrl+z")
             # Splice: everything from the other run.
             spliced = runner.edit("ctrl+a", "ctrl+p")
@@ -137,10 +137,10 @@ def test_a_speedrun_is_made_shorter_by_hand(tmp_path: Path, root: Path) -> None:
                 def a_result_is_in_the_run() -> bool:
                     runner.drag((left + 150, top + 8))
                     runner.catch_up()
-                    return runner.take() != delayed
+                    return runner.track() != delayed
 
                 runner.wait_for(a_result_is_in_the_run, "result of the search", seconds=LONGEST)
-                found = runner.take()
+                found = runner.track()
                 assert found is not None
                 assert exit_tick(level, found.inputs) < slow
                 slow = exit_tick(level, found.inputs)

@@ -1,7 +1,7 @@
-"""Kill the bench at random moments of editing and saving: at most the last edit may be lost, and never a file.
+"""Kill the TAS editor at random moments of editing and saving: at most the last edit may be lost, and never a file.
 
-    python3 tools/dev.py tool soak.bench_kills --kills 100
-    python3 tools/dev.py tool soak.bench_kills --kills 100 --what window
+    python3 tools/dev.py tool soak.tas_kills --kills 100
+    python3 tools/dev.py tool soak.tas_kills --kills 100 --what window
 
 A child process opens a run in the player's folder, continues with what the last one left, edits, saves now and then,
 and says after each edit what the run is. It is killed (SIGKILL) after a random time, also in the middle of a stroke.
@@ -22,11 +22,11 @@ from random import Random
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.locking import hold
 from ninja_game.tas.files import open_run
+from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.journal import FOLDER, recovered
 from ninja_game.tas.session import Session
-from ninja_game.tas.take import Take
-from tests.support.bench_edits import edit_at_random, use_at_random
 from tests.support.samples import replay_of_walk
+from tests.support.tas_edits import edit_at_random, use_at_random
 from tools.soak.killing import PATIENCE, life, run_kills
 
 LONGEST_LIFE = 0.05
@@ -38,9 +38,9 @@ MOST_WORDS = 20
 RUN = "walk.replay.txt"
 
 
-def digest(take: Take) -> str:
+def digest(track: InputTrack) -> str:
     """Of keys and names; ticks without a key at the end do not count: a saved file may leave them out."""
-    return sha256(take.inputs.rstrip(b"\0") + repr(take.markers).encode()).hexdigest()
+    return sha256(track.inputs.rstrip(b"\0") + repr(track.markers).encode()).hexdigest()
 
 
 def opened(folder: Path) -> Session:
@@ -64,11 +64,11 @@ def await_locks(folder: Path) -> None:
 
 def say_and_save(session: Session, rng: Random, pipe: Connection) -> None:
     """Say what the run is; now and then save it."""
-    pipe.send(("edited", digest(session.take), 0))
+    pipe.send(("edited", digest(session.track), 0))
     if rng.random() < 0.05:
-        pipe.send(("about", digest(session.take), 0))
+        pipe.send(("about", digest(session.track), 0))
         session.save(session.file.path or Path(), replacing=True)
-        pipe.send(("saved", digest(session.take), 0))
+        pipe.send(("saved", digest(session.track), 0))
 
 
 def edit(folder: str, seed: int, pipe: Connection) -> None:
@@ -81,13 +81,13 @@ def edit(folder: str, seed: int, pipe: Connection) -> None:
 
 
 def edit_in_window(folder: str, seed: int, pipe: Connection) -> None:
-    """The whole program: the bench with its own keys and mouse."""
-    from tests.support.bench_driver import BenchDriver
+    """The whole program: the TAS editor with its own keys and mouse."""
+    from tests.support.tas_driver import TasDriver
 
     rng = Random(seed)
-    at = BenchDriver(Path(folder), Path(folder) / RUN)
+    at = TasDriver(Path(folder), Path(folder) / RUN)
     if at.top() is not at.screen:
-        at.choose("Go on with it")
+        at.choose("Recover")
         at.adopt()
     while True:
         use_at_random(at, rng)
@@ -109,7 +109,7 @@ def kill_test(
         if number % 10 == 0:
             home.mkdir(parents=True)
             (home / RUN).write_text(replay_of_walk(), "utf-8")
-            last = digest(open_run(home / RUN).take)
+            last = digest(open_run(home / RUN).track)
             saved = {last}
         words, seconds = rng.randrange(1, MOST_WORDS + 1), rng.random() * LONGEST_LIFE
         facts = life(PLAYERS[what], home, rng.randrange(2**31), seconds, words=words)
@@ -121,10 +121,10 @@ def kill_test(
         await_locks(home)
         try:
             session = opened(home)
-            last = digest(session.take)
+            last = digest(session.track)
             session.close(keep=True)
             lost = said[::-1].index(last) if last in said else 0
-            in_file = digest(open_run(home / RUN).take)
+            in_file = digest(open_run(home / RUN).track)
         except (NinjaGameError, OSError) as error:
             wrong.append(f"kill {number + 1}: {error}")
             continue
@@ -133,7 +133,7 @@ def kill_test(
         if in_file not in saved:
             wrong.append(f"kill {number + 1}: the file is not as it was saved")
         if not any(kind == "edited" for kind, _, _ in facts):
-            wrong.append(f"kill {number + 1}: the bench did not start")
+            wrong.append(f"kill {number + 1}: the TAS editor did not start")
         if report and (number + 1) % 10 == 0:
             print(*wrong, f"{number + 1} kills, {told} edits, {len(wrong)} things wrong", sep="\n", flush=True)
     return told, wrong

@@ -1,4 +1,4 @@
-"""What all parts of the bench share: the session, the tick under the cursor, the selected ticks, other runs."""
+"""What all parts of the TAS editor share: the session, the tick under the cursor, the selected ticks, other runs."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.play.ui.theme import Theme
-from ninja_game.tas.course import Course
+from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.session import Session
-from ninja_game.tas.take import Take
+from ninja_game.tas.timeline import Trajectory
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
@@ -25,26 +25,26 @@ Span = tuple[int, int]
 
 @dataclass(frozen=True)
 class OtherRun:
-    """A run that is shown beside the one under edit. ``course``: what its ninja does."""
+    """A run that is shown beside the one under edit. ``trajectory``: what its ninja does."""
 
     name: str
-    take: Take
-    course: Course = field(repr=False)
+    track: InputTrack
+    trajectory: Trajectory = field(repr=False)
 
     @property
     def positions(self) -> NDArray[np.float64]:
         """The ninja after each tick: float64 (ticks, 2), px."""
-        return self.course.positions
+        return self.trajectory.positions
 
 
-class Bench:
+class TasEditor:
     """``cursor``: the tick whose row is the present one; the level is shown as it is after that tick.
 
     ``anchor``: where a selection began; None: only the tick under the cursor is selected. ``others``: runs that were
     opened beside this one; ``chosen``: the number of the one that parts are taken from, where there are any.
     ``preview``: a result of a search that is looked at. ``tab``: the name of the tab that is to be shown.
     ``against``: the run that the lead is told over; None: the run as it was opened.
-    ``theme``: the look of all parts, in the bench's own logical px, which are not those of other screens.
+    ``theme``: the look of all parts, in the TAS editor's own logical px, which are not those of other screens.
     ``places``: cursor and anchor when the selected ticks of a run were edited, for undo.
     ``hint``: of what is under the mouse, for the line below. ``ask_to_watch``: proposes a formula to be watched.
     """
@@ -60,15 +60,15 @@ class Bench:
         self.ghosts = True
         self.preview: OtherRun | None = None
         self.tab = "Values"
-        self.against: Take | None = None
+        self.against: InputTrack | None = None
         self.hint = ""
         self.ask_to_watch: Callable[[str], object] = lambda _: None
-        self.places: WeakKeyDictionary[Take, tuple[int, int | None]] = WeakKeyDictionary()
+        self.places: WeakKeyDictionary[InputTrack, tuple[int, int | None]] = WeakKeyDictionary()
 
     @property
-    def take(self) -> Take:
+    def track(self) -> InputTrack:
         """The run as it is now."""
-        return self.session.take
+        return self.session.track
 
     @property
     def selection(self) -> Span:
@@ -105,11 +105,11 @@ class Bench:
             self.anchor = min(self.anchor, self.last_tick)
         return True
 
-    def edit(self, make: Callable[[Take], Take]) -> bool:
+    def edit(self, make: Callable[[InputTrack], InputTrack]) -> bool:
         """Change the run as a function of what it is; a refusal is reported. Whether it was done."""
-        return self.attempt(lambda: self.session.change(make(self.take)))
+        return self.attempt(lambda: self.session.change(make(self.track)))
 
-    def edit_selected(self, make: Callable[[Take], Take]) -> bool:
+    def edit_selected(self, make: Callable[[InputTrack], InputTrack]) -> bool:
         """Change the selected ticks; undo selects them again. Whether it was done."""
-        self.places[self.take] = self.cursor, self.anchor
+        self.places[self.track] = self.cursor, self.anchor
         return self.edit(make)
