@@ -11,7 +11,7 @@ from ninja_game.cli.learn import demos, eval, train  # noqa: A004 - the command'
 def command() -> None:
     """Make demonstrations for learning agents, train agents, and measure them.
 
-    It needs Gymnasium, the extra 'learn'. docs/learning.md tells how to learn with it.
+    It needs Gymnasium, the extra 'learn'. docs/learning.md explains how.
 
     \b
     Examples:

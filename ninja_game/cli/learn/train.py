@@ -33,12 +33,18 @@ LEVELS = (
     help="Stop after N steps of all worlds together instead: with the same seed always the same agent.",
 )  # fmt: skip
 @click.option(
-    "--seed", type=click.IntRange(0, 999_999), default=0, show_default=True, help="Of all that is left to chance."
+    "--seed", type=click.IntRange(0, 999_999), default=0, show_default=True, help="Seed of all random choices."
 )
-@click.option("--worlds", type=click.IntRange(1, 10**5), default=1024, show_default=True, help="Worlds at a time.")
+@click.option(
+    "--worlds",
+    type=click.IntRange(1, 10**5),
+    default=1024,
+    show_default=True,
+    help="Number of worlds that play in parallel.",
+)
 @click.option(
     "--out", "-o", "output", metavar="FILE", type=click.Path(dir_okay=False, path_type=Path),
-    help="Where the best agent so far is kept. [default: agent.npz, or agent-1.npz ..., in the current folder]",
+    help="Where to keep the best agent so far. [default: agent.npz, or agent-1.npz ..., in the current folder]",
 )  # fmt: skip
 def command(levels: Sequence[str], seconds: float, steps: int, seed: int, worlds: int, output: Path | None) -> None:
     """Teach an agent some levels, by proximal policy optimisation on many worlds at a time.

@@ -88,7 +88,7 @@ def load_policy(path: Path) -> PolicyAgent:
         _check(agent)
     except (*UNREADABLE, ArgumentError) as error:
         raise FileError(
-            "no agent that `ninja-game learn train` made", file=str(path), found=str(error)[:100]
+            "not an agent that `ninja-game learn train` made", file=str(path), found=str(error)[:100]
         ) from error
     return agent
 

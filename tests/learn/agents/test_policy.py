@@ -75,7 +75,7 @@ def changed(path: Path, **arrays: object) -> Path:
     ids=str,
 )
 def test_a_file_that_holds_no_agent_is_named(tmp_path: Path, arrays: dict[str, object]) -> None:
-    with pytest.raises(FileError, match=r"agent\.npz: (no agent|an agent of another format)"):
+    with pytest.raises(FileError, match=r"agent\.npz: (not an agent|an agent of another format)"):
         load_policy(changed(tmp_path / "agent.npz", **arrays))
 
 
@@ -112,7 +112,7 @@ def test_what_an_array_claims_is_checked_before_memory_is_made(
     # The zeros of the test itself come before.
     tracemalloc.start()
     try:
-        with pytest.raises(FileError, match=f"no agent .*{why}"):
+        with pytest.raises(FileError, match=f"not an agent .*{why}"):
             load_policy(path)
         assert tracemalloc.get_traced_memory()[1] < 2**23
     finally:
@@ -131,14 +131,14 @@ def test_what_an_array_claims_is_checked_before_memory_is_made(
     ids=lambda text: text[-40:],
 )
 def test_texts_that_make_no_settings_are_named(tmp_path: Path, about: str) -> None:
-    with pytest.raises(FileError, match="no agent"):
+    with pytest.raises(FileError, match="not an agent"):
         load_policy(changed(tmp_path / "agent.npz", about=np.array(about)))
 
 
 @pytest.mark.parametrize("content", [b"", b"text", b"PK\x03\x04 torn"])
 def test_other_files_are_named(tmp_path: Path, content: bytes) -> None:
     (tmp_path / "agent.npz").write_bytes(content)
-    with pytest.raises(FileError, match=r"agent\.npz: no agent"):
+    with pytest.raises(FileError, match=r"agent\.npz: not an agent"):
         load_policy(tmp_path / "agent.npz")
 
 

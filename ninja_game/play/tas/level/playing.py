@@ -1,4 +1,4 @@
-"""The run plays in the bench: from the cursor on, at any speed, and the cursor goes along."""
+"""The run plays in the bench: from the cursor on, at any speed, and the cursor follows."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Playing:
             self.toggle()
 
     def change_speed(self, by: int) -> None:
-        """Faster or slower by so many steps."""
+        """Faster or slower by this many steps."""
         self.speed = min(len(SPEEDS) - 1, max(0, self.speed + by))
         self.clock.reset()
 
