@@ -16,7 +16,7 @@ docs/python-api.md describes them all.
 
 from __future__ import annotations
 
-from ninja_game.environments import register_with_gymnasium
+import sys
 
 # Every import here is time in which the program does not handle signals yet; `typing` is the longest of them.
 TYPE_CHECKING = False
@@ -107,4 +107,6 @@ def __getattr__(name: str) -> Any:
     return value
 
 
-register_with_gymnasium()
+# `gymnasium.make("ninja_game:Ninja-v0")` imports this module for the ids, which that one registers.
+if sys.modules.get("gymnasium"):
+    __import__("ninja_game.learn")
