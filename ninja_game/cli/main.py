@@ -45,7 +45,6 @@ GROUPS = {
         "trace": "Show every tick of recordings: position, velocity, state, events.",
         "splits": "Show when runs take gold, open doors and the exit, and end.",
         "compare": "Compare two runs of a level: where they part, and how far one is ahead.",
-        "bench": "Measure how fast the world is on this machine.",
         "solve": "Find a run to the exit, then shorten it.",
         "improve": "Shorten a run that exists.",
         "search": "Find other keys for a span of a run.",
@@ -55,17 +54,14 @@ GROUPS = {
         "site": "Build the game as a page in a browser: a folder for any static host.",
         "board": "Rank the runs of a folder, all simulated again: tables, pages, checks.",
     },
-    "": {"completion": "Set up completion of commands and options in your shell."},
 }
 """Commands with their first lines of help, by folder; ``ninja_game.cli.FOLDER.NAME`` holds one as ``command``."""
 
 COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}
-MODULES = {
-    name: ".".join(filter(None, ("ninja_game.cli", folder, name))) for folder, group in GROUPS.items() for name in group
-}
+MODULES = {name: f"ninja_game.cli.{folder}.{name}" for folder, group in GROUPS.items() for name in group}
 
 COMPILING = (
-    "verify", "board", "trace", "splits", "compare", "bench", "solve", "improve", "search", "tas",
+    "verify", "board", "trace", "splits", "compare", "solve", "improve", "search", "tas",
     "check", "levels", "generate", "demonstrations",
 )  # fmt: skip
 """Those that may have to compile the rules first."""
@@ -116,7 +112,7 @@ class Commands(click.Group):
         """The table of commands, without importing them."""
         width = max(map(len, COMMANDS))
         for folder, group in GROUPS.items():
-            with formatter.section(folder.capitalize() or "Shell"):
+            with formatter.section(folder.capitalize()):
                 formatter.write_dl([(name.ljust(width), text) for name, text in group.items()])
 
     def invoke(self, ctx: click.Context) -> Any:
@@ -147,7 +143,7 @@ class Commands(click.Group):
             finally:
                 raising.clear()
         except SystemExit as error:
-            code = error.code
+            code = BROKEN_PIPE if isinstance(error.__context__, BrokenPipeError) else error.code
         except BaseException as error:  # noqa: BLE001 - nothing may end like a run that failed
             failed = error
         sys.exit(_stopped(failed) or (_failed(failed) if failed else code))
