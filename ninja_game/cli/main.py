@@ -27,7 +27,7 @@ GROUPS = {
         "play": "Play a level in a window.",
         "edit": "Make a level, or change one, in a window.",
         "lab": "Drag, paint and watch: ten figures about how the world works.",
-        "player": "Put all data of a player into one file, or take such a file in.",
+        "player": "Export all data of a player to one file, or import such a file.",
         "film": "Write a film of a recording: a GIF, a WebM, or a folder of pictures.",
         "link": "Make a link that carries a level, a pack or replays.",
     },
@@ -165,7 +165,7 @@ def _stopped(error: BaseException | None) -> int:
 
 
 def _failed(error: BaseException) -> int:
-    """Tell what a command has raised, and its exit code."""
+    """Report what a command has raised; its exit code."""
     match error:
         case click.exceptions.NoArgsIsHelpError():
             _say(error.format_message())
@@ -221,7 +221,7 @@ def main() -> NoReturn:
 
 
 def _announce_compiling() -> None:
-    """Say it before the rules are compiled, since that takes a while."""
+    """Announce that the rules are compiled first, since that takes a while."""
     from ninja_game.backend.kernel_cache import before_compiling
 
     text = "ninja-game: compiling the rules for this machine, the first time only; it takes a minute or two"

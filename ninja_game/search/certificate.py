@@ -23,7 +23,7 @@ class UnverifiedRunError(NinjaGameError):
 class VerifiedRun:
     """A run to the exit that the plain memory has confirmed from tick 0.
 
-    ``inputs``: one byte a tick, up to and including the tick of the exit contact; ``digest``: what a replay
+    ``inputs``: one byte per tick, up to and including the tick of the exit contact; ``digest``: what a replay
     states after it.
     """
 
