@@ -43,13 +43,13 @@ ROOT = Path(__file__).resolve().parent.parent
 VENV = ROOT / ".venv"
 STAMP = VENV / "ninja-game-installed.txt"
 CACHES = (".pytest_cache", ".mypy_cache", ".ruff_cache", ".import_linter_cache", ".hypothesis", "build", "dist")
-SOURCES = ("ninja_game", "tests", "tools", "benchmarks")
+SOURCES = ("ninja_game", "tests", "tools", "benchmarks", "examples")
 EXTRAS = ("cluster", "fast", "film", "learn", "minari", "plots", "train")
 DEVELOPMENT = (*EXTRAS, "dev")
 USES = {
     "play": (), "edit": ("fast",), "info": (), "convert": (), "record": (), "link": (), "player": (), "completion": (),
     "lab": (), "site": (), "film": ("film",), "bench": ("fast", "plots"), "verify": ("cluster", "fast"),
-    "learn": ("fast", "learn", "minari"),
+    "demonstrations": ("fast", "learn", "minari"),
 }  # fmt: skip
 """The extras that commands of the game use; those that are not here use Numba."""
 DRAWINGS = ("draw.how_it_works", "draw.legend", "draw.screens")
@@ -140,9 +140,8 @@ def pip_install(names: Sequence[str]) -> bool:
 
 
 def extras_of(words: Sequence[str]) -> list[str]:
-    """The extras that a command of the game uses; training alone needs the largest."""
-    command, rest = (words[0], words[1:]) if words else ("play", ())
-    return [*USES.get(command, ("fast",)), *(["train"] if command == "learn" and "train" in rest else [])]
+    """The extras that a command of the game uses."""
+    return [*USES.get(words[0] if words else "play", ("fast",))]
 
 
 def lint(*fix: str) -> int:

@@ -49,12 +49,12 @@ GROUPS = {
         "solve": "Find a run to the exit, then shorten it.",
         "improve": "Shorten a run that exists.",
         "search": "Find other keys for a span of a run.",
+        "demonstrations": "Make demonstrations for learning agents of recordings.",
     },
     "web": {
         "site": "Build the game as a page in a browser: a folder for any static host.",
         "board": "Rank the runs of a folder, all simulated again: tables, pages, checks.",
     },
-    "learn": {"learn": "Make demonstrations for learning agents, train agents, and measure them."},
     "": {"completion": "Set up completion of commands and options in your shell."},
 }
 """Commands with their first lines of help, by folder; ``ninja_game.cli.FOLDER.NAME`` holds one as ``command``."""
@@ -66,7 +66,7 @@ MODULES = {
 
 COMPILING = (
     "verify", "board", "trace", "splits", "compare", "bench", "solve", "improve", "search", "tas",
-    "check", "levels", "generate", "learn",
+    "check", "levels", "generate", "demonstrations",
 )  # fmt: skip
 """Those that may have to compile the rules first."""
 

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.learn.actions import DISCRETE_KEYS
-from ninja_game.learn.levels import LevelSource, Origin, level_source
+from ninja_game.learn.levels import Origin, level_source
 from ninja_game.learn.sticky import LONGEST_WAIT, REPEAT, StickyActions
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.level import Level
@@ -149,15 +149,7 @@ def evaluate(
     does not depend on the other levels. ``repeat``, ``longest_wait``: of ``StickyActions``, for policies.
     """
     source = level_source(levels)
-    rows = level_results(agent, source, episodes, seed, repeat, longest_wait, time_limit, memory)
-    return Evaluation(name, source.digest, seed, repeat, longest_wait, time_limit, list(rows))
-
-
-def level_results(
-    agent: Policy | Planner, source: LevelSource, episodes: int, seed: int, repeat: float, longest_wait: int,
-    time_limit: int, memory: str,
-) -> Iterator[LevelResult]:  # fmt: skip
-    """The rows of the table, one by one, as they are made (arguments: ``evaluate``)."""
+    results = []
     settings = {**agent.settings, "time_limit": time_limit, "memory": memory}
     settings.pop("actions", None)
     for level_name, level in zip(source.names, source.levels, strict=True):
@@ -166,10 +158,11 @@ def level_results(
             actions: Actions = iter(np.asarray(agent.plan(level, seed)).reshape(-1, 1))
         else:
             worlds = EnvWorlds(level, episodes, **settings)
-            chance = [seed, int(level_digest(level)[:8], 16)]
-            sticky = StickyActions(episodes, chance, repeat=repeat, longest_wait=longest_wait)
+            seeds = [seed, int(level_digest(level)[:8], 16)]
+            sticky = StickyActions(episodes, seeds, repeat=repeat, longest_wait=longest_wait)
             actions = _chosen(agent, worlds, sticky, seed)
-        yield _played(level_name, worlds, actions)
+        results.append(_played(level_name, worlds, actions))
+    return Evaluation(name, source.digest, seed, repeat, longest_wait, time_limit, results)
 
 
 def _chosen(agent: Policy, worlds: EnvWorlds, sticky: StickyActions, seed: int) -> Actions:

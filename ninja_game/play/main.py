@@ -61,12 +61,12 @@ def run_app(
 
     Raises NinjaGameError where there is no display.
     """
-    # A page has no bench.
-    from ninja_game.play.tas.opening import open_bench
+    # A page has no TAS editor.
+    from ninja_game.play.tas.opening import open_tas_editor
 
     try:
         app = build_app(size=size)
-        app.open_bench = partial(open_bench, app)
+        app.open_tas_editor = partial(open_tas_editor, app)
         try:
             app.push(first(app))
             app.run(frames)

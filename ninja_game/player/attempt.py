@@ -84,11 +84,11 @@ class Attempt:
         if self.lifetime <= 0 and not self.practice_mode and self.outcome == "running":
             self._kill(FALL, 0.0, 0.0)
 
-    def give_up(self, chance: float, dx: float, dy: float) -> None:
-        """The suicide key: ``chance`` (0…1) below 0.3 explodes; (dx, dy) is the corpse's impulse."""
+    def give_up(self, draw: float, dx: float, dy: float) -> None:
+        """The suicide key: ``draw`` (0…1) below 0.3 explodes; (dx, dy) is the corpse's impulse."""
         if self.outcome == "running":
             self.own_hand = True
-            self._kill(EXPLOSIVE if chance < 0.3 else HARD_BULLET, dx, dy)
+            self._kill(EXPLOSIVE if draw < 0.3 else HARD_BULLET, dx, dy)
 
     def _kill(self, cause: int, dx: float, dy: float) -> None:
         self.simulation.kill(cause, dx, dy)

@@ -87,10 +87,10 @@ def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
         )
         before = known.get(file)
         if before and (before.level, before.run) == (pars.level, pars.run) and before.difficulty is not None:
-            hard: float | None = before.difficulty
+            measured: float | None = before.difficulty
         elif tries == 0:
-            hard = None
+            measured = None
         else:
             inputs = run.recording.inputs[: run.verdict.ticks]
-            hard = round(difficulty(named.level, inputs, tries=tries), 2)
-        yield file, Pars(pars.level, pars.run, pars.exit, pars.gold, hard)
+            measured = round(difficulty(named.level, inputs, tries=tries), 2)
+        yield file, Pars(pars.level, pars.run, pars.exit, pars.gold, measured)

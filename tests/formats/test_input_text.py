@@ -1,4 +1,4 @@
-"""Inputs as people write them: comments, blocks, markers, other files; loose replays; the notations of other tools."""
+"""Inputs as people write them: comments, blocks, markers, other files; unclaimed replays; other tools' notations."""
 
 from __future__ import annotations
 

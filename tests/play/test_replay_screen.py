@@ -56,8 +56,8 @@ def test_any_tick_sought_is_the_one_of_a_straight_run() -> None:
         app.push(screen)
         settle(app, screen)
         digests = straight_digests(TAKE, screen.length)
-        chance = Random(4)
-        for tick in [0, 1, screen.length, *(chance.randrange(screen.length) for _ in range(40))]:
+        rng = Random(4)
+        for tick in [0, 1, screen.length, *(rng.randrange(screen.length) for _ in range(40))]:
             screen.seek(tick)
             frames(app, 1, 0)
             settle(app, screen)

@@ -70,7 +70,7 @@ def heard(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     monkeypatch.setattr(player, "works", True)
     monkeypatch.setattr(player, "play", lambda name, **_: played.append(name))
     monkeypatch.setattr(player, "_loop", lambda *_: None)
-    monkeypatch.setattr(player, "_chance", Mock(choice=" or ".join))
+    monkeypatch.setattr(player, "_rng", Mock(choice=" or ".join))
     world = Simulation(FLAT).world
     world.event_count = 1
     for kind, name in enumerate(EVENT_NAMES):

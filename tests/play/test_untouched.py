@@ -86,7 +86,7 @@ def test_looking_only_reads() -> None:
     recording = load_replays(REPLAYS[-1])[0]
     bare, seen = Simulation(recording.level), Simulation(recording.level)
     sheet = OffscreenContext((396, 300))
-    view = LevelView(sheet, seen, chance=5)
+    view = LevelView(sheet, seen, seed=5)
     import pygame
 
     from ninja_game.play.level.ghosts import Ghost

@@ -37,7 +37,6 @@ COMMANDS = {
     "bench": "bench walk.replay.txt",
     "play": "play --replay archive.txt --size 132x100",
     "film": "film long.txt -o out/film.gif --to 300000",
-    "learn train": "learn train --levels far.txt --seconds 100 -o out/agent.npz",
     "convert": "convert archive.txt out/replays --to replay",
 }
 

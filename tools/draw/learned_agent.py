@@ -14,11 +14,10 @@ from typing import Any
 import numpy as np
 import pygame
 
+from examples.agents import LEARNED, PolicyAgent, load_policy
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.learn.actions import DISCRETE_KEYS
-from ninja_game.learn.agents.load import learned_file
-from ninja_game.learn.agents.policy import PolicyAgent, load_policy
 from ninja_game.learn.evaluation import EVALUATION_SEED
 from ninja_game.learn.levels import level_source
 from ninja_game.learn.sticky import StickyActions
@@ -79,7 +78,7 @@ def draw_film(agent: PolicyAgent, names: Sequence[str], path: Path) -> None:
 
 
 if __name__ == "__main__":
-    agent = load_policy(learned_file())
+    agent = load_policy(LEARNED)
     FOLDER.mkdir(parents=True, exist_ok=True)
     draw_curve(agent.training, FOLDER / "curve.svg")
     rates = dict(zip(agent.training["levels"], agent.training["curve"][-1][2:], strict=True))

@@ -74,11 +74,11 @@ def measure_seek(app: App, level: Level, ticks: int = 3000) -> dict[str, float]:
         viewer.playback.step()
     app.push(viewer)
     app.frame(0)
-    chance = Random(5)
+    rng = Random(5)
     times = []
     for _ in range(150):
         start = time.thread_time()
-        viewer.seek(chance.randrange(ticks))
+        viewer.seek(rng.randrange(ticks))
         app.draw()
         times.append(1000 * (time.thread_time() - start))
     app.pop()

@@ -22,7 +22,7 @@ class Camera:
         self.centre: Point = WIDTH / 2, HEIGHT / 2
 
     @property
-    def look(self) -> tuple[object, ...]:
+    def render_key(self) -> tuple[object, ...]:
         """All that a picture depends on."""
         return self.zoom, self.centre
 
