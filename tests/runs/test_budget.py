@@ -156,7 +156,7 @@ def ticks_run(monkeypatch: pytest.MonkeyPatch) -> Callable[[], int]:
 GOLD_AT_THE_START = "0" * 713 + "|5^100,566!0^104,566!0^108,566"
 
 
-@pytest.mark.parametrize(("ticks", "in_time"), [(3599, True), (3759, True), (3760, False), (9000, False)])
+@pytest.mark.parametrize("ticks, in_time", [(3599, True), (3759, True), (3760, False), (9000, False)])
 def test_a_run_is_judged_by_running_it_once_whether_it_is_in_time_or_not(
     ticks: int, in_time: bool, ticks_run: Callable[[], int]
 ) -> None:
