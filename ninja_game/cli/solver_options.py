@@ -67,7 +67,7 @@ def seconds_option(default: float) -> Callable[[F], F]:
 
 work_option = click.option(
     "--ticks", "work", type=click.IntRange(0, 10**15), default=0, metavar="N",
-    help="Stop after about N simulated ticks a job instead: with one job, always the same result.",
+    help="Stop after about N simulated ticks per job instead: with one job, always the same result.",
 )  # fmt: skip
 smooth_option = click.option(
     "--smooth", type=click.IntRange(0, 10**6), metavar="N",
@@ -77,7 +77,7 @@ seed_option = click.option(
     "--seed", type=click.IntRange(0, 10**9), default=1, show_default=True,
     help="With one job, the same seed does the same work in the same order.",
 )  # fmt: skip
-search_jobs_option = click.option("--jobs", type=click.IntRange(1, 1024), help="Threads. [default: one a core]")
+search_jobs_option = click.option("--jobs", type=click.IntRange(1, 1024), help="Threads. [default: one per core]")
 body_option = click.option(
     "--body", type=click.Choice(["circle", "box"]), default="circle", show_default=True, help="The ninja's body."
 )

@@ -69,7 +69,7 @@ class Recording:
 
     @cached_property
     def inputs(self) -> bytes:
-        """The input of each of its ticks, one byte a tick."""
+        """The input of each of its ticks, one byte per tick."""
         return self.replay.playback(self.ticks)
 
     @property

@@ -112,7 +112,7 @@ def run_level(
 ) -> RunResult:
     """Run a level with one input a tick until the first exit contact or death, or to the end of ``inputs``.
 
-    ``inputs``: one byte a tick, the sum of its ``Input`` flags (``Recording.playback`` gives them). ``memory``: as of
+    ``inputs``: one byte per tick, the sum of its ``Input`` flags (``Recording.playback`` gives them). ``memory``: as of
     ``Simulation``. ``digest``: tell the digest at the end too, as replays have it. ``budget``: of work
     (``ninja_game.budget``).
 

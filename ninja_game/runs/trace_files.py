@@ -43,7 +43,7 @@ _UNREADABLE = (*UNREADABLE, csv.Error)
 
 
 class FiledTrace(NamedTuple):
-    """A trace, and which record of which name and file it was made from; ``inputs``: one byte a tick."""
+    """A trace, and which record of which name and file it was made from; ``inputs``: one byte per tick."""
 
     record: int
     name: str

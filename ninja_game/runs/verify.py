@@ -148,7 +148,7 @@ def judged(verdict: Verdict, levels: Mapping[str, str], *, only_these: bool, str
     """
     demanded = []
     if (only_these or strict) and verdict.level_digest not in levels:
-        demanded.append(f"level_digest is {verdict.level_digest}, which is none of the levels that count")
+        demanded.append(f"level_digest is {verdict.level_digest}, which is not one of the levels that count")
     unknown = (None, NOT_RUN) if demanded else ()
     for field, expected in STRICT.items() if strict else ():
         found = getattr(verdict, field)
@@ -207,7 +207,7 @@ def _missed_waypoint(replay: Replay, run: RunResult) -> Iterator[str]:
 
 
 def memory_difference(recording: Recording, ticks: int) -> str:
-    """The first of so many ticks, and the field, in which the two memories differ, '' if they never do.
+    """The first of this many ticks, and the field, in which the two memories differ, '' if they never do.
 
     Raises MemoryUnavailableError without Numba.
     """

@@ -138,7 +138,7 @@ class _Job:
         self.shortener.search_spans(self.shortener.climb(best, shares.climb), shares.spans_with_gold)
 
     def _follow(self, route: Route, ticks: float) -> None:
-        """Search a run in legs, for so many ticks; one that is found is submitted."""
+        """Search a run in legs, for this many ticks; one that is found is submitted."""
         doing = f" of {route.gold} gold" if route.gold else ""
         until = self.work + ticks * SEARCH_COST
         first = not self.state.runs

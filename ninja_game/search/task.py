@@ -43,7 +43,7 @@ class Progress:
 
 @dataclass(frozen=True)
 class Task:
-    """What to solve: ``gold`` pieces at least (-1: all), for ``seconds``, or for so many ticks of ``work`` a job.
+    """What to solve: ``gold`` pieces at least (-1: all), for ``seconds``, or for this many ticks of ``work`` a job.
 
     ``first``: a run to shorten; ``first_only``: the first run that is found will do.
     """

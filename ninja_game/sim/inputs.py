@@ -64,7 +64,7 @@ MAX_DEMO_TICKS = 25_193
 class Demo:
     """A recording's inputs.
 
-    ``inputs``: one byte a tick from tick 0, the sum of its ``Input`` flags; in ticks beyond them no key is down.
+    ``inputs``: one byte per tick from tick 0, the sum of its ``Input`` flags; in ticks beyond them no key is down.
     ``length``: how many ticks the recording claims; texts may claim a fraction, NaN or the absurd. ``missing``: how
     many inputs it claims that its text does not hold; no key is down in them.
     """

@@ -158,7 +158,7 @@ class Timeline:
         self.simulated_until = last
 
     def _reserve(self, rows: int) -> None:
-        """Have room for so many rows."""
+        """Have room for this many rows."""
         if len(self._objects) >= rows:
             return
         more = max(rows - len(self._objects), _GROWTH)
@@ -219,6 +219,6 @@ class Timeline:
         return (int(ended[0]), OUTCOME_NAMES[int(outcomes[ended[0]])]) if len(ended) else (-1, OUTCOME_NAMES[0])
 
     def save_state(self, tick: int) -> SaveState:
-        """The nearest moment that is kept at or before the one after so many ticks, for ``Simulation.restore``."""
+        """The nearest moment that is kept at or before the one after this many ticks, for ``Simulation.restore``."""
         at, state = self._states.nearest(min(tick, self.simulated_until, MAX_TICKS))
         return SaveState(self.level, self.body, self.memory, first_ticks(self.inputs[:at], at), state)

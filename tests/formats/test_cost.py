@@ -161,5 +161,5 @@ def test_all_that_is_taken_in_together_has_a_limit(monkeypatch: pytest.MonkeyPat
     main.write_text(unclaimed_text(WALK, *["include a.txt"] * 9))
     assert load_replays(main)[0].ticks == 9
     main.write_text(unclaimed_text(WALK, "include a.txt", "include b.txt"))
-    with pytest.raises(ReplayError, match=r"too much taken in; found 'b\.txt'; expected 1 MiB in all"):
+    with pytest.raises(ReplayError, match=r"too much included; found 'b\.txt'; expected 1 MiB in all"):
         load_replays(main)

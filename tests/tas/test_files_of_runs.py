@@ -115,7 +115,7 @@ def test_other_files_are_never_replaced_unasked(tmp_path: Path) -> None:
     other.write_text("somebody's", "utf-8")
     session = Session(open_run(path), tmp_path, memory="plain")
     session.change(session.track.replaced(3, 4, [5]))
-    with pytest.raises(OccupiedError, match=r"there is a file other\.replay\.txt already"):
+    with pytest.raises(OccupiedError, match=r"a file named other\.replay\.txt already exists"):
         session.save(other)
     path.write_text(replay_of_walk(gold=0), "utf-8")
     with pytest.raises(OccupiedError, match="changed by another program"):

@@ -50,14 +50,14 @@ class GoldGoals(options.GoldCount):
 @options.work_option
 @options.seed_option
 @click.option("--first", "first_only", is_flag=True, help="Stop each search at the first run that it finds.")
-@click.option("--jobs", type=click.IntRange(1, 1024), help="Levels at a time. [default: one a core]")
+@click.option("--jobs", type=click.IntRange(1, 1024), help="Levels at the same time. [default: one per core]")
 @options.body_option
 @click.option(
     "--replays", metavar="FOLDER", type=click.Path(file_okay=False, path_type=Path),
     help="Keep the runs in this folder. One that is there and still right is not searched again.",
 )  # fmt: skip
 @click.option("--improve", is_flag=True, help="Shorten the runs that are kept, too.")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object a level, for programs.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object per level, for programs.")
 @click.pass_context
 def command(
     ctx: click.Context,
@@ -140,7 +140,7 @@ class _Tally:
         if "exit" in goals and self.without["exit"] and self.levels > 1:
             yield f"no run to the exit: {', '.join(self.without['exit'])}"
         if "gold" in goals and self.without["gold"] and self.levels > 1:
-            yield f"not with the gold: {', '.join(self.without['gold'])}"
+            yield f"no run with the gold: {', '.join(self.without['gold'])}"
 
 
 def _files(levels: Sequence[NamedLevel], goals: Iterable[str], folder: Path | None) -> Iterator[dict[str, Path]]:

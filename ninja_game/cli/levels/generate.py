@@ -16,11 +16,11 @@ from ninja_game.cli import solver_options as options
 )
 @click.option(
     "--difficulty", type=click.IntRange(1, 10), default=4, show_default=True, metavar="D",
-    help="How hard it is to be, 1 to 10, in the number that the game shows of levels.",
+    help="Difficulty, 1 to 10, on the scale that the game shows.",
 )  # fmt: skip
 @click.option(
     "-o", "--output", metavar="FILE", type=click.Path(dir_okay=False, path_type=Path),
-    help="Where the level goes. [default: a new file in the current folder, named after the level]",
+    help="Where to write the level. [default: a new file in the current folder, named after the level]",
 )  # fmt: skip
 @click.option(
     "--replay", metavar="FILE", type=click.Path(dir_okay=False, path_type=Path),

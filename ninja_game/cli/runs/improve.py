@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 @options.smooth_option
 @click.option(
     "-o", "--output", metavar="REPLAY", required=True, type=click.Path(dir_okay=False, path_type=Path),
-    help="Where the best run so far is kept.",
+    help="Where to keep the best run so far.",
 )  # fmt: skip
 def command(
     replay: Path,

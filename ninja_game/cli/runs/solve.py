@@ -25,7 +25,7 @@ from ninja_game.files.user_folder import free_path
 @options.body_option
 @click.option(
     "-o", "--output", metavar="REPLAY", type=click.Path(dir_okay=False, path_type=Path),
-    help="Where the best run so far is kept. [default: LEVEL's name and .replay.txt, in the current folder]",
+    help="Where to keep the best run so far. [default: LEVEL's name and .replay.txt, in the current folder]",
 )  # fmt: skip
 @click.pass_context
 def command(

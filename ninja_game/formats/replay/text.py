@@ -44,7 +44,7 @@ WAYPOINT_TICKS = TICKS_PER_SECOND
 class Replay:
     """A run of one level: inputs, and what they lead to.
 
-    ``inputs``: one byte a tick, the sum of its ``Input`` flags; in ticks beyond them no key is down. ``final_tick``:
+    ``inputs``: one byte per tick, the sum of its ``Input`` flags; in ticks beyond them no key is down. ``final_tick``:
     the last tick that is run, counted from 0; ``outcome``, ``gold`` and ``digest`` (64 hex digits of what the world
     shows, or '') are as after it. The level is given by one or more of: its digest, a path from the replay's folder
     with the number of the record in that file, the level itself with its name and author. ``waypoints``: where the

@@ -101,7 +101,7 @@ class ReplayScreen(Screen):
 
     @property
     def tick(self) -> int:
-        """The moment shown: after so many ticks."""
+        """The moment shown: after this many ticks."""
         return self.playback.simulation.tick
 
     @property
@@ -112,7 +112,7 @@ class ReplayScreen(Screen):
     # --- moving in time ---
 
     def _look_ahead(self, ticks: int) -> None:
-        """Look for the end of the run for so many ticks."""
+        """Look for the end of the run for this many ticks."""
         end = self._scout.find_end(ticks) if self._scout else None
         if self._scout and end is not None:
             self.end, self.outcome, self.length = end, self._scout.simulation.outcome, end + AFTERMATH
@@ -120,7 +120,7 @@ class ReplayScreen(Screen):
             self.redraw = True
 
     def seek(self, tick: int) -> None:
-        """Show the moment after so many ticks, exactly; the corpse and particles are those of the last moments.
+        """Show the moment after this many ticks, exactly; the corpse and particles are those of the last moments.
 
         One that the work of a turn does not lead to is reached in the next ones.
         """

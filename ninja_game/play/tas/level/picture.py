@@ -123,7 +123,7 @@ class LevelPicture:
             self._view.audible = False
 
     def _seek(self, moment: int, inputs: bytes) -> None:
-        """Some ticks before the moment after so many ticks."""
+        """Some ticks before the moment after this many ticks."""
         start = max(0, moment - _WARM)
         end, outcome = self.editor.session.timeline.end
         corpse = self._corpse(end, inputs, min(start - end, _FALL)) if outcome == "dead" and start > end else None
@@ -132,7 +132,7 @@ class LevelPicture:
             self._view.doll = corpse
 
     def _go(self, moment: int, inputs: bytes) -> None:
-        """Be at the moment after so many ticks, as if nothing had been seen before."""
+        """Be at the moment after this many ticks, as if nothing had been seen before."""
         self.run.restore(self.editor.session.timeline.save_state(moment))
         while self.run.tick < moment:
             self.run.step_keys(inputs[self.run.tick])

@@ -39,7 +39,7 @@ class Playing:
             self.toggle()
 
     def change_speed(self, by: int) -> None:
-        """Faster or slower by so many steps."""
+        """Faster or slower by this many steps."""
         self.speed = min(len(SPEEDS) - 1, max(0, self.speed + by))
         self.clock.reset()
 

@@ -66,7 +66,7 @@ def changes(ours: bytes, theirs: bytes) -> NDArray[np.intp]:
 
 @lru_cache(maxsize=4)
 def different_rows(ours: bytes, theirs: bytes, ticks: int, height: int) -> list[int]:
-    """The px of a bar of this height, for so many ticks, in which there are ticks with different keys."""
+    """The px of a bar of this height, for this many ticks, in which there are ticks with different keys."""
     found = np.flatnonzero(different_keys(ours, theirs)[:ticks])
     return np.flatnonzero(np.bincount(found * height // ticks)).tolist()
 
