@@ -143,7 +143,7 @@ class Commands(click.Group):
             finally:
                 raising.clear()
         except SystemExit as error:
-            code = BROKEN_PIPE if isinstance(error.__context__, BrokenPipeError) else error.code
+            code = error.code
         except BaseException as error:  # noqa: BLE001 - nothing may end like a run that failed
             failed = error
         sys.exit(_stopped(failed) or (_failed(failed) if failed else code))
