@@ -16,7 +16,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
     from ninja_game.formats.load import NamedLevel, Recording
-    from ninja_game.search.certificate import VerifiedRun
+    from ninja_game.formats.replay.text import Replay
     from ninja_game.search.solve import Progress, Task
     from ninja_game.sim.level import Level
 
@@ -168,18 +168,18 @@ def time_text(end_tick: int) -> str:
     return f"{end_tick} ticks ({end_tick / TICKS_PER_SECOND:.3f} s)"
 
 
-def smoothed_run(run: VerifiedRun, price: int) -> VerifiedRun:
+def smoothed_run(level: Level, run: Replay, price: int) -> Replay:
     """The run with fewer key changes, verified; at most ``price`` ticks longer and with no less gold."""
     from ninja_game.search.certificate import smoothed, verified_run
 
-    inputs = smoothed(run.level, run.inputs, body=run.body, gold=run.gold, price=price)
-    return verified_run(run.level, inputs, body=run.body, gold=run.gold)
+    inputs = smoothed(level, run.inputs, body=run.body, gold=run.gold, price=price)
+    return verified_run(level, inputs, body=run.body, gold=run.gold)
 
 
-def saver(path: Path, level: NamedLevel | Recording, author: str = "ninja-game solve") -> Callable[[VerifiedRun], None]:
+def saver(path: Path, level: NamedLevel | Recording, author: str = "ninja-game solve") -> Callable[[Replay], None]:
     """A function that writes each better run of a level to a file, which must not be the level's own."""
     from ninja_game.files.writing import check_output
-    from ninja_game.search.certificate import replay_of, save_replay
+    from ninja_game.search.certificate import named_run, save_replay
 
     check_output(path, keep=[Path(level.file)])
-    return lambda run: save_replay(path, replay_of(run, name=level.name, author=author, level_author=level.author))
+    return lambda run: save_replay(path, named_run(run, name=level.name, author=author, level_author=level.author))

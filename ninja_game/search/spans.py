@@ -45,7 +45,7 @@ EACH_COSTS = 10_000
 
 
 class Fineness(NamedTuple):
-    """How a span is searched: the resolution, and what the known run is told besides its span."""
+    """How a span is searched: the resolution, and what the known run needs besides its span."""
 
     resolution: Resolution
     behind: float

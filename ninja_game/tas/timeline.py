@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from ninja_game.backend.memories import open_memory
 from ninja_game.budget import tick_cost
 from ninja_game.errors import ArgumentError
-from ninja_game.runs.run_trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
 from ninja_game.runs.save_states import SaveStates
+from ninja_game.runs.trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
 from ninja_game.sim.inputs import MAX_TICKS, first_ticks
 from ninja_game.sim.kinds import EXIT, KIND_OF
 from ninja_game.sim.level import Level

@@ -14,8 +14,8 @@ from ninja_game.errors import ArgumentError
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.runs import save_states
-from ninja_game.runs.run_trace import trace_level
 from ninja_game.runs.save_states import SaveStates
+from ninja_game.runs.trace import trace_level
 from ninja_game.search.formula.names import FLAGS, NAMES, view_of
 from ninja_game.sim.inputs import MAX_TICKS, first_ticks, with_press_bits
 from ninja_game.simulation import Simulation

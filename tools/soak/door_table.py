@@ -47,8 +47,7 @@ from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings_file import read_settings, write_changes
 from ninja_game.player.store import Store
 from ninja_game.runs.recording_reader import recordings_of, records_of
-from ninja_game.runs.run_trace import RunTrace, trace_level
-from ninja_game.runs.trace import first_difference, rows, trace_digests
+from ninja_game.runs.trace import RunTrace, first_difference, rows, trace_digests, trace_level
 from ninja_game.runs.trace_files import FiledTrace, read_csv, read_traces
 from ninja_game.search.formula.language import parse_truth
 from ninja_game.search.formula.names import FACTS, SPAN_NAMES

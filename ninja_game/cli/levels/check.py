@@ -21,7 +21,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
-    from ninja_game.search.certificate import VerifiedRun
+    from ninja_game.formats.replay.text import Replay
     from ninja_game.search.certify import Certified
 
 
@@ -201,7 +201,7 @@ def _facts(level: NamedLevel, found: Mapping[str, Certified], files: Mapping[str
     return facts
 
 
-def _warnings(level: NamedLevel, run: VerifiedRun | None) -> list[str]:
+def _warnings(level: NamedLevel, run: Replay | None) -> list[str]:
     """What is odd about a level, and the locked doors that its run does not open."""
     from ninja_game.levels.warnings import level_warnings, object_name
     from ninja_game.sim.arithmetic import is_set
@@ -212,7 +212,7 @@ def _warnings(level: NamedLevel, run: VerifiedRun | None) -> list[str]:
     specs = enumerate(filter(makes_object, level.level.objects))
     locked = {id_: spec for id_, spec in specs if spec.kind == DOOR and well_formed(spec) and is_set(spec.values[6])}
     if run and locked:
-        simulation = Simulation(run.level, body=run.body, memory="plain")
+        simulation = Simulation(level.level, body=run.body, memory="plain")
         for keys in run.inputs:
             simulation.step_keys(keys)
             for event in simulation.events:

@@ -45,7 +45,7 @@ def command(
     from ninja_game.errors import FileError
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.generator.generate import generate
-    from ninja_game.search.certificate import replay_of, save_replay
+    from ninja_game.search.certificate import named_run, save_replay
 
     for path in filter(None, (output, replay)):
         check_output(path)
@@ -60,7 +60,7 @@ def command(
     output = output or _free(made.name)
     write_atomically(output, made.text)
     if replay:
-        save_replay(replay, replay_of(made.run, name=made.name, author=made.author, level_author=made.author))
+        save_replay(replay, named_run(made.run, name=made.name, author=made.author, level_author=made.author))
     click.echo(
         f"{output}: {made.name}, seed {seed}, difficulty {made.difficulty:.1f}, "
         f"certified in {options.time_text(made.run.end_tick)}"

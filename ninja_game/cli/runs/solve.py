@@ -63,6 +63,6 @@ def command(
         click.echo(options.not_found_text(task, report.last))
         ctx.exit(options.NOT_FOUND)
     if smooth is not None:
-        run = options.smoothed_run(run, smooth)
+        run = options.smoothed_run(task.level, run, smooth)
         save(run)
     click.echo(f"{shown_text(str(output))}: {options.time_text(run.end_tick)}, {run.gold} gold")

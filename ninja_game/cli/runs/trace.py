@@ -26,7 +26,7 @@ from ninja_game.cli.run_options import (
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
-    from ninja_game.runs.run_trace import RunTrace
+    from ninja_game.runs.trace import RunTrace
     from ninja_game.runs.trace_files import FiledTrace
     from ninja_game.verification.archive_tracing import Traced
 

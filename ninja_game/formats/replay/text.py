@@ -83,6 +83,11 @@ class Replay:
         return not self.outcome
 
     @property
+    def end_tick(self) -> int:
+        """The tick of the exit contact or death that it claims; -1 where it claims neither."""
+        return self.final_tick if self.outcome in ("exit", "dead") else -1
+
+    @property
     def ticks(self) -> int:
         """How many ticks are run."""
         return self.final_tick + 1
