@@ -62,7 +62,7 @@ def loose_build(columns: int, x: Any, y: Any, heads: Any, nexts: Any, prevs: Any
 def loose_move(
     columns: int, x: Any, y: Any, dx: Any, dy: Any, heads: Any, nexts: Any, prevs: Any, cells: Any, rounds: int
 ) -> int:
-    """Move all objects to and fro and file anew those whose cell changed; how many that were."""
+    """Move all objects to and fro and file again those whose cell changed; how many that were."""
     changed = 0
     for number in range(rounds):
         sign = 1.0 - 2.0 * (number & 1)
@@ -189,7 +189,7 @@ def bullets(
 ) -> int:  # fmt: skip
     """Fly the objects from slot ``first`` on, to and fro, each asking nine cells what it hits; how many hits.
 
-    ``filed``: they are in the grid themselves and are filed anew; else they only read it.
+    ``filed``: they are in the grid themselves and are filed again; else they only read it.
     """
     hits = 0
     for number in range(rounds):

@@ -105,7 +105,7 @@ def pairs() -> Chart:
 
 
 def moves() -> Chart:
-    """Filing anew after a move by up to a tenth of a cell, and bullets that are in the grid or only read it."""
+    """Filing again after a move by up to a tenth of a cell, and bullets that are in the grid or only read it."""
     chart = Chart("moves-against-objects", "Moving one object, one object a cell", "objects", "ns an object", "x")
     for count in NUMBERS[2:]:
         here = Arena(count)

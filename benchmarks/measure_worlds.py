@@ -37,7 +37,7 @@ def crowd(recordings: Sequence[Recording], count: int, threads: int) -> tuple[Ba
     """Worlds that play the recordings, and the inputs of their first ticks."""
     chosen = [recordings[number % len(recordings)] for number in range(count)]
     batch = Batch([recording.level for recording in recordings], count, memory="compiled", threads=threads)
-    inputs = np.frombuffer(b"".join(recording.playback(TICKS) for recording in chosen), np.uint8)
+    inputs = np.frombuffer(b"".join(recording.replay.playback(TICKS) for recording in chosen), np.uint8)
     return batch, np.ascontiguousarray(inputs.reshape(count, TICKS).T)
 
 

@@ -186,7 +186,7 @@ class Simulation:
 
     @property
     def outcome(self) -> str:
-        """What came first: "exit" or "dead"; "running" while neither has."""
+        """The outcome: "exit" or "dead"; "running" while neither has."""
         return OUTCOME_NAMES[self._worlds.number("outcome")]
 
     @property
@@ -248,7 +248,7 @@ class Simulation:
 
     @property
     def inputs(self) -> bytes:
-        """The inputs that led here, one byte a tick."""
+        """The inputs that led here, one byte per tick."""
         return bytes(self._inputs)
 
     def first_difference(self, other: Simulation) -> tuple[str, Any, Any] | None:

@@ -1,4 +1,4 @@
-"""Every input that is kept in tests/corpus goes through its door: only errors of ours come out (`tool soak.doors`)."""
+"""Every input that is kept in tests/corpus goes through its door: only our own errors come out (`tool soak.doors`)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Write the golden digests and our replays anew: `python3 tools/dev.py golden` (see tests/golden/README.md)."""
+"""Write the golden digests and our replays again: `python3 tools/dev.py golden` (see tests/golden/README.md)."""
 
 from __future__ import annotations
 

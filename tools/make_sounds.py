@@ -53,8 +53,8 @@ def blast(seconds: float, seed: int, *, depth: float = 70) -> Wave:
 
 def crackle(seconds: float, rate: float, seed: int) -> Wave:
     """Electric sparks: bursts of bright noise at random moments, ``rate`` a second, over a buzz."""
-    chance = np.random.default_rng(seed)
-    gates = chance.random(max(1, round(seconds * rate))) ** 3
+    rng = np.random.default_rng(seed)
+    gates = rng.random(max(1, round(seconds * rate))) ** 3
     envelope = np.repeat(gates, int(np.ceil(seconds * RATE / len(gates))))[: round(seconds * RATE)]
     buzz = tone(110.0, seconds, overtones=BRIGHT, bend=1.5)
     return (noise(seconds, 1500, 8000, seed) + 0.35 * buzz) * envelope

@@ -35,10 +35,10 @@ def tone(frequency: Wave | float, seconds: float, *, overtones: tuple[float, ...
 def noise(seconds: float, low: float, high: float, seed: int) -> Wave:
     """Noise between two frequencies in Hz with soft edges. Its end fits its beginning, so that it can loop."""
     count = round(seconds * RATE)
-    chance = np.random.default_rng(seed)
+    rng = np.random.default_rng(seed)
     frequencies = np.fft.rfftfreq(count, 1 / RATE)
     band = 1 / (1 + (low / np.maximum(frequencies, 1.0)) ** 4) / (1 + (frequencies / high) ** 4)
-    spectrum = band * np.exp(2j * np.pi * chance.random(len(frequencies)))
+    spectrum = band * np.exp(2j * np.pi * rng.random(len(frequencies)))
     spectrum[0] = 0
     wave = np.fft.irfft(spectrum, count)
     return np.asarray(wave / np.abs(wave).max())

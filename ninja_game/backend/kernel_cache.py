@@ -86,7 +86,7 @@ class KernelCache:
             data = path.read_bytes()
             if sha256(data[32:]).digest() == data[:32]:
                 return rebuild(context, *pickle.loads(data[32:]))  # noqa: S301 - our own file
-        except Exception:  # noqa: BLE001, S110 - whatever a damaged file leads to: it is compiled and written anew
+        except Exception:  # noqa: BLE001, S110 - whatever a damaged file leads to: it is compiled and written again
             pass
         while before_compiling:
             before_compiling.pop()()

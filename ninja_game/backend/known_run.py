@@ -1,6 +1,6 @@
 """A run whose end is known: what computes another one must not judge runs.
 
-The arithmetic of a process can be spoiled from outside: by what a compiler is told, by what other code does to the
+The arithmetic of a process can be spoiled from outside: by how a compiler is set up, by what other code does to the
 processor's modes, by machine code that is not ours. A level with every kind of object and most shapes of tiles, played
 eight times with other keys, costs some milliseconds and shows it.
 """

@@ -95,8 +95,8 @@ def _prove_plain() -> None:
 def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[..., R]:
     """The compiled twin of an entry point, which takes the same arguments; any thread may ask.
 
-    Raises MemoryUnavailableError without Numba, TypeError for a function that is no entry point, KnownRunError where
-    compiled worlds are not as they must be.
+    Raises MemoryUnavailableError without Numba, TypeError for a function that is not an entry point, KnownRunError
+    where compiled worlds are not as they must be.
     """
     checked = checked or _ALL_CHECKED
     kernel: Callable[..., R] | None = _KERNELS.get((entry, checked))

@@ -167,7 +167,7 @@ class Batch:
             raise ArgumentError(f"inputs are {found}; expected integers, {self.count} a tick")
         if rows.size and not 0 <= rows.min() <= rows.max() <= ALL_KEYS:
             raise ArgumentError(f"inputs are {rows.min()} to {rows.max()}; expected sums of Input, 0 to {ALL_KEYS}")
-        # Writable, since a kernel is compiled anew for arrays that can only be read.
+        # Writable, since a kernel is compiled again for arrays that can only be read.
         keys = np.require(rows, np.uint8, ["C", "W"])
         keys = self._pressed(keys) if press else keys
         worlds, ticks = self._worlds, 0

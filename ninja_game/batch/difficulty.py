@@ -27,7 +27,7 @@ LOST_WEIGHT = 0.25
 
 
 def difficulty(level: Level, inputs: bytes, *, seed: int = 0, tries: int = TRIES, memory: str = "auto") -> float:
-    """The number for a level and a run to its exit, ``inputs`` a byte a tick; 0 where nothing can go wrong.
+    """The number for a level and a run to its exit, ``inputs`` one byte per tick; 0 where nothing can go wrong.
 
     From a save-state in every second of the run ``tries`` tries go on for a second and a half with the run's keys, each
     press and release of which comes up to ``SHIFT`` ticks early or late. A second fails by its share of deaths, and by
@@ -35,12 +35,12 @@ def difficulty(level: Level, inputs: bytes, *, seed: int = 0, tries: int = TRIES
     fails: 3 means that one try in eight goes through, if each second begins on the run. The same seed gives the same
     number, on both memories.
     """
-    chance = np.random.default_rng(seed)
+    rng = np.random.default_rng(seed)
     batch = Batch(level, 1 + tries, memory=memory)
     noisy = slice(1, None)
     total = 0.0
     for start in range(0, len(inputs), SPACING):
-        rows = _shifted(inputs, start, tries, chance)
+        rows = _shifted(inputs, start, tries, rng)
         true = np.frombuffer(inputs[start : start + LENGTH].ljust(len(rows), b"\0"), np.uint8)[:, np.newaxis]
         batch.copy([0] * tries, noisy)
         keys = np.hstack([true, rows])
@@ -61,7 +61,7 @@ def _failing(batch: Batch, noisy: slice) -> float:
     return float(min(share, 1 - 0.5 / len(dead)))
 
 
-def _shifted(inputs: bytes, start: int, tries: int, chance: np.random.Generator) -> NDArray[np.uint8]:
+def _shifted(inputs: bytes, start: int, tries: int, rng: np.random.Generator) -> NDArray[np.uint8]:
     """The keys of ``tries`` tries from a tick on, (LENGTH, tries), each change of a key shifted."""
     ticks = np.arange(LENGTH)[:, np.newaxis]
     keys = np.zeros((LENGTH, tries), np.uint8)
@@ -73,7 +73,7 @@ def _shifted(inputs: bytes, start: int, tries: int, chance: np.random.Generator)
             if bool(inputs[tick] & key) != held:
                 held = not held
                 # Changes of a key keep their order, whatever the shifts are.
-                before = np.maximum(before, tick - start + chance.integers(-SHIFT, SHIFT, tries, endpoint=True))
+                before = np.maximum(before, tick - start + rng.integers(-SHIFT, SHIFT, tries, endpoint=True))
                 down = np.where(ticks >= before, held, down)
         keys |= np.where(down, np.uint8(key), np.uint8(0))
     return keys

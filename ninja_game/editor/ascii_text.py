@@ -40,7 +40,7 @@ def ascii_text(draft: Draft) -> str:
 def updated_text(text: str, opened: Draft, draft: Draft) -> str:
     """The text from which ``opened`` was read, changed so that ``draft`` is read from it.
 
-    Lines that say what is still so stay as they are. A text that cannot be changed line by line is written anew, its
+    Lines that say what is still so stay as they are. A text that cannot be changed line by line is written again, its
     comments at the end.
     """
     if draft == opened:
@@ -134,7 +134,7 @@ class _Lines:
             touched |= {owners[i][0] for i in range(i1, i2)}
             within = i1 > 0 and i1 < len(owners) and owners[i1 - 1][0] == owners[i1][0]
             if within and j2 > j1:
-                # New objects between two of one line: this and all behind it are written anew.
+                # New objects between two of one line: this and all behind it are written again.
                 self.replaced |= {number: [] for number in content}
                 self.replaced[owners[0][0]] = write_object_lines(wanted)
                 return

@@ -1,4 +1,4 @@
-"""Work beside the window: one thread that does the newest job and forgets those before it; at once in a page."""
+"""Work in the background: one thread that does the newest job and forgets those before it; at once in a page."""
 
 from __future__ import annotations
 

@@ -50,7 +50,7 @@ class Motion(NamedTuple):
         return int(x // 24), int(y // 24)
 
     def direction(self, number: float) -> float:
-        """The number of a direction (0 right, 1 down, 2 left, 3 up) then; what is no direction stays."""
+        """The number of a direction (0 right, 1 down, 2 left, 3 up) then; what is not a direction stays."""
         if number not in (0, 1, 2, 3):
             return number
         units = list(zip(UNIT_X, UNIT_Y, strict=True))

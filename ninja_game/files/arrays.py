@@ -49,5 +49,5 @@ def read_array(archive: ZipFile, entry: ZipInfo, wanted: np.dtype[Any], *, most:
     if len(shape) > dimensions or max(shape, default=0) > most:
         raise ValueError(f"an array of the shape {shape}")
     if wanted.kind == "U" and (np.frombuffer(data[header.end() :], np.uint32) > sys.maxunicode).any():
-        raise ValueError("a text of numbers that are no characters")
+        raise ValueError("a text of numbers that are not characters")
     return np.ndarray(shape, dtype, data, header.end(), order="F" if by_columns == "True" else "C")

@@ -32,7 +32,7 @@ else:
 def locked(path: Path, seconds: float) -> Iterator[None]:
     """No other process is within such a block for the same ``path``.
 
-    The lock is on a hidden file beside it, which stays; the system frees it when a process dies. After ``seconds``, or
+    The lock is on a hidden file next to it, which stays; the system frees it when a process dies. After ``seconds``, or
     where the place has no locks, the block goes on without: a missing lock must not keep anyone from playing.
     """
     try:

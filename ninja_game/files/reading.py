@@ -86,7 +86,7 @@ def text_files(path: Path) -> list[Path]:
 
 
 def path_below(folder: Path, name: str) -> Path | None:
-    """The path of a name in a folder or below it; None for one that leads elsewhere: texts come from strangers."""
+    """The path of a name in a folder or below it; None for one that leads elsewhere: texts are untrusted."""
     try:
         path = (folder / name).resolve()
         return path if path.is_relative_to(folder.resolve()) else None
@@ -136,7 +136,7 @@ def read_text(path: Path) -> str:
 def decoded(data: bytes, file: str) -> str:
     """A file's content as text with plain line ends: UTF-8, UTF-16 with its mark, or else Latin-1.
 
-    Raises FileError for a file that is no text.
+    Raises FileError for a file that is not text.
     """
     try:
         if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):

@@ -101,7 +101,7 @@ def _parts(name: str) -> list[str]:
 
 
 def _entered(path: Path, at: int | None) -> int | None:
-    """A handle of a folder in the folder ``at``. Raises FileError for a link and for what is no folder."""
+    """A handle of a folder in the folder ``at``. Raises FileError for a link and for what is not a folder."""
     try:
         if at is not None:
             return os.open(path.name, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW, dir_fd=at)
@@ -115,7 +115,7 @@ def _entered(path: Path, at: int | None) -> int | None:
 
 
 def _replaceable(path: Path, at: int | None) -> os.stat_result | None:
-    """What ``replaced`` has to know of the file with this name. Raises FileError for what is no regular file."""
+    """What ``replaced`` has to know of the file with this name. Raises FileError for what is not a regular file."""
     try:
         about = os.stat(named(path, at), dir_fd=at, follow_symlinks=False)
     except FileNotFoundError:

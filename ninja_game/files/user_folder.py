@@ -24,7 +24,7 @@ SETTINGS, RECORDS = "settings.toml", "records.sqlite"
 def user_folder() -> Path:
     """The folder, whether it exists or not: ``NINJA_GAME_HOME``, else the system's place for data of programs.
 
-    Raises FileError where ``NINJA_GAME_HOME`` begins with a ``~name`` that is no user's, or the user has no home.
+    Raises FileError where ``NINJA_GAME_HOME`` begins with a ``~name`` of an unknown user, or the user has no home.
     """
     return chosen_folder(HOME_VARIABLE, _system_folder)
 
@@ -56,7 +56,7 @@ def make_user_folder(folder: Path | None = None) -> Path:
 
 
 def quarantine(path: Path, why: str) -> Path:
-    """Move a file that cannot be used out of the way, and what SQLite keeps beside it; its new path.
+    """Move a file that cannot be used out of the way, and the files that SQLite keeps next to it; its new path.
 
     ``why``: one word for the new name. Nothing is ever overwritten. Raises OSError.
     """
@@ -72,7 +72,7 @@ def quarantine(path: Path, why: str) -> Path:
 
 
 def free_path(folder: Path, stem: str, suffix: str, first: int = 1) -> Path:
-    """The first of ``stem.txt``, ``stem-2.txt``, … (for ``.txt``) that is no file of a folder on any system.
+    """The first of ``stem.txt``, ``stem-2.txt``, … (for ``.txt``) that is not a file of a folder on any system.
 
     ``first``: how many names have no number; with 0 the first one is ``stem-1.txt``.
     """

@@ -1,4 +1,4 @@
-"""Files that are whole or not there: written beside their place, brought to the disk, then moved into it.
+"""Files that are whole or not there: written next to their place, brought to the disk, then moved into it.
 
 Only regular files are written. A symbolic link that the user has named stays, and the file that it leads to is
 replaced (``files.tree`` follows none); an existing file keeps its mode. Other hard links to it keep the old content.

@@ -38,7 +38,7 @@ class _Index(io.RawIOBase):
 def open_zip(file: IO[bytes], *, most_files: int, most_bytes: int) -> ZipFile:
     """The zip in a file: at most so many files in it, and so many bytes when all of them are unpacked.
 
-    Raises ValueError, in words, for what is more, and for what is no zip.
+    Raises ValueError, in words, for what is more, and for what is not a zip.
     """
     # The library makes an object of each entry before it can be asked how many there are.
     if sum(block.count(_ENTRY) for block in iter(partial(file.read, _BLOCK), b"")) > most_files:

@@ -56,7 +56,7 @@ def load_level(path: Path | str, record: int = 0) -> Level:
 def parse_level(text: str, record: int = 0) -> Level:
     """The level in a text of any format that ``load_level`` reads, or its level number ``record`` (from 0).
 
-    Raises LevelError (or ReplayError for a broken replay) with line and column; also for a text that is no level.
+    Raises LevelError (or ReplayError for a broken replay) with line and column; also for a text that is not a level.
     """
     return _one(parse_levels(text), record, "")
 

@@ -29,7 +29,7 @@ _SMALLEST = math.ulp(0.0)
 
 
 def parse_number(text: str) -> float:
-    """The float64 that Flash reads from ``text``; NaN when it is no number (game.md §5.2).
+    """The float64 that Flash reads from ``text``; NaN when it is not a number (game.md §5.2).
 
     Blanks, a sign, digits with an optional point, an optional exponent; nothing may follow. ``0x1F`` without a sign is
     hexadecimal and digits 0-7 after a leading 0 are octal, both as wrapping 32-bit integers. A zero has no sign.

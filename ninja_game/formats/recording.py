@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
+from typing import Literal
 
 from ninja_game.errors import DemoError, ReplayError
 from ninja_game.formats.ascii.reader import is_ascii_level
@@ -20,38 +22,61 @@ from ninja_game.sim.inputs import Demo, fitted_demo
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import Body
 
+Form = Literal["replay", "file", "inputs"]
+"""What a recording was read from: a replay of ours, a record of N, inputs in another tool's notation."""
+
 
 @dataclass(frozen=True)
 class Recording:
-    """Inputs together with the level they were recorded on.
+    """A replay with the level that it is played on, and where it was found.
 
-    ``replay``: the whole replay if it is one of ours, else None; ``record`` (from 0) and ``line`` (from 1): where in
-    ``file``.
+    ``replay``: what its text says; demos of N and other tools' inputs are replays without claims. ``level``: the one
+    inside, beside it, or given. ``record`` (from 0) and ``line`` (from 1): where in ``file``, '' for one from no file.
     """
 
-    name: str
-    author: str
-    comment: str
     level: Level
-    demo: Demo
-    file: str
+    replay: Replay = field(repr=False)
+    comment: str = ""
+    file: str = ""
     record: int = 0
     line: int = 1
-    replay: Replay | None = field(default=None, repr=False)
+    form: Form = "replay"
 
     @property
-    def ticks(self) -> int:
-        """How many ticks to run it at most: those of our replay; N + 1 for a demo of length N."""
-        return self.replay.ticks if self.replay else self.demo.end + 1
+    def name(self) -> str:
+        """As its text says; of a replay without a name that of its file."""
+        return self.replay.name or ("" if self.form == "file" else Path(self.file).stem)
+
+    @property
+    def author(self) -> str:
+        """As its text says; a record of N names the author of the level."""
+        return self.replay.author
+
+    @property
+    def title(self) -> str:
+        """What is written above its picture: also the author where it comes from a file."""
+        return (self.name or "Replay") + f" - {self.author}" * bool(self.author and self.file)
 
     @property
     def body(self) -> Body:
-        """The ninja's body: as a replay of ours says, else the circle of the classic rules."""
-        return self.replay.body if self.replay else "circle"
+        """The ninja's body."""
+        return self.replay.body
 
-    def playback(self, ticks: int) -> bytes:
-        """The input of each of the first ``ticks`` ticks."""
-        return self.replay.playback(ticks) if self.replay else self.demo.playback(ticks)
+    @property
+    def ticks(self) -> int:
+        """How many ticks are run at most; N + 1 of a demo of length N."""
+        return self.replay.ticks
+
+    @cached_property
+    def inputs(self) -> bytes:
+        """The input of each of its ticks, one byte per tick."""
+        return self.replay.playback(self.ticks)
+
+    @property
+    def missing(self) -> int:
+        """How many inputs its demo claims that its text does not hold; no key is down in them."""
+        inputs, length = self.replay.inputs, self.replay.demo_length
+        return 0 if length is None else Demo(inputs, length).end - len(inputs)
 
 
 def record_of(recording: Recording) -> LevelRecord:
@@ -59,12 +84,13 @@ def record_of(recording: Recording) -> LevelRecord:
 
     Raises LevelError, DemoError or ReplayError for what such a record cannot hold.
     """
-    demo = recording.demo
+    replay, inputs = recording.replay, recording.inputs
     if recording.body != "circle":
-        raise ReplayError("a run with another body is no demo of N", recording.file, found=recording.body)
-    if recording.replay and recording.replay.demo_length is None:
+        raise ReplayError("a run with another body is not a demo of N", recording.file, found=recording.body)
+    if replay.demo_length is not None:
+        demo = fitted_demo(replay.inputs, replay.demo_length)
+    else:
         # A demo of length N runs N + 1 ticks, the last one without inputs of its own (game.md §4.4).
-        inputs = recording.playback(recording.ticks)
         short = Demo(inputs[:-1], float(len(inputs) - 1))
         demo = short if short.playback(len(inputs)) == inputs else Demo(inputs, float(len(inputs)))
     level = write_level_string(recording.level, exact=True)
@@ -82,19 +108,14 @@ def holds_recordings(text: str) -> bool:
     return is_demo("".join(text.split())) or is_tas_text(text)
 
 
-def parse_replays(
-    text: str, *, file: str = "", level: Level | None = None, changed: bool = False
-) -> list[Recording]:  # fmt: skip
+def parse_replays(text: str, *, file: str = "", level: Level | None = None, changed: bool = False) -> list[Recording]:
     """All recordings in a text of any format. ``changed``: also a replay whose level is not as it was recorded.
 
     Raises ReplayError, DemoError or LevelError.
     """
     if is_replay(text):
         replay = parse_replay(text, file=file, level=level)
-        length = float(len(replay.inputs)) if replay.demo_length is None else replay.demo_length
-        demo = fitted_demo(replay.inputs, length)
-        found = level_of_replay(replay, file, level, changed=changed)
-        return [Recording(replay.name or Path(file).stem, replay.author, "", found, demo, file, replay=replay)]
+        return [Recording(level_of_replay(replay, file, level, changed=changed), replay, file=file)]
     if not is_ascii_level(text) and is_level_file(text):
         return _read_recordings(read_level_file(text, file=file), file, level)
     if is_demo("".join(text.split())):
@@ -112,13 +133,12 @@ def parse_replays(
 
 
 def _recording_of_lines(text: str, file: str, level: Level | None) -> Recording:
-    """Inputs in the notation of another tool, as a loose replay. Raises ReplayError."""
+    """Inputs in the notation of another tool. Raises ReplayError."""
     if level is None:
         raise ReplayError("inputs without a level", file, hint="give it with --level")
     read = read_inputs(in_our_notation(text, file), file=file, include=included_beside(file))
-    last = max(0, len(read.keys) - 1)
-    replay = Replay(read.keys, last, "", name=Path(file).stem, level=level, markers=read.markers)
-    return Recording(replay.name, "", "", level, Demo(read.keys, float(len(read.keys))), file, replay=replay)
+    replay = Replay.of_inputs(read.keys, level, name=Path(file).stem, markers=read.markers)
+    return Recording(level, replay, file=file, form="inputs")
 
 
 def _read_recordings(records: Iterable[LevelRecord], file: str, level: Level | None) -> list[Recording]:
@@ -152,4 +172,11 @@ def recording_of(record: LevelRecord, file: str, level: Level | None) -> Recordi
         error.what += f" (character {error.column} of the demo)"
         error.file, error.line, error.column = file, record.line, 0
         raise
-    return Recording(record.name, record.author, record.comment, level, demo, file, record.number, record.line)
+    replay = demo_replay(demo, level, record.name, record.author)
+    return Recording(level, replay, record.comment, file, record.number, record.line, "file")
+
+
+def demo_replay(demo: Demo, level: Level, name: str = "", author: str = "") -> Replay:
+    """A demo of N on its level as a replay without claims; the level has the same name."""
+    held = demo.inputs[: len(demo.inputs) - demo.missing]
+    return Replay(held, demo.end, "", name=name, author=author, level=level, level_name=name, demo_length=demo.length)

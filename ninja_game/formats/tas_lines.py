@@ -122,7 +122,7 @@ def write_celeste(inputs: bytes, markers: Sequence[Marker] = ()) -> str:
 
 
 def write_libtas(inputs: bytes) -> str:
-    """Inputs as libTAS notes them, a line a tick. Raises ReplayError for a jump that no keyboard can make."""
+    """Inputs as libTAS notes them, one line per tick. Raises ReplayError for a jump that no keyboard can make."""
     _check_keyboard(inputs)
     numbers = {letter: keysym for keysym, letter in reversed(KEYSYMS.items())}
     return "".join(f"|K{':'.join(numbers[letter] for letter in _letters(keys))}|\n" for keys in inputs)
@@ -142,7 +142,7 @@ def _check_keyboard(inputs: bytes) -> None:
 
 
 def _libtas_word(line: str, file: str, number: int) -> str:
-    """The keys of a line ``|Kff53:ffe1|…``, as one of our words; fields of other devices are passed by."""
+    """The keys of a line ``|Kff53:ffe1|…``, as one of our words; fields of other devices are skipped."""
     fields = line.strip("|").split("|")
     keys = [field[1:] for field in fields if field.startswith("K")]
     if not keys and _KEYS.fullmatch(fields[0]):

@@ -22,25 +22,25 @@ OBJECTS = 50, 88
 """What levels keep to: shares of the cells, tiles with a shape, objects (the quartiles of N's own levels)."""
 
 
-def compose(layout: str, chance: Random, difficulty: int) -> Scene | None:
+def compose(layout: str, rng: Random, difficulty: int) -> Scene | None:
     """A level that keeps to all marks and has nothing odd; None if this attempt does not."""
     board = Board()
-    frame(board, chance)
-    LAYOUTS[layout](board, chance)
-    _break_symmetry(board, chance)
-    niche = _niche(board, chance) if chance.random() < 0.4 else None
-    tiles = chosen_style(board, chance, *SHAPES)
+    frame(board, rng)
+    LAYOUTS[layout](board, rng)
+    _break_symmetry(board, rng)
+    niche = _niche(board, rng) if rng.random() < 0.4 else None
+    tiles = chosen_style(board, rng, *SHAPES)
     if tiles is None or not SOLID[0] <= len(tiles) / TILES <= SOLID[1] or _mirror_share(tiles) < MIRROR:
         return None
-    scene = place_route(board, tiles, niche, chance, far=22 + 3 * difficulty)
+    scene = place_route(board, tiles, niche, rng, far=22 + 3 * difficulty)
     if scene is None:
         return None
-    place_fixtures(scene, chance)
-    if not lay_gold(scene, chance):
+    place_fixtures(scene, rng)
+    if not lay_gold(scene, rng):
         return None
-    if not place_enemies(scene, chance, chance.choice((3, 4, 4)) + difficulty // 3, difficulty):
+    if not place_enemies(scene, rng, rng.choice((3, 4, 4)) + difficulty // 3, difficulty):
         return None
-    place_mines(scene, chance, chance.choice((4, 6, 8)) + difficulty // 2)
+    place_mines(scene, rng, rng.choice((4, 6, 8)) + difficulty // 2)
     if not OBJECTS[0] <= len(scene.objects) <= OBJECTS[1] or level_findings(scene.level):
         return None
     return scene
@@ -51,27 +51,27 @@ def _mirror_share(tiles: dict[Cell, str]) -> float:
     return sum((cell in tiles) == (mirrored(cell) in tiles) for cell in cells) / TILES
 
 
-def _break_symmetry(board: Board, chance: Random) -> None:
+def _break_symmetry(board: Board, rng: Random) -> None:
     """Once: a stone is missing at one side, or a ledge is there; or the plan stays as it is."""
-    sort = chance.choice(("missing", "ledge", "ledge", "none"))
-    if sort == "missing":
+    kind = rng.choice(("missing", "ledge", "ledge", "none"))
+    if kind == "missing":
         stones = [piece for piece in board.pieces() if len(piece) <= 12 and all(c > MIDDLE for c, _ in piece)]
         if stones:
-            gone = chance.choice(stones)
+            gone = rng.choice(stones)
             board.cells -= set(gone)
             for cell in gone:
                 board.stones.pop(cell, None)
-    elif sort == "ledge":
+    elif kind == "ledge":
         for _ in range(20):
-            column, row, width = chance.randint(2, 26), chance.randint(5, 18), chance.choice((3, 4, 5))
+            column, row, width = rng.randint(2, 26), rng.randint(5, 18), rng.choice((3, 4, 5))
             if board.free(column - 2, row - 3, width + 4, 7):
-                board.fill(column, row, width, chance.choice((1, 1, 2)), one_sided=True)
+                board.fill(column, row, width, rng.choice((1, 1, 2)), one_sided=True)
                 return
 
 
-def _niche(board: Board, chance: Random) -> Niche | None:
+def _niche(board: Board, rng: Random) -> Niche | None:
     """A low roof beside a wall, over the exit, for one or two doors; None if there is no place for it."""
-    doors = chance.choice((1, 2, 2))
+    doors = rng.choice((1, 2, 2))
     found = []
     for column in range(1, COLUMNS - doors - 3):
         for row in range(4, ROWS + 1):
@@ -81,15 +81,15 @@ def _niche(board: Board, chance: Random) -> Niche | None:
                 found.append((column, row))
     if not found:
         return None
-    column, row = chance.choice(found)
-    right = chance.random() < 0.5 and _mirrored_too(board, column, row, doors + 4)
+    column, row = rng.choice(found)
+    right = rng.random() < 0.5 and _mirrored_too(board, column, row, doors + 4)
     cells = [(column + k, row) for k in range(doors)]
     roof = [(column + k, row - 1) for k in range(doors + 1)]
     if right:
         cells, roof = [mirrored(cell) for cell in cells], [mirrored(cell) for cell in roof]
     board.cells |= set(roof)
-    out = mirrored((column, row)) if right else (column, row)
-    return Niche(out, tuple(cells), "left" if right else "right")
+    exit_ = mirrored((column, row)) if right else (column, row)
+    return Niche(exit_, tuple(cells), "left" if right else "right")
 
 
 def _mirrored_too(board: Board, column: int, row: int, wide: int) -> bool:

@@ -11,21 +11,21 @@ from ninja_game.generator.scene import Scene, spec
 MOST = 12
 
 
-def blocks(scene: Scene, chance: Random) -> Iterator[str]:
+def blocks(scene: Scene, rng: Random) -> Iterator[str]:
     """Bounce blocks in staggered rows, in open air."""
-    apart, first = chance.choice((3, 4)), chance.randint(4, 7)
+    apart, first = rng.choice((3, 4)), rng.randint(4, 7)
     for number, row in enumerate(range(first, 20, apart)):
         for column in range(16 - (number % 2) * 2, 1, -4):
             if all((column + i, row + j) in scene.empty for i in (-1, 0, 1) for j in (-1, 0, 1)):
                 yield f"bounce block {column},{row}"
 
 
-def pads(scene: Scene, chance: Random) -> Iterator[str]:
+def pads(scene: Scene, rng: Random) -> Iterator[str]:
     """Launch pads on floors."""
     runs = [run for run in scene.runs() if run.length >= 3 and run.column < 16]
-    chance.shuffle(runs)
+    rng.shuffle(runs)
     for run in runs[:2]:
-        yield f"launch pad {run.column + chance.randint(0, run.length - 1)},{run.row} up"
+        yield f"launch pad {run.column + rng.randint(0, run.length - 1)},{run.row} up"
 
 
 def one_ways(scene: Scene, _: Random) -> Iterator[str]:
@@ -42,10 +42,10 @@ def one_ways(scene: Scene, _: Random) -> Iterator[str]:
                 yield from (f"one-way {c},{row} up" for c, _ in cells)
 
 
-def place_fixtures(scene: Scene, chance: Random) -> None:
+def place_fixtures(scene: Scene, rng: Random) -> None:
     """Perhaps put one sort of fixtures into a scene, mirrored."""
-    sort = chance.choice((blocks, pads, pads, one_ways, one_ways, None))
-    for line in sort(scene, chance) if sort else ():
+    kind = rng.choice((blocks, pads, pads, one_ways, one_ways, None))
+    for line in kind(scene, rng) if kind else ():
         first = spec(line)
         for record in dict.fromkeys((first, mirror_image(first))):
             point = (record.values[0], record.values[1])

@@ -12,13 +12,14 @@ from threading import Event
 
 from ninja_game.batch.difficulty import TRIES, difficulty
 from ninja_game.formats.ascii.writer import write_ascii_level
+from ninja_game.formats.replay.text import Replay
 from ninja_game.generator.compose import compose
 from ninja_game.generator.hazards import mines_beside, nearest_hazard
 from ninja_game.generator.layouts import LAYOUTS
 from ninja_game.generator.naming import AUTHOR, name_for
 from ninja_game.generator.scene import Point, Scene
 from ninja_game.runs.run import run_level
-from ninja_game.search.certificate import UnverifiedRunError, VerifiedRun, verified_run
+from ninja_game.search.certificate import UnverifiedRunError, verified_run
 from ninja_game.search.solve import Task, solve
 from ninja_game.sim.level import Level
 
@@ -41,7 +42,7 @@ class Generated:
     name: str
     comment: str
     level: Level
-    run: VerifiedRun
+    run: Replay
     difficulty: float
     attempts: int
 
@@ -86,50 +87,50 @@ def generate(
     stop = stop or Event()
     best: Generated | None = None
     looked_at = 0
-    chance = Random(f"{seed}/{wanted}")  # noqa: S311 - not for secrets
-    plans = [chance.choice(list(LAYOUTS)) for _ in range(TRIES_TO_COMPOSE)]
+    rng = Random(f"{seed}/{wanted}")  # noqa: S311 - not for secrets
+    plans = [rng.choice(list(LAYOUTS)) for _ in range(TRIES_TO_COMPOSE)]
     for number, plan in enumerate(plans):
         if looked_at >= budget.attempts or stop.is_set():
             break
-        chance = Random(f"{seed}/{wanted}/{number}")  # noqa: S311
-        scene = compose(plan, chance, wanted)
+        rng = Random(f"{seed}/{wanted}/{number}")  # noqa: S311
+        scene = compose(plan, rng, wanted)
         if scene is None:
             continue
         looked_at += 1
         report(f"attempt {looked_at} of at most {budget.attempts}: {plan}")
-        found = _certified(scene, chance, wanted, budget, stop)
+        found = _certified(scene, rng, wanted, budget, stop)
         if found is None or stop.is_set():
             continue
-        run, hard = found
-        name = name_for(plan, chance)
-        comment = f"seed {seed}, difficulty {wanted}: measured {hard:.1f}"
-        made = Generated(name, comment, run.level, run, hard, looked_at)
-        if best is None or abs(hard - wanted) < abs(best.difficulty - wanted):
+        run, measured = found
+        name = name_for(plan, rng)
+        comment = f"seed {seed}, difficulty {wanted}: measured {measured:.1f}"
+        made = Generated(name, comment, scene.level, run, measured, looked_at)
+        if best is None or abs(measured - wanted) < abs(best.difficulty - wanted):
             best = made
-        if _near(hard, wanted):
+        if _near(measured, wanted):
             break
     return best and replace(best, attempts=looked_at)
 
 
-def _near(hard: float, wanted: int) -> bool:
+def _near(measured: float, wanted: int) -> bool:
     """Whether a measured difficulty is what was asked for."""
-    return abs(hard - wanted) <= max(0.5, 0.15 * wanted)
+    return abs(measured - wanted) <= max(0.5, 0.15 * wanted)
 
 
-def _certified(scene: Scene, chance: Random, wanted: int, budget: Budget, stop: Event) -> tuple[VerifiedRun, float] | None:  # fmt: skip  # noqa: E501
+def _certified(scene: Scene, rng: Random, wanted: int, budget: Budget, stop: Event) -> tuple[Replay, float] | None:  # fmt: skip  # noqa: E501
     """A run through a scene whose hazards are changed until it is as hard as wanted, and how hard it is then."""
     run = solve(Task(scene.level, work=budget.find), stop=stop)
     if run is None:
         return None
-    hard = difficulty(run.level, run.inputs, tries=budget.tries)
+    measured = difficulty(scene.level, run.inputs, tries=budget.tries)
     spared = False
     for _ in range(budget.rounds):
-        if _near(hard, wanted) or stop.is_set():
+        if _near(measured, wanted) or stop.is_set():
             break
-        path = path_of(run)
+        path = path_of(scene.level, run)
         before = list(scene.hazards)
-        if hard < wanted:
-            more = mines_beside(scene, path, chance)
+        if measured < wanted:
+            more = mines_beside(scene, path, rng)
             if not more:
                 break
             scene.hazards.append(more)
@@ -144,19 +145,19 @@ def _certified(scene: Scene, chance: Random, wanted: int, budget: Budget, stop: 
         except UnverifiedRunError:
             scene.hazards = before
             continue
-        then = difficulty(changed.level, changed.inputs, tries=budget.tries)
+        then = difficulty(scene.level, changed.inputs, tries=budget.tries)
         # What makes it worse than it was, the other way, is taken back.
-        if abs(then - wanted) > abs(hard - wanted) and (then > hard) == (hard < wanted):
+        if abs(then - wanted) > abs(measured - wanted) and (then > measured) == (measured < wanted):
             scene.hazards = before
             continue
-        run, hard = changed, then
+        run, measured = changed, then
     if spared:
-        shorter = solve(Task(run.level, work=budget.shorten, first=run.inputs), stop=stop)
+        shorter = solve(Task(scene.level, work=budget.shorten, first=run.inputs), stop=stop)
         if shorter and shorter.end_tick < run.end_tick:
-            run, hard = shorter, difficulty(run.level, shorter.inputs, tries=budget.tries)
-    return run, round(hard, 2)
+            run, measured = shorter, difficulty(scene.level, shorter.inputs, tries=budget.tries)
+    return run, round(measured, 2)
 
 
-def path_of(run: VerifiedRun) -> Sequence[Point]:
+def path_of(level: Level, run: Replay) -> Sequence[Point]:
     """Where the ninja is in each tick of a run, px."""
-    return [(x, y) for x, y in run_level(run.level, run.inputs).positions.tolist()]
+    return [(x, y) for x, y in run_level(level, run.inputs).positions.tolist()]

@@ -16,9 +16,9 @@ APART, FROM_KEY = 11.0, 30.0
 Pattern = Callable[[Scene, Random], Iterator[list[Point]]]
 
 
-def rows(scene: Scene, chance: Random) -> Iterator[list[Point]]:
+def rows(scene: Scene, rng: Random) -> Iterator[list[Point]]:
     """Pieces side by side along a floor."""
-    step = chance.choice((12, 18, 24))
+    step = rng.choice((12, 18, 24))
     for run in scene.runs():
         count = min(9, int((run.length - 1) * CELL // step) + 1)
         x, y = run.middle
@@ -26,9 +26,9 @@ def rows(scene: Scene, chance: Random) -> Iterator[list[Point]]:
             yield [(x + step * (k - (count - 1) / 2), y + 4) for k in range(count)]
 
 
-def blocks(scene: Scene, chance: Random) -> Iterator[list[Point]]:
+def blocks(scene: Scene, rng: Random) -> Iterator[list[Point]]:
     """Pieces in a block, on a floor."""
-    wide, high = chance.choice(((3, 3), (4, 2), (3, 2), (5, 2)))
+    wide, high = rng.choice(((3, 3), (4, 2), (3, 2), (5, 2)))
     for run in scene.runs():
         if run.length >= 2:
             x, y = run.middle
@@ -48,18 +48,18 @@ def walls(scene: Scene, _: Random) -> Iterator[list[Point]]:
                 yield [(x + 4 * dx, y) for x, y in map(middle, cells[: min(8, len(cells) - 1)])]
 
 
-def arcs(scene: Scene, chance: Random) -> Iterator[list[Point]]:
+def arcs(scene: Scene, rng: Random) -> Iterator[list[Point]]:
     """A bow over a floor, as one jumps."""
-    high = chance.choice((48, 60, 72))
+    high = rng.choice((48, 60, 72))
     for run in scene.runs():
         if run.length >= 4:
             x, y = run.middle
             yield [(x + 22 * k, y - high + 4 * k * k) for k in range(-3, 4)]
 
 
-def stones(scene: Scene, chance: Random) -> Iterator[list[Point]]:
+def stones(scene: Scene, rng: Random) -> Iterator[list[Point]]:
     """Two or three pieces over a small stone."""
-    count = chance.choice((1, 2, 3))
+    count = rng.choice((1, 2, 3))
     for piece in scene.board.pieces():
         if len(piece) <= 14:
             row = min(r for _, r in piece)
@@ -71,15 +71,15 @@ def stones(scene: Scene, chance: Random) -> Iterator[list[Point]]:
 PATTERNS: tuple[Pattern, ...] = (rows, blocks, walls, arcs, stones)
 
 
-def lay_gold(scene: Scene, chance: Random) -> bool:
+def lay_gold(scene: Scene, rng: Random) -> bool:
     """Put gold into a scene, in two or three patterns, mirrored; whether it is enough."""
-    wanted = chance.randint(LEAST + 4, MOST - 6)
+    wanted = rng.randint(LEAST + 4, MOST - 6)
     order = list(PATTERNS)
-    chance.shuffle(order)
+    rng.shuffle(order)
     # One pattern is the level's own; the others come after it.
     for number, pattern in enumerate(order):
-        groups = list(pattern(scene, chance))
-        chance.shuffle(groups)
+        groups = list(pattern(scene, rng))
+        rng.shuffle(groups)
         share = (0.5, 0.85, 1.0, 1.0, 1.0)[number] * wanted
         for group in groups:
             points = list(dict.fromkeys(point for each in group for point in with_mirror(each)))

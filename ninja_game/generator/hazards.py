@@ -23,28 +23,28 @@ FROM_RUN = 17.0
 Source = Callable[[Scene, Random], Iterator[str]]
 
 
-def guards(scene: Scene, chance: Random) -> Iterator[str]:
+def guards(scene: Scene, rng: Random) -> Iterator[str]:
     """On floors that are long enough to run on."""
     for run in scene.runs():
         if run.length >= 5:
-            yield f"floor guard {run.column + chance.randint(1, run.length - 2)},{run.row}"
+            yield f"floor guard {run.column + rng.randint(1, run.length - 2)},{run.row}"
 
 
-def zaps(scene: Scene, chance: Random) -> Iterator[str]:
+def zaps(scene: Scene, rng: Random) -> Iterator[str]:
     """Around stones and along walls."""
-    way = chance.choice(("surface-cw", "surface-ccw"))
+    way = rng.choice(("surface-cw", "surface-ccw"))
     for column, row in _beside_tiles(scene):
         direction = "right" if scene.full((column, row + 1)) == (way == "surface-ccw") else "left"
         yield f"zap drone {column},{row} {way} {direction}"
 
 
-def patrols(scene: Scene, chance: Random) -> Iterator[str]:
+def patrols(scene: Scene, rng: Random) -> Iterator[str]:
     """Drones that go to and fro over a floor."""
-    kind = chance.choice(("zap drone", "zap drone", "laser drone", "chaingun drone"))
+    kind = rng.choice(("zap drone", "zap drone", "laser drone", "chaingun drone"))
     for run in scene.runs():
         if run.length >= 4:
-            direction = chance.choice(("left", "right"))
-            yield f"{kind} {run.column + run.length // 2},{run.row - chance.choice((0, 1))} alternating {direction}"
+            direction = rng.choice(("left", "right"))
+            yield f"{kind} {run.column + run.length // 2},{run.row - rng.choice((0, 1))} alternating {direction}"
 
 
 def thwumps(scene: Scene, _: Random) -> Iterator[str]:
@@ -57,11 +57,11 @@ def thwumps(scene: Scene, _: Random) -> Iterator[str]:
             yield f"thwump {column},{row} down"
 
 
-def turrets(scene: Scene, chance: Random) -> Iterator[str]:
+def turrets(scene: Scene, rng: Random) -> Iterator[str]:
     """In the open."""
     for column, row in sorted(scene.steps):
         around = all((column + i, row + j) in scene.steps for i in (-1, 0, 1) for j in (-1, 0, 1))
-        if around and (column in (MIDDLE, 5, 8, 11) or chance.random() < 0.1):
+        if around and (column in (MIDDLE, 5, 8, 11) or rng.random() < 0.1):
             yield f"gauss turret {column},{row}"
 
 
@@ -79,22 +79,22 @@ SOURCES: dict[Source, tuple[int, float]] = {
 """Where enemies come from: the least difficulty for them, and how often they are taken."""
 
 
-def place_enemies(scene: Scene, chance: Random, wanted: int, difficulty: int) -> bool:
+def place_enemies(scene: Scene, rng: Random, wanted: int, difficulty: int) -> bool:
     """Put about so many enemies of two or three sources into a scene; whether there are at least three."""
     able = [source for source, (least, _) in SOURCES.items() if difficulty >= least]
     weights = [SOURCES[source][1] for source in able]
-    chosen = [chance.choices(able, weights)[0] for _ in range(3)]
+    chosen = [rng.choices(able, weights)[0] for _ in range(3)]
     for number in range(12):
         source = chosen[number % len(chosen)]
         if number == 6:
             chosen = able
         if scene.count(*ENEMIES) >= wanted:
             break
-        lines = list(source(scene, chance))
-        chance.shuffle(lines)
+        lines = list(source(scene, rng))
+        rng.shuffle(lines)
         lines.sort(key=lambda line: not _on_the_way(scene, line))
         # Alone it breaks the symmetry; that is the exception.
-        alone = chance.random() < 0.25 or source is launchers or wanted - scene.count(*ENEMIES) == 1
+        alone = rng.random() < 0.25 or source is launchers or wanted - scene.count(*ENEMIES) == 1
         group = next((group for line in lines if (group := _group(scene, line, alone))), None)
         if group:
             scene.hazards.append(group)
@@ -150,11 +150,11 @@ def _beside_tiles(scene: Scene) -> Iterator[Cell]:
 # --- mines ---
 
 
-def place_mines(scene: Scene, chance: Random, wanted: int) -> None:
+def place_mines(scene: Scene, rng: Random, wanted: int) -> None:
     """Rows of mines where the level invites: under ceilings, on floors' ends, up the walls, all of one sort."""
-    sort = chance.choice((_ceiling_mines, _edge_mines, _wall_mines))
+    sort = rng.choice((_ceiling_mines, _edge_mines, _wall_mines))
     rows = list(sort(scene))
-    chance.shuffle(rows)
+    rng.shuffle(rows)
     for row in rows:
         group = _mines(scene, [point for each in row for point in with_mirror(each)])
         if len(group) >= 2 and scene.count(kinds.MINE) + len(group) <= wanted:
@@ -190,7 +190,7 @@ def _mines(scene: Scene, points: Sequence[Point]) -> list[ObjectSpec]:
     return [spec(f"mine {round(x)},{round(y)}px") for x, y in dict.fromkeys(fit)]
 
 
-def mines_beside(scene: Scene, run: Sequence[Point], chance: Random) -> list[ObjectSpec]:
+def mines_beside(scene: Scene, run: Sequence[Point], rng: Random) -> list[ObjectSpec]:
     """Mines beside a run that passes, at a place where it is in the air, and their mirror images; perhaps none.
 
     The run stays possible: no mine is less than ``FROM_RUN`` px from it.
@@ -198,7 +198,7 @@ def mines_beside(scene: Scene, run: Sequence[Point], chance: Random) -> list[Obj
     if scene.count(kinds.MINE) + 4 > MOST_MINES or len(scene.objects) + 4 > MOST_OBJECTS or len(run) < 50:
         return []
     for _ in range(20):
-        tick = chance.randint(40, len(run) - 3)
+        tick = rng.randint(40, len(run) - 3)
         (x0, y0), (x, y) = run[tick - 1], run[tick]
         speed = hypot(x - x0, y - y0)
         if speed < 1.0:

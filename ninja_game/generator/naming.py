@@ -30,6 +30,6 @@ PLACES = {
 """Names of places for each ground plan."""
 
 
-def name_for(layout: str, chance: Random) -> str:
+def name_for(layout: str, rng: Random) -> str:
     """A name for a level of a ground plan."""
-    return f"{chance.choice(MOODS)} {chance.choice(PLACES[layout])}"
+    return f"{rng.choice(MOODS)} {rng.choice(PLACES[layout])}"

@@ -26,7 +26,7 @@ class Niche(NamedTuple):
 
 
 def place_route(
-    board: Board, tiles: dict[Cell, str], niche: Niche | None, chance: Random, *, far: float
+    board: Board, tiles: dict[Cell, str], niche: Niche | None, rng: Random, *, far: float
 ) -> Scene | None:  # fmt: skip
     """A scene with ninja, exit and doors, the way over all switches about ``far`` cells long; None if it cannot be."""
     bare = Scene(board, tiles, (0, 0))
@@ -36,22 +36,22 @@ def place_route(
         return None
     best: tuple[float, list[Cell]] | None = None
     for _ in range(CHOICES):
-        start = chance.choice(floor)
+        start = rng.choice(floor)
         axis = [cell for cell in floor if cell[0] == MIDDLE]
         ends = [niche.exit] if niche else [*floor, *axis * 4, *[mirrored(start)] * 8]
-        out = chance.choice([cell for cell in ends if niche or cell in floor])
-        switches = [chance.choice(floor) for _ in range(1 + (len(niche.doors) if niche else 0))]
-        stops = [start, *switches, out]
+        exit_ = rng.choice([cell for cell in ends if niche or cell in floor])
+        switches = [rng.choice(floor) for _ in range(1 + (len(niche.doors) if niche else 0))]
+        stops = [start, *switches, exit_]
         worth = _worth(stops, bare.empty, far)
         if worth is not None and (best is None or worth > best[0]):
             best = worth, stops
     if best is None:
         return None
-    start, *switches, out = best[1]
+    start, *switches, exit_ = best[1]
     scene = Scene(board, tiles, start)
     # Now and then one has to jump for a switch.
-    places = [f"{c},{r - 1 if chance.random() < 0.3 else r}" for c, r in switches]
-    scene.key = [spec(f"ninja {start[0]},{start[1]}"), spec(f"exit {out[0]},{out[1]} switch {places[0]}")]
+    places = [f"{c},{r - 1 if rng.random() < 0.3 else r}" for c, r in switches]
+    scene.key = [spec(f"ninja {start[0]},{start[1]}"), spec(f"exit {exit_[0]},{exit_[1]} switch {places[0]}")]
     if niche:
         doors = zip(niche.doors, places[1:], strict=True)
         scene.key += [spec(f"locked door {c},{r} {niche.side} switch {place}") for (c, r), place in doors]
@@ -72,7 +72,7 @@ def _worth(stops: Sequence[Cell], empty: set[Cell], far: float) -> float | None:
         if b not in steps:
             return None
         way += steps[b]
-    start, out = stops[0], stops[-1]
+    start, exit_ = stops[0], stops[-1]
     height = max(row for _, row in stops) - min(row for _, row in stops)
-    composed = (MIDDLE in (out[0], start[0])) + (out == mirrored(start))
+    composed = (MIDDLE in (exit_[0], start[0])) + (exit_ == mirrored(start))
     return 4.0 * composed + min(height, 14) - abs(way - far)

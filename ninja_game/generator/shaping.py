@@ -66,19 +66,19 @@ def _outer(board: Board, cell: Cell, style: Style) -> Iterator[tuple[Cell, str]]
     for number, (dx, dy) in enumerate(CORNERS):
         open_ = not (board.solid((column + dx, row)) or board.solid((column, row + dy)))
         backed = board.solid((column - dx, row)) and board.solid((column, row - dy))
-        sort = style.above if dy < 0 else style.below
-        if not (open_ and backed and sort) or board.solid((column + dx, row + dy)):
+        shape = style.above if dy < 0 else style.below
+        if not (open_ and backed and shape) or board.solid((column + dx, row + dy)):
             continue
-        if sort in OUTER:
-            yield cell, OUTER[sort][number]
+        if shape in OUTER:
+            yield cell, OUTER[shape][number]
             continue
-        thin, thick = LONG[sort][number][0], LONG[sort][number][1]
-        second = (column - dx, row) if sort == "flat" else (column, row - dy)
+        thin, thick = LONG[shape][number][0], LONG[shape][number][1]
+        second = (column - dx, row) if shape == "flat" else (column, row - dy)
         # Room for the slope of the other end.
-        beyond = [(column - k * dx, row) if sort == "flat" else (column, row - k * dy) for k in (2, 3)]
-        # Where the next cell is no plain side of the stone, a short slope.
-        side = (second[0], row + dy) if sort == "flat" else (column + dx, second[1])
-        under = (second[0], row - dy) if sort == "flat" else (column - dx, second[1])
+        beyond = [(column - k * dx, row) if shape == "flat" else (column, row - k * dy) for k in (2, 3)]
+        # Where the next cell is not a plain side of the stone, a short slope.
+        side = (second[0], row + dy) if shape == "flat" else (column + dx, second[1])
+        under = (second[0], row - dy) if shape == "flat" else (column - dx, second[1])
         if inside(second) and all(map(board.solid, beyond)) and board.solid(under) and not board.solid(side):
             yield from ((cell, thin), (second, thick))
         else:
@@ -89,18 +89,18 @@ def _inner(board: Board, cell: Cell, style: Style, tiles: dict[Cell, str]) -> It
     """The tile that fills a hollow corner between full ones."""
     column, row = cell
     for number, (dx, dy) in enumerate(CORNERS):
-        sort = style.hollow_above if dy < 0 else style.hollow_below
+        shape = style.hollow_above if dy < 0 else style.hollow_below
         beside = (column + dx, row), (column, row + dy)
         full = all(tiles.get(each) == "#" or not inside(each) for each in beside)
         room = not (board.solid((column - dx, row)) or board.solid((column, row - dy)))
-        if sort and full and room:
-            yield cell, INNER[sort][number]
+        if shape and full and room:
+            yield cell, INNER[shape][number]
 
 
-def chosen_style(board: Board, chance: Random, least: int, most: int) -> dict[Cell, str] | None:
+def chosen_style(board: Board, rng: Random, least: int, most: int) -> dict[Cell, str] | None:
     """Tiles in a style by which ``least`` to ``most`` of them have a shape; None if no style does."""
     styles = list(STYLES)
-    chance.shuffle(styles)
+    rng.shuffle(styles)
     for style in styles:
         tiles = shaped(board, style)
         if least <= sum(tile != "#" for tile in tiles.values()) <= most:

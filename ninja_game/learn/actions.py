@@ -45,7 +45,7 @@ class Actions:
         self._shape: tuple[int, ...] = self.space.shape or ()
 
     def keys(self, actions: Any, count: int) -> Keys:
-        """The keys down in each of ``count`` worlds, uint8 (count,). Raises InvalidAction for what is no action."""
+        """The keys down in each of ``count`` worlds, uint8 (count,). Raises InvalidAction for what is not an action."""
         try:
             given = np.asarray(actions)
         except ValueError:

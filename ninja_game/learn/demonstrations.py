@@ -1,4 +1,4 @@
-"""Demonstrations: recordings as what an environment shows, is told and pays, for learning from them.
+"""Demonstrations: recordings as what an environment shows, gets and pays, for learning from them.
 
 >>> from ninja_game import load_replays
 >>> episode = demonstration(load_replays("levels/certificates/00-0-first-steps.exit.replay.txt")[0])
@@ -62,10 +62,10 @@ class Demonstration:
 def demonstration(recording: Recording, **settings: Any) -> Demonstration:
     """What an environment makes of a recording. ``settings``: of ``NinjaEnv``, but level, body, frame skip, time limit.
 
-    An environment presses jump when its key goes down; N also has recordings that press it anew while it is down. If
+    An environment presses jump when its key goes down; N also has recordings that press it again while it is down. If
     that makes another run of a recording, it is an UnplayableRecordingError.
     """
-    keys = recording.playback(recording.ticks)
+    keys = recording.inputs
     made = NinjaEnv(recording.level, body=recording.body, frame_skip=1, time_limit=len(keys), **settings)
     buttons = made.action_space.shape != ()
     down = np.frombuffer(keys, np.uint8) & KEYS_DOWN
@@ -82,7 +82,7 @@ def demonstration(recording: Recording, **settings: Any) -> Demonstration:
             break
     ticks = len(rewards)
     if made.inputs != keys[:ticks] and not _same_run(recording, made.inputs):
-        what = "it presses jump anew while the key is down"
+        what = "it presses jump again while the key is down"
         raise UnplayableRecordingError(f"{recording.file}: {recording.name}: {what}")
     terminations, truncations = np.zeros((2, ticks), np.bool_)
     terminations[-1], truncations[-1] = terminated, not terminated
@@ -95,7 +95,7 @@ def demonstration(recording: Recording, **settings: Any) -> Demonstration:
 
 def _same_run(recording: Recording, inputs: bytes) -> bool:
     """Whether other inputs make the run that was recorded."""
-    recorded = run_level(recording.level, recording.playback(recording.ticks), body=recording.body)
+    recorded = run_level(recording.level, recording.inputs, body=recording.body)
     return recorded == run_level(recording.level, inputs, body=recording.body)
 
 

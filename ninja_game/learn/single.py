@@ -159,11 +159,11 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
 
     @property
     def inputs(self) -> bytes:
-        """The inputs of this episode, one byte a tick: what ``record_replay`` takes."""
+        """The inputs of this episode, one byte per tick: what ``record_replay`` takes."""
         return bytes(self._inputs)
 
     def save(self) -> SavedEpisode:
-        """This moment, to come back to; which levels later episodes play is no part of it."""
+        """This moment, to come back to; which levels later episodes play is not part of it."""
         self._check_started("save")
         return SavedEpisode(self.worlds.save(), self.inputs, self._running)
 

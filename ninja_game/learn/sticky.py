@@ -16,7 +16,7 @@ from ninja_game.learn.actions import ACTION_NAMES
 REPEAT = 0.25
 """Chance that a world gets the action of the step before once more instead of the one that was chosen."""
 LONGEST_WAIT = 7
-"""Steps at most that an episode begins with no key down; how many is drawn anew for each episode, from 0 on."""
+"""Steps at most that an episode begins with no key down; how many is drawn again for each episode, from 0 on."""
 
 NONE = ACTION_NAMES.index("none")
 
@@ -30,7 +30,7 @@ class StickyActions:
     """
 
     def __init__(self, count: int, seed: Any, *, repeat: float = REPEAT, longest_wait: int = LONGEST_WAIT) -> None:
-        self._chance = np.random.default_rng(seed)
+        self._rng = np.random.default_rng(seed)
         self._repeat = repeat
         self._longest_wait = longest_wait
         self._last = np.full(count, NONE)
@@ -40,11 +40,11 @@ class StickyActions:
     def begin(self, worlds: NDArray[np.intp], *, wait: bool = True) -> None:
         """New episodes begin in these worlds; without ``wait`` at once."""
         self._last[worlds] = NONE
-        self._waits[worlds] = self._chance.integers(self._longest_wait + 1, size=len(worlds)) if wait else 0
+        self._waits[worlds] = self._rng.integers(self._longest_wait + 1, size=len(worlds)) if wait else 0
 
     def played(self, actions: Any) -> NDArray[np.int64]:
         """The actions of a step, (n,)."""
-        again = self._chance.random(len(self._last)) < self._repeat
+        again = self._rng.random(len(self._last)) < self._repeat
         self._last = np.where(again, self._last, actions)
         self._last[self._waits > 0] = NONE
         self._waits = np.maximum(self._waits - 1, 0)

@@ -35,7 +35,7 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
     as ``EnvWorlds`` takes them. ``actions``: "discrete" or "buttons". ``autoreset_mode``: "NextStep" (a world that has
     ended begins a new episode in the next step, whose action it does not see), "SameStep" (it begins it at once; what
     was is in ``infos["final_obs"]`` and ``["final_info"]``) or "Disabled" (you reset it, by ``options={"reset_mask":
-    …}``). ``copy``: whether observations are new arrays; else they are one memory that the next call writes anew.
+    …}``). ``copy``: whether observations are new arrays; else they are one memory that the next call writes again.
 
     ``reset(seed=s)`` gives world i the seed s + i, ``seed=[…]`` each its own. ``options``: ``"reset_mask"``, the worlds
     to reset; ``"level"``, the name or number of the level to play, or one for each.
@@ -110,7 +110,7 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
     def step(self, actions: Any) -> tuple[Observed, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], Infos]:
         """One step of every world.
 
-        Raises InvalidAction for what are no actions, ResetNeeded before the first reset and, without autoreset, for
+        Raises InvalidAction for what are not actions, ResetNeeded before the first reset and, without autoreset, for
         worlds that have ended.
         """
         self._refuse_closed()

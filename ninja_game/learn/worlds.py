@@ -68,7 +68,7 @@ class EnvWorlds:
     ``goal`` (``GoalDistance``: how far each world is from the exit) even if no reward and no part needs it. ``body``,
     ``memory``, ``threads``: as of a ``Batch``; neither memory nor threads change a result.
 
-    What it shows is written anew by each call; copy what you want to keep. (n: the number of worlds.)
+    What it shows is written again by each call; copy what you want to keep. (n: the number of worlds.)
 
     ============  ====================  =======================================================================
     observations  (n, …), or a dict     what the parts of the observation say

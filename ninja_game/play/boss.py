@@ -38,13 +38,13 @@ class BossScreen(Screen):
             return []
         surface.fill(_PAPER)
         canvas, text = self.app.canvas, self.app.theme.text
-        chance = Random(2)  # noqa: S311 - figures that mean nothing
+        rng = Random(2)  # noqa: S311 - figures that mean nothing
         canvas.fill_rect(surface, _HEAD, 0, _TOP - _ROW_HEIGHT, 792, _ROW_HEIGHT)
         text(surface, "Budget, second draft", 12, 6, size=11, colour=_INK)
         for row in range(_ROWS + 1):
             y = _TOP + _ROW_HEIGHT * row
             canvas.line(surface, _LINE, (0, y), (792, y), 0.5)
-            figures = [chance.randrange(40, 3000) for _ in range(4)]
+            figures = [rng.randrange(40, 3000) for _ in range(4)]
             cells = [str(row + 1), _ITEMS[row % len(_ITEMS)], *map(str, figures), str(sum(figures))]
             x = 0.0
             for (head, width), cell in zip(_COLUMNS, cells, strict=True):

@@ -22,9 +22,9 @@ Moment = tuple[SaveState, bytes, int, int]
 class Attempt:
     """One try at a level, from its start to the exit, to death, or to giving up.
 
-    ``lifetime``: ticks left, which gold adds to. ``inputs``: the recording, one byte a tick. ``score``: ticks, taken at
-    the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``assisted``: tools
-    were used (or it is practice), so it is no record.
+    ``lifetime``: ticks left, which gold adds to. ``inputs``: the recording, one byte per tick. ``score``: ticks, taken
+    at the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``assisted``:
+    tools were used (or it is practice), so it does not count as a record.
     """
 
     def __init__(
@@ -47,7 +47,7 @@ class Attempt:
 
     @property
     def outcome(self) -> str:
-        """What came first: "exit", "dead" or, so far, "running"."""
+        """The outcome: "exit", "dead" or, so far, "running"."""
         return self.simulation.outcome
 
     @property
@@ -84,11 +84,11 @@ class Attempt:
         if self.lifetime <= 0 and not self.practice_mode and self.outcome == "running":
             self._kill(FALL, 0.0, 0.0)
 
-    def give_up(self, chance: float, dx: float, dy: float) -> None:
-        """The suicide key: ``chance`` (0…1) below 0.3 explodes; (dx, dy) is the corpse's impulse."""
+    def give_up(self, draw: float, dx: float, dy: float) -> None:
+        """The suicide key: ``draw`` (0…1) below 0.3 explodes; (dx, dy) is the corpse's impulse."""
         if self.outcome == "running":
             self.own_hand = True
-            self._kill(EXPLOSIVE if chance < 0.3 else HARD_BULLET, dx, dy)
+            self._kill(EXPLOSIVE if draw < 0.3 else HARD_BULLET, dx, dy)
 
     def _kill(self, cause: int, dx: float, dy: float) -> None:
         self.simulation.kill(cause, dx, dy)

@@ -48,7 +48,7 @@ MOST_REPLAYS, MOST_ROWS = 5_000, 100_000
 """Of its records: replays, and rows of any other table."""
 
 FOLDERS = (LEVELS, REPLAYS, EXPORTS, EDITING := "editing")
-"""What of the player's folder goes along, besides the settings and the records."""
+"""What a backup holds of the player's folder besides the settings and the records."""
 
 MOST_OF_DRAFT, MOST_OF_LEVEL = 2**20, 2**20
 """Bytes of a level under edit, and of the level of a replay."""
@@ -111,9 +111,9 @@ def _left_out(name: str, problem: str) -> str:
 
 
 def read_backup(player: PlayerData, data: bytes) -> list[str]:
-    """Take a backup in; what came of it, in words. The settings count from the next start on.
+    """Take a backup in; returns the result in words. The settings count from the next start on.
 
-    Raises FileError for what is no backup, or too much of one; OSError, sqlite3.Error. Then nothing has changed.
+    Raises FileError for what is not a backup, or too much of one; OSError, sqlite3.Error. Then nothing has changed.
     """
     with TemporaryDirectory() as scratch:
         path = Path(scratch) / RECORDS
@@ -122,7 +122,7 @@ def read_backup(player: PlayerData, data: bytes) -> list[str]:
             path.write_bytes(files.pop(RECORDS))
             store = _opened(path)
         except ValueError as error:
-            raise FileError("this is no backup of a player's data", found=shown_text(str(error))) from None
+            raise FileError("this is not a backup of a player's data", found=shown_text(str(error))) from None
         with closing(store.connection):
             replays, taken = _take(player, store, files)
     return [f"{replays} new replays in the records", f"{len(taken)} new files", *taken, *left_out, *store.messages]
@@ -164,13 +164,13 @@ def _opened(path: Path) -> Store:
             for name in TABLES & {name for _, name, *_ in there}:
                 ((rows,),) = db.execute(f"SELECT count(*) FROM {name}")
                 if rows > (most := MOST_REPLAYS if name == "replay" else MOST_ROWS):
-                    raise ValueError(f"{rows:,} rows in the table {name}, of which at most {most:,} are taken in")
+                    raise ValueError(f"{rows:,} rows in the table {name}, of which at most {most:,} are accepted")
             lengths = "max(length(CAST(level_text AS BLOB))), sum(length(inputs))"
             ((longest, ticks),) = db.execute(f"SELECT {lengths} FROM replay")
             if (longest or 0) > MOST_OF_LEVEL:
-                raise ValueError(f"a level of {longest:,} bytes, of which at most {MOST_OF_LEVEL:,} are taken in")
+                raise ValueError(f"a level of {longest:,} bytes, of which at most {MOST_OF_LEVEL:,} are accepted")
             if (ticks or 0) > MOST_TICKS:
-                raise ValueError(f"replays of {ticks:,} ticks, of which at most {MOST_TICKS:,} are taken in")
+                raise ValueError(f"replays of {ticks:,} ticks, of which at most {MOST_TICKS:,} are accepted")
         store = Store(path)
     except sqlite3.Error as error:
         raise ValueError(str(error)) from None

@@ -21,7 +21,7 @@ YOUR_BEST = "your best"
 
 @dataclass(frozen=True)
 class GhostRun:
-    """A recording that runs along: ``inputs``, a byte a tick as in demos; ``colour`` "#rrggbb" or the palette's."""
+    """A recording that runs along: ``inputs``, one byte per tick as in demos; ``colour`` "#rrggbb" or the palette's."""
 
     label: str
     inputs: bytes
@@ -102,13 +102,13 @@ class LevelContext:
         told(self.data, count_of(self.data, self.entry, attempt, killer=killer))
 
     def gave_up(self, attempt: Attempt) -> None:
-        """Called when an attempt is left or begun anew, whether it has ended or not: counts one that has not."""
+        """Called when an attempt is left or started again, whether it has ended or not: counts one that has not."""
         if attempt.outcome == "running" and attempt.simulation.tick:
-            # Beginning anew must not wait for the disk.
+            # Starting again must not wait for the disk.
             self.data.store.later(count_of(self.data, self.entry, attempt))
 
     def restart(self) -> bool:
-        """Called when the level begins anew; whether it is another one, since its file has changed.
+        """Called when the level starts again; whether it is another one, since its file has changed.
 
         Raises NinjaGameError or OSError for a changed file that cannot be played; the level stays as it was.
         """

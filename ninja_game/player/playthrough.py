@@ -27,7 +27,7 @@ from ninja_game.simulation import Body, Simulation
 class LevelRun(LevelContext):
     """A level by itself (single level, time trial): every attempt starts with the full lifetime.
 
-    Its file is read again when it has changed and the level begins anew.
+    Its file is read again when it has changed and the level starts again.
     """
 
     def __init__(self, data: PlayerData, entry: Entry, *, body: Body = "circle", practice_mode: bool = False) -> None:
@@ -166,7 +166,7 @@ class EpisodeRun(LevelContext):
         return notices
 
     def restart(self) -> bool:
-        """The level begins anew: as if it had not been passed."""
+        """The level starts again: as if it had not been passed."""
         self._passed = None
         return False
 

@@ -53,7 +53,7 @@ class Progress:
 
     @property
     def columns(self) -> list[ColumnProgress]:
-        """What is in the store, read again whenever that may have changed; damaged columns begin anew."""
+        """What is in the store, read again whenever that may have changed; damaged columns start again."""
         if self._epoch != self.store.epoch:
             self._columns = [ColumnProgress(*[(c * EPISODES_PER_COLUMN, 0)] * 2) for c in range(COLUMNS)]
             query = f"SELECT {_COLUMN_NAMES} FROM progress WHERE pack = ?"

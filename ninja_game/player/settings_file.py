@@ -31,7 +31,7 @@ OLD_KEYS = {"ninja_colour": "flavour"}
 
 COMMENT = "Settings of ninja-game. What is missing or wrong here has its default; comments stay."
 MAX_BYTES = 2**16
-"""More than this is no file of settings; a number of so many digits is read within 0.1 s."""
+"""More than this is not a file of settings; a number of so many digits is read within 0.1 s."""
 
 LOCK_SECONDS = 1.0
 
@@ -42,7 +42,7 @@ LOCK_SECONDS = 1.0
 def read_settings(path: Path) -> tuple[Settings, list[str]]:
     """The settings in a file, and messages about what in it could not be used.
 
-    A missing file gives the defaults. A file that is no TOML, or from a newer game, is moved aside; a wrong value only
+    A missing file gives the defaults. A file that is not TOML, or from a newer game, is moved aside; a wrong value only
     falls back to its default.
     """
     try:

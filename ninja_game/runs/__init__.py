@@ -1,1 +1,1 @@
-"""Whole runs: what came of them, traces, verification, measurements."""
+"""Whole runs: the result, traces, verification, measurements."""

@@ -69,7 +69,7 @@ def compare_runs(ours: Recording, theirs: Recording, budget: int = RUN_BUDGET) -
     if level_digest(ours.level) != level_digest(theirs.level):
         raise ArgumentError(f"{ours.file} and {theirs.file} are recordings of different levels")
     here, there = run_splits(ours, budget=budget), run_splits(theirs, budget=budget)
-    first_keys = _first_unequal(*(np.frombuffer(each.playback(each.ticks), np.uint8) for each in (ours, theirs)))
+    first_keys = _first_unequal(*(np.frombuffer(each.inputs, np.uint8) for each in (ours, theirs)))
     first_place = _first_unequal(here.positions, there.positions)
     other_splits = there.by_key
     splits = tuple(

@@ -26,33 +26,39 @@ _COMMENT = re.compile(r"(?![^;]*:)[^|;]*;.*")
 
 
 def replay_texts(recordings: Iterable[Recording], budget: int = RUN_BUDGET) -> Iterator[str]:
-    """Each recording as a replay text of ours with its level inside, run to see what comes of it.
+    """Each recording as a replay text of ours with its level inside, run to see the result of it.
 
     Raises LevelError for a level that cannot be played, BudgetError for a run that is not over when its ``budget`` is.
     """
-    for each in recordings:
-        with named_errors(each):
-            inputs = each.playback(each.ticks)
-            new = record_replay(each.level, inputs, body=each.body, name=each.name, author=each.author, budget=budget)
-        old = each.replay or replace(new, level_name=each.name)
-        markers = tuple(marker for marker in old.markers if marker.tick <= len(new.inputs))
-        new = replace(new, level_name=old.level_name, level_author=old.level_author)
-        yield write_replay(replace(new, practice=old.practice, markers=markers))
+    return (write_replay(recorded_again(each, budget)) for each in recordings)
+
+
+def recorded_again(recording: Recording, budget: int = RUN_BUDGET) -> Replay:
+    """What comes of a recording as a replay with its level inside; names, markers and ``practice`` stay. Raises so."""
+    old, level, inputs = recording.replay, recording.level, recording.inputs
+    with named_errors(recording):
+        new = record_replay(
+            level, inputs, body=recording.body, name=recording.name, author=recording.author, budget=budget
+        )
+    markers = tuple(marker for marker in old.markers if marker.tick <= len(new.inputs))
+    return replace(
+        new, level_name=old.level_name, level_author=old.level_author, practice=old.practice, markers=markers
+    )
 
 
 def input_texts(recordings: Iterable[Recording], form: str) -> Iterator[str]:
-    """All inputs of each recording, not run: as a loose replay ("inputs"), or in another tool's notation.
+    """All inputs of each recording, not run: as a replay without claims ("inputs"), or in another tool's notation.
 
     ``form``: "inputs", "celeste" or "libtas". Raises ReplayError for what the tools' notations cannot hold.
     """
     for each in recordings:
-        loose = _loose(each)
-        keys = loose.inputs if loose.demo_length is None else loose.playback(loose.ticks)
+        replay = _without_claims(each)
+        keys = replay.inputs if replay.demo_length is None else each.inputs
         try:
             if form == "celeste":
-                yield write_celeste(keys, loose.markers)
+                yield write_celeste(keys, replay.markers)
             else:
-                yield write_libtas(keys) if form == "libtas" else write_replay(loose)
+                yield write_libtas(keys) if form == "libtas" else write_replay(replay)
         except ReplayError as error:
             raise replace(error, file=each.file, line=each.line) from None
 
@@ -64,17 +70,13 @@ def on_level(recording: Recording, level: Level | None = None) -> Recording:
     """
     there = replace(recording, level=level or recording.level)
     digest, now = level_digest(recording.level), level_digest(there.level)
-    recorded = (recording.replay and recording.replay.level_digest) or digest
-    return recording if now == digest == recorded else replace(there, replay=_loose(there))
+    recorded = recording.replay.level_digest or digest
+    return recording if now == digest == recorded else replace(there, replay=_without_claims(there))
 
 
-def _loose(recording: Recording) -> Replay:
-    """A recording without its claims."""
-    old = recording.replay
-    if old is None:
-        demo = recording.demo
-        old = Replay(demo.inputs, demo.end, "", name=recording.name, author=recording.author, demo_length=demo.length)
-    claimless = replace(old, outcome="", gold=0, digest="", waypoints=(), rules=RULES_VERSION)
+def _without_claims(recording: Recording) -> Replay:
+    """The replay of a recording with its level inside and without its claims."""
+    claimless = replace(recording.replay, outcome="", gold=0, digest="", waypoints=(), rules=RULES_VERSION)
     return replace(claimless, level=recording.level, level_digest="", level_path="", level_record=0)
 
 

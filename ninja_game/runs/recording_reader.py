@@ -1,4 +1,4 @@
-"""Recordings out of files and folders, one after the other; what cannot be read is told and does not stop the rest."""
+"""Recordings out of files and folders, in order; what cannot be read is reported and does not stop the rest."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def _texts_of(path: Path, *, named: bool) -> Iterator[tuple[str, str, bool] | Un
 
 
 def recordings_in(paths: Iterable[Path], level: Level | None = None) -> Iterator[Recording | Unreadable]:
-    """Every recording of files and folders, in order. Files of levels alone are passed by in folders.
+    """Every recording of files and folders, in order. Files of levels alone are skipped in folders.
 
     ``level``: what recordings that do not hold their level are played on.
     """

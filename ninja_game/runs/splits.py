@@ -86,7 +86,7 @@ def run_splits(recording: Recording, events: Sequence[str] = SPLIT_EVENTS, budge
     splits: list[Split] = []
     positions: list[tuple[float, float]] = []
     counts: dict[tuple[str, int | None], int] = {}
-    for keys in recording.playback(min(recording.ticks, affordable_ticks(recording.level, budget))):
+    for keys in recording.inputs[: affordable_ticks(recording.level, budget)]:
         run.step_keys(keys)
         positions.append((run.ninja.x, run.ninja.y))
         for event in run.events:
@@ -142,7 +142,7 @@ def split_table(runs: Sequence[RunSplits], best: RunSplits) -> list[SplitRow]:
 def sum_of_best(rows: Sequence[SplitRow]) -> int:
     """The tick at which a run would end that goes every segment as fast as the fastest of them.
 
-    A lower bound for nobody: the speed with which a run leaves a segment is part of the next one.
+    A hint, not a lower bound: the speed with which a run leaves a segment is part of the next one.
     """
     return sum(row.best_segment for row in rows if row.best_segment is not None) - 1
 

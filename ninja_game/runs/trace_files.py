@@ -22,8 +22,7 @@ from ninja_game.errors import FileError, FormatError
 from ninja_game.files.arrays import MOST_ARRAYS, UNREADABLE, read_array
 from ninja_game.files.reading import open_regular
 from ninja_game.files.zips import open_zip
-from ninja_game.runs.run_trace import NINJA_RECORD, OBJECT_RECORD, RunTrace
-from ninja_game.runs.trace import NINJA_NAME, rows
+from ninja_game.runs.trace import NINJA_NAME, NINJA_RECORD, OBJECT_RECORD, RunTrace, rows
 from ninja_game.sim.inputs import MAX_TICKS, Input
 
 COLUMNS = (
@@ -44,7 +43,7 @@ _UNREADABLE = (*UNREADABLE, csv.Error)
 
 
 class FiledTrace(NamedTuple):
-    """A trace, and which record of which name and file it was made from; ``inputs``: one byte a tick."""
+    """A trace, and which record of which name and file it was made from; ``inputs``: one byte per tick."""
 
     record: int
     name: str
@@ -82,7 +81,7 @@ def read_csv(text: Iterable[str], *, file: str = "") -> Iterator[FiledTrace]:
         header = ("no table",)
     if header != COLUMNS:
         raise FormatError(
-            "this is no trace", file=file, line=1, found=repr(",".join(header)[:80]),
+            "this is not a trace", file=file, line=1, found=repr(",".join(header)[:80]),
             expected=f"the header {','.join(COLUMNS)}", hint="`ninja-game trace -o` writes it",
         )  # fmt: skip
     try:
@@ -93,7 +92,7 @@ def read_csv(text: Iterable[str], *, file: str = "") -> Iterator[FiledTrace]:
 
 
 def _read_run(table: Iterable[Mapping[str, str]], record: int, file: str) -> FiledTrace:
-    """One record's rows as a trace. Raises an error of ``_UNREADABLE`` where a row is missing or is no number."""
+    """One record's rows as a trace. Raises an error of ``_UNREADABLE`` where a row is missing or is not a number."""
     ninja, objects, inputs = bytearray(), bytearray(), bytearray()
     columns: list[tuple[int, str]] = []
     events: list[str] = []
@@ -159,7 +158,7 @@ def read_npz(data: IO[bytes], path: Path) -> Iterator[FiledTrace]:
             for number in sorted(int(name.removeprefix("ninja_")) for name in found if name.startswith("ninja_")):
                 yield _read_arrays(archive, found, number)
     except _UNREADABLE as error:
-        raise FormatError(f"this is no trace ({error})", file=str(path)) from None
+        raise FormatError(f"this is not a trace ({error})", file=str(path)) from None
 
 
 def _read_arrays(archive: ZipFile, found: Mapping[str, ZipInfo], number: int) -> FiledTrace:
@@ -185,7 +184,7 @@ def _too_large(path: Path) -> FileError:
 
 
 def is_trace(path: Path) -> bool:
-    """Whether a file is a trace, by what it begins with. Raises FileError for what is no regular file; OSError."""
+    """Whether a file is a trace, by what it begins with. Raises FileError for what is not a regular file; OSError."""
     with open_regular(path) as file:
         return file.readline(len(COLUMNS[0]) + 1).startswith((f"{COLUMNS[0]},".encode(), ZIPPED))
 
@@ -205,4 +204,4 @@ def read_traces(path: Path) -> Iterator[FiledTrace]:
                 yield from read_csv(text, file=str(path))
         except UnicodeDecodeError:
             expected = "CSV or .npz of `ninja-game trace`"
-            raise FormatError("this is no trace", file=str(path), expected=expected) from None
+            raise FormatError("this is not a trace", file=str(path), expected=expected) from None

@@ -10,7 +10,7 @@ from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ninja_game.backend.memories import open_worlds, proven_memory
+from ninja_game.backend.memories import proven_memory
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest
@@ -19,9 +19,7 @@ from ninja_game.formats.replay.text import RULES_VERSION, Replay
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import with_press_bits
-from ninja_game.sim.memory.interface import TRACED_NUMBERS
-from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
-from ninja_game.simulation import Simulation, is_box
+from ninja_game.simulation import Simulation
 
 STRICT = {
     "outcome": "exit",
@@ -44,7 +42,7 @@ class OutOfRangeError(NinjaGameError):
 
 @dataclass(frozen=True)
 class Verdict:
-    """What came of a recording, and what it was (docs/verification.md).
+    """The result of a recording, and what it was (docs/verification.md).
 
     ``name``, ``author``, ``practice``: as the recording says. ``level_digest``: of the level that was played;
     ``level_name``: of the level with that digest among those that count, else ''. ``body``, ``rules``: of the run.
@@ -103,42 +101,41 @@ def verify_recording(
     when its ``budget`` of work is (``ninja_game.budget``), OutOfRangeError for a run that leads out
     of its world, KnownRunError where no run can be judged.
     """
-    replay = recording.replay if recording.replay and not recording.replay.loose else None
+    claimed = None if recording.replay.unclaimed else recording.replay
     verdict = Verdict(
         recording.file, recording.record, recording.name, recording.author, level_digest(recording.level),
-        level_name="", body=recording.body, rules=replay.rules if replay else RULES_VERSION,
+        level_name="", body=recording.body, rules=recording.replay.rules,
         outcome=NOT_RUN, end_tick=-1, gold=0, score_ticks=None, ticks=0, xy_sha256="",
         possible_by_keyboard=None, in_time=None,
-        practice=bool(recording.replay and recording.replay.practice), complete=not recording.demo.missing,
+        practice=recording.replay.practice, complete=not recording.missing,
     )  # fmt: skip
     if counting is not None and verdict.level_digest not in counting:
         return verdict
     one_memory = proven_memory("plain" if memory == "both" else memory)
     with named_errors(recording):
-        inputs = recording.playback(recording.ticks)
+        inputs = recording.inputs
         try:
             run = run_level(
                 recording.level,
                 inputs,
                 body=recording.body,
                 memory=one_memory,
-                digest=bool(replay and replay.digest),
+                digest=bool(recording.replay.digest),
                 budget=budget,
             )
-            in_time = _in_time(recording, run, one_memory)
         except IndexError as error:
             what = "the run leads out of its world's arrays and is not judged: a fault of this program, worth a report"
             raise OutOfRangeError(f"{recording.file}: record {recording.record}: {what}") from error
-        problems = list(_broken_claims(replay, run)) if replay else []
+        problems = list(_broken_claims(claimed, run)) if claimed else []
         if memory == "both":
             problems += filter(None, [memory_difference(recording, run.ticks)])
-    if not replay and run.outcome != "exit":
+    if not claimed and run.outcome != "exit":
         problems.append(f"does not reach the exit: {_ending(recording, run)}")
-    sampled = run.ticks - 1 if run.outcome != "running" else min(run.ticks, len(recording.demo.inputs))
+    sampled = run.ticks - 1 if run.outcome != "running" else min(run.ticks, len(recording.replay.inputs))
     return replace(
         verdict, outcome=run.outcome, end_tick=run.end_tick, gold=run.gold,
         score_ticks=run.score_ticks if run.outcome == "exit" else None, ticks=run.ticks, xy_sha256=run.xy_sha256,
-        possible_by_keyboard=with_press_bits(inputs[:sampled]) == inputs[:sampled], in_time=in_time,
+        possible_by_keyboard=with_press_bits(inputs[:sampled]) == inputs[:sampled], in_time=run.in_time,
         problems=tuple(problems),
     )  # fmt: skip
 
@@ -151,7 +148,7 @@ def judged(verdict: Verdict, levels: Mapping[str, str], *, only_these: bool, str
     """
     demanded = []
     if (only_these or strict) and verdict.level_digest not in levels:
-        demanded.append(f"level_digest is {verdict.level_digest}, which is none of the levels that count")
+        demanded.append(f"level_digest is {verdict.level_digest}, which is not one of the levels that count")
     unknown = (None, NOT_RUN) if demanded else ()
     for field, expected in STRICT.items() if strict else ():
         found = getattr(verdict, field)
@@ -170,25 +167,10 @@ def _ending(recording: Recording, run: RunResult) -> str:
     """An outcome in words."""
     if run.outcome != "running":
         return f"{run.outcome} in tick {run.end_tick}"
-    missing, end = recording.demo.missing, recording.demo.end
-    if missing:
-        return f"the demo is cut, it holds {end - missing} of its {end} ticks"
+    if recording.missing:
+        held = len(recording.replay.inputs)
+        return f"the demo is truncated, it holds {held} of its {held + recording.missing} ticks"
     return f"still running after {run.ticks} ticks"
-
-
-def _in_time(recording: Recording, run: RunResult, memory: str) -> bool:
-    """Whether the lifetime lasted until the run's end (game.md §1.1): it begins full, as in a level played alone."""
-    if run.ticks <= LIFETIME:
-        return True
-    # After each tick but that of the end one tick of lifetime is gone; none may be the last.
-    lived = run.ticks - (run.outcome != "running")
-    if LIFETIME + GOLD_BONUS * run.gold <= lived:
-        return False
-    inputs = recording.playback(run.ticks)
-    record = open_worlds(memory, recording.level, box=is_box(recording.body)).trace(inputs, [], events=False)
-    width, at = len(TRACED_NUMBERS), TRACED_NUMBERS.index("gold")
-    gold = map(int, record.numbers[at : width * lived : width])
-    return all(LIFETIME + GOLD_BONUS * got > tick for tick, got in enumerate(gold, 1))
 
 
 def _broken_claims(replay: Replay, run: RunResult) -> Iterator[str]:
@@ -225,14 +207,14 @@ def _missed_waypoint(replay: Replay, run: RunResult) -> Iterator[str]:
 
 
 def memory_difference(recording: Recording, ticks: int) -> str:
-    """The first of so many ticks, and the field, in which the two memories differ, '' if they never do.
+    """The first of this many ticks, and the field, in which the two memories differ, '' if they never do.
 
     Raises MemoryUnavailableError without Numba.
     """
     plain, compiled = (
         Simulation(recording.level, body=recording.body, memory=memory) for memory in ("plain", "compiled")
     )
-    for keys in recording.playback(ticks):
+    for keys in recording.inputs[:ticks]:
         plain.step_keys(keys)
         compiled.step_keys(keys)
         difference = plain.first_difference(compiled)

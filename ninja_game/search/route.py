@@ -178,7 +178,7 @@ class Route:
         return Leg(roots, NEVER, front.mask, NEVER, ENDS, rollouts, field, wanted)
 
     def _way_to_a_switch(self, front: Front) -> tuple[FieldOf, int]:
-        """The fields of the first door in the way; at later tries, by turns, those of the other doors' switches.
+        """The fields of the first door in the way; at later tries, in turn, those of the other doors' switches.
 
         And the bit of the switch that it is then about.
         """

@@ -45,7 +45,7 @@ EACH_COSTS = 10_000
 
 
 class Fineness(NamedTuple):
-    """How a span is searched: the resolution, and what the known run is told besides its span."""
+    """How a span is searched: the resolution, and what the known run needs besides its span."""
 
     resolution: Resolution
     behind: float
@@ -117,7 +117,7 @@ class SpanSearches:
     ) -> bytes | None:
         """Search the span from tick ``first`` to before ``last``; a shorter run than the known one, None if none.
 
-        ``over`` is told the ticks of each part, and may end it.
+        ``over`` gets the ticks of each part, and may end it.
         """
         run = self.run._replace(
             span=(first, last), behind=fineness.behind, far=fineness.far, place_price=fineness.place_price,
@@ -148,7 +148,7 @@ class SpanSearches:
         self._reach = min(max(self._reach * (1.15 if early else 0.8 if late else 1.0), LEAST_REACH), MOST_REACH)
         if counters.best_node < 0:
             return None
-        # A press is there where the key goes down; joined parts need it anew.
+        # A press is there where the key goes down; joined parts need it again.
         return with_press_bits(self._inputs[:first] + self._path(int(counters.best_node)))
 
     def _path(self, index: int) -> bytes:
@@ -168,7 +168,7 @@ class SpanSearches:
 class RunShortener:
     """Shortens runs of one level that must collect so much gold.
 
-    ``submit`` is given every shorter run; ``over`` is told the ticks of each part and what they cost, and may end it.
+    ``submit`` is given every shorter run; ``over`` gets the ticks of each part and what they cost, and may end it.
     """
 
     def __init__(
@@ -210,7 +210,7 @@ class RunShortener:
         return inputs
 
     def climb(self, inputs: bytes, ticks: int) -> bytes:
-        """Go on from a run by a local search of so many ticks; its best run."""
+        """Go on from a run by a local search of this many ticks; its best run."""
         self._climbs += 1
         local_search = LocalSearch(self.start, inputs, gold=self.gold, seed=self.seed + 7919 * self._climbs)
         for temperature in COOLING:

@@ -64,7 +64,7 @@ MAX_DEMO_TICKS = 25_193
 class Demo:
     """A recording's inputs.
 
-    ``inputs``: one byte a tick from tick 0, the sum of its ``Input`` flags; in ticks beyond them no key is down.
+    ``inputs``: one byte per tick from tick 0, the sum of its ``Input`` flags; in ticks beyond them no key is down.
     ``length``: how many ticks the recording claims; texts may claim a fraction, NaN or the absurd. ``missing``: how
     many inputs it claims that its text does not hold; no key is down in them.
     """
@@ -75,7 +75,7 @@ class Demo:
 
     @property
     def end(self) -> int:
-        """The first tick after the recording: its length, rounded up; 0 if the length is no number.
+        """The first tick after the recording: its length, rounded up; 0 if the length is not a number.
 
         Never beyond both the inputs and the longest recording that the game makes: an absurd length costs nothing.
         """

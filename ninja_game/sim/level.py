@@ -17,8 +17,8 @@ class ObjectSpec(NamedTuple):
     """One object record of a level string (objects.md §5).
 
     ``kind`` is the type number 0…12, or -1 for a record that creates nothing (unknown type, empty); ``values`` are
-    float64 as read by Flash's number rule (px, flags, cells), NaN where the text was no number. ``text`` is kept only
-    for what cannot be rebuilt from kind and values (kind -1), so that such a level can be written back.
+    float64 as read by Flash's number rule (px, flags, cells), NaN where the text was not a number. ``text`` is kept
+    only for what cannot be rebuilt from kind and values (kind -1), so that such a level can be written back.
     """
 
     kind: int
@@ -58,7 +58,7 @@ class Level:
             object.__setattr__(self, "objects", tuple(objects))
 
     def __reduce__(self) -> tuple[type[Level], tuple[tuple[int, ...], tuple[ObjectSpec, ...]]]:
-        """Copies and pickles are made anew, so that they are as ``__post_init__`` leaves them."""
+        """Copies and pickles are made again, so that they are as ``__post_init__`` leaves them."""
         return type(self), (self.tiles, self.objects)
 
     def tile(self, column: int, row: int) -> int:

@@ -61,10 +61,10 @@ def record_table(data: Level) -> RecordTable:
 
 
 def _check(data: object) -> None:
-    """Raise LevelError for what is no level: 713 whole numbers and records of numbers."""
+    """Raise LevelError for what is not a level: 713 whole numbers and records of numbers."""
     if not isinstance(data, Level):
         hint = "load_level(path) and parse_level(text) read one"
-        raise LevelError("this is no level", found=repr(data)[:40], expected="a Level", hint=hint)
+        raise LevelError("this is not a level", found=repr(data)[:40], expected="a Level", hint=hint)
     if len(data.tiles) != TILES or not all(issubclass(kind, int) for kind in set(map(type, data.tiles))):
         raise LevelError("not the tiles of a level", expected=f"{TILES} whole numbers")
     for number, record in enumerate(data.objects):
@@ -74,7 +74,9 @@ def _check(data: object) -> None:
             good = False
         if not good:
             expected = "a whole number as its kind, and float64 numbers"
-            raise LevelError(f"object {number} of the level is none", found=repr(record)[:60], expected=expected)
+            raise LevelError(
+                f"object {number} of the level is not an ObjectSpec", found=repr(record)[:60], expected=expected
+            )
 
 
 @fast

@@ -36,7 +36,7 @@ SURFACE_CW, SURFACE_CCW, WANDER_CW, WANDER_CCW, ALTERNATING, PSEUDO_RANDOM = ran
 MOVEMENT_BELOW, MOVEMENT_BEYOND = -1, 6
 """A malformed movement number below 2 / not below 2; they behave differently in a chase (objects.md §8.16)."""
 NO_DIRECTION, NO_NUMBER = -100, -101
-"""A drone's direction "none", and a direction parameter that is no whole number (objects.md §8.15)."""
+"""A drone's direction "none", and a direction parameter that is not a whole number (objects.md §8.15)."""
 
 
 @fast

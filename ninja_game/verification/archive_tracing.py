@@ -42,7 +42,7 @@ def trace_all(
     memory: str = "auto",
     **options: Any,
 ) -> Iterator[Traced | Unreadable]:
-    """A trace of every recording in files and folders, in order; what cannot be read is told and stops nothing.
+    """A trace of every recording in files and folders, in order; what cannot be read is reported and stops nothing.
 
     ``level``: what recordings that do not hold their level are played on; ``record``: only this one of each file.
     ``jobs``: how many run at a time, by default one a core. ``memory`` and ``options`` as for ``trace_recording``.
@@ -81,6 +81,6 @@ def _trace(options: dict[str, Any], recording: Recording | Unreadable) -> Traced
         run = trace_recording(recording, **options)
     except NinjaGameError as error:
         return Unreadable(str(error))
-    inputs = recording.playback(len(run.ninja))
+    inputs = recording.replay.playback(len(run.ninja))
     trace = FiledTrace(recording.record, recording.name, run, recording.file, inputs)
     return Traced(recording.file, recording.comment, trace)

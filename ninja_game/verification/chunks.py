@@ -189,5 +189,5 @@ def result_from_data(data: object) -> Result:
         raise ValueError(f"outcome is {data['outcome']!r}"[:80])
     problems = data["problems"]
     if not isinstance(problems, (list, tuple)) or not all(isinstance(problem, str) for problem in problems):
-        raise ValueError("problems are no list of texts")
+        raise ValueError("problems are not a list of texts")
     return Verdict(**(data | {"problems": tuple(problems)}))

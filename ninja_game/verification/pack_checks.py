@@ -32,7 +32,7 @@ class Certificate:
 
     @cached_property
     def verdict(self) -> Verdict:
-        """What comes of it. Raises LevelError for a level that cannot be played."""
+        """The result. Raises LevelError for a level that cannot be played."""
         return verify_recording(self.recording)
 
     @property
@@ -56,7 +56,7 @@ class Certificate:
 def certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
     """The certificate of a level file, None where there is none.
 
-    Raises ReplayError, or another error of ours, where it cannot be read.
+    Raises ReplayError, or another NinjaGameError, where it cannot be read.
     """
     name = pack.certificate(file, kind)
     if name is None:
@@ -87,10 +87,10 @@ def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
         )
         before = known.get(file)
         if before and (before.level, before.run) == (pars.level, pars.run) and before.difficulty is not None:
-            hard: float | None = before.difficulty
+            measured: float | None = before.difficulty
         elif tries == 0:
-            hard = None
+            measured = None
         else:
-            inputs = run.recording.playback(run.verdict.ticks)
-            hard = round(difficulty(named.level, inputs, tries=tries), 2)
-        yield file, Pars(pars.level, pars.run, pars.exit, pars.gold, hard)
+            inputs = run.recording.inputs[: run.verdict.ticks]
+            measured = round(difficulty(named.level, inputs, tries=tries), 2)
+        yield file, Pars(pars.level, pars.run, pars.exit, pars.gold, measured)

@@ -78,8 +78,8 @@ def verify_all(
     ``budget``: of each run (``ninja_game.budget``).
 
     Results never depend on who computed them, nor on workers that died meanwhile. Where only some levels count, runs on
-    others are not simulated. Raises ClusterError, FormatError for a file that is no checkpoint log, KnownRunError and
-    MemoryUnavailableError where nothing can be judged, OSError.
+    others are not simulated. Raises ClusterError, FormatError for a file that is not a checkpoint log, KnownRunError
+    and MemoryUnavailableError where nothing can be judged, OSError.
     """
     counting = levels or [level for path in bundled_levels() for level in load_levels(path)]
     names = {level_digest(each.level): each.name or f"{each.file}:{each.record}" for each in counting}

@@ -35,7 +35,7 @@ def compressed(data: bytes, file: str = "") -> bytes:
             form = sound.getnchannels(), sound.getsampwidth()
             rate, frames = sound.getframerate(), sound.readframes(sound.getnframes())
     except (wave.Error, EOFError) as error:
-        raise FileError(f"this is no WAV file: {error}", file) from None
+        raise FileError(f"this is not a WAV file: {error}", file) from None
     if form != (1, 2):
         raise FileError("a sound is mono, of 16 bits", file, found=f"{form[0]} channels of {8 * form[1]} bits")
     samples = array("h", frames)

@@ -27,7 +27,7 @@ def as_at_the_start(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("memory", [*BOTH, pytest.param("checked", marks=BOTH[1].marks)])
 def test_the_known_run_has_its_digest_on_every_memory(memory: str) -> None:
-    """After a change of a rule that is meant, `python3 tools/dev.py golden` writes the digest anew."""
+    """After a change of a rule that is meant, `python3 tools/dev.py golden` writes the digest again."""
     assert known_digest(lambda level, box: open_worlds(memory, level, box=box)) == DIGEST
 
 

@@ -189,7 +189,7 @@ def test_wrong_use_is_refused(memory: str) -> None:
             batch.reset(which)  # type: ignore[arg-type]
     with pytest.raises(ArgumentError, match="levels are 1 to 1"):
         batch.reset(0, levels=1)
-    with pytest.raises(LevelError, match="this is no level; found 'levels/01'"):
+    with pytest.raises(LevelError, match="this is not a level; found 'levels/01'"):
         Batch("levels/01", 3, memory=memory)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="1 saved worlds do not fit 2"):
         batch.restore(batch.save(0))

@@ -29,7 +29,7 @@ def test_several_levels_make_a_table(two: Path) -> None:
     result = info(two)
     assert result.exit_code == 0
     assert "Walk" in result.stdout
-    assert "[red]None" in result.stdout, "names are no markup"
+    assert "[red]None" in result.stdout, "names are not markup"
     assert "2 levels" in result.stdout
 
 

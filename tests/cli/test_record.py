@@ -11,9 +11,9 @@ from ninja_game import parse_replay, verify_recording
 from ninja_game.cli.main import cli
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
-from tests.support.samples import WALK, WALK_END, loose_replay, running, write_records
+from tests.support.samples import WALK, WALK_END, running, unclaimed_text, write_records
 
-LOOSE = loose_replay(WALK, "#go (R*5)*2   ; ten ticks", "R*50", headers="name: Idea\nauthor: A. Player\n")
+LOOSE = unclaimed_text(WALK, "#go (R*5)*2   ; ten ticks", "R*50", headers="name: Idea\nauthor: A. Player\n")
 
 
 def called(*words: str | Path) -> Result:

@@ -141,7 +141,7 @@ def test_against_something_else_names_the_file(two: Path, tmp_path: Path) -> Non
     other.write_text("file,and,other,columns\n")
     result = trace(two, "--against", other)
     assert result.exit_code == 2
-    assert result.stderr.startswith(f"ninja-game: {other}:1: this is no trace")
+    assert result.stderr.startswith(f"ninja-game: {other}:1: this is not a trace")
 
 
 def test_two_runs_of_one_file_are_compared(two: Path) -> None:

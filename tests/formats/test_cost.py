@@ -16,7 +16,7 @@ from ninja_game.formats.replay import includes, input_text
 from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.formats.tas_lines import write_celeste
-from tests.support.samples import WALK, loose_replay
+from tests.support.samples import WALK, unclaimed_text
 
 MEGABYTE = 1_000_000
 
@@ -32,16 +32,16 @@ def lines(form: str, size: int) -> str:
 
 
 WORST: dict[str, Callable[[], str]] = {
-    "runs": lambda: loose_replay(WALK, filled("R L ")),
-    "ticks": lambda: loose_replay(WALK, filled("R*2 L*2 ")),
-    "empty blocks": lambda: loose_replay(WALK, filled("() ")),
-    "blocks in blocks": lambda: loose_replay(WALK, "((((((( " + filled("() R ") + " )*9)*9)*9)*9)*9)*9)*9"),
-    "markers": lambda: loose_replay(WALK, *lines("#m{} R", 8).splitlines()),
-    "comments": lambda: loose_replay(WALK, filled("; x\n  ")),
-    "semicolons": lambda: loose_replay(WALK, "R ;" + filled(";")),
-    "one word": lambda: loose_replay(WALK, filled("R")),
-    "an unknown header": lambda: loose_replay(WALK, "R", headers=filled("a") + ": 1\n"),
-    "a name in JSON": lambda: loose_replay(WALK, "R", headers='name: "' + filled("[") + "\n"),
+    "runs": lambda: unclaimed_text(WALK, filled("R L ")),
+    "ticks": lambda: unclaimed_text(WALK, filled("R*2 L*2 ")),
+    "empty blocks": lambda: unclaimed_text(WALK, filled("() ")),
+    "blocks in blocks": lambda: unclaimed_text(WALK, "((((((( " + filled("() R ") + " )*9)*9)*9)*9)*9)*9)*9"),
+    "markers": lambda: unclaimed_text(WALK, *lines("#m{} R", 8).splitlines()),
+    "comments": lambda: unclaimed_text(WALK, filled("; x\n  ")),
+    "semicolons": lambda: unclaimed_text(WALK, "R ;" + filled(";")),
+    "one word": lambda: unclaimed_text(WALK, filled("R")),
+    "an unknown header": lambda: unclaimed_text(WALK, "R", headers=filled("a") + ": 1\n"),
+    "a name in JSON": lambda: unclaimed_text(WALK, "R", headers='name: "' + filled("[") + "\n"),
     "objects": lambda: WALK + "".join(f"!0^{number % 700},{number % 500}" for number in range(MEGABYTE // 10)),
     "empty objects": lambda: WALK + filled("!"),
     "values": lambda: WALK + "!0^" + filled("1,"),
@@ -94,7 +94,7 @@ for path in sorted(Path(sys.argv[1]).iterdir()):
     peak = int(re.search(r"VmHWM:\s+(\d+)", Path("/proc/self/status").read_text())[1]) // 1024
     print(json.dumps([path.name, max(seconds), peak]), flush=True)
 """
-"""Reads every file in all ways (of many recordings, which are told one by one, a thousand).
+"""Reads every file in all ways (of many recordings, which are reported one by one, a thousand).
 
 For each the most seconds of the processor, and the peak of the memory so far, MiB.
 """
@@ -131,7 +131,7 @@ def test_more_markers_than_a_text_may_hold_are_told(monkeypatch: pytest.MonkeyPa
         read_inputs([(1, "#a #b #c #d #e R"), (2, "   #f R")])
     (tmp_path / "part.txt").write_text("#d #e #f R")
     main = tmp_path / "run.txt"
-    main.write_text(loose_replay(WALK, "#a #b #c R", "include part.txt"))
+    main.write_text(unclaimed_text(WALK, "#a #b #c R", "include part.txt"))
     with pytest.raises(ReplayError, match=r"part\.txt:1:7: too many markers"):
         load_replays(main)
 
@@ -139,7 +139,7 @@ def test_more_markers_than_a_text_may_hold_are_told(monkeypatch: pytest.MonkeyPa
 def test_what_is_taken_in_again_is_read_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     (tmp_path / "part.txt").write_text("#here R*2 L ; a comment")
     main = tmp_path / "run.txt"
-    main.write_text(loose_replay(WALK, *["include part.txt"] * 100))
+    main.write_text(unclaimed_text(WALK, *["include part.txt"] * 100))
     calls = []
 
     def noted(text: str) -> bool:
@@ -148,8 +148,8 @@ def test_what_is_taken_in_again_is_read_once(monkeypatch: pytest.MonkeyPatch, tm
 
     monkeypatch.setattr(input_text, "is_tas_text", noted)
     (run,) = load_replays(main)
-    assert run.demo.inputs == bytes([2, 2, 1] * 100)
-    assert [marker.tick for marker in run.replay.markers] == [0] if run.replay else False
+    assert run.replay.inputs == bytes([2, 2, 1] * 100)
+    assert [marker.tick for marker in run.replay.markers] == [0]
     assert len(calls) == 1
 
 
@@ -158,8 +158,8 @@ def test_all_that_is_taken_in_together_has_a_limit(monkeypatch: pytest.MonkeyPat
     for name in "ab":
         (tmp_path / f"{name}.txt").write_text("R\n" + ";" * 2**19)
     main = tmp_path / "run.txt"
-    main.write_text(loose_replay(WALK, *["include a.txt"] * 9))
+    main.write_text(unclaimed_text(WALK, *["include a.txt"] * 9))
     assert load_replays(main)[0].ticks == 9
-    main.write_text(loose_replay(WALK, "include a.txt", "include b.txt"))
-    with pytest.raises(ReplayError, match=r"too much taken in; found 'b\.txt'; expected 1 MiB in all"):
+    main.write_text(unclaimed_text(WALK, "include a.txt", "include b.txt"))
+    with pytest.raises(ReplayError, match=r"too much included; found 'b\.txt'; expected 1 MiB in all"):
         load_replays(main)

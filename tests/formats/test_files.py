@@ -1,4 +1,4 @@
-"""Any file of levels or recordings is told from its text, whatever it is called."""
+"""Any file of levels or recordings is recognised by its text, whatever it is called."""
 
 from __future__ import annotations
 
@@ -122,8 +122,8 @@ def test_recordings_of_n(tmp_path: Path) -> None:
     records = [LevelRecord("a", "us", "x", TEXT, DEMO), LevelRecord("", "", "", TEXT, "3:0")]
     first, second = load_replays(saved(tmp_path, write_level_file(records)))
     assert (first.name, first.author, first.comment, first.level) == ("a", "us", "x", LEVEL)
-    assert (first.ticks, first.playback(5)) == (3, bytes([1, 12, 12, 0, 0]))
-    assert (second.record, second.line, second.ticks, second.replay) == (1, 2, 4, None)
+    assert (first.ticks, first.replay.playback(5)) == (3, bytes([1, 12, 12, 0, 0]))
+    assert (second.record, second.line, second.ticks, second.form) == (1, 2, 4, "file")
     assert first.level is second.level
 
 
@@ -146,7 +146,7 @@ def test_replays_of_ours(tmp_path: Path) -> None:
     (recording,) = load_replays(saved(tmp_path, write_replay(replay)))
     assert (recording.name, recording.level, recording.replay) == ("walk", LEVEL, replay)
     # Unlike in a demo nothing is repeated after the last input.
-    assert (recording.ticks, recording.playback(8)) == (8, bytes([2, 2, 14, 0, 0, 0, 0, 0]))
+    assert (recording.ticks, recording.replay.playback(8)) == (8, bytes([2, 2, 14, 0, 0, 0, 0, 0]))
 
 
 def test_a_replay_finds_its_level_below_its_own_folder(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Inputs as people write them: comments, blocks, markers, other files; loose replays; the notations of other tools."""
+"""Inputs as people write them: comments, blocks, markers, other files; unclaimed replays; other tools' notations."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ from ninja_game.formats.tas_lines import in_our_notation
 from ninja_game.runs.conversion import input_texts
 from ninja_game.sim.inputs import with_press_bits
 from tests.support import reference
-from tests.support.samples import WALK, loose_replay, replay_of_walk
+from tests.support.samples import WALK, replay_of_walk, unclaimed_text
 
-LOOSE = loose_replay(WALK)
+LOOSE = unclaimed_text(WALK)
 LEVEL = parse_level(WALK)
 
 keyboard_inputs = st.lists(st.integers(0, 7), max_size=80).map(with_press_bits)
@@ -98,12 +98,12 @@ def run(tmp_path: Path) -> Path:
 
 def test_a_file_is_taken_in_where_it_is_named(run: Path) -> None:
     (recording,) = load_replays(run)
-    assert recording.playback(recording.ticks) == bytes([2, 2, 14, 6, 0, 1])
+    assert recording.inputs == bytes([2, 2, 14, 6, 0, 1])
 
 
 def test_a_file_of_another_tool_is_taken_in_too(run: Path) -> None:
     (run.parent / "parts" / "jump.txt").write_text("   2,R,J\n   1\n")
-    assert load_replays(run)[0].demo.inputs == bytes([2, 2, 14, 6, 0, 1])
+    assert load_replays(run)[0].replay.inputs == bytes([2, 2, 14, 6, 0, 1])
 
 
 def test_what_is_wrong_in_a_file_is_named_there(run: Path) -> None:
@@ -119,8 +119,8 @@ def test_what_is_wrong_in_a_file_is_named_there(run: Path) -> None:
         ("../other.txt", "a file elsewhere"),
         ("/etc/hostname", "a file elsewhere"),
         ("", "a file elsewhere"),
-        ("nothing.txt", "a file that cannot be taken in"),
-        ("parts", "a file that cannot be taken in"),
+        ("nothing.txt", "a file that cannot be included"),
+        ("parts", "a file that cannot be included"),
         ("run.inputs.txt", "."),
         ("x" * 5000, "a file"),
     ],
@@ -148,7 +148,7 @@ def test_files_that_take_in_each_other_end(run: Path) -> None:
 def test_a_loose_replay_needs_a_level_and_inputs_only() -> None:
     (recording,) = parse_replays(LOOSE + "  R*60\n", file="idea.txt")
     assert recording.replay is not None
-    assert recording.replay.loose
+    assert recording.replay.unclaimed
     assert (recording.name, recording.ticks, recording.body) == ("idea", 60, "circle")
     assert parse_replay(write_replay(recording.replay)) == recording.replay
 
@@ -182,10 +182,10 @@ def test_every_reference_recording_comes_back_from_a_text_with_its_frames_and_le
         (recording,) = parse_replays(f"$a#b##{record.level}#{row.demo}#")
         (text,) = input_texts([recording], "inputs")
         (back,) = parse_replays(text)
-        assert parse_demo(record_of(back).demo) == demo == back.demo
+        assert parse_demo(record_of(back).demo) == demo
         assert record_of(back).demo == write_demo(demo)
         assert (back.name, back.author) == ("a", "b")
-        assert back.playback(back.ticks + 3) == recording.playback(recording.ticks + 3)
+        assert back.replay.playback(back.ticks + 3) == recording.replay.playback(recording.ticks + 3)
         count += 1
     assert count == 1108
 

@@ -191,7 +191,7 @@ def test_the_games_own_form_is_url_encoded() -> None:
         (LevelRecord("a", "", "", "0 " + LEVEL), "white space"),
         (LevelRecord("a", "", "", ""), "no level string"),
         (LevelRecord("a", "", "", LEVEL, "1:2#"), "the demo"),
-        (LevelRecord("a", "", "", LEVEL, "hello"), "the demo of record 0 is none"),
+        (LevelRecord("a", "", "", LEVEL, "hello"), "the demo of record 0 is not a demo"),
         (LevelRecord("&userdata=", "", "", LEVEL), "&userdata="),
     ],
 )

@@ -10,7 +10,7 @@ from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.legacy_demo import parse_legacy_demo, write_legacy_demo
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file, write_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
-from ninja_game.formats.recording import parse_replays
+from ninja_game.formats.recording import demo_replay, parse_replays
 from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
 from ninja_game.sim.inputs import Demo
 from ninja_game.sim.kinds import NINJA, VALUE_COUNTS
@@ -78,7 +78,7 @@ def test_a_level_file_of_all_reads_back_equal(table: Callable[[], Iterator[Named
     assert [(r.name, r.level, r.demo) for r in read_level_file(text)] == named
     for recording, (_, level, demo) in zip(parse_replays(text), named, strict=True):
         assert recording.level == parse_level_string(level)
-        assert recording.demo == parse_demo(demo)
+        assert recording.replay == demo_replay(parse_demo(demo), recording.level, recording.name, recording.author)
 
 
 def test_published_levels_as_the_families_of_files_have_them() -> None:

@@ -126,7 +126,7 @@ def test_a_byte_that_is_no_input_is_refused() -> None:
         ("RJ*2", "!", "a.txt:11:7: ~write .!"),
         ("RJ*2", ".*9999999", "a.txt:11:7: the replay is too long; found 10000001 ticks; expected at most 1000000"),
         ("replay 3", "replay 4", "a.txt:1:1: unknown version of the replay format; found 4; expected 3; ~newer"),
-        ("end\n", "", "a.txt:11: the replay is cut; its last line is 'end'"),
+        ("end\n", "", "a.txt:11: the replay is truncated; its last line is 'end'"),
         ("replay 3", "replay 1", "a.txt:1:1: a replay written by an older version~; write 'ninja-game replay 2'"),
         ("ninja-game", "ninja", "a.txt:1:1: not a replay of ninja-game; found 'ninja replay 3'; expected 'ninja-game"),
         ("body: circle", "body: square", "a.txt:5:7: an unknown body; found 'square'; expected circle or box"),

@@ -82,14 +82,14 @@ def test_inputs_of_other_tools_need_a_level() -> None:
     with pytest.raises(ReplayError, match="give it with --level"):
         parse_replays(text, file="a.tas")
     (recording,) = parse_replays(text, file="a.tas", level=LEVEL)
-    assert recording.playback(31) == bytes([2] * 30 + [0])
+    assert recording.replay.playback(31) == bytes([2] * 30 + [0])
 
 
 def test_celeste_lines_that_begin_with_a_label_are_no_record_of_n() -> None:
     level = parse_level_string(WALK)
     for text in ("#start\n  30,R,J\n", "# a comment\n#start\n\n  30,R\n#end\n   1,J", "##\n30\n"):
         (recording,) = parse_replays(text, level=level)
-        assert len(recording.demo.inputs) >= 30
+        assert len(recording.replay.inputs) >= 30
     for demo in ("##3:801#", "##902:35791394|\n35791394#"):
         assert is_level_file(demo)
 
@@ -125,7 +125,7 @@ def test_a_file_of_celestetas_with_all_that_may_stand_in_it(end: str, tmp_path: 
     path = tmp_path / "a.tas"
     path.write_bytes(CELESTE.replace("\n", end).encode())
     (recording,) = load_replays(path, level=LEVEL)
-    assert recording.demo.inputs == with_press_bits([0, 6, 6, 3, 0, 3, 0, 4, 4, 4])
+    assert recording.replay.inputs == with_press_bits([0, 6, 6, 3, 0, 3, 0, 4, 4, 4])
     assert recording.replay is not None
     assert recording.replay.markers == (Marker(0, "Start"), Marker(1, "Start-2"), Marker(7, "1-23.456-last-room"))
 

@@ -32,7 +32,7 @@ def made(seed: int, wanted: int) -> Generated:
 
 @pytest.mark.parametrize("seed, wanted", SEEDS)
 def test_a_seed_always_makes_the_same_level(seed: int, wanted: int) -> None:
-    # After a change of generator or solver that is meant, `python3 tools/dev.py golden` writes the table anew.
+    # After a change of generator or solver that is meant, `python3 tools/dev.py golden` writes the table again.
     assert generated_digest(seed, wanted) == read_generated()[seed, wanted]
 
 
@@ -75,7 +75,7 @@ def test_the_command_writes_level_and_certificate(tmp_path: Path) -> None:
     assert named.name in result.stdout
     assert named.author == "ninja-game generate"
     (recording,) = load_replays(replay, level=named.level)
-    assert run_level(named.level, recording.playback(recording.ticks)).outcome == "exit"
+    assert run_level(named.level, recording.inputs).outcome == "exit"
 
 
 def test_without_a_name_nothing_is_overwritten(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -12,8 +12,9 @@ from ninja_game import Recording, load_replays
 from ninja_game.cli.main import cli
 from ninja_game.errors import ArgumentError
 from ninja_game.files.resources import bundled_replays
-from ninja_game.formats.n14.demo import parse_demo
+from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.recording import demo_replay, recording_of
 from ninja_game.learn.demonstrations import (
     Demonstration,
     UnplayableRecordingError,
@@ -30,7 +31,7 @@ FLAT = parse_level_string("0" * 713 + "|5^100,566!0^130,566!11^260,564,230,564")
 
 
 def recorded(keys: list[int]) -> Recording:
-    return Recording("run", "", "", FLAT, Demo(bytes(keys), len(keys)), "runs.txt")
+    return Recording(FLAT, demo_replay(Demo(bytes(keys), len(keys)), FLAT, "run"), file="runs.txt")
 
 
 @pytest.mark.parametrize("path", bundled_replays()[::10], ids=lambda path: path.name)
@@ -69,7 +70,7 @@ def test_what_ends_before_the_exit_is_truncated_and_both_keys_are_none() -> None
 def test_recordings_that_press_jump_anew_while_it_is_held_are_refused() -> None:
     held = [4 + 8] + [4] * 200
     assert demonstration(recorded([0] * 3 + held), memory="plain").outcome == "running"
-    with pytest.raises(UnplayableRecordingError, match=r"runs.txt: run: it presses jump anew"):
+    with pytest.raises(UnplayableRecordingError, match=r"runs.txt: run: it presses jump again"):
         demonstration(recorded([0] * 3 + held + [4 + 8] * 3), memory="plain")
     # A press in the air, far from any wall, makes no other run.
     assert demonstration(recorded([0] * 3 + [4 + 8, 4, 4 + 8, 4]), memory="plain").outcome == "running"
@@ -132,13 +133,13 @@ def test_several_parts_are_written_under_their_names(tmp_path: Path, monkeypatch
 
 def test_the_command_writes_demonstrations_and_names_what_it_leaves_out(tmp_path: Path) -> None:
     out = tmp_path / "demos.npz"
-    words = ["learn", "demos", str(bundled_replays()[0]), "-o", str(out), "--memory", "plain", "--actions", "buttons"]
+    words = ["demonstrations", str(bundled_replays()[0]), "-o", str(out), "--memory", "plain", "--actions", "buttons"]
     result = CliRunner().invoke(cli, words)
     assert result.exit_code == 0, result.output
     assert "1 demonstrations, 149 steps, 1 to the exit" in result.stdout
     with np.load(out) as stored:
         assert stored["actions"].shape == (149, 3)
-    for wrong in (words[:3], [*words[:4], str(tmp_path / "demos.txt")], [*words, "--observation", "smell"]):
+    for wrong in (words[:2], [*words[:3], str(tmp_path / "demos.txt")], [*words, "--observation", "smell"]):
         result = CliRunner().invoke(cli, wrong)
         assert result.exit_code == 2
         assert result.stdout == ""
@@ -148,11 +149,11 @@ def test_reference_recordings_are_demonstrations_unless_they_press_jump_anew() -
     require_reference()
     unplayable = []
     for row in recordings()[::40]:
-        recording = Recording(row.label, "", "", parse_level_string(row.data), parse_demo(row.demo), "")
+        recording = recording_of(LevelRecord(row.label, "", "", row.data, row.demo), "", parse_level_string(row.data))
         try:
             made = demonstration(recording)
         except UnplayableRecordingError:
-            keys = recording.playback(row.ticks)
+            keys = recording.replay.playback(row.ticks)
             unplayable.append(row.row)
             assert with_press_bits(keys) != keys
         else:
@@ -163,6 +164,6 @@ def test_reference_recordings_are_demonstrations_unless_they_press_jump_anew() -
 
 def test_without_minari_it_is_said_how_to_install_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("ninja_game.learn.demonstrations.find_spec", lambda _: None)
-    result = CliRunner().invoke(cli, ["learn", "demos", str(bundled_replays()[0]), "--minari", "ninja/one-v0"])
+    result = CliRunner().invoke(cli, ["demonstrations", str(bundled_replays()[0]), "--minari", "ninja/one-v0"])
     assert (result.exit_code, result.stdout) == (2, "")
     assert "data sets of Minari need it" in result.stderr

@@ -25,7 +25,7 @@ actions_of_all = st.lists(st.tuples(*[st.integers(0, 5)] * WORLDS), min_size=1, 
 
 
 class Singles:
-    """Single environments, of which one that has ended begins anew in the next step, as the vector's worlds do."""
+    """Single environments, of which one that has ended starts again in the next step, as the vector's worlds do."""
 
     def __init__(self, levels: list[Level], seed: int, **more: Any) -> None:
         self.envs = [NinjaEnv(levels, memory="plain", **EVERYTHING, **more) for _ in range(WORLDS)]
@@ -94,10 +94,10 @@ def test_the_number_of_threads_changes_no_byte(levels: list[Level], seed: int) -
     """With 130 worlds, so that the threads have something to share out."""
     count = 130
     vectors = [NinjaVectorEnv(count, levels, threads=threads, **EVERYTHING) for threads in (1, 2, 4)]
-    chance = np.random.default_rng(seed)
+    rng = np.random.default_rng(seed)
     bytes_of = {index: [flat(*vector.reset(seed=seed))] for index, vector in enumerate(vectors)}
     for _ in range(12):
-        actions = chance.integers(6, size=count)
+        actions = rng.integers(6, size=count)
         for index, vector in enumerate(vectors):
             bytes_of[index].append(flat(*vector.step(actions)))
     assert bytes_of[0] == bytes_of[1] == bytes_of[2]

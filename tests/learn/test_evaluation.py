@@ -5,16 +5,13 @@ from __future__ import annotations
 import csv
 import io
 import json
-from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from numpy.typing import NDArray
 
 from ninja_game import load_replays
-from ninja_game.cli.main import cli
 from ninja_game.files.resources import bundled_replays
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.learn.evaluation import Evaluation, LevelResult, evaluate
@@ -31,21 +28,21 @@ class Runner:
 
     settings: ClassVar[dict[str, Any]] = {"frame_skip": 4}
 
-    def __init__(self, chance: float = 0.0) -> None:
-        self.share = chance
+    def __init__(self, share: float = 0.0) -> None:
+        self.share = share
 
     def reset(self, count: int, seed: int) -> None:
-        self.chance = np.random.default_rng(seed)
+        self.rng = np.random.default_rng(seed)
         self.count = count
 
     def act(self, observations: Any) -> NDArray[np.integer]:
         assert len(observations) == self.count
-        drawn = self.chance.integers(6, size=self.count)
-        return np.where(self.chance.random(self.count) < self.share, drawn, 2)
+        drawn = self.rng.integers(6, size=self.count)
+        return np.where(self.rng.random(self.count) < self.share, drawn, 2)
 
 
 class Walker:
-    """Plans to run to the right for so many steps."""
+    """Plans to run to the right for this many steps."""
 
     settings: ClassVar[dict[str, Any]] = {"frame_skip": 4, "actions": "discrete"}
 
@@ -74,7 +71,7 @@ def test_time_over_is_late() -> None:
 
 
 def test_the_seed_decides_the_table_and_other_levels_do_not() -> None:
-    agent = Runner(chance=0.6)
+    agent = Runner(share=0.6)
     whole = table(agent, longest_wait=20)
     assert repr(whole) == repr(table(agent, longest_wait=20))
     assert repr(whole.results[1]) == repr(table(agent, LevelSource(["deadly"], [DEADLY]), longest_wait=20).results[0])
@@ -88,7 +85,7 @@ def test_without_noise_all_episodes_of_a_policy_are_one() -> None:
 
 def test_both_memories_give_the_same_table() -> None:
     pytest.importorskip("numba")
-    agent = Runner(chance=0.3)
+    agent = Runner(share=0.3)
     assert repr(table(agent)) == repr(evaluate(agent, LEVELS, memory="compiled", time_limit=400, episodes=8))
 
 
@@ -130,23 +127,3 @@ def test_tables_say_the_same_in_every_form() -> None:
         ("a", "9", "310.0", "0.9"),
         ("b", "0", "", "0.0"),
     ]
-
-
-def test_the_command_writes_the_table(tmp_path: Path) -> None:
-    words = ["learn", "eval", "random", "--levels", "00-0-first-steps", "--levels", str(tmp_path / "near.nlevel")]
-    (tmp_path / "near.nlevel").write_text("0" * 713 + "|5^100,566!11^260,564,230,564\n")
-    words += ["--episodes", "2", "--time-limit", "40", "--memory", "plain"]
-    shown = CliRunner().invoke(cli, words)
-    assert shown.exit_code == 0, shown.output
-    assert [line.split()[0] for line in shown.stdout.splitlines()] == ["level", "00-0-first-steps", "near", "random:"]
-    out = tmp_path / "random.json"
-    assert CliRunner().invoke(cli, [*words, "--json", "-o", str(out)]).exit_code == 0
-    assert [row["episodes"] for row in json.loads(out.read_text())["results"]] == [2, 2]
-    assert CliRunner().invoke(cli, [*words, "--csv"]).stdout.startswith("agent,level,episodes,passed")
-
-
-@pytest.mark.parametrize("wrong", [["nobody"], ["random", "--levels", "nowhere"], ["random", "-o", "."]])
-def test_the_command_says_what_is_wrong(wrong: list[str]) -> None:
-    result = CliRunner().invoke(cli, ["learn", "eval", *wrong])
-    assert (result.exit_code, result.stdout) == (2, "")
-    assert "Traceback" not in result.stderr

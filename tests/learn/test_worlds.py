@@ -23,7 +23,7 @@ needs_numba = pytest.mark.skipif(not compiled_available(), reason="Numba is not 
 
 
 def history(actions: Any, *, worlds: EnvWorlds, seeds: list[int]) -> list[bytes]:
-    """What the worlds show after each step, ended ones beginning anew, as bytes."""
+    """What the worlds show after each step, ended ones beginning again, as bytes."""
     worlds.reset(seeds=seeds)
     shown = []
     for row in actions:

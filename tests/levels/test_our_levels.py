@@ -64,4 +64,4 @@ def test_a_certificate_is_a_run_of_its_level(file: str, kind: str) -> None:
 def test_table_of_pars_is_what_the_certificates_say() -> None:
     made = dict(make_pars(OURS, tries=0))
     stale = sorted(file for file in made.keys() | OURS.pars.keys() if made.get(file) != OURS.pars.get(file))
-    assert stale == [], "write it anew: python3 tools/dev.py run levels pars levels"
+    assert stale == [], "write it again: python3 tools/dev.py run levels pars levels"

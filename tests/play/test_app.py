@@ -11,6 +11,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import export_path
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App, build_app
 from ninja_game.play.audio.output import AudioOutput
 from ninja_game.play.boss import BossScreen
@@ -21,7 +22,6 @@ from ninja_game.play.screen import Screen
 from ninja_game.play.window import Window
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import Settings
-from ninja_game.sim.inputs import Demo
 from tests.support.menu_driver import MenuDriver
 from tests.support.samples import NO_NINJA
 from tests.support.scripted import frames, press, scripted_app
@@ -164,7 +164,7 @@ def test_replay_without_a_ninja_is_refused_with_a_notice() -> None:
     level = parse_level_string(NO_NINJA)
     with scripted_app() as (app, _):
         start_level(app)
-        watch_recording(app, Recording("empty", "", "", level, Demo(b"", 0.0), "empty.txt"))
+        watch_recording(app, Recording(level, Replay.of_inputs(b"", level, name="empty"), file="empty.txt"))
         assert len(app.stack) == 1
         assert "cannot be watched" in app.notice
 
@@ -205,7 +205,7 @@ def test_the_program_has_a_bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
     run_app(first, frames=1)
     (app,) = programs
-    assert app.open_bench is not None
+    assert app.open_tas_editor is not None
 
 
 def test_no_display_is_said(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,4 +1,4 @@
-"""The backdrop is mended piece by piece; what it shows is what it would show if it were painted anew."""
+"""The backdrop is mended piece by piece; what it shows is what it would show if it were painted again."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def test_mended_backdrop_is_the_backdrop_painted_anew(path: Path) -> None:
     run, book = Simulation(recording.level), SpriteBook(CANVAS.scale, CLASSIC)
     animation = ObjectAnimation(run.world)
     backdrop = painted(run, animation, book)
-    for tick, keys in enumerate(recording.playback(recording.ticks)):
+    for tick, keys in enumerate(recording.inputs):
         run.step_keys(keys)
         animation.on_tick(run.world)
         backdrop.update(run.world, animation, 1.0)
@@ -54,7 +54,7 @@ def test_exit_switch_looks_pressed_from_its_tick_on() -> None:
     switch = next(o for o in run.world.objects[: run.world.slots_used] if o.kind == SWITCH)
     place = pygame.Rect(CANVAS.point(switch.x - 4, switch.y - 2), (4, 2))
     lit = pygame.transform.average_color(backdrop.picture, place)
-    for keys in recording.playback(recording.ticks):
+    for keys in recording.inputs:
         run.step_keys(keys)
         animation.on_tick(run.world)
         backdrop.update(run.world, animation, 1.0)

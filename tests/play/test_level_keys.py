@@ -1,4 +1,4 @@
-"""Keys in a level: retrying, stepping, leaving; what is told, and where."""
+"""Keys in a level: retrying, stepping, leaving; what is reported, and where."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ def test_a_script_of_the_recording_passes_the_level(stage: tuple[App, ScriptedCo
     assert screen.attempt.ended_tick == recording.replay.final_tick
     assert screen.attempt.gold == recording.replay.gold
     assert screen.attempt.score == LIFETIME + 80 * screen.attempt.gold - screen.attempt.ended_tick
-    assert bytes(screen.attempt.inputs) == recording.playback(len(screen.attempt.inputs))
+    assert bytes(screen.attempt.inputs) == recording.replay.playback(len(screen.attempt.inputs))
     assert screen.attempt.replay().digest == recording.replay.digest
 
 
@@ -83,7 +83,7 @@ def test_pause_stops_time_and_the_clock_starts_afresh(
     assert screen.attempt.simulation.tick == tick
     press("pause")
     frames(app, 1, 24)
-    assert screen.attempt.simulation.tick == tick, "24 ms are no tick: the remainder was dropped"
+    assert screen.attempt.simulation.tick == tick, "24 ms are not a tick: the remainder was dropped"
 
 
 def test_a_stall_counts_as_one_tick(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
@@ -157,7 +157,7 @@ def test_practice_goes_back_to_a_saved_moment_exactly(
 ) -> None:
     app, controls = stage
     screen = open_level(app, recording, practice_mode=True)
-    controls.script = iter(recording.playback(recording.ticks))
+    controls.script = iter(recording.inputs)
     press("confirm")
     frames(app, 60)
     press("quick_save")
@@ -174,7 +174,7 @@ def test_practice_goes_back_to_a_saved_moment_exactly(
 def test_rewind_runs_the_recording_backwards(stage: tuple[App, ScriptedControls], recording: Recording) -> None:
     app, controls = stage
     screen = open_level(app, recording, practice_mode=True)
-    controls.script = iter(recording.playback(recording.ticks))
+    controls.script = iter(recording.inputs)
     digests = {}
     press("confirm")
     for _ in range(80):

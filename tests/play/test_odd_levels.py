@@ -18,7 +18,7 @@ from ninja_game.simulation import Simulation
 TILES = "0" * 713
 NINJA = "5^100,560"
 ODD = {
-    "places that are no numbers": f"{NINJA}!0^396,NaN!12^x,y!4^,!1^NaN,300!11^NaN,NaN,NaN,NaN!2^100,NaN,0,-1",
+    "places that are not numbers": f"{NINJA}!0^396,NaN!12^x,y!4^,!1^NaN,300!11^NaN,NaN,NaN,NaN!2^100,NaN,0,-1",
     "a ninja nowhere": "5^NaN,NaN!0^300,300",
     "a ninja far away": "5^90000,-90000!0^300,300",
     "several ninjas": "5^100,560!5^200,560!5^300,560",

@@ -45,11 +45,11 @@ def scene(
     path = sorted(PACK.glob("certificates/*.replay.txt"))[number]
     recording = load_replays(path)[0]
     run = Simulation(recording.level)
-    view = LevelView(OffscreenContext(SIZE, settings), run, chance=7)
+    view = LevelView(OffscreenContext(SIZE, settings), run, seed=7)
     if overlays:
         view.overlays = Overlays()
         view.overlays.on = set(OVERLAY_ACTIONS)
-    inputs = recording.playback(ticks)
+    inputs = recording.replay.playback(ticks)
     for frame in inputs:
         run.step_keys(frame)
         view.on_tick()
@@ -140,7 +140,7 @@ def test_comparison_sees_that_the_ninja_is_missing(monkeypatch: pytest.MonkeyPat
 def test_tiles_cover_what_moves() -> None:
     """An explosion inside a wall is not seen."""
     recording = load_replays(min(PACK.glob("certificates/*.replay.txt")))[0]
-    view = LevelView(OffscreenContext(SIZE), Simulation(recording.level), chance=7)
+    view = LevelView(OffscreenContext(SIZE), Simulation(recording.level), seed=7)
     surface = pygame.Surface(SIZE)
     view.draw(surface, whole=True)
     before = pygame.image.tobytes(surface, "RGB")

@@ -12,22 +12,30 @@ import pytest
 
 from ninja_game.budget import TURN_WORK, tick_cost
 from ninja_game.formats.load import load_replays
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App
 from ninja_game.play.replay import playback
 from ninja_game.play.replay.film import Film, write_film
-from ninja_game.play.replay.playback import Playback, RecordedRun, recorded_run
+from ninja_game.play.replay.playback import Playback
 from ninja_game.play.replay.screen import AFTERMATH, SPEEDS, ReplayScreen
 from ninja_game.play.ui.theme import Theme
 from ninja_game.runs import save_states
+from ninja_game.sim.level import Level
 from ninja_game.simulation import Simulation
 from tests.support.heavy import heavy_level
 from tests.support.own_pack import PACK
 from tests.support.scripted import frames, press, scripted_app
 
-TAKE = recorded_run(load_replays(PACK / "certificates" / "01-2-the-works.exit.replay.txt")[0])
+TAKE = load_replays(PACK / "certificates" / "01-2-the-works.exit.replay.txt")[0]
 
 
-def straight_digests(take: RecordedRun, ticks: int) -> list[str]:
+def recording(name: str, level: Level, inputs: bytes) -> Recording:
+    """Inputs that nobody has made claims about."""
+    return Recording(level, Replay.of_inputs(inputs, level, name=name))
+
+
+def straight_digests(take: Recording, ticks: int) -> list[str]:
     run = Simulation(take.level, body=take.body)
     digests = [run.digest()]
     for tick in range(ticks):
@@ -48,8 +56,8 @@ def test_any_tick_sought_is_the_one_of_a_straight_run() -> None:
         app.push(screen)
         settle(app, screen)
         digests = straight_digests(TAKE, screen.length)
-        chance = Random(4)
-        for tick in [0, 1, screen.length, *(chance.randrange(screen.length) for _ in range(40))]:
+        rng = Random(4)
+        for tick in [0, 1, screen.length, *(rng.randrange(screen.length) for _ in range(40))]:
             screen.seek(tick)
             frames(app, 1, 0)
             settle(app, screen)
@@ -97,7 +105,7 @@ def test_it_starts_again_after_the_end() -> None:
 
 
 def test_others_on_the_same_level_run_along() -> None:
-    other = RecordedRun("other", TAKE.level, TAKE.inputs[:50])
+    other = recording("other", TAKE.level, TAKE.inputs[:50])
     with scripted_app((396, 300)) as (app, _):
         screen = ReplayScreen(app, [TAKE, other, other])
         app.push(screen)
@@ -120,7 +128,7 @@ def test_the_mouse_drags_the_bar() -> None:
 
 
 def test_a_folder_of_pictures_has_one_a_tick(tmp_path: Path) -> None:
-    short = RecordedRun("short", TAKE.level, TAKE.inputs[:5])
+    short = recording("short", TAKE.level, TAKE.inputs[:5])
     write_film(Film(short), tmp_path / "film")
     names = sorted(path.name for path in (tmp_path / "film").iterdir())
     assert len(names) == len(Film(short).moments)
@@ -129,7 +137,7 @@ def test_a_folder_of_pictures_has_one_a_tick(tmp_path: Path) -> None:
 
 def test_a_gif_has_as_many_pictures(tmp_path: Path) -> None:
     image = pytest.importorskip("PIL.Image")
-    short = RecordedRun("short", TAKE.level, TAKE.inputs[:5])
+    short = recording("short", TAKE.level, TAKE.inputs[:5])
     write_film(Film(short), tmp_path / "film.gif")
     with image.open(tmp_path / "film.gif") as film:
         ms = 0
@@ -174,7 +182,7 @@ def test_mark_of_an_exit_is_not_that_of_a_death() -> None:
     marks = []
     for inputs, outcome in ((TAKE.inputs, "exit"), (bytes(600), "running")):
         with scripted_app((792, 600)) as (app, _):
-            screen = ReplayScreen(app, [RecordedRun("run", TAKE.level, inputs)])
+            screen = ReplayScreen(app, [recording("run", TAKE.level, inputs)])
             app.push(screen)
             frames(app, 1, 0)
             assert screen.outcome == outcome
@@ -240,11 +248,11 @@ def work_of_turns(app: App, monkeypatch: pytest.MonkeyPatch, deeds: list[Callabl
 def test_no_turn_of_the_costliest_run_is_longer_than_others(
     monkeypatch: pytest.MonkeyPatch, blocks: int, speed: int
 ) -> None:
-    run = RecordedRun("long", heavy_level(blocks), bytes(1_000_000))
+    run = recording("long", heavy_level(blocks), bytes(1_000_000))
     with scripted_app((396, 300)) as (app, _):
         deeds: list[Callable[[], object]] = []
         turns = work_of_turns(app, monkeypatch, deeds)
-        screen = ReplayScreen(app, [run, RecordedRun("a", run.level, bytes(9)), RecordedRun("b", run.level, bytes(9))])
+        screen = ReplayScreen(app, [run, recording("a", run.level, bytes(9)), recording("b", run.level, bytes(9))])
         app.push(screen)
         frames(app, 2)
         assert (screen.tick, screen.settled) == (0, False), "the first picture is there while the end is looked for"
@@ -266,7 +274,7 @@ def test_no_turn_of_the_costliest_run_is_longer_than_others(
 def test_ghosts_catch_up_after_a_leap_in_turns() -> None:
     level = heavy_level(300)
     with scripted_app((396, 300)) as (app, _):
-        screen = ReplayScreen(app, [RecordedRun(name, level, bytes(500)) for name in "abc"])
+        screen = ReplayScreen(app, [recording(name, level, bytes(500)) for name in "abc"])
         app.push(screen)
         screen.toggle_pause()
         screen.seek(400)
@@ -317,7 +325,7 @@ def test_without_a_bench_nothing_is_edited() -> None:
 
 def test_film_is_made_from_the_viewer_and_told_whatever_the_palette() -> None:
     with scripted_app((396, 300), palette="of-another-version") as (app, _):
-        screen = ReplayScreen(app, [RecordedRun("a / b", TAKE.level, TAKE.inputs[:3])])
+        screen = ReplayScreen(app, [recording("a / b", TAKE.level, TAKE.inputs[:3])])
         app.push(screen)
         press("export")
         frames(app, 1, 0)
@@ -331,7 +339,7 @@ def test_film_is_made_from_the_viewer_and_told_whatever_the_palette() -> None:
 
 def test_film_that_cannot_be_saved_is_told() -> None:
     with scripted_app((396, 300)) as (app, _):
-        screen = ReplayScreen(app, [RecordedRun("run", TAKE.level, TAKE.inputs[:3])])
+        screen = ReplayScreen(app, [recording("run", TAKE.level, TAKE.inputs[:3])])
         app.push(screen)
         (app.player.folder / "exports").rmdir()
         (app.player.folder / "exports").write_text("in the way")

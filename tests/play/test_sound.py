@@ -70,7 +70,7 @@ def heard(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     monkeypatch.setattr(player, "works", True)
     monkeypatch.setattr(player, "play", lambda name, **_: played.append(name))
     monkeypatch.setattr(player, "_loop", lambda *_: None)
-    monkeypatch.setattr(player, "_chance", Mock(choice=" or ".join))
+    monkeypatch.setattr(player, "_rng", Mock(choice=" or ".join))
     world = Simulation(FLAT).world
     world.event_count = 1
     for kind, name in enumerate(EVENT_NAMES):
@@ -101,7 +101,7 @@ def heard(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
 
 
 def test_each_event_sounds_as_accepted(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Write the list anew with ACCEPT_PICTURES=1 in the environment."""
+    """Write the list again with ACCEPT_PICTURES=1 in the environment."""
     text = "\n".join(heard(folder, monkeypatch)) + "\n"
     if os.environ.get("ACCEPT_PICTURES"):
         SOUNDS.write_text(text, "utf-8")

@@ -26,7 +26,7 @@ def bare_digests(path: Path) -> list[str]:
     recording = load_replays(path)[0]
     run = Simulation(recording.level)
     digests = []
-    inputs = recording.playback(recording.ticks) + bytes(AFTER)
+    inputs = recording.inputs + bytes(AFTER)
     for keys in inputs:
         run.step_keys(keys)
         if run.tick % 10 == 0:
@@ -38,7 +38,7 @@ def bare_digests(path: Path) -> list[str]:
 def test_a_run_with_everything_on_is_the_bare_run(path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     recording = load_replays(path)[0]
     digests = []
-    inputs = recording.playback(recording.ticks)
+    inputs = recording.inputs
     with scripted_app((396, 300), palette="safe-dark", show_keys=True) as (app, controls):
         run = level_run(app, recording.level)
         monkeypatch.setattr(run, "ghosts", lambda: [GhostRun("half", inputs[: len(inputs) // 2])])
@@ -60,7 +60,7 @@ def test_a_run_with_everything_on_is_the_bare_run(path: Path, monkeypatch: pytes
 
 def test_rewinding_again_and_again_changes_nothing() -> None:
     recording = load_replays(REPLAYS[-1])[0]
-    inputs = recording.playback(recording.ticks)
+    inputs = recording.inputs
     with scripted_app((396, 300)) as (app, controls):
         screen = LevelScreen(app, level_run(app, recording.level, practice_mode=True))
         app.push(screen)
@@ -86,14 +86,14 @@ def test_looking_only_reads() -> None:
     recording = load_replays(REPLAYS[-1])[0]
     bare, seen = Simulation(recording.level), Simulation(recording.level)
     sheet = OffscreenContext((396, 300))
-    view = LevelView(sheet, seen, chance=5)
+    view = LevelView(sheet, seen, seed=5)
     import pygame
 
     from ninja_game.play.level.ghosts import Ghost
 
     surface = pygame.Surface((396, 300))
     view.ghosts = [Ghost(GhostRun("ghost", b""), recording.level, "circle")]
-    for keys in recording.playback(recording.ticks):
+    for keys in recording.inputs:
         bare.step_keys(keys)
         seen.step_keys(keys)
         view.on_tick()

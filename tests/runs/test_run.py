@@ -14,7 +14,7 @@ import pytest
 
 from ninja_game import ArgumentError, DemoError, Input, Simulation, parse_level, run_level, trace_level
 from ninja_game.backend.memories import compiled_available
-from ninja_game.runs import run_trace
+from ninja_game.runs import trace as run_trace
 from ninja_game.sim.inputs import MAX_TICKS, Demo
 from tests.support.memories import BOTH
 

@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 from ninja_game import ArgumentError, parse_level
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording, parse_replays
+from ninja_game.formats.replay.text import Replay
 from ninja_game.runs.comparison import NEAR, aligned, compare_runs, each_second
 from ninja_game.runs.run import run_level
 from ninja_game.runs.splits import best_run, run_splits, split_table, sum_of_best
-from ninja_game.sim.inputs import Demo
 from tests.support.samples import SPIKED, WALK_END, replay_of_walk
 
 LEVEL = "0" * 713 + "|5^100,566!11^200,564,170,564!0^140,566"
@@ -27,9 +27,10 @@ CERTIFICATES = sorted((Path(__file__).resolve().parent.parent / "pack").glob("**
 
 
 def walk(waiting: int, *, at: int = 0, level: str = LEVEL) -> Recording:
-    """The walk to the right, with so many ticks without a key from tick ``at`` on."""
+    """The walk to the right, with this many ticks without a key from tick ``at`` on."""
     inputs = bytes([2] * at + [0] * waiting + [2] * 60)
-    return replace(WALKED, level=parse_level(level), demo=Demo(inputs, float(len(inputs))), replay=None)
+    on = parse_level(level)
+    return Recording(on, Replay.of_inputs(inputs, on, name="walk"))
 
 
 def test_a_run_notes_gold_the_switch_and_its_end() -> None:
@@ -67,7 +68,7 @@ def test_sum_of_best_takes_every_segment_from_the_run_that_is_fastest_there() ->
 
 
 def test_splits_that_only_another_run_reaches_come_last_and_have_no_segment() -> None:
-    nowhere, there = run_splits(replace(walk(0), demo=Demo(bytes(3), 3.0))), run_splits(walk(0))
+    nowhere, there = run_splits(replace(walk(0), replay=Replay.of_inputs(bytes(3), walk(0).level))), run_splits(walk(0))
     rows = split_table([nowhere, there], nowhere)
     assert [row.ticks for row in rows] == [(None, split.tick) for split in there.splits]
     assert [row.best_segment for row in rows] == [None, None, None]
@@ -128,5 +129,5 @@ def test_alignment_goes_forwards_and_only_pairs_what_is_near(
 def test_positions_are_those_of_the_run() -> None:
     found = compare_runs(walk(2), walk(0))
     recording = walk(2)
-    run = run_level(recording.level, recording.playback(recording.ticks), memory="plain")
+    run = run_level(recording.level, recording.inputs, memory="plain")
     assert found.positions[0].tobytes() == run.positions.tobytes()

@@ -16,8 +16,7 @@ import pytest
 from numpy.typing import NDArray
 
 from ninja_game.errors import FormatError
-from ninja_game.runs.run_trace import NINJA_RECORD, OBJECT_RECORD, RunTrace
-from ninja_game.runs.trace import first_difference, rows, trace_digests
+from ninja_game.runs.trace import NINJA_RECORD, OBJECT_RECORD, RunTrace, first_difference, rows, trace_digests
 from ninja_game.runs.trace_files import COLUMNS, MOST_BYTES, FiledTrace, read_csv, read_traces, write_csv, write_npz
 from ninja_game.sim.inputs import MAX_TICKS
 from tests.support.reference import scene_traces, scenes
@@ -164,7 +163,7 @@ def _header(shape: str) -> bytes:
     ids=["nothing", "a version", "a cut header", "no shape", "a shape of terabytes", "one number"],
 )
 def test_odd_arrays_are_errors_of_ours_and_take_no_memory(member: bytes, tmp_path: Path) -> None:
-    with pytest.raises(FormatError, match="this is no trace"):
+    with pytest.raises(FormatError, match="this is not a trace"):
         list(read_traces(_zip_of(tmp_path, member)))
 
 
@@ -175,7 +174,7 @@ def test_a_zip_that_unpacks_to_gigabytes_is_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name, value", [("compress_type", 99), ("CRC", 1), ("flag_bits", 1)])
 def test_a_damaged_zip_is_an_error_of_ours(name: str, value: int, tmp_path: Path) -> None:
-    with pytest.raises(FormatError, match="this is no trace"):
+    with pytest.raises(FormatError, match="this is not a trace"):
         list(read_traces(_zip_of(tmp_path, _header("(3,)") + bytes(24), **{name: value})))
 
 
@@ -183,7 +182,7 @@ def test_a_zip_whose_index_leads_before_its_beginning_is_an_error_of_ours(tmp_pa
     path = tmp_path / "cut.npz"
     write_npz(TWICE, whole := io.BytesIO())
     path.write_bytes(b"PK" + whole.getvalue()[40:])
-    with pytest.raises(FormatError, match="this is no trace"):
+    with pytest.raises(FormatError, match="this is not a trace"):
         list(read_traces(path))
 
 
@@ -202,7 +201,7 @@ def test_arrays_of_another_kind_size_or_order_are_refused(name: str, array: NDAr
         write_npz(TWICE, file)
     with np.load(path) as arrays:
         np.savez(path, **{**arrays, f"{name}_0": array})
-    with pytest.raises(FormatError, match="this is no trace"):
+    with pytest.raises(FormatError, match="this is not a trace"):
         list(read_traces(path))
 
 

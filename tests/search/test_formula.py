@@ -23,7 +23,7 @@ from ninja_game.search.formula.task import Found, SpanTask
 from ninja_game.sim.digest import state_digest
 from ninja_game.sim.inputs import with_press_bits
 from tests.support.memories import BOTH
-from tests.support.samples import loose_replay
+from tests.support.samples import unclaimed_text
 
 TEXT = "0" * 713 + "|5^100,566!11^200,564,170,564!0^140,566!12^400,400"
 LEVEL = parse_level(TEXT)
@@ -290,7 +290,7 @@ def called(*words: str | Path | float) -> Result:
 @pytest.fixture
 def run(tmp_path: Path) -> Path:
     path = tmp_path / "run.inputs.txt"
-    path.write_text(loose_replay(TEXT, ".*6 R*60", headers="author: A. Player\n"))
+    path.write_text(unclaimed_text(TEXT, ".*6 R*60", headers="author: A. Player\n"))
     return path
 
 

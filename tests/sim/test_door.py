@@ -46,12 +46,12 @@ def test_an_odd_type_number_in_a_level_file_harms_nobody(kind: str, memory: str)
 @pytest.mark.parametrize(
     "level, message",
     [
-        ("levels/00-0-first-steps.txt", "this is no level"),
+        ("levels/00-0-first-steps.txt", "this is not a level"),
         (Level(tiles=(0,) * 12, objects=(NINJA_SPEC,)), "713 whole numbers"),
         (Level(tiles=(0.5,) * TILES, objects=(NINJA_SPEC,)), "713 whole numbers"),  # type: ignore[arg-type]
-        (Level(objects=(NINJA_SPEC, ObjectSpec(0, ("x", 2.0)))), "object 1 of the level is none"),  # type: ignore[arg-type]
-        (Level(objects=(NINJA_SPEC, ObjectSpec(0, (10**400, 2.0)))), "object 1 of the level is none"),
-        (Level(objects=(ObjectSpec(0.5, (1.0, 2.0)), NINJA_SPEC)), "object 0 of the level is none"),  # type: ignore[arg-type]
+        (Level(objects=(NINJA_SPEC, ObjectSpec(0, ("x", 2.0)))), "object 1 of the level is not an ObjectSpec"),  # type: ignore[arg-type]
+        (Level(objects=(NINJA_SPEC, ObjectSpec(0, (10**400, 2.0)))), "object 1 of the level is not an ObjectSpec"),
+        (Level(objects=(ObjectSpec(0.5, (1.0, 2.0)), NINJA_SPEC)), "object 0 of the level is not an ObjectSpec"),  # type: ignore[arg-type]
         (Level(objects=(GOLD_SPEC,)), "it has no ninja"),
         (Level(objects=(NINJA_SPEC,) * 13_000), "too many objects"),
     ],

@@ -16,7 +16,7 @@ def test_every_golden_run_is_the_same_in_every_object(file: str, memory: str) ->
     wrong = [text for row in rows if (text := difference(row, golden.get(row["name"])))]
     hint = "Is the change meant? Then `python3 tools/dev.py golden` and a new rules version (tests/golden/README.md)."
     assert not wrong, f"{len(wrong)} of {len(rows)} runs differ. {hint}\n" + "\n".join(wrong[:20])
-    assert golden.keys() == {row["name"] for row in rows}, "golden rows without a run: write them anew"
+    assert golden.keys() == {row["name"] for row in rows}, "golden rows without a run: write them again"
 
 
 def test_a_failure_names_the_second_the_object_and_what_is_wrong() -> None:

@@ -72,6 +72,7 @@ def test_worlds_are_packed_by_what_they_use() -> None:
     worlds[1]["ninja"]["x"] = 5.0
     states = bytes_of(worlds)
     assert states.shape == (3, worlds.strides[0] - STATE_START)
+    assert len(bytes_of(new_worlds(2, CAPACITY))) == 2
     states[2] = states[1]
     assert worlds[2]["ninja"]["x"] == 5.0
     assert worlds[0]["ninja"]["x"] == 0.0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 import textwrap
+from functools import cached_property
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -34,9 +35,10 @@ def _members(cls: Any) -> list[str]:
     """A line for each public method and property of a class; its fields stand in its signature."""
     lines = []
     for name, member in vars(cls).items():
-        if name.startswith("_") or not (inspect.isfunction(member) or isinstance(member, property)):
+        is_property = isinstance(member, (property, cached_property))
+        if name.startswith("_") or not (inspect.isfunction(member) or is_property):
             continue
-        signature = "" if isinstance(member, property) else _signature(member)
+        signature = "" if is_property else _signature(member)
         lines += _wrapped(f"- `{name}{signature}`: {_first_line(member)}")
     return lines
 
@@ -72,7 +74,7 @@ def _first_line(value: Any) -> str:
 
 
 def write_api_pages() -> None:
-    """Write the references anew; what stands before them stays."""
+    """Write the references again; what stands before them stays."""
     for page, module in PAGES.items():
         text = page.read_text("utf-8").partition(HEADING)[0]
         page.write_text(text + reference(module), "utf-8")

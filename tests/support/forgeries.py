@@ -129,7 +129,7 @@ FORGERIES = {
     "a digest of nothing": (replay_of_walk(digest="0" * 64), "digest"),
     "the digest of another run": (replay_of_walk(inputs=b"\1" + WALKING, final_tick=WALK_END + 1), "digest"),
     "a waypoint elsewhere": (replay(waypoints=waypoint()), "ninja: x"),
-    "a waypoint that is no number": (replay(waypoints=waypoint(x=float("nan"))), "ninja: x"),
+    "a waypoint that is not a number": (replay(waypoints=waypoint(x=float("nan"))), "ninja: x"),
     "a waypoint in another state": (replay(waypoints=waypoint(x=112.0, state="dead")), "ninja"),
     "rules of tomorrow": (replay_of_walk(rules=99), "rules"),
     "rules of yesterday": (replay_of_walk(rules=0), "rules"),

@@ -28,6 +28,6 @@ def read_generated() -> dict[tuple[int, int], str]:
 
 
 def write_generated() -> None:
-    """Write the table anew."""
+    """Write the table again."""
     rows = (f"{seed}\t{wanted}\t{generated_digest(seed, wanted)}\n" for seed, wanted in SEEDS)
     TABLE.write_text("".join(rows), "utf-8")

@@ -15,8 +15,7 @@ from ninja_game.backend.known_run import DIGEST, known_digest
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay
-from ninja_game.runs.run_trace import trace_level
-from ninja_game.runs.trace import trace_digests
+from ninja_game.runs.trace import trace_digests, trace_level
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.plain import PlainWorlds
 from ninja_game.simulation import Body, Simulation
@@ -109,7 +108,7 @@ def replay_runs() -> Iterator[GoldenRun]:
     """The replays of the tests' pack, each carried on for a while after its end."""
     for path in sorted(REPLAYS.glob("*.replay.txt")):
         for recording in load_replays(path):
-            inputs = recording.playback(recording.ticks + AFTERMATH)
+            inputs = recording.replay.playback(recording.ticks + AFTERMATH)
             yield GoldenRun(path.name, recording.level, inputs, recording.body)
 
 
@@ -158,10 +157,10 @@ def _compared(ours: dict[str, str], golden: dict[str, str]) -> Iterator[tuple[st
 
 
 def write_golden_files() -> None:
-    """Write the golden files and our replays anew from what the world does now (plain memory)."""
+    """Write the golden files and our replays again from what the world does now (plain memory)."""
     for path in sorted([*REPLAYS.glob("*.replay.txt"), *ROOT.glob("levels/certificates/*.replay.txt")]):
         (old,) = load_replays(path)
-        assert old.replay, f"{path.name} is no replay of ours"
+        assert old.replay, f"{path.name} is not a replay of ours"
         body, ticks = old.body, old.replay.ticks
         run = record_replay(old.level, old.replay.inputs, ticks=ticks, body=body, name=old.name, author=old.author)
         new = replace(run, level_name=old.replay.level_name, level_author=old.replay.level_author)

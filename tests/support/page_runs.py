@@ -37,7 +37,7 @@ def certificate_runs() -> Iterator[GoldenRun]:
     """The certificates of our levels, each carried on for a while after its end."""
     for path in bundled_replays():
         for recording in load_replays(path):
-            inputs = recording.playback(recording.ticks + AFTERMATH)
+            inputs = recording.replay.playback(recording.ticks + AFTERMATH)
             yield GoldenRun(path.name, recording.level, inputs, recording.body)
 
 

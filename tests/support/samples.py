@@ -24,7 +24,7 @@ SPIKED = "0" * 713 + "|5^100,566!12^130,566!0^400,100"
 NO_NINJA = "0" * 713 + "|0^100,100"
 
 
-def loose_replay(level: str, *lines: str, headers: str = "") -> str:
+def unclaimed_text(level: str, *lines: str, headers: str = "") -> str:
     """A replay text without claims: such inputs on a level given as an in-game string."""
     picture = "".join(f"  {line}\n" for line in write_ascii_level(parse_level_string(level)).splitlines())
     inputs = "".join(f"  {line}\n" for line in lines)
@@ -32,7 +32,7 @@ def loose_replay(level: str, *lines: str, headers: str = "") -> str:
 
 
 def running(ticks: int) -> str:
-    """The demo of holding right for so many ticks."""
+    """The demo of holding right for this many ticks."""
     return write_demo(Demo(bytes([2] * ticks), float(ticks)))
 
 

@@ -84,7 +84,7 @@ def phase_of(screen: LevelScreen) -> Phase:
 
 
 def play_to_the_end(app: App, controls: ScriptedControls, screen: LevelScreen, recording: Recording) -> None:
-    controls.script = iter(recording.playback(recording.ticks))
+    controls.script = iter(recording.inputs)
     press("confirm")
     while screen.phase in {Phase.READY, Phase.PLAY}:
         frames(app)

@@ -1,4 +1,4 @@
-"""Writing the golden files anew: replays that are right stay as they are."""
+"""Writing the golden files again: replays that are right stay as they are."""
 
 from __future__ import annotations
 

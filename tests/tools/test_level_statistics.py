@@ -61,7 +61,7 @@ def test_shared_cells_and_motifs_are_found() -> None:
     assert [pair[1:] for pair in alike(levels, 0.5)] == [("a", "b")]
     assert shared_share(frozenset(), frozenset()) == 0
     assert motifs(levels["d"]) == set()
-    assert motifs(level({(10 + k, 10 + k): 3 for k in range(5)})) == set(), "a straight slope is no motif"
+    assert motifs(level({(10 + k, 10 + k): 3 for k in range(5)})) == set(), "a straight slope is not a motif"
     ((motif, names), *_) = common_motifs(levels, 2)
     assert names == ["a", "b", "c"]
     assert sum(tile > 1 for tile in motif) == 3

@@ -12,8 +12,8 @@ from click.testing import CliRunner
 from ninja_game import parse_level
 from ninja_game.cli.main import cli
 from ninja_game.formats.load import NamedLevel, load_levels
-from ninja_game.formats.n14.demo import parse_demo
-from ninja_game.formats.recording import Recording
+from ninja_game.formats.n14.level_file import LevelRecord
+from ninja_game.formats.recording import recording_of
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.rules import LIFETIME
@@ -131,10 +131,10 @@ def test_names_forge_no_rows_and_command_no_terminal(tmp_path: Path) -> None:
     assert "\\x1b[2J" in report
 
 
-def test_a_cut_demo_is_called_so(tmp_path: Path) -> None:
+def test_a_truncated_demo_is_called_so(tmp_path: Path) -> None:
     (tmp_path / "cut.txt").write_text(record(demo="23:35791394"))
     result = CliRunner().invoke(cli, ["verify", str(tmp_path / "cut.txt")])
-    assert "does not reach the exit: the demo is cut, it holds 7 of its 23 ticks" in result.stdout
+    assert "does not reach the exit: the demo is truncated, it holds 7 of its 23 ticks" in result.stdout
     assert "FAIL running    24 ticks    1 gold" in result.stdout
 
 
@@ -142,7 +142,7 @@ def test_runs_at_a_keyboard_are_possible_by_keyboard() -> None:
     """The published recordings of people; of those made with tools nineteen are not."""
     impossible = dict.fromkeys(("rta", "tas", "mbd"), 0)
     for row in recordings():
-        recording = Recording(row.label, "", "", parse_level(row.data), parse_demo(row.demo), "")
+        recording = recording_of(LevelRecord(row.label, "", "", row.data, row.demo), "", parse_level(row.data))
         verdict = verify_recording(recording)
         assert verdict.in_time
         impossible[row.source] += not verdict.possible_by_keyboard

@@ -89,7 +89,7 @@ def test_certificates_are_run(pack: Path) -> None:
     shutil.copy(certificates / f"{FIRST}.exit.replay.txt", certificates / f"{FIRST}.gold.replay.txt")
     short = load_replays(certificates / "01-0-springtime.exit.replay.txt")[0]
     (certificates / "01-0-springtime.exit.replay.txt").write_text(
-        write_replay(record_replay(short.level, short.playback(100), ticks=100))
+        write_replay(record_replay(short.level, short.replay.playback(100), ticks=100))
     )
     found = findings(pack)
     for expected in (

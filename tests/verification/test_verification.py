@@ -53,7 +53,16 @@ from ninja_game.verification.workers import (
     in_order,
     workers,
 )
-from tests.support.samples import NO_NINJA, SPIKED, WALK, WALK_END, loose_replay, replay_of_walk, running, write_records
+from tests.support.samples import (
+    NO_NINJA,
+    SPIKED,
+    WALK,
+    WALK_END,
+    replay_of_walk,
+    running,
+    unclaimed_text,
+    write_records,
+)
 
 verify_plainly = partial(verify_all, memory="plain")
 
@@ -341,8 +350,8 @@ def test_a_piece_for_another_machine_holds_its_level(tmp_path: Path) -> None:
         ("a.tas", "Read,part.tas\n", "part.tas"),
         ("b.tas", "Read,part\n", "part.tas"),
         ("c.tas", "Read,other.txt\n", "part.tas"),
-        ("d.replay.txt", loose_replay(WALK, "include part.tas"), "part.tas"),
-        ("e.replay.txt", loose_replay(WALK, "include other.txt"), "part.tas"),
+        ("d.replay.txt", unclaimed_text(WALK, "include part.tas"), "part.tas"),
+        ("e.replay.txt", unclaimed_text(WALK, "include other.txt"), "part.tas"),
     ],
 )
 def test_a_file_that_was_taken_in_and_changed_is_verified_again(
@@ -424,7 +433,7 @@ def test_a_run_on_a_level_that_does_not_count_is_not_simulated(tmp_path: Path, m
             "file": str(path), "record": 0, "name": "Walk", "author": "me", "level_name": "", "body": "circle",
             "rules": 1, "outcome": "not run", "end_tick": -1, "gold": 0, "score_ticks": None, "ticks": 0,
             "xy_sha256": "", "possible_by_keyboard": None, "in_time": None, "practice": False, "complete": True,
-            "problems": [f"level_digest is {digest}, which is none of the levels that count"],
+            "problems": [f"level_digest is {digest}, which is not one of the levels that count"],
         }  # fmt: skip
         assert result_from_data(json.loads(json.dumps(as_data(result)))) == result
 

@@ -92,9 +92,9 @@ def test_constants_are_those_of_sdl() -> None:
 def test_colours_are_the_same() -> None:
     for value in ("#123456", "#12345678", (1, 2, 3), (1, 2, 3, 4), [5, 6, 7]):
         assert_alike(lambda module: module.Color(value))  # noqa: B023
-    chance = Random(1)
+    rng = Random(1)
     for _ in range(300):
-        a, b = ([chance.randrange(256) for _ in range(4)] for _ in range(2))
+        a, b = ([rng.randrange(256) for _ in range(4)] for _ in range(2))
         theirs, ours = on_both(lambda module: module.Color(*a).lerp(module.Color(*b), sum(a) / 1020))  # noqa: B023
         assert tuple(ours) == tuple(theirs)
     for wrong in ("#12", "nothing", (1, 2), (1, 2, 300)):
@@ -102,8 +102,8 @@ def test_colours_are_the_same() -> None:
             shim.Color(wrong)
 
 
-def rects(chance: Random) -> list[float]:
-    return [chance.randrange(-30, 60), chance.randrange(-30, 60), chance.randrange(0, 50), chance.randrange(0, 50)]
+def rects(rng: Random) -> list[float]:
+    return [rng.randrange(-30, 60), rng.randrange(-30, 60), rng.randrange(0, 50), rng.randrange(0, 50)]
 
 
 def moved(rect: Any, **sides: Any) -> Any:
@@ -133,14 +133,14 @@ RECT_CALLS: dict[str, Callable[[Any, Any, list[float]], Any]] = {
 
 @pytest.mark.parametrize("name", RECT_CALLS)
 def test_rectangles_are_the_same(name: str) -> None:
-    chance = Random(name)
+    rng = Random(name)
     for _ in range(300):
-        a, b, values = rects(chance), rects(chance), rects(chance)
+        a, b, values = rects(rng), rects(rng), rects(rng)
         assert_alike(lambda module: RECT_CALLS[name](module.Rect(a), module.Rect(*b), values))  # noqa: B023
 
 
-def size(chance: Random) -> tuple[int, int]:
-    return chance.randrange(18, 50), chance.randrange(18, 50)
+def size(rng: Random) -> tuple[int, int]:
+    return rng.randrange(18, 50), rng.randrange(18, 50)
 
 
 DRAW_CALLS: dict[str, Callable[[Any, Any, Random], Any]] = {
@@ -155,12 +155,12 @@ DRAW_CALLS: dict[str, Callable[[Any, Any, Random], Any]] = {
 }
 
 
-def point(chance: Random, *, margin: float = 45) -> tuple[float, float]:
+def point(rng: Random, *, margin: float = 45) -> tuple[float, float]:
     """A point well within the surface, in eighths of a px, as both C's floats and Python's hold exactly."""
     width, height = SIZE
     return (
-        round(8 * chance.uniform(margin, width - margin)) / 8,
-        round(8 * chance.uniform(margin, height - margin)) / 8,
+        round(8 * rng.uniform(margin, width - margin)) / 8,
+        round(8 * rng.uniform(margin, height - margin)) / 8,
     )
 
 
@@ -201,10 +201,10 @@ def test_cut_shapes_give_rectangles_that_hold_those_of_pygame(name: str) -> None
 
 
 def test_pictures_give_the_same_rectangles() -> None:
-    chance = Random(3)
+    rng = Random(3)
     for _ in range(1000):
-        source, dest, area, clip = rects(chance)[2:], rects(chance), rects(chance), rects(chance)
-        cut, part = chance.random() < 0.3, chance.random() < 0.5
+        source, dest, area, clip = rects(rng)[2:], rects(rng), rects(rng), rects(rng)
+        cut, part = rng.random() < 0.3, rng.random() < 0.5
 
         def call(module: Any) -> Any:
             surface = module.Surface((40, 40))

@@ -14,16 +14,16 @@ from typing import Any
 import numpy as np
 import pygame
 
+from examples.agents import LEARNED, PolicyAgent, load_policy
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import Replay
 from ninja_game.learn.actions import DISCRETE_KEYS
-from ninja_game.learn.agents.load import learned_file
-from ninja_game.learn.agents.policy import PolicyAgent, load_policy
 from ninja_game.learn.evaluation import EVALUATION_SEED
 from ninja_game.learn.levels import level_source
 from ninja_game.learn.sticky import StickyActions
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.play.replay.film import Film, film_pictures
 from ninja_game.play.replay.film_files import write_gif
-from ninja_game.play.replay.playback import RecordedRun
 from ninja_game.play.ui.palette import palette_named
 from ninja_game.player.settings import Settings
 from ninja_game.sim.inputs import with_press_bits
@@ -56,7 +56,7 @@ def draw_curve(training: dict[str, Any], path: Path) -> None:
     plt.close(figure)
 
 
-def played(agent: PolicyAgent, name: str, seed: int) -> RecordedRun:
+def played(agent: PolicyAgent, name: str, seed: int) -> Recording:
     """An episode of the agent, with sticky actions, as it is evaluated."""
     worlds = EnvWorlds(name, 1, **agent.settings)
     sticky = StickyActions(1, seed)
@@ -66,7 +66,8 @@ def played(agent: PolicyAgent, name: str, seed: int) -> RecordedRun:
         before = worlds.ticks[0]
         worlds.step(down)
         keys += down.tolist() * int(worlds.ticks[0] - before)
-    return RecordedRun(f"{name} - learned agent", worlds.levels[0], with_press_bits(keys))
+    level = worlds.levels[0]
+    return Recording(level, Replay.of_inputs(with_press_bits(keys), level, name=f"{name} - learned agent"))
 
 
 def draw_film(agent: PolicyAgent, names: Sequence[str], path: Path) -> None:
@@ -77,7 +78,7 @@ def draw_film(agent: PolicyAgent, names: Sequence[str], path: Path) -> None:
 
 
 if __name__ == "__main__":
-    agent = load_policy(learned_file())
+    agent = load_policy(LEARNED)
     FOLDER.mkdir(parents=True, exist_ok=True)
     draw_curve(agent.training, FOLDER / "curve.svg")
     rates = dict(zip(agent.training["levels"], agent.training["curve"][-1][2:], strict=True))

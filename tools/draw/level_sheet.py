@@ -37,7 +37,7 @@ def route(named: NamedLevel, certificate: Path) -> NDArray[np.float64]:
     """The ninja's positions in a certificate, (ticks, 2), px; none if there is none or if it is of another level."""
     try:
         recording = load_replays(certificate, level=named.level)[0]
-        return run_level(named.level, recording.playback(recording.ticks)).positions
+        return run_level(named.level, recording.inputs).positions
     except (NinjaGameError, OSError):
         return np.zeros((0, 2))
 
@@ -58,7 +58,7 @@ def draw_level(named: NamedLevel, width: int, certificates: Path | None) -> tupl
 
 
 def caption(text: str, width: int) -> pygame.Surface:
-    """Words in the largest type, 22 px at most, in which they are no wider than ``width``."""
+    """Words in the largest type, 22 px at most, in which they are not wider than ``width``."""
     for size in range(22, 8, -1):
         drawn = pygame.font.Font(None, size).render(text, True, (230, 230, 230))
         if drawn.get_width() <= width:

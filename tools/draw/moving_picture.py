@@ -11,12 +11,11 @@ os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 
 from ninja_game.formats.load import load_replays
 from ninja_game.play.replay.film import Film, write_film
-from ninja_game.play.replay.playback import recorded_run
 from tools import ROOT
 
 REPLAY = ROOT / "levels" / "certificates" / "43-4-the-skull.exit.replay.txt"
 PICTURE = ROOT / "docs" / "pictures" / "ninja-game.gif"
 
 if __name__ == "__main__":
-    write_film(Film(recorded_run(load_replays(REPLAY)[0])), PICTURE)
+    write_film(Film(load_replays(REPLAY)[0]), PICTURE)
     print(f"{PICTURE.relative_to(ROOT)}: {PICTURE.stat().st_size / 1000:.0f} kB")

@@ -31,7 +31,7 @@ def busy_level() -> Level:
     for row in range(19, 24):
         put(8, row, 1)
     records = [ObjectSpec(kinds.NINJA, (60.0, 560.0)), ObjectSpec(kinds.EXIT, (744.0, 60.0, 744.0, 200.0))]
-    chance = Random(1)
+    rng = Random(1)
     for k in range(24):
         x, y = 36.0 + 24 * (k + 3), (60.0, 204.0, 348.0)[k % 3]
         records.append(ObjectSpec(kinds.DRONE, (x, y, float(k % 6), float(k % 2), float(k % 3), float(k % 4))))
@@ -40,7 +40,7 @@ def busy_level() -> Level:
     records += [ObjectSpec(kinds.BOUNCE_BLOCK, (100.0 + 40 * k, 250.0)) for k in range(14)]
     records += [ObjectSpec(kinds.TURRET, (180.0 * k + 90, 36.0)) for k in range(4)]
     records += [ObjectSpec(kinds.LAUNCHER, (150.0 * k + 90, 470.0)) for k in range(4)]
-    records += [ObjectSpec(kinds.MINE, (chance.uniform(250, 750), 576.0)) for _ in range(12)]
+    records += [ObjectSpec(kinds.MINE, (rng.uniform(250, 750), 576.0)) for _ in range(12)]
     records += [ObjectSpec(kinds.GOLD, (36.0 + 12 * (k % 60), 100.0 + 40 * (k // 60))) for k in range(180)]
     return Level(tuple(tiles), tuple(records))
 
@@ -54,10 +54,10 @@ class Restless(Bindings):
 
     @staticmethod
     def _random_keys() -> Iterator[int]:
-        chance = Random(3)
+        rng = Random(3)
         while True:
-            bits = chance.choice((1, 2, 1, 2, 5, 6, 4))
-            for _ in range(chance.randrange(4, 20)):
+            bits = rng.choice((1, 2, 1, 2, 5, 6, 4))
+            for _ in range(rng.randrange(4, 20)):
                 yield bits
 
     def held(self) -> int:

@@ -23,10 +23,11 @@ os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 import pygame
 
 from ninja_game.formats.load import load_levels
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App, build_app
 from ninja_game.play.audio.output import AudioOutput
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.replay.playback import RecordedRun
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.sim.level import Level
 from tools.measure.busy import Restless, busy_level, busy_screen, go_on
@@ -64,7 +65,7 @@ def measure_drawing(app: App, screen: LevelScreen, pictures: int) -> dict[str, f
 def measure_seek(app: App, level: Level, ticks: int = 3000) -> dict[str, float]:
     """Going to ticks of a long replay at random, the picture of it included, ms."""
     frames = bytes(1 + number // 37 % 2 for number in range(ticks))
-    viewer = ReplayScreen(app, [RecordedRun("long", level, frames)])
+    viewer = ReplayScreen(app, [Recording(level, Replay.of_inputs(frames, level, name="long"))])
     # The ninja of these keys may die early: the rest of the run is made here as the viewer makes it when it opens.
     while not viewer.settled:
         viewer.update(0)
@@ -73,11 +74,11 @@ def measure_seek(app: App, level: Level, ticks: int = 3000) -> dict[str, float]:
         viewer.playback.step()
     app.push(viewer)
     app.frame(0)
-    chance = Random(5)
+    rng = Random(5)
     times = []
     for _ in range(150):
         start = time.thread_time()
-        viewer.seek(chance.randrange(ticks))
+        viewer.seek(rng.randrange(ticks))
         app.draw()
         times.append(1000 * (time.thread_time() - start))
     app.pop()

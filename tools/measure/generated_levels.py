@@ -1,6 +1,6 @@
 """How many seeds give a level, and how fast: `python3 tools/dev.py tool measure.generated_levels --first 500`.
 
-The difficulties 1 to 10 are asked for by turns. Prints a line a seed, then what docs/generator.md says; ``--out``
+The difficulties 1 to 10 are asked for in turn. Prints one line per seed, then what docs/generator.md says; ``--out``
 keeps the levels.
 """
 

@@ -87,9 +87,9 @@ def press_at_random(
     keys: Keys, controls: NotingBindings, presses: int, times: list[float], done: threading.Event
 ) -> None:
     """The player: in a thread of its own, so that presses come at any moment of the game's loop."""
-    chance = Random(1)
+    rng = Random(1)
     for _ in range(presses):
-        time.sleep(0.25 + 0.1 * chance.random())
+        time.sleep(0.25 + 0.1 * rng.random())
         controls.waiting = True
         times.append(keys.send(down=True))
         time.sleep(0.12)

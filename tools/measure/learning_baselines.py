@@ -18,14 +18,11 @@ from typing import Any
 
 import numpy as np
 
+from examples.agents import LEARNED, load_agent, load_policy
+from examples.search import SearchAgent
 from ninja_game.learn.actions import DISCRETE_KEYS
-from ninja_game.learn.agents import load_agent
-from ninja_game.learn.agents.load import learned_file
-from ninja_game.learn.agents.policy import load_policy
-from ninja_game.learn.agents.search import SearchAgent
-from ninja_game.learn.evaluation import EVALUATION_SEED, TIME_LIMIT, level_results
+from ninja_game.learn.evaluation import EVALUATION_SEED, TIME_LIMIT, evaluate
 from ninja_game.learn.levels import LevelSource, level_source
-from ninja_game.learn.sticky import LONGEST_WAIT, REPEAT
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import OUTCOME_EXIT
@@ -63,18 +60,14 @@ def searched(level: Level) -> dict[str, Any]:
 
 def tried(agent: str, name: str, level: Level) -> dict[str, Any]:
     """How many episodes an agent that looks passes."""
-    source = LevelSource([name], [level])
-    found = level_results(
-        load_agent(agent), source, EPISODES, EVALUATION_SEED, REPEAT, LONGEST_WAIT, TIME_LIMIT, "auto"
-    )
-    return {"passed": next(iter(found)).passed}
+    return {"passed": evaluate(load_agent(agent), LevelSource([name], [level]), episodes=EPISODES).results[0].passed}
 
 
 def measure(file: Path, agents: Iterable[str]) -> None:
     """Measure what is not in the file yet."""
     done = {(row["agent"], row["level"]) for row in rows(file)}
     source = level_source("set")
-    seen = {*load_policy(learned_file()).training["levels"], *level_source("test").names}
+    seen = {*load_policy(LEARNED).training["levels"], *level_source("test").names}
     for agent in agents:
         for name, level in zip(source.names, source.levels, strict=True):
             if (agent, name) in done or (agent == "learned" and name not in seen):
@@ -94,7 +87,7 @@ def write_doc(file: Path) -> None:
     """Write the page."""
     found = {(row["agent"], row["level"]): row for row in rows(file)}
     names = level_source("set").names
-    trained = set(load_policy(learned_file()).training["levels"])
+    trained = set(load_policy(LEARNED).training["levels"])
     lines = [_line(found, name, name in trained) for name in names]
     budget = SearchAgent().ticks / 1e6
     summary = _summary(found, names, trained)

@@ -4,8 +4,9 @@
     python3 tools/dev.py tool measure.level_statistics levels/20-0-*.txt   # single levels
     python3 tools/dev.py tool measure.level_statistics --plots docs/pictures/levels
 
-A figure outside the reference's quartiles is marked: - below, + above. A single level is told what kinds it has, and
-which levels of the set share most of its solid cells. The set is told what it lacks and which levels are too alike.
+A figure outside the reference's quartiles is marked: - below, + above. Of a single level it says which kinds it has,
+and which levels of the set share most of its solid cells. Of the set it says what it lacks and which levels are too
+alike.
 """
 
 from __future__ import annotations

@@ -84,9 +84,9 @@ EDITS: dict[str, Callable[[bytearray, random.Random], None]] = {
 
 
 def edited(recording: Recording, kind: str) -> Iterator[tuple[int, bytes, RunResult]]:
-    """A run after each of COUNTS changes, as far as it gets: how many, inputs, what came of them."""
+    """A run after each of COUNTS changes, as far as it gets: how many, inputs, the result."""
     rng = random.Random(f"{recording.name} {kind}")
-    keys, done = bytearray(each & KEYS_DOWN for each in recording.playback(recording.ticks)), 0
+    keys, done = bytearray(each & KEYS_DOWN for each in recording.inputs), 0
     for _ in range(MOST_TRIES):
         tried = keys.copy()
         EDITS[kind](tried, rng)
@@ -102,7 +102,7 @@ def edited(recording: Recording, kind: str) -> Iterator[tuple[int, bytes, RunRes
 
 def noticed(recording: Recording, kind: str) -> Iterator[tuple[int, bool]]:
     """For each of COUNTS changes whether the board notices: a copy, or near enough for a remark."""
-    inputs = recording.playback(recording.ticks)
+    inputs = recording.inputs
     run = run_level(recording.level, inputs)
     first = course_of(inputs[: run.ticks], run)
     for count, changed, result in edited(recording, kind):

@@ -22,7 +22,7 @@ from typing import Any
 
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.search.certificate import VerifiedRun
+from ninja_game.formats.replay.text import Replay
 from ninja_game.search.solve import Progress, Task, compile_solver, solve
 from tests.support.reference import RunRow, recordings
 
@@ -75,7 +75,7 @@ def _stop_when_late(stop: Event, until: float, _: Progress) -> None:
         stop.set()
 
 
-def _note(course: list[tuple[float, int]], start: float, run: VerifiedRun) -> None:
+def _note(course: list[tuple[float, int]], start: float, run: Replay) -> None:
     """Note after how much CPU time a better run was found."""
     course.append((round(time.process_time() - start, 1), run.end_tick))
 

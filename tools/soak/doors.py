@@ -1,4 +1,4 @@
-"""Feed odd inputs to every door, all that reads what others wrote: only errors of ours may come out, in bounded work.
+"""Feed odd inputs to every door, all that reads what others wrote: only our own errors may come out, in bounded work.
 
     python3 tools/dev.py tool soak.doors --texts 1000000
     python3 tools/dev.py tool soak.doors --coverage --minutes 480 --findings found --corpus kept
@@ -254,7 +254,7 @@ def sound_inputs(names: list[str], kept: Path | None, *, reference: bool) -> Poo
 
 
 def write_smallest(trial: Trial, pool: Pool, folder: Path, longest: int) -> None:
-    """Write few short inputs that reach all the lines that those of a pool reach, and a sound one, a folder a door."""
+    """Write few short inputs that reach all the lines of a pool, and a sound one, one folder per door."""
     steps = Lines()
     for name, inputs in pool.items():
         known: set[Any] = set()
@@ -278,7 +278,7 @@ def write_smallest(trial: Trial, pool: Pool, folder: Path, longest: int) -> None
 
 def options_of(words: list[str] | None = None) -> argparse.Namespace:
     """The options of the command line."""
-    parser = argparse.ArgumentParser(description="Feed odd inputs to every door; only errors of ours may come out.")
+    parser = argparse.ArgumentParser(description="Feed odd inputs to every door; only our own errors may come out.")
     parser.add_argument("--texts", type=int, default=0, help="how many inputs (default: without end, or 100000)")
     parser.add_argument("--minutes", type=float, default=0, help="how long")
     parser.add_argument("--seed", type=int, default=1, help="of chance (default 1)")

@@ -2,7 +2,7 @@
 
     python3 tools/dev.py tool soak.editor_kills --kills 100
 
-A child process opens the editor in the player's folder, goes on with what the last one left, draws, saves now and
+A child process opens the editor in the player's folder, continues with what the last one left, draws, saves now and
 then, and says what it has drawn and saved. It is killed (SIGKILL) after a random time. Then the folder must offer a
 draft that is at most two seconds old, and the saved file must be readable and as it was last saved.
 """
@@ -33,19 +33,19 @@ def edit(folder: str, seed: int, pipe: Connection) -> None:
     """Draw for ever in the editor, by its own mouse events; say the digest of every state and when it was reached."""
     from tests.support.level_maker import Maker
 
-    chance = Random(seed)
+    rng = Random(seed)
     maker = Maker(Path(folder))
     maker.open("Editor")
     if maker.top() is not maker.editor:
-        maker.choose("Go on with it")
+        maker.choose("Recover")
     session = maker.editor.session
     while True:
-        maker.press(chance.choice(("e", "d", "1", "grave", "3", "m")))
-        maker.drag(*((chance.uniform(30, 760), chance.uniform(30, 570)) for _ in range(chance.randrange(1, 4))))
-        session.bench.finish()
+        maker.press(rng.choice(("e", "d", "1", "grave", "3", "m")))
+        maker.drag(*((rng.uniform(30, 760), rng.uniform(30, 570)) for _ in range(rng.randrange(1, 4))))
+        session.tools.finish()
         digest = level_digest(session.draft.level)
         pipe.send(("drawn", digest, time.monotonic_ns()))
-        if chance.random() < 0.04:
+        if rng.random() < 0.04:
             pipe.send(("about", digest, 0))
             session.save(Path(folder) / "levels" / "kept.txt", replacing=True)
             if session.is_saved:
@@ -88,7 +88,7 @@ def kill_test(
     kills: int, seed: int, folder: Path, *, most: float = MOST_LOST, report: bool = False
 ) -> tuple[float, list[str]]:
     """Kill so many editors; the most seconds that were lost, and everything that is wrong."""
-    chance = Random(seed)
+    rng = Random(seed)
     said, worst = Said(), 0.0
     wrong: list[str] = []
     for number in range(kills):
@@ -96,7 +96,7 @@ def kill_test(
         if number % 10 == 0:
             said = Said()
         said.drawn.clear()
-        facts = life(edit, home, chance.randrange(2**31), chance.random() * LONGEST_LIFE, words=1)
+        facts = life(edit, home, rng.randrange(2**31), rng.random() * LONGEST_LIFE, words=1)
         killed_at = time.monotonic_ns()
         said.note(facts)
         try:

@@ -32,7 +32,7 @@ LONGEST_LIFE = 0.25
 
 
 def level_of(number: int) -> Level:
-    """A level that is passed by running right; each number makes another one."""
+    """A level for which running right is enough; each number makes another one."""
     return parse_level_string("0" * 713 + f"|5^100,566!11^160,564,130,564!0^{300 + number},100")
 
 
@@ -54,19 +54,19 @@ def passed_attempt(level: Level, wait: int) -> Attempt:
 
 def play_records(folder: str, seed: int, pipe: Connection) -> None:
     """What the game saves, without its window: far more saves a second."""
-    chance = Random(seed)
+    rng = Random(seed)
     data = PlayerData(Path(folder))
     while True:
-        level = level_of(chance.randrange(40))
-        attempt = passed_attempt(level, chance.randrange(30))
+        level = level_of(rng.randrange(40))
+        attempt = passed_attempt(level, rng.randrange(30))
         LevelRun(data, entry_of(level)).passed(attempt)
         pipe.send(("best", level_digest(level), attempt.score))
         pipe.send(("replay", "", data.records.keep_replay(attempt.replay())))
-        volume = chance.randrange(100)
+        volume = rng.randrange(100)
         pipe.send(("about", "", volume))
         data.change_settings(data.settings.changed(volume=volume))
         pipe.send(("volume", "", volume))
-        data.progress.level_passed((chance.randrange(9), chance.randrange(5)), legitimate=True)
+        data.progress.level_passed((rng.randrange(9), rng.randrange(5)), legitimate=True)
         episode, place = data.progress.columns[0].beaten
         pipe.send(("progress", "0", episode * 5 + place))
 
@@ -76,14 +76,14 @@ def play_in_window(folder: str, seed: int, pipe: Connection) -> None:
     from ninja_game.play.level.screen import LevelScreen
     from tests.support.menu_driver import MenuDriver
 
-    chance = Random(seed)
+    rng = Random(seed)
     driver = MenuDriver(Path(folder))
     while True:
-        level = level_of(chance.randrange(40))
+        level = level_of(rng.randrange(40))
         screen = LevelScreen(driver.app, LevelRun(driver.player, entry_of(level)))
         driver.app.push(screen)
         for _ in range(3):
-            driver.keys.script = [1] * chance.randrange(1, 15) + [2] * 120
+            driver.keys.script = [1] * rng.randrange(1, 15) + [2] * 120
             while screen.attempt.outcome != "exit":
                 driver.frames()
             if any("saved" in notice for notice in screen.play.notices):
@@ -92,7 +92,7 @@ def play_in_window(folder: str, seed: int, pipe: Connection) -> None:
             if "saved" in driver.app.notice:
                 pipe.send(("replay", "", driver.player.records.replays()[0].id))
             driver.press("r")
-        volume = chance.randrange(100)
+        volume = rng.randrange(100)
         pipe.send(("about", "", volume))
         driver.app.change_settings(volume=volume)
         pipe.send(("volume", "", volume))
@@ -171,7 +171,7 @@ def kill_test(
     kills: int, seed: int, folder: Path, *, what: str = "records", report: bool = False
 ) -> tuple[int, list[str]]:
     """Kill so many children; how many saves they had told of, and everything that was lost."""
-    chance = Random(seed)
+    rng = Random(seed)
     said = Said()
     told = 0
     wrong: list[str] = []
@@ -180,8 +180,8 @@ def kill_test(
         home = folder / str(number // 10)
         if number % 10 == 0:
             said = Said()
-        seconds = chance.random() * LONGEST_LIFE
-        facts = life(PLAYERS[what], home, chance.randrange(2**31), seconds, words=min(number % 4, 1))
+        seconds = rng.random() * LONGEST_LIFE
+        facts = life(PLAYERS[what], home, rng.randrange(2**31), seconds, words=min(number % 4, 1))
         told += sum(kind not in {"about", "no start"} for kind, _, _ in facts)
         said.note(facts)
         lost = losses(home, said)

@@ -3,7 +3,7 @@
     python3 tools/dev.py tool soak.shared_folder --saves 1000 --starts 100
 
 Two processes pass levels, die, move on in the episodes and change settings, each as fast as it can. Afterwards
-everything that either was told is saved must be there, and neither may ever have seen its progress go back. Then many
+everything that either reported as saved must be there, and neither may ever have seen its progress go back. Then many
 processes open a new folder at once: each must save one death there, without a word of trouble.
 """
 

@@ -102,7 +102,7 @@ def _batch_problems(seed: int) -> Iterator[str]:
         batch.run(part, press=True)
         outcomes, gold, used = before
         if not ((batch.outcomes == outcomes) | (outcomes == 0)).all():
-            yield "an outcome changed after it was told"
+            yield "an outcome changed after it was reported"
         if (batch.gold < gold).any() or (batch.used != used).any() or (batch.ticks != look * TICKS // LOOKS).any():
             yield "gold, slots or ticks are counted wrong"
         before = batch.outcomes.copy(), batch.gold.copy(), used
@@ -126,7 +126,7 @@ def _state_problems(batch: Batch) -> Iterator[str]:
     golds = [sum(record.kind == GOLD for record in level.objects) for level in batch.levels]
     places = batch.positions
     if not np.isfinite(places).all() or not np.isfinite(batch.velocities()).all():
-        yield "a ninja's place is no number"
+        yield "a ninja's place is not a number"
     if (calm & ((places < 24.0) | (places > (768.0, 576.0))).any(axis=1)).any():
         yield "a ninja left the room without a launch pad"
     if ((batch.outcomes < 0) | (batch.outcomes > 2)).any() or (batch.gold > np.array(golds)[batch.levels_now]).any():

@@ -54,7 +54,7 @@ def command(
 
     Without --to: replay where OUT ends in .replay.txt or .replay, inputs for .inputs.txt, celeste for .tas, file for
     .demo, string for .nlevel; else levels of N become ascii and readable ones a level file. What the form cannot hold
-    is told.
+    is reported.
 
     \b
     Examples:
@@ -131,7 +131,7 @@ class Output:
 
         for path in [path for path, _ in files if os.path.lexists(path)]:
             if path.exists() and any(source.samefile(path) for source in self.sources):
-                raise FileError("OUT is IN", str(path), hint="choose another name for the output")
+                raise FileError("the output is the input", str(path), hint="choose another name for the output")
             if not self.force:
                 raise FileError("the file exists already", str(path), hint="--force replaces it")
             check_output(path, keep=self.sources)

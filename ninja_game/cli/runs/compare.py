@@ -36,9 +36,9 @@ def command(
 ) -> None:  # fmt: skip
     """Compare two runs of a level: where they part, and how far one is ahead.
 
-    The lead is told at each split that both reach, and at the end of each second of A at the place where it is then:
-    how many ticks later B is there. With --format csv or json it is told for every tick of A at whose place B comes
-    within 24 px, in the order in which both go through the level. A and B may be the same file.
+    The lead is reported at each split that both reach, and at the end of each second of A at the place where it is
+    then: how many ticks later B is there. With --format csv or json it is reported for every tick of A at whose place B
+    comes within 24 px, in the order in which both go through the level. A and B may be the same file.
 
     \b
     Examples:

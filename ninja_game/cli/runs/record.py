@@ -1,4 +1,4 @@
-"""`ninja-game record`: run inputs that a person wrote, and write what comes of them."""
+"""`ninja-game record`: run inputs that a person wrote, and write the result."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 def command(
     inputs: Path, output: Path | None, record: int | None, level_path: Path | None, budget: int, force: bool
 ) -> None:
-    """Run inputs that a person wrote, and write what comes of them.
+    """Run inputs that a person wrote, and write the result.
 
     FILE is a replay text with or without claims (docs/replay-format.md), or any other recording. Its inputs run until
     the exit, death or their end; outcome, gold, digest and waypoints of that run are written with them. Comments,
-    blocks and files that are taken in become plain inputs; markers, names and authors stay. So does a replay whose
+    blocks and files that are included become plain inputs; markers, names and authors stay. So does a replay whose
     level was changed after the recording: its inputs run on the level as it is now.
 
     \b

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ninja_game.sim.level import Level
 
 WIDTH = 160
-"""Of a table in a pipe, letters."""
+"""Width of a table in a pipe, characters."""
 
 COLUMNS = (
     "level_digest",
@@ -109,7 +109,7 @@ def command(
 
 
 def readable(files: Iterable[Path], level: Any) -> tuple[list[Recording], int]:
-    """The recordings of files, and how many of them cannot be read; those are told on stderr."""
+    """The recordings of files, and how many of them cannot be read; those are reported on stderr."""
     from ninja_game.runs.recording_reader import Unreadable, recordings_in
 
     found, unreadable = [], 0

@@ -27,7 +27,7 @@ from ninja_game.cli.run_options import InputPath, jobs_option
 )  # fmt: skip
 @click.option(
     "--check", metavar="FILE", type=click.Path(exists=True, dir_okay=False, path_type=Path),
-    help="Tell what is different from this file of --json; exit code 1 if anything is refused, changed or gone.",
+    help="Report what differs from this file written by --json; exit code 1 if anything is refused, changed or gone.",
 )  # fmt: skip
 @jobs_option
 @click.pass_context
@@ -39,7 +39,7 @@ def command(
 
     FOLDER holds replays, as people send them to a repository; nothing in them is believed but the inputs. Runs on
     other levels, with another body, under other rules, practice runs, copies and whatever says something that is not
-    so are kept apart, with the reason. `ninja-game site OUT` puts the page with the game beside the board, which shows
+    so are kept apart, with the reason. `ninja-game site OUT` puts the page with the game next to the board, which shows
     each run. How to keep a board in a repository: docs/board.md.
 
     \b

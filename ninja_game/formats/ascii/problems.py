@@ -1,4 +1,4 @@
-"""Many mistakes of one text, told at once: a level maker mends them in one go."""
+"""Many mistakes of one text, reported together: a level maker mends them in one go."""
 
 from __future__ import annotations
 

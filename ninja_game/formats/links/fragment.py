@@ -87,8 +87,8 @@ def _packed(text: str) -> str:
 def read_link(text: str | Path) -> Link:
     """What a link carries; whatever stands before its # does not matter, nor do blanks and line breaks in it.
 
-    Raises LinkError for anything that is no whole and sound link, FileError for what is no text, in a time and memory
-    that its length bounds.
+    Raises LinkError for anything that is not a whole and sound link, FileError for what is not text, in a time and
+    memory that its length bounds.
 
     >>> read_link("https://example.org/#level=1.qWQqg0tUKEmtKAEA")
     Link(kind='level', texts=('a text',))
@@ -119,7 +119,7 @@ def read_link(text: str | Path) -> Link:
 
 def _unpacked(packed: str, most: int) -> str:
     """The text in the characters of a link, of ``most`` bytes at most. Raises LinkError."""
-    hint = "it was cut or changed on its way: copy it again, whole"
+    hint = "it was truncated or changed on the way: copy all of it again"
     try:
         data = urlsafe_b64decode(packed + "=" * (-len(packed) % 4))
         inflate = zlib.decompressobj(-zlib.MAX_WBITS)

@@ -51,7 +51,7 @@ def recording_link(recordings: Iterable[Recording]) -> str:
 
 
 def _recording_text(recording: Recording) -> str:
-    if recording.replay:
+    if recording.form != "file":
         return replay_text(recording.replay, recording.level)
     return write_level_file([record_of(recording)])
 

@@ -44,7 +44,7 @@ def _inputs_of_words(words: list[str]) -> bytes:
 
 
 def _word(text: str) -> int:
-    """The low 28 bits of a word; a negative one counts modulo 2^32, one that is no number is 0."""
+    """The low 28 bits of a word; a negative one counts modulo 2^32, one that is not a number is 0."""
     if _PLAIN_WORD.fullmatch(text):
         return int(text) & _WORD_BITS
     value = parse_number(text)
@@ -54,7 +54,7 @@ def _word(text: str) -> int:
 def write_demo(demo: Demo) -> str:
     """The demo text as the game writes it: a word 0 is begun as soon as one is full (game.md §4.1).
 
-    Raises DemoError for keys above 15 or a length that is no number.
+    Raises DemoError for keys above 15 or a length that is not a number.
     """
     check_inputs(demo.inputs)
     if math.isnan(demo.length):

@@ -38,7 +38,7 @@ def parse_legacy_demo(text: str, *, length: float | None = None) -> Demo:
     """
     if not text.startswith("A"):
         raise DemoError("not a legacy demo", column=1, found=repr(text[:1]), expected="'A'")
-    # Defect (b): a last 3 is dropped also when it was no padding, and what it leaves of a run with it.
+    # Defect (b): a last 3 is dropped also when it was not padding, and what it leaves of a run with it.
     digits = _DIGIT_RUN.sub(_expanded, _digits_of_chars(text).removesuffix(_PADDING))
     _check_length(len(digits))
     return fitted_demo(with_press_bits(map(int, digits)), float(len(digits)) if length is None else length)

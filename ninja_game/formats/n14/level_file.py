@@ -210,4 +210,4 @@ def _check_record(record: LevelRecord, number: int, *, userdata: bool) -> None:
         raise LevelError(f"the level of record {number} holds white space, which a level file cannot keep")
     if record.demo and not is_demo(record.demo):
         found = repr(record.demo[:40])
-        raise LevelError(f"the demo of record {number} is none", found=found, expected="length:word|word|…")
+        raise LevelError(f"the demo of record {number} is not a demo", found=found, expected="length:word|word|…")

@@ -28,7 +28,8 @@ LEVEL_FILES = re.compile(r"[^/\\:]+\.txt", re.IGNORECASE)
 class PackFiles:
     """What lies in a pack: ``names``, as "pack.toml" or "certificates/a.exit.replay.txt", sorted.
 
-    Raises FileError for what is no zip, or a zip beyond the limits, LinkError for a broken link; OSError as it comes.
+    Raises FileError for what is not a zip, or a zip beyond the limits, LinkError for a broken link; OSError as it
+    comes.
     """
 
     def __init__(self, path: Path) -> None:

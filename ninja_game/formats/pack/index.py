@@ -101,12 +101,12 @@ def _known(table: dict[str, Any], keys: set[str], file: str, line: int) -> None:
 def _text(table: dict[str, Any], key: str, file: str, line: int) -> str:
     value = table.get(key, "")
     if not isinstance(value, str):
-        raise PackError(f"{key} is no text", file, line, found=repr(value)[:40], expected=f'{key} = "…"')
+        raise PackError(f"{key} is not text", file, line, found=repr(value)[:40], expected=f'{key} = "…"')
     return value
 
 
 def _list_of_texts(table: dict[str, Any], key: str, file: str, line: int) -> tuple[str, ...]:
     value = table.get(key, [])
     if not isinstance(value, list) or not all(isinstance(each, str) for each in value):
-        raise PackError(f"{key} is no list of texts", file, line, 0, repr(value)[:40], f'{key} = ["…", "…"]')
+        raise PackError(f"{key} is not a list of texts", file, line, 0, repr(value)[:40], f'{key} = ["…", "…"]')
     return tuple(value)

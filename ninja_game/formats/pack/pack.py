@@ -16,7 +16,7 @@ from ninja_game.formats.pack.pars import Pars, parse_pars
 class Pack:
     """A folder or zip with ``pack.toml``. Level files that cannot be read become ``problems``; the others are there.
 
-    Raises PackError where there is no index or a wrong one, FileError for what is no pack; OSError as it comes.
+    Raises PackError where there is no index or a wrong one, FileError for what is not a pack; OSError as it comes.
     """
 
     def __init__(self, path: Path) -> None:

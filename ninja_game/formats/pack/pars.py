@@ -64,7 +64,7 @@ def parse_pars(text: str, *, file: str = "") -> dict[str, Pars]:
     found = {}
     for name, table in tables.items():
         if not isinstance(table, dict) or not _is_whole(table):
-            raise PackError(f"the pars of {name!r}", file, hint="`ninja-game levels pars` makes the table anew")
+            raise PackError(f"the pars of {name!r}", file, hint="`ninja-game levels pars` makes the table again")
         found[name] = Pars(**table)
     return found
 
@@ -77,7 +77,7 @@ def _is_whole(table: Mapping[str, Any]) -> bool:
 
 
 def write_pars(pars: Mapping[str, Pars]) -> str:
-    """The table as TOML, a line a level file, in their order."""
+    """The table as TOML, one line per level file, in their order."""
     lines = []
     for name in sorted(pars):
         each = pars[name]

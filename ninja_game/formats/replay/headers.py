@@ -17,7 +17,7 @@ W = TypeVar("W", bound=str)
 
 REQUIRED = ("rules", "body", "final-tick", "outcome", "gold", "inputs")
 CLAIMS = ("rules", "outcome", "gold", "digest", "waypoints")
-"""A replay without any of these is loose: it needs its inputs only."""
+"""A replay without any of these is without claims: it needs its inputs only."""
 SECTIONS = ("inputs", "level-data", "waypoints")
 KEYS = (
     *REQUIRED,
@@ -66,8 +66,8 @@ class Headers:
                 raise ReplayError("a header given twice", file, number, 1, repr(key), hint="keep one of them")
             # The value keeps its column, so that messages can name it.
             self.lines[key] = [(number, " " * match.start(2) + match[2])]
-        self.loose = not any(key in self.lines for key in CLAIMS)
-        missing = [repr(key) for key in (("inputs",) if self.loose else REQUIRED) if key not in self.lines]
+        self.unclaimed = not any(key in self.lines for key in CLAIMS)
+        missing = [repr(key) for key in (("inputs",) if self.unclaimed else REQUIRED) if key not in self.lines]
         if missing:
             raise ReplayError("an incomplete replay", file, expected=f"a line with {', '.join(missing)}")
 

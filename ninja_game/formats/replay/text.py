@@ -6,6 +6,7 @@ import json
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any, Self
 
 from ninja_game.errors import ReplayError
 from ninja_game.formats.ascii.reader import write_ascii_level
@@ -43,7 +44,7 @@ WAYPOINT_TICKS = TICKS_PER_SECOND
 class Replay:
     """A run of one level: inputs, and what they lead to.
 
-    ``inputs``: one byte a tick, the sum of its ``Input`` flags; in ticks beyond them no key is down. ``final_tick``:
+    ``inputs``: one byte per tick, the sum of its ``Input`` flags; in ticks beyond them no key is down. ``final_tick``:
     the last tick that is run, counted from 0; ``outcome``, ``gold`` and ``digest`` (64 hex digits of what the world
     shows, or '') are as after it. The level is given by one or more of: its digest, a path from the replay's folder
     with the number of the record in that file, the level itself with its name and author. ``waypoints``: where the
@@ -71,10 +72,20 @@ class Replay:
     markers: tuple[Marker, ...] = ()
     demo_length: float | None = None
 
+    @classmethod
+    def of_inputs(cls, inputs: bytes, level: Level, **about: Any) -> Self:
+        """Inputs on a level without claims. ``about``: other fields by their names."""
+        return cls(inputs, max(0, len(inputs) - 1), "", level=level, **about)
+
     @property
-    def loose(self) -> bool:
-        """Whether it claims nothing of what comes of its inputs."""
+    def unclaimed(self) -> bool:
+        """Whether it makes no claims about the result of its inputs."""
         return not self.outcome
+
+    @property
+    def end_tick(self) -> int:
+        """The tick of the exit contact or death that it claims; -1 where it claims neither."""
+        return self.final_tick if self.outcome in ("exit", "dead") else -1
 
     @property
     def ticks(self) -> int:
@@ -106,9 +117,9 @@ def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Re
     version = _check_first_line(lines, file)
     ended = lines[-1][1].rstrip() == LAST_LINE
     headers = Headers(lines[1:-1] if ended else lines[1:], file)
-    if version >= 3 and not ended and not headers.loose:
-        hint = f"its last line is '{LAST_LINE}'; where you have changed it by hand, `ninja-game record` writes it anew"
-        raise ReplayError("the replay is cut", file, lines[-1][0], hint=hint)
+    if version >= 3 and not ended and not headers.unclaimed:
+        hint = f"its last line is '{LAST_LINE}'; where you have changed it by hand, `ninja-game record` writes it again"
+        raise ReplayError("the replay is truncated", file, lines[-1][0], hint=hint)
     own, level_name, level_author = read_level(headers.section("level-data"), file)
     if headers.lines.keys().isdisjoint(("level-digest", "level")):
         own = own or level
@@ -118,13 +129,13 @@ def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Re
     replay = Replay(
         inputs=inputs.keys,
         final_tick=headers.count("final-tick") if "final-tick" in headers.lines else max(0, last),
-        outcome="" if headers.loose else headers.choice("outcome", OUTCOMES),
+        outcome="" if headers.unclaimed else headers.choice("outcome", OUTCOMES),
         gold=headers.count("gold"),
         digest=headers.digest("digest"),
         name=headers.text("name"),
         author=headers.text("author"),
         body=headers.choice("body", BODIES) if "body" in headers.lines else BODIES[0],
-        rules=RULES_VERSION if headers.loose else headers.count("rules"),
+        rules=RULES_VERSION if headers.unclaimed else headers.count("rules"),
         level_digest=headers.digest("level-digest"),
         level_path=headers.text("level"),
         level_record=headers.count("level-record"),
@@ -171,7 +182,7 @@ def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:
     for key, word, words in (("body", replay.body, BODIES), ("outcome", replay.outcome, OUTCOMES)):
         if word not in words and (key, word) != ("outcome", ""):
             return key, ReplayError(f"an unknown {key}", found=repr(word), expected=" or ".join(words))
-    if replay.loose and (replay.gold or replay.digest or replay.waypoints):
+    if replay.unclaimed and (replay.gold or replay.digest or replay.waypoints):
         return "inputs", ReplayError("claims without an outcome", expected=" or ".join(OUTCOMES))
     names = [marker.name for marker in replay.markers]
     if len(set(names)) < len(names) or not all(map(is_marker_name, names)):
@@ -210,7 +221,7 @@ def write_replay(replay: Replay) -> str:
         "level": _text(replay.level_path),
         "level-record": str(replay.level_record or ""),
         "level-digest": replay.level_digest,
-        "rules": "" if replay.loose else str(replay.rules),
+        "rules": "" if replay.unclaimed else str(replay.rules),
         "body": replay.body,
         **_claims(replay),
         "practice": "yes" * replay.practice,
@@ -222,14 +233,14 @@ def write_replay(replay: Replay) -> str:
     if replay.level is not None:
         text = write_ascii_level(replay.level, name=replay.level_name, author=replay.level_author)
         lines += ["level-data:", *(f"  {line}".rstrip() for line in text.splitlines())]
-    lines += [] if replay.loose else [LAST_LINE]
+    lines += [] if replay.unclaimed else [LAST_LINE]
     return "\n".join(lines) + "\n"
 
 
 def _claims(replay: Replay) -> dict[str, str]:
-    """The headers that tell how far a run goes, and what comes of it."""
+    """The headers that tell how far a run goes, and the result of it."""
     final_tick = {"final-tick": str(replay.final_tick)}
-    if not replay.loose:
+    if not replay.unclaimed:
         told = {"outcome": replay.outcome, "gold": str(replay.gold), "digest": replay.digest}
         return {**final_tick, **told}
     if replay.demo_length is not None:

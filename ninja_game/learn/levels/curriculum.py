@@ -27,7 +27,7 @@ class Curriculum(LevelSource):
     Of the open levels those with more failures are chosen more often, in proportion to 1.1 - rate.
 
     ``difficulties``: one for each level; None: those in the table of the game's levels (docs/making-levels.md).
-    ``start``: how many are open at first. Raises ArgumentError for what is no source, and
+    ``start``: how many are open at first. Raises ArgumentError for what is not a source, and
     for a level whose difficulty is not known.
     """
 
@@ -42,13 +42,13 @@ class Curriculum(LevelSource):
     ) -> None:
         if not isinstance(source, LevelSource):
             raise ArgumentError(f"found {source!r:.60}; expected a LevelSource, such as level_source('train')")
-        hard = measured_difficulties(source) if difficulties is None else difficulties
-        if len(hard) != len(source.levels) or start < 1 or not 0.0 < threshold < 1.0 or memory < 1.0:
-            found = f"{len(hard)} difficulties for {len(source.levels)} levels, {start=}, {threshold=}, {memory=}"
+        measured = measured_difficulties(source) if difficulties is None else difficulties
+        if len(measured) != len(source.levels) or start < 1 or not 0.0 < threshold < 1.0 or memory < 1.0:
+            found = f"{len(measured)} difficulties for {len(source.levels)} levels, {start=}, {threshold=}, {memory=}"
             raise ArgumentError(f"{found}; expected one for each level, start >= 1, 0 < threshold < 1, memory >= 1")
-        order = np.argsort(np.asarray(hard, np.float64), kind="stable").tolist()
+        order = np.argsort(np.asarray(measured, np.float64), kind="stable").tolist()
         super().__init__([source.names[k] for k in order], [source.levels[k] for k in order])
-        self.difficulties = [float(hard[k]) for k in order]
+        self.difficulties = [float(measured[k]) for k in order]
         self.threshold = threshold
         self.memory = memory
         self.open = min(start, len(order))

@@ -25,7 +25,7 @@ class Rays(Part):
     """``count`` rays, evenly round from the right by way of down: the distance to what stops each, px.
 
     They are the world's own rays: tiles and solid edges, such as closed doors, stop them, objects do not. ``reach``:
-    px, the farthest that is told.
+    px, the farthest that is seen.
     """
 
     name: ClassVar[str] = "rays"

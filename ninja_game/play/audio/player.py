@@ -1,4 +1,4 @@
-"""Sound: hears the events of each tick and what goes on, and plays it. A machine without sound is no error."""
+"""Sound: hears the events of each tick and what goes on, and plays it. A machine without sound is not an error."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class AudioPlayer(AudioOutput):
         self.folder = folder
         self.volume = volume
         self.loop_volume = loop_volume
-        self._chance = Random()  # noqa: S311 - which thud it is, is no secret
+        self._rng = Random()  # noqa: S311 - which thud it is, is no secret
         self._sounds: dict[str, pygame.mixer.Sound | None] = {}
         self._world: World | None = None
         self._machines: list[Object] = []
@@ -65,7 +65,7 @@ class AudioPlayer(AudioOutput):
             names = BY_DEATH.get(event.cause, OTHER_DEATH) if event.kind == DIED else BY_EVENT.get(event.kind, ())
             if names and names not in heard:
                 heard.add(names)
-                self.play(self._chance.choice(names), x=event.x)
+                self.play(self._rng.choice(names), x=event.x)
         for name, level in loop_levels(world, self._machines).items():
             self._loop(name, level)
 
@@ -77,7 +77,7 @@ class AudioPlayer(AudioOutput):
         for slowest, names in CORPSE:
             if speed > slowest:
                 self._corpse_at = now
-                self.play(self._chance.choice(names))
+                self.play(self._rng.choice(names))
                 return
 
     def quiet(self) -> None:

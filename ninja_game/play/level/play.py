@@ -49,13 +49,13 @@ class LevelPlay:
     def __init__(self, app: App, context: LevelContext) -> None:
         self.app = app
         self.context = context
-        self.chance = Random()  # noqa: S311 - presentation and the suicide key
+        self.rng = Random()  # noqa: S311 - presentation and the suicide key
         self.clock = RunClock()
         self.attempt = Attempt(
             context.level, body=context.body, lifetime=context.lifetime, practice_mode=context.practice_mode
         )  # fmt: skip
         self.tools = PracticeTools(self.attempt)
-        self.view = LevelView(app, self.attempt.simulation, chance=self.chance.randrange(1 << 30))
+        self.view = LevelView(app, self.attempt.simulation, seed=self.rng.randrange(1 << 30))
         self.all_gold = sum(record.kind == GOLD for record in context.level.objects)
         self.show_tutorial = context.show_tutorial
         self.shown_lifetime = 0.0
@@ -108,8 +108,8 @@ class LevelPlay:
 
     def give_up(self) -> None:
         """The suicide key: an explosion or a shot, thrown at random (game.md §2)."""
-        chance = self.chance
-        self.attempt.give_up(chance.random(), chance.uniform(-5, 5), -6 * chance.random())
+        rng = self.rng
+        self.attempt.give_up(rng.random(), rng.uniform(-5, 5), -6 * rng.random())
         self.view.on_death()
         self._note_end()
 

@@ -1,4 +1,4 @@
-"""Practice tools: quick-save, quick-load, rewind, slow motion, single step. A run with them is no record."""
+"""Practice tools: quick-save, quick-load, rewind, slow motion, single step. A run with them is not a record."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class PracticeTools:
         self.restarted()
 
     def restarted(self) -> None:
-        """The attempt began anew; a quick-save stays good."""
+        """The attempt began again; a quick-save stays good."""
         self.playback = Playback(self.attempt.simulation, self.attempt.inputs, spacing=_SPACING)
         self.rewinding = self.stepping = False
 

@@ -9,6 +9,8 @@ import pygame
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.links.making import replay_link
+from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import Replay
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.hud import Hud
@@ -16,7 +18,6 @@ from ninja_game.play.level.hud_text import hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
 from ninja_game.play.menus.episodes.passed import EpisodePassed
 from ninja_game.play.menus.pause import PausePanel
-from ninja_game.play.replay.playback import RecordedRun
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.screen import Screen
 from ninja_game.play.view.overlays import Overlays
@@ -146,8 +147,15 @@ class LevelScreen(Screen):
         """The attempt again, from its inputs."""
         if self.play.may_watch:
             context = self.context
-            run = RecordedRun(context.title, context.level, bytes(self.attempt.inputs), context.body)
-            self.app.push(ReplayScreen(self.app, [run]))
+            replay = Replay.of_inputs(
+                bytes(self.attempt.inputs),
+                context.level,
+                name=context.title,
+                author=self.app.player.settings.name,
+                body=context.body,
+                practice=self.attempt.assisted,
+            )
+            self.app.push(ReplayScreen(self.app, [Recording(context.level, replay)]))
 
     def keep_replay(self) -> None:
         """Put this run among the player's replays, whatever it is worth."""

@@ -31,7 +31,7 @@ class Attract:
         self.app = app
         self.shown = 0
         self._clock = RunClock()
-        self._chance = Random(seed)  # noqa: S311 - the order is no secret
+        self._rng = Random(seed)  # noqa: S311 - the order is no secret
         self._order = self._shuffled()
         self._playback: Playback | None = None
         self._until = 0
@@ -42,7 +42,7 @@ class Attract:
         """Readers of all recordings, again and again, each round in another order."""
         while True:
             files = bundled_replays()
-            self._chance.shuffle(files)
+            self._rng.shuffle(files)
             if not files:
                 return
             for file in files:
@@ -56,9 +56,9 @@ class Attract:
                 simulation = Simulation(recording.level)
             except (NinjaGameError, OSError):
                 continue
-            self._playback = Playback(simulation, recording.playback(recording.ticks), spacing=0)
+            self._playback = Playback(simulation, recording.inputs, spacing=0)
             self._until = len(self._playback.inputs) + REST_TICKS
-            self.view = LevelView(self.app, simulation, chance=self.shown, audible=False)
+            self.view = LevelView(self.app, simulation, seed=self.shown, audible=False)
             self.name = recording.name
             self.shown += 1
             return

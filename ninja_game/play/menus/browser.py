@@ -39,12 +39,16 @@ ROW = 54
 PICTURE = 60
 SIDE, SIDE_WIDTH = 436, 320
 SORTS: list[tuple[str, object]] = [
-    ("My levels first", "listed"), ("Name", "name"), ("Author", "author"), ("Best", "best"), ("Difficulty", "hard"),
-]  # fmt: skip
+    ("My levels first", "listed"),
+    ("Name", "name"),
+    ("Author", "author"),
+    ("Best", "best"),
+    ("Difficulty", "difficulty"),
+]
 
 
 class Browser(ThumbnailScreen):
-    """A list at the left, the selected level at the right. The list is read anew whenever the screen is entered.
+    """A list at the left, the selected level at the right. The list is read again whenever the screen is entered.
 
     ``edit``: opens a level in the editor.
     """
@@ -144,7 +148,7 @@ class Browser(ThumbnailScreen):
         keys: dict[object, Callable[[Entry], object]] = {
             "name": lambda e: e.title.casefold(),
             "author": lambda e: (e.named.author.casefold(), e.title.casefold()),
-            "hard": lambda e: (e.pars.difficulty if e.pars and e.pars.difficulty is not None else 1e9, e.title),
+            "difficulty": lambda e: (e.pars.difficulty if e.pars and e.pars.difficulty is not None else 1e9, e.title),
             "best": lambda e: -(best.score if (best := self.bests.get(e.digest)) else -1),
         }
         if self.sort in keys:
@@ -244,8 +248,8 @@ class Browser(ThumbnailScreen):
             theme.text(surface, score, x + w - 8, y + 11, size=12, colour=palette.good, align="right")
         all_gold_and_medal(surface, theme, entry, self.marks.get(entry.digest), x + w - 16, y + 37)
         if entry.pars and entry.pars.difficulty is not None:
-            hard = f"{entry.pars.difficulty:.1f}"
-            theme.text(surface, hard, x + w - 48, y + 32, size=10, colour=palette.faint, align="right")
+            difficulty = f"{entry.pars.difficulty:.1f}"
+            theme.text(surface, difficulty, x + w - 48, y + 32, size=10, colour=palette.faint, align="right")
 
 
 def _words(entry: Entry) -> str:

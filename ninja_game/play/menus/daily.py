@@ -1,4 +1,4 @@
-"""The daily level: made beside the window on the day's first visit, then played like any other."""
+"""The daily level: made in the background on the day's first visit, then played like any other."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ class DailyScreen(ThumbnailScreen):
             self._maker = _Maker(self.player.folder / LEVELS, self.day)
 
     def leave(self) -> None:
-        """What is being made is given up; it begins anew on the next visit."""
+        """What is being made is given up; it starts again on the next visit."""
         super().leave()
         if self._maker:
             self._maker.stop.set()
@@ -107,7 +107,7 @@ class DailyScreen(ThumbnailScreen):
         self.entry = next(there, None) if self.file.exists() else None
         self.message = ""
         if self.entry is None and self.file.exists():
-            self.message = next(iter(catalogue.problems), f"{self.file} is no level")
+            self.message = next(iter(catalogue.problems), f"{self.file} is not a level")
         for button in (self.play, self.practice):
             button.enabled = self.entry is not None
 

@@ -56,7 +56,7 @@ class MenuScreen(Screen):
         raise NotImplementedError
 
     def enter(self) -> None:
-        """Make the widgets anew: what they show may have changed. The focus keeps its place."""
+        """Make the widgets again: what they show may have changed. The focus keeps its place."""
         place = self.widgets.index(self.focus) if self.focus in self.widgets else 0
         self.widgets = list(self.build())
         able = [widget for widget in self.widgets if widget.focusable]

@@ -199,11 +199,11 @@ def _row_of(saved: SavedReplay) -> ReplayRow:
 
 def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
     replay = recording.replay
-    if replay is None or replay.loose:
+    if replay.unclaimed:
         result = f"recording, {seconds_text(recording.ticks)}"
     else:
         result = _result(replay.outcome, replay.gold, replay.final_tick)
-    passed = replay is not None and replay.outcome == "exit"
+    passed = replay.outcome == "exit"
     return ReplayRow(recording.name or "nameless", recording.author, result, when, passed, recording)
 
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from ninja_game.errors import LevelError
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
-from ninja_game.play.replay.playback import RecordedRun
 from ninja_game.play.replay.screen import ReplayScreen
 
 if TYPE_CHECKING:
@@ -17,11 +16,7 @@ if TYPE_CHECKING:
 
 def watch(app: App, replays: Iterable[Replay | None]) -> bool:
     """Watch replays of the records one after another; whether there were any. Those that have gone are left out."""
-    runs = [
-        RecordedRun(replay.name or "Replay", replay.level, replay.playback(replay.ticks), replay.body, replay)
-        for replay in replays
-        if replay is not None and replay.level is not None
-    ]
+    runs = [Recording(replay.level, replay) for replay in replays if replay is not None and replay.level is not None]
     if runs:
         app.push(ReplayScreen(app, runs))
     return bool(runs)

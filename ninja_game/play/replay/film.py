@@ -10,10 +10,11 @@ from pathlib import Path
 import pygame
 
 from ninja_game.errors import ArgumentError, NinjaGameError
+from ninja_game.formats.recording import Recording
 from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.replay.film_files import write_folder, write_gif, write_webm
-from ninja_game.play.replay.playback import Playback, RecordedRun
+from ninja_game.play.replay.playback import Playback
 from ninja_game.play.ui.palette import palette_named
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.render_context import OffscreenContext
@@ -42,11 +43,11 @@ class Film:
     one without ``last`` that is longer than MOST_PICTURES.
     """
 
-    run: RecordedRun
+    run: Recording
     size: tuple[int, int] = (528, 400)
     speed: float = 1.0
     settings: Settings | None = None
-    ghosts: tuple[RecordedRun, ...] = ()
+    ghosts: tuple[Recording, ...] = ()
     keys: bool = False
     first: int = 0
     last: int | None = None
@@ -91,8 +92,9 @@ def film_pictures(film: Film) -> Iterator[pygame.Surface]:
 def write_film(film: Film, path: Path, report: Callable[[int], bool] = lambda _: True) -> bool:
     """Write a film to ``path``: a .gif, a .webm, or for a path without suffix a folder of PNG pictures, one a tick.
 
-    ``report`` is told how many pictures are made; where it gives False, the film is given up: then this gives False and
-    leaves no file. Raises NinjaGameError for another suffix, MissingExtraError, OSError, what ``Film.moments`` does.
+    ``report`` gets the number of pictures made so far; where it gives False, the film is given up: then this gives
+    False and leaves no file. Raises NinjaGameError for another suffix, MissingExtraError, OSError, what
+    ``Film.moments`` does.
     """
 
     def pictures() -> Iterator[pygame.Surface]:

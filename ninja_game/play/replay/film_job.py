@@ -6,8 +6,8 @@ from pathlib import Path
 from threading import Thread
 
 from ninja_game.files.user_folder import export_path
+from ninja_game.formats.recording import Recording
 from ninja_game.play.replay.film import Film, write_film
-from ninja_game.play.replay.playback import RecordedRun
 from ninja_game.player.settings import Settings
 from ninja_game.runtime import beside
 
@@ -18,7 +18,7 @@ class FilmJob:
     ``folder``: the player's.
     """
 
-    def __init__(self, run: RecordedRun, settings: Settings, folder: Path) -> None:
+    def __init__(self, run: Recording, settings: Settings, folder: Path) -> None:
         self._run = run
         self._settings = settings
         self._folder = folder

@@ -2,57 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
-
 from ninja_game.budget import tick_cost
-from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay.text import Replay
 from ninja_game.runs.save_states import SPACING, SaveStates
-from ninja_game.sim.inputs import MAX_TICKS, Demo
-from ninja_game.sim.level import Level
-from ninja_game.simulation import Body, SaveState, Simulation
-
-
-@dataclass(frozen=True)
-class RecordedRun:
-    """Inputs (one byte a tick) on a level; ``replay``, ``recording``: what they are from, if anything."""
-
-    title: str
-    level: Level
-    inputs: bytes
-    body: Body = "circle"
-    replay: Replay | None = field(default=None, repr=False, compare=False)
-    recording: Recording | None = field(default=None, repr=False, compare=False)
-
-
-def recorded_run(recording: Recording) -> RecordedRun:
-    """A recording of any format, with the title under which it is shown."""
-    title = recording.name or "replay"
-    if recording.author:
-        title += f" - {recording.author}"
-    inputs = recording.playback(recording.ticks)
-    return RecordedRun(title, recording.level, inputs, recording.body, recording.replay, recording)
-
-
-def replay_of(run: RecordedRun) -> Replay:
-    """The replay that a run is from, with its level inside; of other runs one that is made by running it."""
-    if run.replay:
-        return replace(run.replay, level=run.level)
-    # It imports NumPy, which playing does without.
-    from ninja_game.runs.run import record_replay
-
-    return record_replay(run.level, bytes(run.inputs) or bytes(1), body=run.body, name=run.title)
-
-
-def recording_of(run: RecordedRun, player: str) -> Recording:
-    """What a run is from; of one that was only played a recording by the player."""
-    if run.recording is not None:
-        return run.recording
-    replay = run.replay or Replay(
-        run.inputs, max(0, len(run.inputs) - 1), "", name=run.title, author=player, body=run.body, level=run.level
-    )
-    demo = Demo(replay.inputs, float(len(replay.inputs)))
-    return Recording(replay.name, replay.author, "", run.level, demo, "", replay=replay)
+from ninja_game.sim.inputs import MAX_TICKS
+from ninja_game.simulation import SaveState, Simulation
 
 
 class Playback:
@@ -100,7 +53,7 @@ class Playback:
         self._states.forget_after(tick)
 
     def seek(self, tick: int, most: int = MAX_TICKS) -> int:
-        """Go to the moment after so many ticks, or as near as ``most`` ticks lead; how many of them are left."""
+        """Go to the moment after this many ticks, or as near as ``most`` ticks lead; how many of them are left."""
         run = self.simulation
         nearest, state = self._states.nearest(tick)
         if not nearest <= run.tick <= tick:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pygame
@@ -10,13 +11,14 @@ import pygame
 from ninja_game.budget import TURN_WORK, affordable_ticks, tick_cost
 from ninja_game.formats.links.making import replay_link
 from ninja_game.formats.recording import Recording
+from ninja_game.formats.replay.text import Replay
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
 from ninja_game.play.level.run_clock import RunClock
 from ninja_game.play.replay.film_job import FilmJob
-from ninja_game.play.replay.playback import Playback, RecordedRun, recorded_run, recording_of, replay_of
+from ninja_game.play.replay.playback import Playback
 from ninja_game.play.replay.seek_bar import ReplayBar
 from ninja_game.play.screen import Screen
 from ninja_game.play.view.level_view import LevelView
@@ -42,16 +44,16 @@ class ReplayScreen(Screen):
     """Shows a recording. Others on the same level run along as ghosts. Raises LevelError for one that cannot be played.
 
     ``end``: the tick of the exit contact or death, or the last one of the recording; ``outcome``: what it brought.
-    ``length``: ticks to show. ``editable``: whether the bench may be opened from here, if the app has one.
+    ``length``: ticks to show. ``editable``: whether the TAS editor may be opened from here, if the app has one.
 
     Between two pictures there is the work of a turn at most: in a long run the end is looked for while it plays, and
     until it is found ``end`` is the last tick of the recording; to seek far ahead takes several turns.
     """
 
-    def __init__(self, app: App, runs: Sequence[RecordedRun | Recording], *, editable: bool = True) -> None:
+    def __init__(self, app: App, runs: Sequence[Recording], *, editable: bool = True) -> None:
         super().__init__(app)
-        self.open_bench = app.open_bench if editable else None
-        self.runs = [run if isinstance(run, RecordedRun) else recorded_run(run) for run in runs]
+        self.open_tas_editor = app.open_tas_editor if editable else None
+        self.runs = runs
         self.clock = RunClock()
         self.overlays = Overlays()
         self.bar = ReplayBar()
@@ -99,7 +101,7 @@ class ReplayScreen(Screen):
 
     @property
     def tick(self) -> int:
-        """The moment shown: after so many ticks."""
+        """The moment shown: after this many ticks."""
         return self.playback.simulation.tick
 
     @property
@@ -110,7 +112,7 @@ class ReplayScreen(Screen):
     # --- moving in time ---
 
     def _look_ahead(self, ticks: int) -> None:
-        """Look for the end of the run for so many ticks."""
+        """Look for the end of the run for this many ticks."""
         end = self._scout.find_end(ticks) if self._scout else None
         if self._scout and end is not None:
             self.end, self.outcome, self.length = end, self._scout.simulation.outcome, end + AFTERMATH
@@ -118,7 +120,7 @@ class ReplayScreen(Screen):
             self.redraw = True
 
     def seek(self, tick: int) -> None:
-        """Show the moment after so many ticks, exactly; the corpse and particles are those of the last moments.
+        """Show the moment after this many ticks, exactly; the corpse and particles are those of the last moments.
 
         One that the work of a turn does not lead to is reached in the next ones.
         """
@@ -260,14 +262,12 @@ class ReplayScreen(Screen):
 
     def copy_link(self) -> None:
         """This run as a link, in the clipboard."""
-        copy_link(self.app, lambda: replay_link([replay_of(self.run)]), title=self.run.title)
+        copy_link(self.app, lambda: replay_link([_with_claims(self.run)]), title=self.run.title)
 
     def edit(self) -> None:
-        """Open the bench on this run, at this tick, with the others beside it."""
-        if self.open_bench:
-            player = self.app.settings.name
-            beside = [recording_of(run, player) for run in self.runs if run is not self.run]
-            self.open_bench(recording_of(self.run, player), beside, max(0, self.tick - 1))
+        """Open the TAS editor on this run, at this tick, with the others beside it."""
+        if self.open_tas_editor:
+            self.open_tas_editor(self.run, [run for run in self.runs if run is not self.run], max(0, self.tick - 1))
 
     # --- picture ---
 
@@ -298,6 +298,16 @@ class ReplayScreen(Screen):
         return (
             f"{key('frame_back')} {key('frame_forward')}: tick by tick    {key('left')} {key('right')}: a second    "
             f"{key('slower')} {key('faster')}: speed    {key('export')}: film    "
-            + f"{key('edit')}: edit    " * bool(self.open_bench)
+            + f"{key('edit')}: edit    " * bool(self.open_tas_editor)
             + f"{key('link')}: link    {key('back')}: leave"
         )
+
+
+def _with_claims(run: Recording) -> Replay:
+    """A run as others are sent it: one that was only played, or is of N, with the result of it."""
+    if not run.replay.unclaimed:
+        return replace(run.replay, level=run.level)
+    # It imports modules that playing does without.
+    from ninja_game.runs.conversion import recorded_again
+
+    return recorded_again(run)

@@ -18,7 +18,7 @@ NARROWEST = 0.2
 
 
 class Theme:
-    """Palette and lettering for a canvas; made anew when either changes."""
+    """Palette and lettering for a canvas; made again when either changes."""
 
     def __init__(self, palette: Palette, canvas: Canvas) -> None:
         self.palette = palette

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 class Ghost(Protocol):
-    """Another run's ninja that goes along."""
+    """Another run's ninja that is shown too."""
 
     ninja_animation: NinjaAnimation
 
@@ -52,7 +52,7 @@ class LevelView:
     """Draws a world in the whole window.
 
     Call ``on_tick`` after every tick of the simulation, ``on_seek`` after any other change of it (restart, restore).
-    ``chance``: seed of what is drawn at random. ``audible``: whether its events are played as sounds.
+    ``seed``: of what is drawn at random. ``audible``: whether its events are played as sounds.
     """
 
     def __init__(
@@ -60,19 +60,19 @@ class LevelView:
         app: RenderContext,
         simulation: Simulation,
         *,
-        chance: int = 0,
+        seed: int = 0,
         audible: bool = True,
     ) -> None:
         self.app = app
         self.simulation = simulation
         self.audible = audible
-        self._chance = Random(chance)  # noqa: S311 - presentation
+        self._rng = Random(seed)  # noqa: S311 - presentation
         self.ghosts: Sequence[Ghost] = ()
         self.overlays: Overlays | None = None
         self.particles = Particles()
-        self.effects = Effects(self.particles, self._chance)
+        self.effects = Effects(self.particles, self._rng)
         self.object_animation = ObjectAnimation(simulation.world)
-        self.ninja_animation = NinjaAnimation(simulation.world, self._chance)
+        self.ninja_animation = NinjaAnimation(simulation.world, self._rng)
         self.doll: Ragdoll | None = None
         self._covered: list[pygame.Rect] = []
         self._look: tuple[object, ...] = ()
@@ -135,7 +135,7 @@ class LevelView:
         n = world.ninja
         now, before = self.ninja_animation.pose(1.0).moved(n.x, n.y), self.ninja_animation.pose(0.5).moved(n.x, n.y)
         velocity = n.x - n.prev_x, n.y - n.prev_y
-        self.doll = Ragdoll(now, before, velocity, self.ninja_animation.facing, self._chance, self._corpse_hit)
+        self.doll = Ragdoll(now, before, velocity, self.ninja_animation.facing, self._rng, self._corpse_hit)
         for event in world.events[: world.event_count]:
             if event.kind == DIED:
                 gory = not self.app.settings.reduced_gore
@@ -148,7 +148,7 @@ class LevelView:
             self.app.audio_output.corpse(into)
         if into > 3.0:
             self.effects.blood(x, y, 0.0, -1.0, 1)
-        if along * along > 0.3 and self._chance.random() < 0.12:
+        if along * along > 0.3 and self._rng.random() < 0.12:
             self.effects.add("dust", x, y, -along, -4, life=32, size=0.6, rear=True)
 
     # --- the picture ---

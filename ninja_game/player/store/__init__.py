@@ -31,7 +31,7 @@ class Store:
     """An open database. ``path``: None for one in memory, which forgets.
 
     A damaged file, or one from a newer game, is moved aside and a new one begun. If the file cannot be opened or
-    written, the session goes on with a copy in memory, and ``problem`` says why what is saved would not last.
+    written, the session continues with a copy in memory, and ``problem`` says why what is saved would not last.
     ``messages``: what the player should know. ``epoch`` changes whenever something read before may be out of date.
     """
 

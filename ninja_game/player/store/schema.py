@@ -38,7 +38,7 @@ def open_database(name: str, source: Path | None = None, seconds: float = OPENIN
     connection = sqlite3.connect(name, timeout=seconds, isolation_level=None)
     try:
         connection.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MOST_CELL_BYTES)
-        # Text that is no UTF-8 is damage of one row, no reason to fail.
+        # Text that is not UTF-8 is damage of one row, no reason to fail.
         connection.text_factory = _text
         if source is not None:
             _copy(source, connection)

@@ -1,4 +1,4 @@
-"""A search of a span beside a program that goes on: started, looked at whenever one likes, cancelled."""
+"""A span search in the background: start it, look at its results at any time, cancel it."""
 
 from __future__ import annotations
 

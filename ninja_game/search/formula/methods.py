@@ -39,7 +39,7 @@ def mutate_rows(rows: Keys, length: int, source: list[RandomState]) -> None:
             mutate(row, length, random_below(source[0], length), source[0])
 
 
-def _chance_for_kernels(seed: int) -> list[RandomState]:
+def _kernel_rng(seed: int) -> list[RandomState]:
     source: list[RandomState] = zeroed(RandomState, 1)
     source[0].random = seed
     return source
@@ -87,18 +87,18 @@ def search_span(
         count_ways(task, every)
     worlds = SpanWorlds(task, WORLDS, memory=memory, threads=threads)
     mutated = compiled(mutate_rows) if worlds.batch.memory == "compiled" else mutate_rows
-    mutated(np.zeros((1, 1), np.uint8), 1, _chance_for_kernels(1))
+    mutated(np.zeros((1, 1), np.uint8), 1, _kernel_rng(1))
     results = Results(worlds, report)
-    chance = np.random.default_rng(seed)
+    rng = np.random.default_rng(seed)
     results.try_all(np.tile(task.base[:, np.newaxis], (1, WORLDS)))
     if method == "exhaustive":
         exhaust(task, every, results)
     turn = 0
     while results.going and method != "exhaustive":
         if method != "local":
-            beam(task, STEPS[turn % len(STEPS)], results, chance, noise=0.1 * (turn // len(STEPS)))
+            beam(task, STEPS[turn % len(STEPS)], results, rng, noise=0.1 * (turn // len(STEPS)))
         if method != "beam":
-            change(task, mutated, results, chance, rounds=40)
+            change(task, mutated, results, rng, rounds=40)
         turn += 1
     return results.best
 
@@ -114,7 +114,7 @@ def count_ways(task: SpanTask, every: int) -> int:
 
 
 def exhaust(task: SpanTask, every: int, results: Results) -> None:
-    """Try all keys that change every so many ticks."""
+    """Try all keys that change every this many ticks."""
     ways, choices = count_ways(task, every), -(-task.length // every)
     weights = len(ACTIONS) ** np.arange(choices)[:, np.newaxis]
     for first in range(0, ways, WORLDS):
@@ -126,11 +126,11 @@ def exhaust(task: SpanTask, every: int, results: Results) -> None:
 
 
 def change(
-    task: SpanTask, mutated: Callable[..., None], results: Results, chance: np.random.Generator, rounds: int
+    task: SpanTask, mutated: Callable[..., None], results: Results, rng: np.random.Generator, rounds: int
 ) -> None:
     """Change keys a little, many ways at once, and go on from the best of them."""
-    source = _chance_for_kernels(int(chance.integers(1, 1 << 62)))
-    chosen = results.best[int(chance.integers(len(results.best)))].keys if results.best else task.base
+    source = _kernel_rng(int(rng.integers(1, 1 << 62)))
+    chosen = results.best[int(rng.integers(len(results.best)))].keys if results.best else task.base
     current, standing = chosen.copy(), (np.inf, np.inf)
     for _ in range(rounds):
         rows = np.tile(current, (WORLDS, 1))
@@ -141,13 +141,13 @@ def change(
         if reached <= standing:
             # What is as good is taken too, so that the search does not stand still.
             others = np.flatnonzero((trials.scores == reached[0]) & (-trials.margins == reached[1]))
-            current, standing = rows[int(chance.choice(others))].copy(), reached
+            current, standing = rows[int(rng.choice(others))].copy(), reached
         if not results.going:
             return
 
 
-def beam(task: SpanTask, step: int, results: Results, chance: np.random.Generator, noise: float) -> None:
-    """Go through the span in steps of so many ticks, all actions at each, and keep the most promising states only."""
+def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, noise: float) -> None:
+    """Go through the span in steps of this many ticks, all actions at each, and keep the most promising states only."""
     worlds, batch = results.worlds, results.worlds.batch
     batch.restore(worlds.start)
     survivors = np.zeros(1, np.intp)
@@ -170,14 +170,14 @@ def beam(task: SpanTask, step: int, results: Results, chance: np.random.Generato
                 ended = keys[:, index].copy()
                 ended[tick + each + 1 :] = 0
                 found.append(ended)
-        promising = (margin if worlds.measure is None else -score) * chance.normal(1.0, noise, len(margin))
+        promising = (margin if worlds.measure is None else -score) * rng.normal(1.0, noise, len(margin))
         alive = used[batch.outcomes[used] == 0]
         halves = [alive[np.argsort(-each[alive], kind="stable")] for each in (margin, promising)]
         survivors = _different(batch, halves, batch.count // len(ACTIONS))
         if not len(survivors) or not results.going:
             break
     if found:
-        picked = [found[int(index)] for index in chance.permutation(len(found))[:WORLDS]]
+        picked = [found[int(index)] for index in rng.permutation(len(found))[:WORLDS]]
         picked[:KEPT] = found[-KEPT:]
         results.try_all(np.stack((picked * (WORLDS // len(picked) + 1))[:WORLDS], axis=1))
     else:
@@ -185,7 +185,7 @@ def beam(task: SpanTask, step: int, results: Results, chance: np.random.Generato
 
 
 def _different(batch: Batch, orders: list[NDArray[np.intp]], most: int) -> NDArray[np.intp]:
-    """The first worlds of some orders, by turns, that are not in about the same state."""
+    """The first worlds of some orders, in turn, that are not in about the same state."""
     velocity = batch.velocities()
     in_air = batch.records["ninja"]["in_air"]
     cells = np.column_stack([np.floor(batch.positions / 4), np.floor(velocity * 4), batch.states, batch.gold, in_air])

@@ -27,8 +27,8 @@ LONGEST = 4000
 class SpanTask:
     """Other keys for the ticks ``first`` … ``last`` - 1 of a run, so that the goal is reached, and the measure is best.
 
-    ``inputs``: the run, a byte a tick. ``goal``: a formula that must be true after one of these ticks; "": after the
-    last one, whatever it is. ``measure``: a formula that is to be as great as possible at that moment, or, with
+    ``inputs``: the run, one byte per tick. ``goal``: a formula that must be true after one of these ticks; "": after
+    the last one, whatever it is. ``measure``: a formula that is to be as great as possible at that moment, or, with
     ``least``, as small; "": the goal is to be reached as early as possible. ``rest``: from that moment on is played
     what follows in the run after its own first moment at the goal (or after the span, if it has none there); the
     exit must still be reached, as early as possible.
@@ -107,7 +107,7 @@ def score_in_words(task: SpanTask, found: Found) -> str:
 
 @dataclass
 class Trials:
-    """What came of many keys: of each its score (infinite: no goal), its ticks to it, its best margin on the way.
+    """The results of many key sequences: score (infinite: no goal), ticks to the goal, best margin on the way.
 
     ``ends``: x, y (px), vx, vy (px/tick) at the goal.
     """
@@ -153,7 +153,7 @@ class SpanWorlds:
                 score = self.batch.ticks.astype(float)
             else:
                 value = np.broadcast_to(self.measure.value(self.view), at_goal.shape)
-                # What has no value, such as 1 / 0, is no result.
+                # What has no value, such as 1 / 0, is not a result.
                 score = np.where(np.isfinite(value), value if self.task.least else -value, np.inf)
         return at_goal, margin, score
 
@@ -200,7 +200,7 @@ class SpanWorlds:
         following = self.rest
         total = task.length + len(following)
         padded = np.vstack([keys, np.zeros((len(following), batch.count), np.uint8)])
-        # Each world goes on with the rest as soon as it has reached the goal.
+        # Each world continues with the rest as soon as it has reached the goal.
         when = np.arange(total)[:, np.newaxis] - trials.ticks
         reached = trials.ticks > 0
         rest = np.append(following, 0)[np.clip(when, 0, len(following))]

@@ -47,7 +47,7 @@ class Compiler:
     def __call__(self, entry: Callable[..., R]) -> Callable[..., R]:
         """The compiled twin of an entry point. Raises TypeError for any other function."""
         if entry not in ENTRY_POINTS:
-            raise TypeError(f"{entry.__module__}.{entry.__qualname__} is no entry point")
+            raise TypeError(f"{entry.__module__}.{entry.__qualname__} is not an entry point")
         twin: Callable[..., R] = self._twin(entry)
         return twin
 
@@ -67,7 +67,7 @@ class Compiler:
         return self._twins[rule]
 
     def _one_for_all_integers(self, compiled: Any) -> Any:
-        """Have a function take any integer as int64: Numba would compile it for each type and each constant anew."""
+        """Have a function take any integer as int64: Numba would compile it for each type and each constant again."""
         template, types = compiled.get_call_template, self._types
 
         def widened(args: Iterable[Any], names: dict[str, Any]) -> Any:

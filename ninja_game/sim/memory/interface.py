@@ -70,7 +70,7 @@ class Worlds(ABC):
     """The worlds as NumPy records (count,), in one block; of the plain memory as they were after the last ``run_rows``,
     ``load`` or ``restore_many``, without events."""
     states: Any
-    """The records as a matrix of bytes, a row a world, without events."""
+    """The records as a matrix of bytes, one row per world, without events."""
 
     @abstractmethod
     def kernel(self, entry: Kernel[R]) -> Kernel[R]:
@@ -81,6 +81,18 @@ class Worlds(ABC):
     @abstractmethod
     def number(self, field: str, index: int = 0) -> int:
         """A number of a world, by its field in the schema: tick, outcome, gold or id_count."""
+
+    def tick(self, index: int = 0) -> int:
+        """Ticks run."""
+        return self.number("tick", index)
+
+    def outcome(self, index: int = 0) -> int:
+        """The outcome, by number (sim/states.py)."""
+        return self.number("outcome", index)
+
+    def gold(self, index: int = 0) -> int:
+        """Pieces of gold collected."""
+        return self.number("gold", index)
 
     @abstractmethod
     def jump_held(self, index: int = 0) -> int:

@@ -107,7 +107,7 @@ def new_worlds(count: int, objects: int) -> Records:
     a tick meets a handful of places of a world, and small pages would make most of them misses of the address cache.
     """
     stride = _align(used_bytes(objects), 64)
-    block = mmap.mmap(-1, (count - 1) * stride + WORLD.itemsize)
+    block = mmap.mmap(-1, (count - 1) * stride + max(stride, WORLD.itemsize))
     if hasattr(mmap, "MADV_HUGEPAGE"):
         huge = count * stride // HUGE_PAGE * HUGE_PAGE
         block.madvise(mmap.MADV_NOHUGEPAGE, huge)
@@ -117,7 +117,7 @@ def new_worlds(count: int, objects: int) -> Records:
 
 
 def bytes_of(worlds: Records) -> NDArray[np.uint8]:
-    """The states of worlds as a matrix of bytes, a row a world, without their events; a view.
+    """The states of worlds as a matrix of bytes, one row per world, without their events; a view.
 
     Save-states and copies between worlds are copies of rows. ``worlds``: an array from ``new_worlds``, not a slice.
     """

@@ -82,7 +82,7 @@ class World:
 
     events: Annotated[list[Event], MAX_EVENTS]  #: what happened in the last tick, and how many of them are in use
     event_count: i4
-    outcome: i4  #: what came first, the exit or death: an outcome of states.py
+    outcome: i4  #: which came first, the exit or death: an outcome of states.py
     tick: i4  #: ticks run
     gold: i4  #: pieces of gold collected
     won: i4  #: exit contacts and deaths so far

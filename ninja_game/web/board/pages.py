@@ -33,7 +33,7 @@ WHY_APART = {
     "practice": "Practice runs",
     "copy": "Copies of runs",
     "refused": "Runs that do not count",
-    "unreadable": "Files that are no runs",
+    "unreadable": "Files that are not runs",
 }
 
 
@@ -111,7 +111,7 @@ class BoardPages:
         newest = section("Newest records", table("Newest first", heads, rows)) if rows else None
         leading = section("Players", self._players(LEADING))
         lead = tag("p", f"{self.ranking.shown.name}: {summary(self.ranking.judged)}.", class_="lead")
-        said = "Every run was simulated again: times, gold and scores are what came of its inputs."
+        said = "Every run was simulated again: times, gold and scores are the result of its inputs."
         return page("Board", lead, tag("p", said), newest, leading, links=self.links)
 
     def _players(self, most: int) -> Markup:
@@ -194,7 +194,7 @@ class BoardPages:
 
 
 def _player_page(player: str) -> str:
-    """The file of a player's page: no name of a stranger becomes a path."""
+    """The file of a player's page: an untrusted name never becomes a path."""
     return f"players/{sha256(player.encode('utf-8', 'replace')).hexdigest()[:16]}.html"
 
 

@@ -64,7 +64,7 @@ def read_board(path: Path, now: datetime) -> tuple[Rows, Rows]:
         data = json.loads(read_utf8(path))
         if data["version"] != VERSION:
             found = f"version {str(data['version'])[:20]}"
-            hint = "to begin anew, remove it: all runs get one date then, and go by the names of their files"
+            hint = "to start again, remove it: all runs get one date then, and go by the names of their files"
             raise FormatError("a board of another version", str(path), found=found, expected=str(VERSION), hint=hint)
         runs, apart = (_rows(path, key, data[key], now) for key in _FIELDS)
     except (ValueError, TypeError, KeyError, RecursionError):
@@ -100,7 +100,7 @@ def _is_date(text: str, now: datetime) -> bool:
 
 
 def dates_of(before: tuple[Rows, Rows], now: datetime) -> Dates:
-    """The dates of a ledger. A run that it does not have, or not with this way, is taken in now."""
+    """The dates of a ledger. A run that it does not have, or not with this path, is added now."""
     rows, today = before[1] | before[0], now.strftime(DATE)
 
     def date(key: Key, way: str) -> str:
@@ -150,7 +150,7 @@ def _place(key: Key) -> str:
 
 
 def plain(text: str) -> str:
-    """A text of a stranger in a line of a report, which may stand in Markdown between fences."""
+    """An untrusted text in a line of a report, which may stand in Markdown between fences."""
     return shown_text(text, 300).replace("`", "'")
 
 

@@ -141,7 +141,7 @@ export class Panel {
   }
 }
 
-// A verdict: what came of the run, each claim that does not hold (the first difference first), and the JSON of `verify`.
+// A verdict: the result of the run, each claim that does not hold (the first difference first), and the JSON of `verify`.
 function verdictParts(verdict, text) {
   if (verdict.unreadable) return [element("p", { className: "bad", textContent: verdict.unreadable })];
   const good = !verdict.problems;

@@ -58,7 +58,7 @@ class Page {
     this.kept = new Promise((done) => setTimeout(() => done(Promise.all([keep(), keepForLater()])), KEEP_AFTER_MS));
   }
 
-  // A level or a replay in the address: opened at once. A text of a stranger: nothing but Python's own reader sees it.
+  // A level or a replay in the address: opened at once. Untrusted text: nothing but Python's own reader sees it.
   async openLink() {
     try {
       const names = this.services.watched(location.hash);

@@ -66,7 +66,7 @@ class Pages:
         self.write(ICON, _icon())
 
     def write(self, name: str, content: str | bytes) -> None:
-        """A file of the folder, or below it; what was there is replaced: pages can always be made anew."""
+        """A file of the folder, or below it; what was there is replaced: pages can always be made again."""
         self._site.write(f"{self.folder.name}/{name}", content)
         self._written.add(name)
 

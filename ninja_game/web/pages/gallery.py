@@ -92,9 +92,9 @@ def _card(entry: Entry, place: int) -> Markup:
     facts: list[Content] = [tag("span", f"by {entry.named.author}" if entry.named.author else "author unknown")]
     if pars:
         facts.append(tag("span", f"gold medal {seconds_text(pars.par('gold'))} s"))
-    hard = f"{pars.difficulty:.1f}" if pars and pars.difficulty is not None else ""
-    if hard:
-        facts.append(tag("span", f"difficulty {hard}"))
+    difficulty = f"{pars.difficulty:.1f}" if pars and pars.difficulty is not None else ""
+    if difficulty:
+        facts.append(tag("span", f"difficulty {difficulty}"))
     name = tag("a", shown_text(entry.title, LONGEST_NAME), href=page_name(entry.digest))
     number = tag("span", entry.episode, class_="number") if entry.episode else None
     words = f"{entry.title} {entry.named.author} {entry.named.comment} {entry.episode}".casefold()
@@ -102,5 +102,5 @@ def _card(entry: Entry, place: int) -> Markup:
         "li", level_image(entry, lazy=True), tag("h2", number, joined(" ") if number else None, name),
         tag("p", *facts, class_="facts"), class_="card",
         data_words=words, data_episode=entry.episode[:2], data_place=place, data_name=entry.title.casefold(),
-        data_difficulty=hard or None, data_par=pars.exit if pars else None,
+        data_difficulty=difficulty or None, data_par=pars.exit if pars else None,
     )  # fmt: skip

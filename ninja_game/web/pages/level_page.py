@@ -36,12 +36,11 @@ def level_page(
     texts: dict[str, str] = {}
     runs = []
     for kind, recording in certificates.items():
-        if recording.replay:
-            text = shared_text(recording.replay, entry.named.level)
-            stem = shared_name(text)
-            texts[stem] = text
-            tick = recording.replay.final_tick
-            runs.append((KINDS[kind], seconds_text(tick), tag("a", "Watch", href=watch_address(game, stem))))
+        text = shared_text(recording.replay, entry.named.level)
+        stem = shared_name(text)
+        texts[stem] = text
+        tick = recording.replay.final_tick
+        runs.append((KINDS[kind], seconds_text(tick), tag("a", "Watch", href=watch_address(game, stem))))
     named = entry.named
     about = [("Author", named.author or "unknown")]
     if entry.episode:

@@ -73,7 +73,7 @@ def _own_files(out: Path) -> set[str]:
         names = json.loads(read_utf8(out / MARK))["files"]
     except (OSError, *DAMAGED):
         raise FileError(
-            "this is no site of ninja-game", str(out), expected="a new or empty folder", hint=hint
+            "this is not a site of ninja-game", str(out), expected="a new or empty folder", hint=hint
         ) from None
     return {name for name in names if isinstance(name, str) and leads_below(name)}
 

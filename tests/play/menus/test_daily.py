@@ -1,4 +1,4 @@
-"""The daily level: made once from the date, kept as a pack, played with par times and records; problems are told."""
+"""The daily level: made once from the date, kept as a pack, played with par times and records; problems are shown."""
 
 from __future__ import annotations
 

@@ -57,7 +57,7 @@ def test_runs_that_are_begun_anew_count_with_their_gold(driver: MenuDriver) -> N
     gold = 0
     for _ in range(2):
         level.begin()
-        driver.keys.script = [keys & 7 for keys in recording.playback(recording.ticks)][:-10]
+        driver.keys.script = [keys & 7 for keys in recording.inputs][:-10]
         driver.frames(len(driver.keys.script))
         gold += level.attempt.gold
         driver.press("r")

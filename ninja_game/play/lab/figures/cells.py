@@ -64,7 +64,7 @@ class CellsTouched(Figure):
 
 
 class NineCells(Figure):
-    """Drag the ninja: the nine cells it asks, in their order, and who is told."""
+    """Drag the ninja: the nine cells it asks, in their order, and which objects are notified."""
 
     name = "nine-cells"
     view = CORNER
@@ -77,7 +77,7 @@ class NineCells(Figure):
         self.asked = self.touched = 0
 
     def told(self) -> tuple[list[int], list[str]]:
-        """The slots of the objects that are told, in order, and the events that follow; the world stays as it is."""
+        """The slots of the notified objects, in order, and the events that follow; the world stays as it is."""
         w = self.world
         before = save_plain(w)
         w.ninja.x, w.ninja.y = self.x, self.y

@@ -32,7 +32,7 @@ class Crowd:
     """``count`` discs of ``radius`` px that fly about and are filed in the loose grid of a world of their own."""
 
     def __init__(self, count: int, radius: float, *, speed: float = 1.5, seed: int = 1) -> None:
-        chance = Random(seed)  # noqa: S311 - presentation
+        rng = Random(seed)  # noqa: S311 - presentation
         self.radius = radius
         self.world = World()
         self.world.objects += [Object() for _ in range(count)]
@@ -40,8 +40,8 @@ class Crowd:
         for slot in range(1, count + 1):
             o = self.world.objects[slot]
             o.slot = slot
-            o.x, o.y = chance.uniform(LEFT + 10, RIGHT - 10), chance.uniform(TOP + 10, BOTTOM - 10)
-            self.velocities.append((chance.uniform(-speed, speed), chance.uniform(-speed, speed)))
+            o.x, o.y = rng.uniform(LEFT + 10, RIGHT - 10), rng.uniform(TOP + 10, BOTTOM - 10)
+            self.velocities.append((rng.uniform(-speed, speed), rng.uniform(-speed, speed)))
             grid_insert(self.world, o)
 
     @property

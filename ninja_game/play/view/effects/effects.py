@@ -19,9 +19,9 @@ _CHARGED = {states.DRONE_PRE_FIRE, states.DRONE_FIRING}
 class Effects:
     """Makes the particles of a view. ``gore``: whether blood is shown; without it deaths throw sparks of dust."""
 
-    def __init__(self, particles: Particles, chance: Random) -> None:
+    def __init__(self, particles: Particles, rng: Random) -> None:
         self.particles = particles
-        self.chance = chance
+        self.rng = rng
         self.gore = True
         self._skid_count = 0
         self.now = 0.0
@@ -54,7 +54,7 @@ class Effects:
         life: float = 10.0, size: float = 1.0, rear: bool = False,
     ) -> None:  # fmt: skip
         """One particle that starts now; ``life`` in frames of 1/120 s."""
-        variant = self.chance.randrange(6)
+        variant = self.rng.randrange(6)
         self.particles.add(Particle(kind, x, y, dx, dy, life / 3, size, variant, self.now), rear=rear)
 
     def spread(
@@ -62,26 +62,26 @@ class Effects:
     ) -> None:
         """Some in random directions, 40 to 100 % of ``reach`` px far."""
         for _ in range(count):
-            angle = self.chance.uniform(0, 2 * pi)
-            far = reach * self.chance.uniform(0.4, 1.0)
+            angle = self.rng.uniform(0, 2 * pi)
+            far = reach * self.rng.uniform(0.4, 1.0)
             self.add(kind, x, y, far * cos(angle), far * sin(angle), life=life, size=size)
 
     def puffs(self, x: float, y: float, nx: float, ny: float, angle: float, length: float) -> None:
         """Four puffs of dust from a surface with normal (nx, ny), to alternating sides."""
         for k in range(4):
-            turn = radians((angle + self.chance.uniform(-10, 10)) * (1 if k % 2 else -1))
+            turn = radians((angle + self.rng.uniform(-10, 10)) * (1 if k % 2 else -1))
             tx, ty = -ny * (1 if k % 2 else -1), nx * (1 if k % 2 else -1)
             dx = tx * cos(turn) + nx * abs(sin(turn))
             dy = ty * cos(turn) + ny * abs(sin(turn))
-            far = length * self.chance.uniform(0.6, 1.2)
+            far = length * self.rng.uniform(0.6, 1.2)
             self.add("dust", x, y, dx * far, dy * far, life=32, size=0.7, rear=True)
 
     def explosion(self, x: float, y: float) -> None:
         """A mine's or a rocket's end."""
         self.add("burst", x, y, life=18)
         for _ in range(5):
-            angle = self.chance.uniform(0, 2 * pi)
-            self.add("fireball", x, y, 11 * cos(angle), 11 * sin(angle), life=self.chance.uniform(14, 26))
+            angle = self.rng.uniform(0, 2 * pi)
+            self.add("fireball", x, y, 11 * cos(angle), 11 * sin(angle), life=self.rng.uniform(14, 26))
         self.spread("debris", x, y, 6, 34, life=24)
         self.spread("smoke", x, y, 4, 18, life=40)
 
@@ -89,10 +89,10 @@ class Effects:
         """Spurts along an impulse, each its own way."""
         kind = "blood" if self.gore else "dust"
         for _ in range(count):
-            share = self.chance.uniform(3, 6)
+            share = self.rng.uniform(3, 6)
             self.add(
-                kind, x, y, dx * share + self.chance.uniform(-22, 22), dy * share + self.chance.uniform(-26, 16),
-                life=self.chance.uniform(22, 36),
+                kind, x, y, dx * share + self.rng.uniform(-22, 22), dy * share + self.rng.uniform(-26, 16),
+                life=self.rng.uniform(22, 36),
             )  # fmt: skip
 
     # --- what goes on while a state lasts ---
@@ -105,7 +105,7 @@ class Effects:
         self._skid_count += 1
         if self._skid_count < 3:
             return
-        self._skid_count = self.chance.randrange(2)
+        self._skid_count = self.rng.randrange(2)
         if n.state == states.SKIDDING and abs(vx) > 0.4:
             self.add(
                 "dust",
@@ -118,15 +118,15 @@ class Effects:
                 rear=True,
             )
         elif n.state == states.SLIDING and abs(vy) > 0.3:
-            y = n.y + self.chance.uniform(-8, 8)
+            y = n.y + self.rng.uniform(-8, 8)
             self.add("dust", n.x - n.wall_x * 10, y, n.wall_x * 4, -vy * 3, life=32, size=0.7, rear=True)
 
     def _smoke(self, x: float, y: float, hx: float, hy: float) -> None:
-        drift = self.chance.uniform(4, 12)
+        drift = self.rng.uniform(4, 12)
         self.add("smoke", x - hx * 9, y - hy * 9, -hx * drift, -hy * drift - 3, life=27, size=0.8, rear=True)
 
     def _charge(self, x: float, y: float) -> None:
-        angle, far = self.chance.uniform(0, 2 * pi), self.chance.uniform(18, 34)
+        angle, far = self.rng.uniform(0, 2 * pi), self.rng.uniform(18, 34)
         dx, dy = far * cos(angle), far * sin(angle)
         self.add("charge", x + dx, y + dy, -dx, -dy, life=15)
 
@@ -150,14 +150,14 @@ def _died(e: Effects, level: TileMap, world: World, event: Event) -> None:
     n = world.ninja
     if event.cause == states.ELECTRIC:
         for _ in range(6):
-            angle = e.chance.uniform(0, 2 * pi)
-            e.add("zap", event.x, event.y, 34 * cos(angle), 34 * sin(angle), life=e.chance.uniform(12, 24))
+            angle = e.rng.uniform(0, 2 * pi)
+            e.add("zap", event.x, event.y, 34 * cos(angle), 34 * sin(angle), life=e.rng.uniform(12, 24))
         e.spread("bolt", event.x, event.y, 8, 40, life=22)
     elif event.cause == states.EXPLOSIVE:
         e.spread("spark", n.x, n.y, 8, 42, life=26)
     elif event.cause == states.FALL:
         e.puffs(n.x, n.y + 9, 0, -1, 40, 14)
-    e.blood(event.x, event.y, event.dx, event.dy, e.chance.randint(8, 14))
+    e.blood(event.x, event.y, event.dx, event.dy, e.rng.randint(8, 14))
 
 
 def _gold(e: Effects, level: TileMap, world: World, event: Event) -> None:

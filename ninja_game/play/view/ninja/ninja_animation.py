@@ -11,16 +11,16 @@ from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.states import CELEBRATING, DEAD, FALLING, JUMPING, RUNNING, SKIDDING, SLIDING
 
 _BLEND_TICKS = 3.0
-"""A new state's pose takes over from the old one in so many ticks."""
+"""A new state's pose takes over from the old one in this many ticks."""
 _UPRIGHT = 0.9
 """Share of its rotation that a body in the air keeps each tick."""
 
 
 class NinjaAnimation:
-    """The ninja's figure between ticks. ``chance``: picks the dances, never read by the world."""
+    """The ninja's figure between ticks. ``rng``: picks the dances, never read by the world."""
 
-    def __init__(self, world: World, chance: Random) -> None:
-        self._chance = chance
+    def __init__(self, world: World, rng: Random) -> None:
+        self._rng = rng
         self.reset(world)
 
     def reset(self, world: World) -> None:
@@ -59,7 +59,7 @@ class NinjaAnimation:
                 self.phase = 0.0
             self.state = n.state
             self.since = 0.0
-            self.dance = self._chance.randrange(len(DANCES)) if n.state == CELEBRATING and not n.in_air else -1
+            self.dance = self._rng.randrange(len(DANCES)) if n.state == CELEBRATING and not n.in_air else -1
         else:
             self.since += 1.0
         self._face(n)

@@ -62,9 +62,9 @@ Hit = Callable[[float, float, float, float], None]
 class Ragdoll:
     """A corpse. ``hit``: told of every touch, for sound, dust and blood."""
 
-    def __init__(self, pose: Pose, before: Pose, velocity: Point, facing: int, chance: Random, hit: Hit) -> None:
+    def __init__(self, pose: Pose, before: Pose, velocity: Point, facing: int, rng: Random, hit: Hit) -> None:
         self.facing = facing
-        self.chance = chance
+        self.rng = rng
         self.hit = hit
         joints = (PELVIS, pose.pelvis, before.pelvis), (SHOULDER, pose.shoulder, before.shoulder)
         limbs = (
@@ -92,9 +92,9 @@ class Ragdoll:
             upper, lower = (near, far) if h < 0 else (far, near)
             weights = (0.8 * (1 - u) + 0.4 * u, upper, upper, upper, lower, lower)
             for k, (particle, weight) in enumerate(zip(self.particles, weights, strict=True)):
-                share = weight * (self.chance.uniform(0.8, 1) if k > SHOULDER else 1)
-                particle.ox -= impulse[0] * (share + self.chance.random())
-                particle.oy -= impulse[1] * (share + self.chance.random())
+                share = weight * (self.rng.uniform(0.8, 1) if k > SHOULDER else 1)
+                particle.ox -= impulse[0] * (share + self.rng.random())
+                particle.oy -= impulse[1] * (share + self.rng.random())
         if cause == EXPLOSIVE and not whole:
             self.dismember()
 
@@ -109,7 +109,7 @@ class Ragdoll:
                 sticks.append(stick)
                 continue
             joint = self.particles[stick.first]
-            vx, vy = self.chance.uniform(-4, 4), -self.chance.uniform(4, 8)
+            vx, vy = self.rng.uniform(-4, 4), -self.rng.uniform(4, 8)
             for end in (stick.second,):
                 self.particles[end].ox -= vx
                 self.particles[end].oy -= vy
@@ -170,7 +170,7 @@ class Ragdoll:
     def _bounce(self, p: VerletParticle, nx: float, ny: float) -> None:
         """Lose part of the velocity into and along a surface."""
         vx, vy = p.x - p.ox, p.y - p.oy
-        # The push itself is no motion: the speed is that of before it.
+        # The push itself is not a motion: the speed is that of before it.
         ux, uy = p.sx - p.ox, p.sy - p.oy
         into = ux * nx + uy * ny
         along = -ny * ux + nx * uy

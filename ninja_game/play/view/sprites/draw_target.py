@@ -46,7 +46,7 @@ class DrawTarget:
 
     def line(self, colour: Colour, ax: float, ay: float, bx: float, by: float, width: float = 0) -> None:
         """A straight line; without a width as thin as can be."""
-        # A sum, since it is no number if one of them is none: levels may hold such places.
+        # A sum, since it is not a number if one of them is none: levels may hold such places.
         if abs(ax) + abs(ay) + abs(bx) + abs(by) < 4 * _FAR:
             a, b = self.canvas.exact(ax, ay), self.canvas.exact(bx, by)
             thick = max(1, round(width * self.canvas.scale))

@@ -43,7 +43,7 @@ class Sound:
     def __init__(self, path: Any) -> None:
         self.number = LINK.page.sound(fspath(path))
         if self.number < 0:
-            raise error(f"{path} is no sound")
+            raise error(f"{path} is not a sound")
 
     def play(self) -> Channel | None:
         """Play it once on a free channel, which this gives."""
