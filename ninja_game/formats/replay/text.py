@@ -18,7 +18,7 @@ from ninja_game.formats.replay.includes import included_beside
 from ninja_game.formats.replay.input_runs import Marker, is_marker_name, write_inputs
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.formats.replay.sections import Waypoint, read_level, read_waypoints
-from ninja_game.sim.inputs import MAX_TICKS, Demo, first_ticks
+from ninja_game.sim.inputs import MAX_TICKS, Demo, fitted_inputs
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import BODIES, Body
 from ninja_game.sim.rules import TICKS_PER_SECOND
@@ -96,7 +96,7 @@ class Replay:
         """The input of each of the first ``ticks`` ticks."""
         if self.demo_length is not None:
             return Demo(self.inputs, self.demo_length).playback(ticks)
-        return first_ticks(self.inputs, ticks)
+        return fitted_inputs(self.inputs, ticks)
 
 
 _FIRST_LINE = re.compile(rf"{MAGIC} +([0-9]{{1,9}})[ \t]*")
