@@ -1,4 +1,4 @@
-"""Make the table of the baselines on all levels of the game, docs/learning-baselines.md.
+"""Make the table of the baselines on all levels of the game, benchmarks/results/learning-baselines.md.
 
     python3 tools/dev.py tool measure.learning_baselines results.jsonl --agents random,search,learned
     python3 tools/dev.py tool measure.learning_baselines results.jsonl --doc
@@ -28,13 +28,14 @@ from ninja_game.sim.level import Level
 from ninja_game.sim.states import OUTCOME_EXIT
 from tools import ROOT
 
-DOC = ROOT / "docs" / "learning-baselines.md"
+DOC = ROOT / "benchmarks" / "results" / "learning-baselines.md"
 EPISODES = 100
 
 HEAD = """# Baselines on all levels
 
-What the agents of [learning.md](learning.md#baselines) reach on each of the hundred levels of the game. *Random*,
-*learned*: the share of {episodes} episodes that passed, with sticky actions and starts that wait (seed {seed:,}).
+What the agents of [learning.md](../../docs/learning.md#baselines) reach on each of the hundred levels of the game.
+*Random*, *learned*: the share of {episodes} episodes that passed, with sticky actions and random waits at the start
+(seed {seed:,}).
 *Trained*: whether the learned agent was trained in the level; of the others those for testing were tried, which it has
 never seen. *Search*: ticks of the run that the search agent found and the environment confirmed, and how many million
 ticks all worlds of the search played for it, of {budget:g} at most.
@@ -127,7 +128,7 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file", type=Path, help="JSON lines of results")
     parser.add_argument("--agents", default="", help="random, search, learned, with commas: measure these")
-    parser.add_argument("--doc", action="store_true", help="write docs/learning-baselines.md")
+    parser.add_argument("--doc", action="store_true", help="write benchmarks/results/learning-baselines.md")
     arguments = parser.parse_args()
     measure(arguments.file, filter(None, arguments.agents.split(",")))
     if arguments.doc:
