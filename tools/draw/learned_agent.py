@@ -22,9 +22,8 @@ from ninja_game.learn.evaluation import EVALUATION_SEED
 from ninja_game.learn.levels import level_source
 from ninja_game.learn.sticky import StickyActions
 from ninja_game.learn.worlds import EnvWorlds
-from ninja_game.play.replay.film import Film, film_pictures
-from ninja_game.play.replay.film_files import write_gif
-from ninja_game.play.ui.palette import palette_named
+from ninja_game.play.replay.film import Film, film_pictures, write_gif
+from ninja_game.play.ui.theme import palette_named
 from ninja_game.player.settings import Settings
 from ninja_game.sim.inputs import with_press_bits
 from tools import ROOT

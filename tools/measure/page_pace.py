@@ -21,7 +21,7 @@ os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 
 from ninja_game.files.user_folder import HOME_VARIABLE
 from ninja_game.play.app import build_app
-from ninja_game.play.audio.output import AudioOutput
+from ninja_game.play.audio.player import AudioOutput
 from tests.support.web_page import BUSY, SIZE, browser, built_site, python_page, run_in, served
 from tools.measure.busy import Restless, busy_screen, go_on
 

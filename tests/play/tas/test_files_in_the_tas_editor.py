@@ -9,7 +9,7 @@ import pygame
 
 from ninja_game.files.resources import data_folder
 from ninja_game.formats.load import load_replays
-from ninja_game.play.input.commands import key_label_of
+from ninja_game.play.input.keys import key_label_of
 from ninja_game.play.menus.help.commands_page import HelpPage
 from ninja_game.play.menus.panels import Form, Menu
 from ninja_game.play.replay.screen import ReplayScreen
