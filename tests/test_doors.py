@@ -19,7 +19,6 @@ READS = re.compile(
 """Names of what reads, as sources write them."""
 
 OURS = {
-    "cli/learn/learn": "has a command of that name",
     "__main__": "opens what was closed, to lead nowhere", "runtime": "asks what the system can do",
     "files/locking": "holds locks", "files/writing": "writes", "play/audio/player": "silences a library",
     "play/lab/figure": "the program's own figures", "play/menus/help/pages": "its own help",

@@ -43,7 +43,7 @@ class Autosave:
         self._kept: Draft | None = None
         self._asked_at = 0.0
 
-    def look(self, draft: Draft, source: Source) -> None:
+    def poll(self, draft: Draft, source: Source) -> None:
         """Keep the draft if it has changed and it is time; nothing is kept of one that is as its file has it."""
         wanted = None if draft == source.draft else draft
         if wanted is not self._kept and time.monotonic() - self._asked_at >= SPACING and self._job.idle:
@@ -55,7 +55,7 @@ class Autosave:
         """Keep the draft now, if it has changed, and wait until it is kept."""
         self._job.finish()
         self._asked_at = -SPACING
-        self.look(draft, source)
+        self.poll(draft, source)
         self._job.finish()
 
     def _work(self, job: tuple[Draft, Source] | None) -> None:

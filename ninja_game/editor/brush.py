@@ -1,4 +1,4 @@
-"""What is drawn with: the tiles by family and quarter, the sorts of objects, the keys that choose them, and snaps."""
+"""What is drawn with: the tiles by family and quarter, the types of objects, the keys that choose them, and snaps."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from ninja_game.editor.draft import Cell, cell_of
 from ninja_game.editor.motion import TILE_IDS, Motion
-from ninja_game.editor.records import SWITCH, carried, has_switch, points, settled, sort_name, with_word, word
+from ninja_game.editor.records import SWITCH, carried, has_switch, object_type_name, points, settled, with_word, word
 from ninja_game.formats.ascii.legend import TILE_CHARS
 from ninja_game.formats.ascii.object_forms import natural_offset
 from ninja_game.formats.ascii.object_lines import Listed, read_object_line
@@ -56,8 +56,8 @@ def tile_key(tile: int) -> str:
     return next((f"{f.key} {QUARTERS[f.tiles.index(tile)].upper()}" for f in FAMILIES if tile in f.tiles), "")
 
 
-class Sort(NamedTuple):
-    """A sort of object in the palette. ``key``: the name of its key; ``line``: what it is like at first."""
+class ObjectType(NamedTuple):
+    """A type of object in the palette. ``key``: the name of its key; ``line``: what it is like at first."""
 
     name: str
     key: str
@@ -71,8 +71,8 @@ class Sort(NamedTuple):
         return listed.record
 
 
-SORTS = tuple(
-    Sort(name, key, f"{name} {rest}")
+OBJECT_TYPES = tuple(
+    ObjectType(name, key, f"{name} {rest}")
     for name, key, rest in (
         ("ninja", "9", "1,1"),
         ("exit", "rightbracket", "1,1 switch 1,1"),
@@ -95,12 +95,12 @@ SORTS = tuple(
 )
 """Everything that can be placed; the keys are Ned's (game.md §6)."""
 
-SORT_NAMES = tuple(sort.name for sort in SORTS)
+OBJECT_TYPE_NAMES = tuple(object_type.name for object_type in OBJECT_TYPES)
 
 
-def sort_of(record: ObjectSpec) -> str:
-    """The sort in the palette that a record belongs to."""
-    name = sort_name(record)
+def object_type_of(record: ObjectSpec) -> str:
+    """The type in the palette that a record belongs to."""
+    name = object_type_name(record)
     return {"one-way platform": "one-way"}.get(name, name)
 
 
@@ -126,7 +126,7 @@ def placed(record: ObjectSpec, x: float, y: float, snap: str) -> ObjectSpec:
         py = 24.0 * cell_of(px, y)[1] + 18.0
     elif snap == "cell":
         direction = word(record, "direction") if record.kind == kinds.LAUNCH_PAD else ""
-        dx, dy = natural_offset(sort_of(record), direction)
+        dx, dy = natural_offset(object_type_of(record), direction)
         px, py = px + dx, py + dy
     values = (px, py, px, py) if record.kind == kinds.EXIT else (px, py, *record.values[2:])
     return record._replace(values=values)

@@ -1,4 +1,4 @@
-"""Ways through a level while it is edited: those of tests, and what the solver finds in a thread of its own."""
+"""Routes through a level while it is edited: those of tests, and what the solver finds in its own thread."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Body
 
 if TYPE_CHECKING:
-    from ninja_game.search.certificate import VerifiedRun
+    from ninja_game.formats.replay.text import Replay
     from ninja_game.search.task import Progress
 
 SECONDS = 20.0
@@ -28,7 +28,7 @@ Route = tuple[tuple[float, float], ...]
 
 
 def route_of(level: Level, inputs: bytes, body: Body = "circle") -> Route:
-    """The way of the ninja to the end of the run or of the inputs; () where it cannot be played, or costs too much."""
+    """The ninja's route to the end of the run or of the inputs; () where it cannot be played, or costs too much."""
     try:
         return tuple(iter_unpack("<2d", run_level(level, inputs, body=body, memory="plain").places))
     except (BudgetError, LevelError):
@@ -40,12 +40,12 @@ class _StoppedError(Exception):
 
 
 class Certifier:
-    """The solver at work: ``run``, the best one found for ``level``; ``route``, its way; ``share`` of the work done."""
+    """The solver at work: ``run``, the best one found for ``level``, and its ``route``; ``share`` of the work done."""
 
     def __init__(self, seconds: float = SECONDS) -> None:
         self.seconds = seconds
         self.level: Level | None = None
-        self.run: VerifiedRun | None = None
+        self.run: Replay | None = None
         self.route: Route = ()
         self.share = 0.0
         self._said = ""
@@ -95,7 +95,7 @@ class Certifier:
             else:
                 self._said = f"{self._found()}, shortening"
 
-        def better(run: VerifiedRun) -> None:
+        def better(run: Replay) -> None:
             self.run, self.route = run, route_of(level, run.inputs)
 
         try:

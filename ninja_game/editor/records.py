@@ -37,12 +37,12 @@ PROPERTIES: dict[int, dict[str, Property]] = {
     THWUMP: _FACING,
     LAUNCH_PAD: {"direction": Property((2, 3), PAD_NORMALS)},
     DRONE: {
-        "sort": Property((4,), _single(WEAPONS)),
+        "type": Property((4,), _single(WEAPONS)),
         "movement": Property((2,), _single(MOVEMENTS)),
         "direction": Property((5,), _single(DIRECTION_WORDS)),
         "seeker": Property((3,), {"no": (0.0,), "yes": (1.0,)}),
     },
-    DOOR: {"sort": Property((3, 6), DOORS), "side": Property((2, 7, 8), SIDES)},
+    DOOR: {"type": Property((3, 6), DOORS), "side": Property((2, 7, 8), SIDES)},
 }
 """The properties of each kind that has any."""
 
@@ -81,10 +81,10 @@ def settled(record: ObjectSpec) -> ObjectSpec:
     return record
 
 
-def sort_name(record: ObjectSpec) -> str:
-    """What an object is called: its sort where it has sorts, else its kind."""
-    if "sort" in properties(record) and word(record, "sort"):
-        return word(record, "sort")
+def object_type_name(record: ObjectSpec) -> str:
+    """What an object is called: its type where it has one, else its kind."""
+    if "type" in properties(record) and word(record, "type"):
+        return word(record, "type")
     return KIND_NAMES[record.kind] if makes_object(record) else "a record that makes nothing"
 
 
@@ -137,7 +137,7 @@ def carried(record: ObjectSpec, motion: Motion, parts: Collection[int] = (BODY, 
             values[2:] = motion.vector(*values[2:])
         elif kind == DRONE:
             values[5] = motion.direction(values[5])
-            # 0 and 1, 2 and 3 are the two ways round.
+            # 0 and 1, 2 and 3 are the two senses of rotation.
             values[2] = float(int(values[2]) ^ 1) if motion.reverses and values[2] in (0, 1, 2, 3) else values[2]
     return record._replace(values=tuple(values))
 

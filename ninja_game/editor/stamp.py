@@ -15,7 +15,7 @@ from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
 Area = tuple[int, int, int, int]
 """First column, first row, columns, rows."""
 
-Part = tuple[int, int]
+ObjectPart = tuple[int, int]
 """Number of a record in its draft, and which part of it."""
 
 
@@ -36,7 +36,7 @@ class Selection:
     """``area``: cells whose tiles are chosen. ``parts``: objects, or parts of them."""
 
     area: Area | None = None
-    parts: frozenset[Part] = frozenset()
+    parts: frozenset[ObjectPart] = frozenset()
 
     def __bool__(self) -> bool:
         return self.area is not None or bool(self.parts)
@@ -178,9 +178,9 @@ def middle_of(draft: Draft, selection: Selection, *, quarter: bool) -> tuple[flo
     return x + (x + y) % 24.0 * quarter, y
 
 
-def nearest(draft: Draft, x: float, y: float, reach: float) -> Part | None:
+def nearest(draft: Draft, x: float, y: float, reach: float) -> ObjectPart | None:
     """The part of an object nearest to a point and within ``reach`` px of it; of equals the newest."""
-    found: Part | None = None
+    found: ObjectPart | None = None
     best = reach * reach
     for number, record in enumerate(draft.objects):
         for part, (px, py) in points(record).items():

@@ -1,6 +1,6 @@
 """The worlds as Gymnasium environments, single and vector, with what learning needs around them (docs/learning.md).
 
-Each name is imported when it is first used.
+Its import registers their ids. Each name is imported when it is first used.
 """
 
 from __future__ import annotations
@@ -12,12 +12,11 @@ from ninja_game.errors import MissingExtraError
 from ninja_game.files.resources import how_to_install
 
 try:
-    import gymnasium  # noqa: F401 - its import registers the ids of the environments
+    from gymnasium.envs import registration
 except ModuleNotFoundError:
     raise MissingExtraError(f"ninja_game.learn needs Gymnasium; {how_to_install('learn')}") from None
 
 if TYPE_CHECKING:
-    from ninja_game.learn.agents.load import load_agent
     from ninja_game.learn.demonstrations import (
         Demonstration,
         UnplayableRecordingError,
@@ -44,7 +43,6 @@ if TYPE_CHECKING:
     from ninja_game.learn.worlds import EnvWorlds
 
 _NAMES = {
-    "agents.load": ("load_agent",),
     "demonstrations": ("Demonstration", "UnplayableRecordingError", "demonstration", "write_minari", "write_npz"),
     "evaluation": ("Evaluation", "LevelResult", "evaluate"),
     "levels.curriculum": ("Curriculum",),
@@ -94,10 +92,29 @@ __all__ = [
     "evaluate",
     "generated_levels",
     "level_source",
-    "load_agent",
     "write_minari",
     "write_npz",
 ]
+
+
+ENVIRONMENTS: dict[str, dict[str, Any]] = {
+    "Ninja-v0": {},
+    "NinjaPixels-v0": {"observation": "pixels"},
+    "NinjaSet-v0": {"level": "set"},
+    "NinjaTrain-v0": {"level": "train"},
+    "NinjaTest-v0": {"level": "test"},
+    "NinjaCurriculum-v0": {"level": "curriculum"},
+}
+"""The registered ids and what they set besides the defaults; docs/learning.md tells what their version fixes."""
+
+for _name, _settings in ENVIRONMENTS.items():
+    if _name not in registration.registry:
+        registration.register(
+            _name,
+            entry_point="ninja_game.learn.single:NinjaEnv",
+            vector_entry_point="ninja_game.learn.vector:NinjaVectorEnv",
+            kwargs=_settings,
+        )
 
 
 def __getattr__(name: str) -> Any:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.learn.actions import DISCRETE_KEYS
-from ninja_game.learn.levels import LevelSource, Origin, level_source
+from ninja_game.learn.levels import Origin, level_source
 from ninja_game.learn.sticky import LONGEST_WAIT, REPEAT, StickyActions
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.level import Level
@@ -43,7 +43,7 @@ class Policy(Protocol):
         """Keywords of ``NinjaEnv``, but level and body; the actions are discrete."""
 
     def reset(self, count: int, seed: int) -> None:
-        """Begin with so many worlds."""
+        """Begin with this many worlds."""
 
     def act(self, observations: Any) -> NDArray[np.integer]:
         """The action of each world, (n,), by the observations of all."""
@@ -100,7 +100,7 @@ class Evaluation:
         return sum(each.rate >= rate for each in self.results)
 
     def text(self) -> str:
-        """The table for people, a line a level, and a last one over all."""
+        """The table for people, one line per level, and a last one over all."""
         lines = [f"{'level':<26} {'passed':>11} {'dead':>6} {'late':>6} {'ticks':>7} {'gold':>6} {'reward':>8}"]
         for each in self.results:
             ticks = "-" if isnan(each.ticks) else f"{each.ticks:.0f}"
@@ -121,7 +121,7 @@ class Evaluation:
         return json.dumps({**asdict(self), "results": rows, "often_passed": self.often_passed()}, indent=1)
 
     def csv(self) -> str:
-        """The table for spreadsheets, a row a level."""
+        """The table for spreadsheets, one row per level."""
         text = io.StringIO()
         rows = csv.writer(text, lineterminator="\n")
         rows.writerow(["agent", *(field.name for field in fields(LevelResult)), "rate"])
@@ -149,15 +149,7 @@ def evaluate(
     does not depend on the other levels. ``repeat``, ``longest_wait``: of ``StickyActions``, for policies.
     """
     source = level_source(levels)
-    rows = level_results(agent, source, episodes, seed, repeat, longest_wait, time_limit, memory)
-    return Evaluation(name, source.digest, seed, repeat, longest_wait, time_limit, list(rows))
-
-
-def level_results(
-    agent: Policy | Planner, source: LevelSource, episodes: int, seed: int, repeat: float, longest_wait: int,
-    time_limit: int, memory: str,
-) -> Iterator[LevelResult]:  # fmt: skip
-    """The rows of the table, one by one, as they are made (arguments: ``evaluate``)."""
+    results = []
     settings = {**agent.settings, "time_limit": time_limit, "memory": memory}
     settings.pop("actions", None)
     for level_name, level in zip(source.names, source.levels, strict=True):
@@ -169,7 +161,8 @@ def level_results(
             seeds = [seed, int(level_digest(level)[:8], 16)]
             sticky = StickyActions(episodes, seeds, repeat=repeat, longest_wait=longest_wait)
             actions = _chosen(agent, worlds, sticky, seed)
-        yield _played(level_name, worlds, actions)
+        results.append(_played(level_name, worlds, actions))
+    return Evaluation(name, source.digest, seed, repeat, longest_wait, time_limit, results)
 
 
 def _chosen(agent: Policy, worlds: EnvWorlds, sticky: StickyActions, seed: int) -> Actions:

@@ -37,9 +37,9 @@ class App:
     """The window with its stack of screens.
 
     ``controls``: keys to actions. ``player``: the player's data with the settings, which ``change_settings`` changes.
-    ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``open_bench``: opens a
-    run on the bench, with others beside it, at a tick; who starts the program sets it, and leaves None where there is
-    no bench. ``size``: px of the window. Raises NinjaGameError where there is no display.
+    ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``open_tas_editor``:
+    opens a run in the TAS editor, with others beside it, at a tick; who starts the program sets it, and leaves None
+    where there is none. ``size``: px of the window. Raises NinjaGameError where there is no display.
     """
 
     def __init__(
@@ -49,7 +49,7 @@ class App:
         self.controls = controls
         self.audio_output = audio_output
         self.overclock = 0
-        self.open_bench: Callable[[Recording, Sequence[Recording], int], object] | None = None
+        self.open_tas_editor: Callable[[Recording, Sequence[Recording], int], object] | None = None
         self.stack = ScreenStack()
         self.running = True
         self.frame_ms = 0.0

@@ -28,8 +28,8 @@ class Settings:
     ``volume`` and ``loop_volume``: 0 to 99. ``dead_zone``: share of a stick's way that counts as rest. ``site``:
     address of the page with the game to which links lead, "" for none. ``ninja_colour``: "" or "#rrggbb".
     ``frame_limit``: pictures a second, 0: as the display. ``window_width`` and ``window_height``: px, 0: as it fits.
-    Of the bench: ``letters``, ``left_share`` and ``tabs_share`` in percent, 0: as it suits the window; ``play_speed``
-    in percent.
+    Of the TAS editor: ``text_scale``, ``level_width`` and ``tabs_height`` in percent, 0: as it suits the window;
+    ``play_speed`` in percent.
     """
 
     palette: str = DEFAULT_PALETTE
@@ -46,9 +46,9 @@ class Settings:
     window_height: int = 0
     volume: int = 70
     loop_volume: int = 99
-    letters: int = 0
-    left_share: int = 0
-    tabs_share: int = 0
+    text_scale: int = 0
+    level_width: int = 0
+    tabs_height: int = 0
     play_speed: int = 100
     practice: bool = False
     name: str = ""
@@ -130,10 +130,10 @@ RULES = {
     "window_height": _whole("look", 0, 16384),
     "volume": _whole("sound", 0, 99),
     "loop_volume": _whole("sound", 0, 99),
-    "letters": _whole("bench", 0, 400),
-    "left_share": _whole("bench", 0, 99),
-    "tabs_share": _whole("bench", 0, 99),
-    "play_speed": _whole("bench", 10, 800),
+    "text_scale": _whole("tas", 0, 400),
+    "level_width": _whole("tas", 0, 99),
+    "tabs_height": _whole("tas", 0, 99),
+    "play_speed": _whole("tas", 10, 800),
     "practice": _flag("play"),
     "name": Rule("play", _is_name, "at most 40 printable characters"),
     "site": Rule("play", _is_site, "'' or an address such as 'https://example.org/game/'"),

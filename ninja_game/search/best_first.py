@@ -173,7 +173,7 @@ class Search:
         return MORE
 
     def run_leg(self, budget: int, over: Callable[[int], bool], *, part: int, least: int = 0) -> None:
-        """Run a leg's search for at most so many ticks, in parts; ``over`` gets the ticks of each, and may end it.
+        """Run a leg's search for at most this many ticks, in parts; ``over`` gets the ticks of each, and may end it.
 
         From the first end or run to the exit on it goes on only as long again, or up to ``least`` ticks.
         """
@@ -216,7 +216,7 @@ class Search:
         return found
 
     def _path(self, index: int) -> tuple[int, bytes]:
-        """From which root a node comes, and the inputs from there, one byte a tick."""
+        """From which root a node comes, and the inputs from there, one byte per tick."""
         nodes: Any = self.memory.nodes
         parents, actions = nodes["parent"], nodes["action"]
         parts = []

@@ -151,7 +151,7 @@ class LocalCounters(RandomState):
 
 
 class Runs(NamedTuple):
-    """The best, the current and the trial run, one byte a tick without trigger bit; more about the current one."""
+    """The best, the current and the trial run, one byte per tick without trigger bit; more about the current one."""
 
     best: Keys
     current: Keys

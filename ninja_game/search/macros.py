@@ -72,7 +72,7 @@ def action_code(direction: int, mode: int, held: int, ticks: int) -> int:
 
 @cache
 def action_inputs(action: int) -> bytes:
-    """The inputs of an action, one byte a tick."""
+    """The inputs of an action, one byte per tick."""
     direction, mode, held, ticks = (action & 3) - 1, action >> 2 & 3, action >> 4 & 1, action >> 8
     return bytes(macro_keys(direction, mode, held, k) for k in range(ticks))
 

@@ -13,8 +13,9 @@ from math import inf
 from threading import Event
 
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.replay.text import Replay
 from ninja_game.search.best_first import Search
-from ninja_game.search.certificate import VerifiedRun, with_plain_triggers
+from ninja_game.search.certificate import with_plain_triggers
 from ninja_game.search.engine import MORE
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.nodes import Resolution, open_start
@@ -137,7 +138,7 @@ class _Job:
         self.shortener.search_spans(self.shortener.climb(best, shares.climb), shares.spans_with_gold)
 
     def _follow(self, route: Route, ticks: float) -> None:
-        """Search a run in legs, for so many ticks; one that is found is submitted."""
+        """Search a run in legs, for this many ticks; one that is found is submitted."""
         doing = f" of {route.gold} gold" if route.gold else ""
         until = self.work + ticks * SEARCH_COST
         first = not self.state.runs
@@ -214,9 +215,9 @@ def solve(
     task: Task,
     *,
     report: Report | None = None,
-    on_better: Callable[[VerifiedRun], None] | None = None,
+    on_better: Callable[[Replay], None] | None = None,
     stop: Event | None = None,
-) -> VerifiedRun | None:
+) -> Replay | None:
     """The best run to the exit that was found in the time, None if there is none.
 
     ``report`` is called a few times a second, ``on_better`` with every verified run that is shorter than those before.

@@ -40,7 +40,7 @@ EACH_COSTS = 10_000
 
 
 class SpanSettings(NamedTuple):
-    """How a span is searched: the resolution, and what the known run is told besides its span."""
+    """How a span is searched: the resolution, and what the known run needs besides its span."""
 
     resolution: Resolution
     max_delay: float
@@ -172,7 +172,7 @@ class RunShortener:
         return inputs
 
     def climb(self, inputs: bytes, ticks: int) -> bytes:
-        """Go on from a run by a local search of so many ticks; its best run."""
+        """Go on from a run by a local search of this many ticks; its best run."""
         self._climbs += 1
         local_search = LocalSearch(self.start, inputs, gold=self.gold, seed=self.seed + 7919 * self._climbs)
         for temperature in COOLING:

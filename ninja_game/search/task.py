@@ -11,7 +11,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from threading import Event, Lock
 
-from ninja_game.search.certificate import VerifiedRun, verified_run
+from ninja_game.formats.replay.text import Replay
+from ninja_game.search.certificate import verified_run
 from ninja_game.search.nodes import Resolution
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level
@@ -42,7 +43,7 @@ class Progress:
 
 @dataclass(frozen=True)
 class Task:
-    """What to solve: ``gold`` pieces at least (-1: all), for ``seconds``, or for so many ticks of ``work`` a job.
+    """What to solve: ``gold`` pieces at least (-1: all), for ``seconds``, or for this many ticks of ``work`` a job.
 
     ``first``: a run to shorten; ``first_only``: the first run that is found will do.
     """
@@ -79,9 +80,9 @@ class SearchState:
     stop: Event = field(default_factory=Event)
     cancelled: Event = field(default_factory=Event)  #: by the caller
     runs: list[bytes] = field(default_factory=list)
-    best: VerifiedRun | None = None
+    best: Replay | None = None
     progress: Progress = field(default_factory=Progress)
-    on_better: Callable[[VerifiedRun], None] | None = None
+    on_better: Callable[[Replay], None] | None = None
 
     def submit(self, inputs: bytes) -> None:
         """Remember a run if it is among the best; a new best one is verified first."""

@@ -1,4 +1,4 @@
-"""Branches: takes of one run that its maker keeps, as a tree of what was made from what."""
+"""Branches: input tracks of one run that its maker keeps, as a tree of what was made from what."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from ninja_game.errors import ArgumentError
 from ninja_game.formats.replay.input_runs import Marker, is_marker_name
 from ninja_game.sim.inputs import check_inputs
 from ninja_game.sim.states import OUTCOME_NAMES
-from ninja_game.tas.take import Take
+from ninja_game.tas.input_track import InputTrack
 
 
 @dataclass(frozen=True)
 class Branch:
-    """A take that is kept. ``parent``: the branch from which it was made, by number; None for the first ones.
+    """An input track that is kept. ``parent``: the branch from which it was made, by number; None for the first ones.
 
     ``end``: the tick of the exit contact or death (-1: none), ``outcome`` which of them, ``gold`` the pieces then.
     """
 
     name: str
-    take: Take
+    track: InputTrack
     parent: int | None = None
     end: int = -1
     outcome: str = "running"
@@ -29,7 +29,7 @@ class Branch:
 
 
 class Branches:
-    """The branches of a run, in the order in which they were kept. ``current``: the one from which the take comes.
+    """The branches of a run, in the order in which they were kept. ``current``: the one from which the track comes.
 
     ``watched``: the formulas that are watched in the run, kept with them; empty: the usual ones.
     """
@@ -43,7 +43,7 @@ class Branches:
         return len(self.all)
 
     def keep(self, branch: Branch) -> int:
-        """Keep a take as a child of the current branch, and go on from it; its number."""
+        """Keep an input track as a child of the current branch, and go on from it; its number."""
         self.all.append(replace(branch, parent=self.current))
         self.current = len(self.all) - 1
         return self.current
@@ -52,10 +52,10 @@ class Branches:
         """Give a branch another name. Raises ArgumentError for an unknown one."""
         self.all[self.checked(number)] = replace(self.all[number], name=name)
 
-    def go_on_from(self, number: int) -> Take:
-        """Make a branch the current one; its take. Raises ArgumentError for an unknown one."""
+    def checkout(self, number: int) -> InputTrack:
+        """Make a branch the current one; its input track. Raises ArgumentError for an unknown one."""
         self.current = self.checked(number)
-        return self.all[number].take
+        return self.all[number].track
 
     def drop(self, number: int) -> None:
         """Forget a branch; what was made from it hangs on its parent. Raises ArgumentError without such a one."""
@@ -91,7 +91,7 @@ class Branches:
         return {**said, "watched": list(self.watched)}
 
     def do(self, change: dict[str, Any]) -> None:
-        """A change as a journal tells it: ``keep``, ``drop``, ``rename``, ``go_on`` or all of it. Raises DAMAGED."""
+        """A change as a journal tells it: ``keep``, ``drop``, ``rename``, ``checkout`` or all of it. Raises DAMAGED."""
         if "branches" in change:
             whole = branches_of_json(change)
             self.all, self.current, self.watched = whole.all, whole.current, whole.watched
@@ -99,8 +99,8 @@ class Branches:
             self.keep(branch_of_json(change["keep"]))
         elif "rename" in change:
             self.rename(int(change["rename"]), str(change["name"]))
-        elif "go_on" in change:
-            self.go_on_from(int(change["go_on"]))
+        elif "checkout" in change:
+            self.checkout(int(change["checkout"]))
         else:
             self.drop(int(change["drop"]))
 
@@ -111,10 +111,10 @@ def branches_of_json(kept: dict[str, Any]) -> Branches:
     for number, each in enumerate(kept["branches"]):
         branch = branch_of_json(each)
         if branch.parent is not None and not 0 <= branch.parent < number:
-            raise ValueError("a branch that hangs on a later one")
+            raise ValueError("a branch whose parent comes later")
         found.all.append(branch)
     if kept["current"] is not None:
-        found.go_on_from(int(kept["current"]))
+        found.checkout(int(kept["current"]))
     found.watched = tuple(map(str, kept.get("watched", ())))
     return found
 
@@ -123,7 +123,7 @@ def branch_as_json(branch: Branch) -> dict[str, Any]:
     """A branch as JSON can say it."""
     return {
         "name": branch.name, "parent": branch.parent, "end": branch.end, "outcome": branch.outcome,
-        "gold": branch.gold, **take_as_json(branch.take),
+        "gold": branch.gold, **track_as_json(branch.track),
     }  # fmt: skip
 
 
@@ -133,17 +133,17 @@ def branch_of_json(kept: dict[str, Any]) -> Branch:
     end, gold, outcome = int(kept["end"]), int(kept["gold"]), str(kept["outcome"])
     if outcome not in OUTCOME_NAMES:
         raise ValueError(f"the outcome {outcome[:40]!r}")
-    return Branch(str(kept["name"]), take_of_json(kept), None if parent is None else int(parent), end, outcome, gold)
+    return Branch(str(kept["name"]), track_of_json(kept), None if parent is None else int(parent), end, outcome, gold)
 
 
-def take_as_json(take: Take) -> dict[str, Any]:
-    """A take as JSON can say it: its inputs a hexadecimal digit a tick."""
-    return {"inputs": take.inputs.hex()[1::2], "markers": [list(each) for each in take.markers]}
+def track_as_json(track: InputTrack) -> dict[str, Any]:
+    """An input track as JSON can say it: its inputs a hexadecimal digit a tick."""
+    return {"inputs": track.inputs.hex()[1::2], "markers": [list(each) for each in track.markers]}
 
 
-def take_of_json(kept: dict[str, Any]) -> Take:
-    """What ``take_as_json`` gave. Raises one of DAMAGED for anything else."""
-    return checked_take(inputs_of_json(kept["inputs"]), markers_of_json(kept["markers"]))
+def track_of_json(kept: dict[str, Any]) -> InputTrack:
+    """What ``track_as_json`` gave. Raises one of DAMAGED for anything else."""
+    return checked_track(inputs_of_json(kept["inputs"]), markers_of_json(kept["markers"]))
 
 
 def inputs_of_json(digits: str) -> bytes:
@@ -156,10 +156,10 @@ def markers_of_json(kept: list[Any]) -> tuple[Marker, ...]:
     return tuple(Marker(int(tick), str(name)) for tick, name in kept)
 
 
-def checked_take(inputs: bytes, markers: tuple[Marker, ...]) -> Take:
-    """A take that a replay text can hold. Raises ValueError or DemoError for another."""
+def checked_track(inputs: bytes, markers: tuple[Marker, ...]) -> InputTrack:
+    """An input track that a replay text can hold. Raises ValueError or DemoError for another."""
     check_inputs(inputs)
     names = {name for tick, name in markers if 0 <= tick <= len(inputs) and is_marker_name(name)}
     if len(names) < len(markers):
-        raise ValueError("names of ticks that there cannot be")
-    return Take(inputs, markers)
+        raise ValueError("markers at impossible ticks")
+    return InputTrack(inputs, markers)

@@ -28,7 +28,7 @@ from ninja_game.runs.run import record_replay
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.level import Level
 from ninja_game.tas.branches import Branches, branches_of_json
-from ninja_game.tas.take import Take
+from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.timeline import AFTERMATH
 
 SUFFIX = ".replay.txt"
@@ -38,24 +38,24 @@ SUFFIX = ".replay.txt"
 class RunFile:
     """Where a run is at home. ``path``: None without a file that may be replaced.
 
-    ``digest``: of that file's bytes; ``beside``: of those of its branches; ``take``: what the file holds.
+    ``digest``: of that file's bytes; ``branches_digest``: of those of its branches; ``track``: what the file holds.
     """
 
     path: Path | None = None
     digest: str = ""
-    beside: str = ""
-    take: Take | None = None
+    branches_digest: str = ""
+    track: InputTrack | None = None
 
 
 @dataclass(frozen=True)
 class OpenedRun:
-    """A run that was opened: its recording, the take in it, its file, and the branches beside it.
+    """A run that was opened: its recording, the input track in it, its file, and the branches beside it.
 
     ``moved``: the level is not the recorded one.
     """
 
     recording: Recording
-    take: Take
+    track: InputTrack
     file: RunFile
     branches: Branches
     moved: bool = False
@@ -76,22 +76,22 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
     if recording is None:
         raise ReplayError(f"there is no record {record}", str(path), expected=f"0 to {len(recordings) - 1}")
     on = on_level(recording, level)
-    take = take_of(on)
+    track = track_of(on)
     if on is not recording:
-        return OpenedRun(on, take, RunFile(), Branches(), moved=True)
+        return OpenedRun(on, track, RunFile(), Branches(), moved=True)
     if is_link(path) or recording.form == "file" or path.resolve().is_relative_to(data_folder("levels").resolve()):
-        return OpenedRun(recording, take, RunFile(), Branches())
+        return OpenedRun(recording, track, RunFile(), Branches())
     if not _written_by_us(data := read_bytes(path)):
-        return OpenedRun(recording, take, RunFile(), Branches())
-    file = RunFile(path, sha256(data).hexdigest(), digest_of(branches_path(path)), take)
-    return OpenedRun(recording, take, file, read_branches(path))
+        return OpenedRun(recording, track, RunFile(), Branches())
+    file = RunFile(path, sha256(data).hexdigest(), digest_of(branches_path(path)), track)
+    return OpenedRun(recording, track, file, read_branches(path))
 
 
-def home_of(path: Path, digest: str, beside: str) -> RunFile:
+def run_file_of(path: Path, digest: str, branches_digest: str) -> RunFile:
     """Where a run of a journal is at home: in a file that ``open_run`` would have given it, else nowhere."""
     with suppress(OSError, NinjaGameError):
         if _written_by_us(read_bytes(path)):
-            return RunFile(path, digest, beside)
+            return RunFile(path, digest, branches_digest)
     return RunFile()
 
 
@@ -101,12 +101,12 @@ def open_recording(recording: Recording) -> OpenedRun:
         path = Path(recording.file)
         if path.is_file():
             opened = open_run(path, record=recording.record, level=recording.level)
-            if take_of(recording) == opened.take and same_level(recording, opened.recording):
+            if track_of(recording) == opened.track and same_level(recording, opened.recording):
                 return opened
-    return OpenedRun(recording, take_of(recording), RunFile(), Branches())
+    return OpenedRun(recording, track_of(recording), RunFile(), Branches())
 
 
-def runs_beside(path: Path, about: Recording) -> list[Recording]:
+def runs_of_level(path: Path, about: Recording) -> list[Recording]:
     """The recordings of a file or link that can be shown beside a run: all those of its level, with its body.
 
     Those without a level are on that of the run. Raises ReplayError if there is none, and what ``load_replays`` does.
@@ -125,10 +125,10 @@ def same_level(recording: Recording, other: Recording) -> bool:
     return recording.body == other.body and level_digest(recording.level) == level_digest(other.level)
 
 
-def take_of(recording: Recording) -> Take:
-    """A recording as a take: the keys of all ticks that it plays."""
+def track_of(recording: Recording) -> InputTrack:
+    """A recording as an input track: the keys of all ticks that it plays."""
     markers = (each for each in recording.replay.markers if each.tick <= recording.ticks)
-    return Take(recording.inputs, tuple(markers))
+    return InputTrack(recording.inputs, tuple(markers))
 
 
 def inputs_of_text(text: str, place: str) -> Inputs:
@@ -160,69 +160,69 @@ def _facts(text: str) -> list[str]:
     return [word for line in text.splitlines()[1:] if line != "end" for word in line.split()]
 
 
-def recording_of(about: Recording, take: Take, name: str = "") -> Recording:
-    """A take as a recording without claims, of the level and the author of another one."""
-    replay = replace(unclaimed_replay(about, take), name=name or about.name)
+def recording_of(about: Recording, track: InputTrack, name: str = "") -> Recording:
+    """An input track as a recording without claims, of the level and the author of another one."""
+    replay = replace(unclaimed_replay(about, track), name=name or about.name)
     return replace(about, file=name or about.file, replay=replay, form="replay")
 
 
-def unclaimed_replay(about: Recording, take: Take) -> Replay:
-    """A take as a replay without claims, with its level inside."""
+def unclaimed_replay(about: Recording, track: InputTrack) -> Replay:
+    """An input track as a replay without claims, with its level inside."""
     old = about.replay
     return Replay.of_inputs(
-        take.inputs,
+        track.inputs,
         about.level,
         name=about.name,
         author=about.author,
         body=about.body,
         level_name=old.level_name,
         level_author=old.level_author,
-        markers=take.markers,
+        markers=track.markers,
         practice=old.practice,
     )
 
 
-def replay_of_take(about: Recording, take: Take) -> Replay:
-    """A take as a replay of ours: with claims, or without where keys or names behind its end have to stay.
+def replay_of_track(about: Recording, track: InputTrack) -> Replay:
+    """An input track as a replay of ours: with claims, or without where keys or names behind its end have to stay.
 
-    An exit or a death soon behind the last input, which the bench shows, is part of it. Raises ArgumentError for a run
-    without ticks.
+    An exit or a death soon behind the last input, which the TAS editor shows, is part of it. Raises ArgumentError for
+    a run without ticks.
     """
-    unclaimed = unclaimed_replay(about, take)
-    record = partial(record_replay, about.level, take.inputs, body=about.body, name=about.name, author=about.author)
-    run = record(ticks=min(len(take) + AFTERMATH, MAX_TICKS))
+    unclaimed = unclaimed_replay(about, track)
+    record = partial(record_replay, about.level, track.inputs, body=about.body, name=about.name, author=about.author)
+    run = record(ticks=min(len(track) + AFTERMATH, MAX_TICKS))
     if run.outcome == "running":
         run = record()
-    if has_tail(take, run.ticks):
+    if has_tail(track, run.ticks):
         return unclaimed
     return replace(
-        run, markers=take.markers, practice=unclaimed.practice,
+        run, markers=track.markers, practice=unclaimed.practice,
         level_name=unclaimed.level_name, level_author=unclaimed.level_author,
     )  # fmt: skip
 
 
-def has_tail(take: Take, ticks: int) -> bool:
-    """Whether a take has keys, or names of ticks, behind the first ``ticks`` ticks."""
-    return any(take.inputs[ticks:]) or any(each.tick > ticks for each in take.markers)
+def has_tail(track: InputTrack, ticks: int) -> bool:
+    """Whether an input track has keys, or names of ticks, behind the first ``ticks`` ticks."""
+    return any(track.inputs[ticks:]) or any(each.tick > ticks for each in track.markers)
 
 
 def save_run(
-    about: Recording, take: Take, branches: Branches, path: Path, file: RunFile, *, replacing: bool = False
+    about: Recording, track: InputTrack, branches: Branches, path: Path, file: RunFile, *, replacing: bool = False
 ) -> RunFile:
-    """Write a take, and its branches and watched formulas beside it; where it is at home now.
+    """Write an input track, and its branches and watched formulas beside it; where it is at home now.
 
     Raises OccupiedError where that would replace another file, or one that was changed since it was read, unless
     ``replacing``; FileError, OSError for what cannot be written.
     """
     own, beside = path == file.path, branches_path(path)
-    for each, known in ((path, file.digest), (beside, file.beside)):
+    for each, known in ((path, file.digest), (beside, file.branches_digest)):
         check_free(each, digest_of(each), known if own else None, replacing=replacing)
-    if not own or take != file.take or digest_of(path) != file.digest:
-        replay = replay_of_take(about, take)
+    if not own or track != file.track or digest_of(path) != file.digest:
+        replay = replay_of_track(about, track)
         write_atomically(path, write_replay(_with_old_path(replay, about) if own else replay))
     if len(branches) or branches.watched or beside.exists():
         Tree(path.parent).write(beside.name, json.dumps(branches.as_json(), indent=1))
-    return RunFile(path, digest_of(path), digest_of(beside), take)
+    return RunFile(path, digest_of(path), digest_of(beside), track)
 
 
 def _with_old_path(replay: Replay, about: Recording) -> Replay:

@@ -50,9 +50,9 @@ class SearchedSpan:
 
     def _ninja(self, tick: int) -> dict[str, float]:
         timeline = self.session.timeline
-        timeline.need(tick)
-        if tick >= timeline.valid:
-            raise ArgumentError(f"the span ends in tick {tick}, the run in tick {len(self.session.take) - 1}")
+        timeline.ensure(tick)
+        if tick >= timeline.simulated_until:
+            raise ArgumentError(f"the span ends in tick {tick}, the run in tick {len(self.session.track) - 1}")
         found = {name: float(timeline.column(name)[tick]) for name in ("x", "y", "prev_x", "prev_y", "state", "gold")}
         return {**found, "vx": found["x"] - found["prev_x"], "vy": found["y"] - found["prev_y"]}
 

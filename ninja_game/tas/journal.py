@@ -25,22 +25,22 @@ from ninja_game.sim.loader import record_table
 from ninja_game.tas.branches import (
     Branches,
     branches_of_json,
-    checked_take,
+    checked_track,
     inputs_of_json,
     markers_of_json,
-    take_of_json,
+    track_of_json,
 )
-from ninja_game.tas.files import OpenedRun, RunFile, home_of
-from ninja_game.tas.take import Take
+from ninja_game.tas.files import OpenedRun, RunFile, run_file_of
+from ninja_game.tas.input_track import InputTrack
 
 FOLDER = "tas"
 """In the player's folder."""
 
 
-def edit_as_json(old: Take, new: Take) -> dict[str, Any]:
-    """What turns one take into another: the ticks from ``at`` to ``to`` - 1 are replaced by ``keys``.
+def edit_as_json(old: InputTrack, new: InputTrack) -> dict[str, Any]:
+    """What turns one input track into another: the ticks from ``at`` to ``to`` - 1 are replaced by ``keys``.
 
-    ``sum``: of the new take, so that a damaged edit is noticed.
+    ``sum``: of the new track, so that a damaged edit is noticed.
     """
     at = old.first_difference(new)
     tail = _same_at_the_end(old.inputs[at:], new.inputs[at:])
@@ -51,22 +51,22 @@ def edit_as_json(old: Take, new: Take) -> dict[str, Any]:
 
 def _same_at_the_end(ours: bytes, theirs: bytes) -> int:
     """How many bytes at the end are the same."""
-    return Take(ours[::-1]).first_difference(Take(theirs[::-1]))
+    return InputTrack(ours[::-1]).first_difference(InputTrack(theirs[::-1]))
 
 
-def _sum(take: Take) -> int:
-    return crc32(repr(take.markers).encode("utf-8", "replace"), crc32(take.inputs))
+def _sum(track: InputTrack) -> int:
+    return crc32(repr(track.markers).encode("utf-8", "replace"), crc32(track.inputs))
 
 
-def edited(take: Take, change: dict[str, Any]) -> Take:
-    """A take after an edit of a journal. Raises one of DAMAGED for what is none."""
+def edited(track: InputTrack, change: dict[str, Any]) -> InputTrack:
+    """An input track after an edit of a journal. Raises one of DAMAGED for what is none."""
     at, to = int(change["at"]), int(change["to"])
-    if not 0 <= at <= to <= len(take):
+    if not 0 <= at <= to <= len(track):
         raise ValueError("an edit outside the run's ticks")
-    markers = markers_of_json(change["markers"]) if "markers" in change else take.markers
-    new = checked_take(take.inputs[:at] + inputs_of_json(change["keys"]) + take.inputs[to:], markers)
+    markers = markers_of_json(change["markers"]) if "markers" in change else track.markers
+    new = checked_track(track.inputs[:at] + inputs_of_json(change["keys"]) + track.inputs[to:], markers)
     if _sum(new) != change["sum"]:
-        raise ValueError("an edit of another take")
+        raise ValueError("an edit of another input track")
     return new
 
 
@@ -126,13 +126,13 @@ class Journal:
 
 @dataclass(frozen=True)
 class Recovered:
-    """What a session that has died was editing. ``opened``: as it began; ``takes``: after each edit.
+    """What a session that has died was editing. ``opened``: as it began; ``tracks``: after each edit.
 
     ``branches``: as they were last; ``said``: the first line of the journal ``file``.
     """
 
     opened: OpenedRun
-    takes: tuple[Take, ...]
+    tracks: tuple[InputTrack, ...]
     branches: Branches
     said: dict[str, Any]
     file: Path
@@ -152,8 +152,9 @@ def read_journal(file: Path) -> Recovered:
         said = json.loads(lines.readline())
         (recording,) = parse_replays(said["replay"])
         record_table(recording.level)
-        home = home_of(Path(str(said["path"])), str(said["digest"]), str(said["beside"])) if said["path"] else RunFile()
-        takes = [take_of_json(said["take"])]
+        path, digest, branches_digest = (str(said[key]) for key in ("path", "digest", "branches_digest"))
+        run_file = run_file_of(Path(path), digest, branches_digest) if path else RunFile()
+        tracks = [track_of_json(said["track"])]
         branches = branches_of_json(said["branches"])
         for line in lines:
             with suppress(*DAMAGED):
@@ -161,8 +162,8 @@ def read_journal(file: Path) -> Recovered:
                 if "at" not in change:
                     branches.do(change)
                 elif change.get("goes_on"):
-                    takes[-1] = edited(takes[-1], change)
+                    tracks[-1] = edited(tracks[-1], change)
                 else:
-                    takes.append(edited(takes[-1], change))
-    opened = OpenedRun(recording, takes[0], home, branches_of_json(said["branches"]))
-    return Recovered(opened, tuple(takes[1:]), branches, said, file)
+                    tracks.append(edited(tracks[-1], change))
+    opened = OpenedRun(recording, tracks[0], run_file, branches_of_json(said["branches"]))
+    return Recovered(opened, tuple(tracks[1:]), branches, said, file)

@@ -1,4 +1,4 @@
-"""A run under edit: its take with undo, what it leads to, its branches, its file and its journal. No window."""
+"""A run under edit: its input track with undo, what it leads to, its branches, its file and its journal. No window."""
 
 from __future__ import annotations
 
@@ -10,22 +10,21 @@ from ninja_game.editor.files import digest_of
 from ninja_game.editor.history import History
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
-from ninja_game.tas.branches import Branch, Branches, branch_as_json, take_as_json
-from ninja_game.tas.course import NOWHERE, Course
+from ninja_game.tas.branches import Branch, Branches, branch_as_json, track_as_json
 from ninja_game.tas.files import OpenedRun, RunFile, has_tail, recording_of, save_run, unclaimed_replay
+from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.journal import Journal, Recovered, edit_as_json
-from ninja_game.tas.take import Take
-from ninja_game.tas.timeline import Timeline
+from ninja_game.tas.timeline import EMPTY_TRAJECTORY, Timeline, Trajectory
 
-SOON = 6000
+TICKS_PER_FRAME = 6000
 """Ticks that are simulated at once after an edit on the compiled memory: some ms."""
-SOON_PLAIN = 2000
+TICKS_PER_FRAME_PLAIN = 2000
 
 
 class Session:
     """One run that is edited. ``folder``: the player's, for the journal.
 
-    ``about``: level, body, name and author of the run; ``moved``: it was recorded on another level. ``before_take``:
+    ``about``: level, body, name and author of the run; ``moved``: it was recorded on another level. ``before_track``:
     the run before the last edit; ``before``: what the ninja did in it. Raises LevelError for a level that cannot be
     played.
     """
@@ -35,47 +34,47 @@ class Session:
         self.file: RunFile = opened.file
         self.branches: Branches = opened.branches
         self.moved = opened.moved
-        self.history: History[Take] = History(opened.take)
-        self.saved = opened.take
+        self.history: History[InputTrack] = History(opened.track)
+        self.saved = opened.track
         self._saved_branches = list(opened.branches.all)
-        self.timeline = Timeline(self.about.level, opened.take.inputs, body=self.about.body, memory=memory)
-        self.before: Course = NOWHERE
-        self.before_take = opened.take
-        self._noted = opened.take
+        self.timeline = Timeline(self.about.level, opened.track.inputs, body=self.about.body, memory=memory)
+        self.before: Trajectory = EMPTY_TRAJECTORY
+        self.before_track = opened.track
+        self._noted = opened.track
         self._file_differs = False
         self._stroke_noted = False
         self._branches_noted = True
         self.journal = Journal(folder, self._opened())
-        self.timeline.work(self.soon)
+        self.timeline.simulate(self.ticks_per_frame)
 
     def _opened(self) -> dict[str, object]:
         """What the journal says first."""
-        text = write_replay(unclaimed_replay(self.about, self.take))
+        text = write_replay(unclaimed_replay(self.about, self.track))
         path = str(self.file.path.absolute()) if self.file.path else ""
-        file = {"path": path, "digest": self.file.digest, "beside": self.file.beside}
-        return {**file, "replay": text, "take": take_as_json(self.take), "branches": self.branches.as_json()}
+        file = {"path": path, "digest": self.file.digest, "branches_digest": self.file.branches_digest}
+        return {**file, "replay": text, "track": track_as_json(self.track), "branches": self.branches.as_json()}
 
     @property
-    def take(self) -> Take:
+    def track(self) -> InputTrack:
         """The run as it is now."""
         return self.history.draft
 
     @property
     def is_saved(self) -> bool:
         """Whether the file holds what is here."""
-        return not self._file_differs and self.take == self.saved and self.branches.all == self._saved_branches
+        return not self._file_differs and self.track == self.saved and self.branches.all == self._saved_branches
 
     @property
     def has_tail(self) -> bool:
         """Whether keys or names of ticks behind its end keep the run from being a replay with claims."""
-        self.timeline.work(len(self.timeline))
+        self.timeline.simulate(len(self.timeline))
         end, _ = self.timeline.end
-        return end >= 0 and has_tail(self.take, end + 1)
+        return end >= 0 and has_tail(self.track, end + 1)
 
     @property
-    def soon(self) -> int:
+    def ticks_per_frame(self) -> int:
         """Ticks to be simulated in one picture at most."""
-        return SOON if self.timeline.memory == "compiled" else SOON_PLAIN
+        return TICKS_PER_FRAME if self.timeline.memory == "compiled" else TICKS_PER_FRAME_PLAIN
 
     # --- edits ---
 
@@ -85,16 +84,16 @@ class Session:
         self.history.begin()
         self._look_back()
 
-    def change(self, take: Take, *, ticks: int | None = None) -> None:
-        """Another take, as a part of the stroke or an edit of its own. So many ticks of it are simulated at once.
+    def change(self, track: InputTrack, *, ticks: int | None = None) -> None:
+        """Another track, as a part of the stroke or an edit of its own. So many ticks of it are simulated at once.
 
         ``ticks``: None: as many as are quick.
         """
-        if take == self.take:
+        if track == self.track:
             return
         if not self.history.in_stroke:
             self._look_back()
-        self.history.change(take)
+        self.history.change(track)
         self._follow(ticks)
 
     def end(self) -> None:
@@ -113,51 +112,51 @@ class Session:
 
     def _step(self, step: Callable[[], bool]) -> bool:
         self.end()
-        before = self.timeline.course(), self.take
+        before = self.timeline.trajectory(), self.track
         if not step():
             return False
-        self.before, self.before_take = before
+        self.before, self.before_track = before
         self._follow()
         return True
 
     def _look_back(self) -> None:
         """Note what there is before an edit."""
-        self.before, self.before_take = self.timeline.course(), self.take
+        self.before, self.before_track = self.timeline.trajectory(), self.track
 
     def _follow(self, ticks: int | None = None) -> None:
-        """Show what the take leads to, and note it."""
-        self.timeline.show(self.take.inputs)
-        self.timeline.work(self.soon if ticks is None else ticks)
+        """Show what the input track leads to, and note it."""
+        self.timeline.set_inputs(self.track.inputs)
+        self.timeline.simulate(self.ticks_per_frame if ticks is None else ticks)
         self._note()
 
     def _note(self) -> None:
         """Put what has changed into the journal. What could not be written is a part of the next edit's line."""
-        if self.take == self._noted:
+        if self.track == self._noted:
             return
-        change = edit_as_json(self._noted, self.take)
+        change = edit_as_json(self._noted, self.track)
         if self.journal.note(change | {"goes_on": True} if self._stroke_noted else change):
-            self._noted = self.take
+            self._noted = self.track
             self._stroke_noted = self.history.in_stroke
 
     # --- branches ---
 
     def keep_branch(self, name: str) -> int:
-        """Keep the take as a branch; its number. What is not simulated yet is simulated first."""
-        self.timeline.work(len(self.timeline))
+        """Keep the input track as a branch; its number. What is not simulated yet is simulated first."""
+        self.timeline.simulate(len(self.timeline))
         end, outcome = self.timeline.end
         gold = self.timeline.column("gold")
         reached = int(gold[end]) if len(gold) else 0
-        branch = Branch(name, self.take, None, end, outcome, reached)
+        branch = Branch(name, self.track, None, end, outcome, reached)
         number = self.branches.keep(branch)
         self._note_branches({"keep": branch_as_json(branch)})
         return number
 
-    def take_branch(self, number: int) -> None:
+    def checkout_branch(self, number: int) -> None:
         """Go on from a branch; undo brings back what was there before. Raises ArgumentError without such a one."""
         self.end()
-        take = self.branches.go_on_from(number)
-        self._note_branches({"go_on": number})
-        self.change(take)
+        track = self.branches.checkout(number)
+        self._note_branches({"checkout": number})
+        self.change(track)
 
     def drop_branch(self, number: int) -> None:
         """Forget a branch. Raises ArgumentError without such a one."""
@@ -172,17 +171,17 @@ class Session:
     def _note_branches(self, change: dict[str, Any]) -> None:
         self._branches_noted = self.journal.note(change if self._branches_noted else self.branches.as_json())
 
-    def recording(self, take: Take | None = None, name: str = "") -> Recording:
-        """A take (None: the present one) as a recording, for what compares and searches runs."""
-        return recording_of(self.about, self.take if take is None else take, name)
+    def recording(self, track: InputTrack | None = None, name: str = "") -> Recording:
+        """An input track (None: the present one) as a recording, for what compares and searches runs."""
+        return recording_of(self.about, self.track if track is None else track, name)
 
     # --- files ---
 
     def save(self, path: Path, *, replacing: bool = False) -> None:
         """Write run and branches. Raises OccupiedError, FileError, OSError as ``save_run`` does, ArgumentError."""
         self.end()
-        self.file = save_run(self.about, self.take, self.branches, path, self.file, replacing=replacing)
-        self.saved, self._saved_branches = self.take, list(self.branches.all)
+        self.file = save_run(self.about, self.track, self.branches, path, self.file, replacing=replacing)
+        self.saved, self._saved_branches = self.track, list(self.branches.all)
         self._file_differs = False
         self.journal.begin_anew(self._opened())
 
@@ -199,10 +198,10 @@ class Session:
         journal = Journal(found.file.parent.parent, found.said, found.file)
         self.journal.close()
         self.journal = journal
-        for take in found.takes:
-            self.history.change(take)
+        for track in found.tracks:
+            self.history.change(track)
         self.branches = found.branches
         # The program may have died when the file was written, and the journal not yet started again.
         self._file_differs = self.file.path is not None and digest_of(self.file.path) != self.file.digest
-        self._noted = self.take
+        self._noted = self.track
         self._follow()

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,16 +12,15 @@ from numpy.typing import NDArray
 from ninja_game.backend.memories import open_memory
 from ninja_game.budget import tick_cost
 from ninja_game.errors import ArgumentError
-from ninja_game.runs.run_trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
 from ninja_game.runs.save_states import SaveStates
-from ninja_game.sim.inputs import MAX_TICKS, first_ticks
+from ninja_game.runs.trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
+from ninja_game.sim.inputs import MAX_TICKS, fitted_inputs
 from ninja_game.sim.kinds import EXIT, KIND_OF
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES
 from ninja_game.sim.states import OUTCOME_NAMES
 from ninja_game.simulation import Body, SaveState, is_box
-from ninja_game.tas.course import FIGURE, Course
-from ninja_game.tas.take import first_difference
+from ninja_game.tas.input_track import first_difference
 
 AFTERMATH = 40
 """Ticks that are run behind the last input, without a key: what it leads to."""
@@ -29,8 +29,40 @@ _GROWTH = 4096
 _WATCHED_RECORD = np.dtype([*OBJECT_RECORD.descr, ("switched", "u1")])
 
 
+NINJA_FIELDS = (*TRACED_PLACES, "state", "in_air")
+"""The fields of the ninja on which its picture depends."""
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """Where a run's ninja is after each tick: what is left to look at when the run is changed.
+
+    ``columns``: the NINJA_FIELDS after each tick, of one length.
+    """
+
+    columns: Mapping[str, NDArray[Any]]
+
+    def __len__(self) -> int:
+        return len(self.columns["x"])
+
+    @property
+    def positions(self) -> NDArray[np.float64]:
+        """The ninja after each tick: float64 (ticks, 2), px."""
+        return np.column_stack([self.columns["x"], self.columns["y"]])
+
+    def at(self, tick: int) -> dict[str, Any]:
+        """The fields after a tick; behind the last one those of the last. Raises IndexError for an empty one."""
+        return {name: column[min(tick, len(column) - 1)].item() for name, column in self.columns.items()}
+
+
+EMPTY_TRAJECTORY = Trajectory({name: np.zeros(0) for name in NINJA_FIELDS})
+"""Of a run without ticks."""
+
+
 class Timeline:
-    """The world after every tick of a run. ``valid``: so many ticks are simulated, the *greenzone*; ``work`` adds more.
+    """The world after every tick of a run.
+
+    ``simulated_until``: so many ticks are simulated, the *greenzone*; ``simulate`` adds more.
 
     Row k of each column is the world after tick k. ``watched``: ids of the objects that are recorded too.
     Raises LevelError for a level that cannot be played.
@@ -50,8 +82,8 @@ class Timeline:
         self._objects = np.zeros((0, 0), _WATCHED_RECORD)
         self._events: list[str] = []
         self.inputs = b""
-        self.valid = 0
-        self.show(inputs)
+        self.simulated_until = 0
+        self.set_inputs(inputs)
 
     def __len__(self) -> int:
         """Ticks to be simulated: those with inputs and some more."""
@@ -60,15 +92,15 @@ class Timeline:
     @property
     def complete(self) -> bool:
         """Whether all ticks are simulated."""
-        return self.valid >= len(self)
+        return self.simulated_until >= len(self)
 
     # --- edits ---
 
-    def show(self, inputs: bytes) -> int:
+    def set_inputs(self, inputs: bytes) -> int:
         """Other inputs. What they have in common with those before stays simulated. The first tick that differs."""
         # Behind the inputs no key is down: a run that grows by such ticks goes the same way.
         longest = max(len(self.inputs), len(inputs))
-        same = first_difference(first_ticks(self.inputs, longest), first_ticks(inputs, longest))
+        same = first_difference(fitted_inputs(self.inputs, longest), fitted_inputs(inputs, longest))
         self.inputs = inputs
         self._forget(min(same, len(self)))
         return same
@@ -79,7 +111,7 @@ class Timeline:
         Raises ArgumentError for an unknown object.
         """
         for id_ in ids:
-            self.first_look(id_)
+            self.at_start(id_)
         wanted = tuple(sorted(set(ids)))
         if wanted != self.watched:
             self.watched = wanted
@@ -89,16 +121,16 @@ class Timeline:
     def _forget(self, tick: int) -> None:
         """From this tick on nothing is known any more."""
         self._states.forget_after(tick)
-        self.valid = min(self.valid, tick)
-        del self._events[self.valid :]
+        self.simulated_until = min(self.simulated_until, tick)
+        del self._events[self.simulated_until :]
 
-    def work(self, ticks: int) -> bool:
+    def simulate(self, ticks: int) -> bool:
         """Simulate up to so many ticks more; whether all is simulated now."""
         self._reserve(len(self))
-        stop = min(len(self), self.valid + ticks)
-        first = self._states.nearest(self.valid)[0]
-        while self.valid < stop:
-            start, state = self._states.nearest(self.valid)
+        stop = min(len(self), self.simulated_until + ticks)
+        first = self._states.nearest(self.simulated_until)[0]
+        while self.simulated_until < stop:
+            start, state = self._states.nearest(self.simulated_until)
             if self._memory.tick != start or start == first:
                 self._memory.restore(state)
             end = min(stop, start + max(1, self._states.spacing))
@@ -107,14 +139,14 @@ class Timeline:
                 self._states.keep(end, self._memory.save())
         return self.complete
 
-    def need(self, tick: int) -> None:
+    def ensure(self, tick: int) -> None:
         """Have all ticks up to this one simulated."""
-        if self.valid <= min(tick, len(self) - 1):
-            self.work(tick + 1 - self.valid)
+        if self.simulated_until <= min(tick, len(self) - 1):
+            self.simulate(tick + 1 - self.simulated_until)
 
     def _run(self, first: int, last: int) -> None:
         """Simulate the ticks ``first`` … ``last`` - 1 and note what they show."""
-        inputs = first_ticks(self.inputs[first:last], last - first)
+        inputs = fitted_inputs(self.inputs[first:last], last - first)
         record = self._memory.trace(inputs, [id_ + 1 for id_ in self.watched], events=True)
         for name, values in ninja_columns(record).items():
             self._columns[name][first:last] = values
@@ -123,10 +155,10 @@ class Timeline:
             watched[name] = objects[name]
         watched["switched"] = switched_doors(record, len(self.watched))
         self._events[first:] = event_names(record)
-        self.valid = last
+        self.simulated_until = last
 
     def _reserve(self, rows: int) -> None:
-        """Have room for so many rows."""
+        """Have room for this many rows."""
         if len(self._objects) >= rows:
             return
         more = max(rows - len(self._objects), _GROWTH)
@@ -137,12 +169,12 @@ class Timeline:
     # --- looking ---
 
     def column(self, name: str) -> NDArray[Any]:
-        """A field of TRACED_PLACES (px, px/tick) or TRACED_NUMBERS after each simulated tick: (valid,)."""
-        return self._columns[name][: self.valid]
+        """A field of TRACED_PLACES (px, px/tick) or TRACED_NUMBERS after each simulated tick: (simulated_until,)."""
+        return self._columns[name][: self.simulated_until]
 
     def object_column(self, id_: int, name: str) -> NDArray[Any]:
-        """x, y (px), s (status) or switched (0, 1) of a watched object after each simulated tick: (valid,)."""
-        return self._objects[: self.valid, self.watched.index(id_)][name]
+        """x, y (px), s (status) or switched (0, 1) of a watched object: (simulated_until,)."""
+        return self._objects[: self.simulated_until, self.watched.index(id_)][name]
 
     def events(self, tick: int) -> str:
         """The names of what happened in a simulated tick, with blanks between; of others ''."""
@@ -159,7 +191,7 @@ class Timeline:
         seen = enumerate(self._seen)
         return [(id_, kind, x, y) for id_, (kind, x, y, _) in seen if KIND_OF[kind].traced]
 
-    def first_look(self, id_: float) -> tuple[int, float, float, int]:
+    def at_start(self, id_: float) -> tuple[int, float, float, int]:
         """Kind, x, y (px) and status of an object at the start. Raises ArgumentError for an unknown one."""
         if not 0 <= id_ < len(self._seen) or id_ != int(id_) or not KIND_OF[self._seen[int(id_)][0]].traced:
             raise ArgumentError(f"there is no object {id_:g}; ids are those that `ninja-game splits` shows")
@@ -172,12 +204,12 @@ class Timeline:
 
     @property
     def positions(self) -> NDArray[np.float64]:
-        """The ninja after each simulated tick: float64 (valid, 2), px."""
+        """The ninja after each simulated tick: float64 (simulated_until, 2), px."""
         return np.column_stack([self.column("x"), self.column("y")])
 
-    def course(self) -> Course:
+    def trajectory(self) -> Trajectory:
         """What the ninja does in the simulated ticks, as it is now."""
-        return Course({name: self.column(name).copy() for name in FIGURE})
+        return Trajectory({name: self.column(name).copy() for name in NINJA_FIELDS})
 
     @property
     def end(self) -> tuple[int, str]:
@@ -187,6 +219,6 @@ class Timeline:
         return (int(ended[0]), OUTCOME_NAMES[int(outcomes[ended[0]])]) if len(ended) else (-1, OUTCOME_NAMES[0])
 
     def save_state(self, tick: int) -> SaveState:
-        """The nearest moment that is kept at or before the one after so many ticks, for ``Simulation.restore``."""
-        at, state = self._states.nearest(min(tick, self.valid, MAX_TICKS))
-        return SaveState(self.level, self.body, self.memory, first_ticks(self.inputs[:at], at), state)
+        """The nearest moment that is kept at or before the one after this many ticks, for ``Simulation.restore``."""
+        at, state = self._states.nearest(min(tick, self.simulated_until, MAX_TICKS))
+        return SaveState(self.level, self.body, self.memory, fitted_inputs(self.inputs[:at], at), state)

@@ -36,7 +36,7 @@ class Watch:
     formula: Formula
 
     def values(self, timeline: Timeline) -> Numbers:
-        """Its value after each simulated tick, float64 (valid,); a truth is 1 or 0, what has no value is NaN.
+        """Its value after each simulated tick, float64 (simulated_until,); a truth is 1 or 0, what has no value is NaN.
 
         Objects that are not recorded yet are recorded from now on. Raises ArgumentError for an unknown one.
         """
@@ -44,11 +44,11 @@ class Watch:
             try:
                 with np.errstate(all="ignore"):
                     found = np.asarray(self.formula.value(timeline_view(timeline)), np.float64)
-                return np.broadcast_to(found, (timeline.valid,))
+                return np.broadcast_to(found, (timeline.simulated_until,))
             except _UnwatchedError as error:
-                valid = timeline.valid
+                valid = timeline.simulated_until
                 timeline.watch([*timeline.watched, error.id])
-                timeline.need(valid - 1)
+                timeline.ensure(valid - 1)
 
 
 def parse_watch(text: str) -> Watch:
@@ -87,7 +87,7 @@ def timeline_view(timeline: Timeline) -> dict[str, Callable[..., NDArray[np.floa
     return {
         "x": lambda: column("x"), "y": lambda: column("y"), "vx": lambda: velocity("x"), "vy": lambda: velocity("y"),
         "speed": lambda: np.hypot(velocity("x"), velocity("y")),
-        "tick": lambda: np.arange(0.0, timeline.valid), "gold": lambda: column("gold"),
+        "tick": lambda: np.arange(0.0, timeline.simulated_until), "gold": lambda: column("gold"),
         "state": lambda: column("state"), "jump_timer": lambda: column("jump_timer"),
         "dead": lambda: column("outcome") == OUTCOME_DEAD, "won": lambda: column("outcome") == OUTCOME_EXIT,
         "in_air": lambda: column("in_air"), "near_wall": lambda: column("near_wall"),
@@ -100,7 +100,7 @@ def timeline_view(timeline: Timeline) -> dict[str, Callable[..., NDArray[np.floa
 
 
 def _object_column(timeline: Timeline, id_: float, name: str) -> Numbers:
-    timeline.first_look(id_)
+    timeline.at_start(id_)
     if id_ not in timeline.watched:
         raise _UnwatchedError(int(id_))
     return timeline.object_column(int(id_), name).astype(np.float64)
@@ -108,7 +108,7 @@ def _object_column(timeline: Timeline, id_: float, name: str) -> Numbers:
 
 def _flag(timeline: Timeline, id_: float, what: str) -> Numbers:
     """Whether an object is taken, or opened: its status is not the one that it has at the start."""
-    kind, _, _, status = timeline.first_look(id_)
+    kind, _, _, status = timeline.at_start(id_)
     if kind not in FLAGS[what]:
         kinds = " and ".join(KIND_NAMES[each] for each in FLAGS[what])
         raise ArgumentError(f"object {id_:g} is of kind {KIND_NAMES[kind]}; '{what}' is for {kinds}")

@@ -91,9 +91,7 @@ class Local:
     def _start(self) -> Executor:
         if not self._processes:
             return ThreadPoolExecutor(self._count)
-        # Not fork: a child that inherits the locks of our threads may wait for ever. A new interpreter must not import
-        # what lies in the current folder.
-        os.environ["PYTHONSAFEPATH"] = "1"
+        # Not fork: a child that inherits the locks of our threads may wait for ever.
         return ProcessPoolExecutor(self._count, get_context("spawn"), _begin_worker)
 
     @property
@@ -105,7 +103,7 @@ class Local:
         """A future of ``function(job)``. This starts processes."""
         if self._processes:
             function = partial(_in_limits, function)
-        with held_back():
+        with held_back(), _safe_path():
             try:
                 return self._executor.submit(function, job)
             except BrokenProcessPool:
@@ -126,6 +124,19 @@ class Local:
         for process in list((getattr(self._executor, "_processes", None) or {}).values()):
             process.kill()
         self._executor.shutdown(wait=self._processes, cancel_futures=not self._processes)
+
+
+@contextmanager
+def _safe_path() -> Iterator[None]:
+    """What is started meanwhile imports nothing from the current folder."""
+    before = os.environ.get("PYTHONSAFEPATH")
+    os.environ["PYTHONSAFEPATH"] = "1"
+    try:
+        yield
+    finally:
+        del os.environ["PYTHONSAFEPATH"]
+        if before is not None:
+            os.environ["PYTHONSAFEPATH"] = before
 
 
 def _begin_worker() -> None:

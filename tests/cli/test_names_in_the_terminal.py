@@ -48,7 +48,6 @@ COMMANDS = {
     "no file": "verify NOTHING",
     "check": "check LEVEL RECORDS --first --seconds 1 --jobs 1",
     "solve": "solve LEVEL --first --seconds 1 --jobs 1",
-    "eval": "learn eval random --levels LEVEL --episodes 1 --memory plain",
 }
 BYTES = {"trace", "splits as csv", "compare as csv", "convert", "convert to a level"}
 """What these write on standard output is for programs: every byte of it, where it is not a terminal."""

@@ -174,7 +174,7 @@ def test_nobodys_file_is_replaced_without_asking(tmp_path: Path) -> None:
         save(source, draft, path)
     other = tmp_path / "other.txt"
     other.write_text("mine")
-    with pytest.raises(OccupiedError, match=r"there is a file other.txt already"):
+    with pytest.raises(OccupiedError, match=r"a file named other.txt already exists"):
         save(source, draft, other)
     assert other.read_text() == "mine"
     source = save(source, draft, path, replacing=True)
@@ -215,9 +215,9 @@ def test_an_autosave_is_found_only_after_its_editor_has_died(tmp_path: Path) -> 
     source = open_source(path)
     draft = source.draft.with_tiles({(9, 9): 1})
     autosave = Autosave(tmp_path)
-    autosave.look(source.draft, source)
+    autosave.poll(source.draft, source)
     assert not (tmp_path / FOLDER).exists()
-    autosave.look(draft, source)
+    autosave.poll(draft, source)
     autosave._job.finish()
     assert not autosave.problem
     assert not list(recovered(tmp_path))
@@ -265,7 +265,7 @@ def test_a_file_that_has_gone_meanwhile_is_not_made_again_without_asking(tmp_pat
     assert save(source, source.draft, path, replacing=True).path == path
     link = tmp_path / "link.txt"
     link.symlink_to(tmp_path / "nothing")
-    with pytest.raises(OccupiedError, match=r"there is a file link\.txt already"):
+    with pytest.raises(OccupiedError, match=r"a file named link\.txt already exists"):
         save(new_source(), source.draft, link)
 
 
@@ -289,13 +289,13 @@ def test_an_autosave_goes_when_the_draft_is_saved_or_left(tmp_path: Path, monkey
     source = new_source()
     draft = source.draft.with_tiles({(9, 9): 1})
     autosave = Autosave(tmp_path)
-    autosave.look(draft, source)
+    autosave.poll(draft, source)
     autosave._job.finish()
     assert list((tmp_path / FOLDER).glob("*.json"))
-    autosave.look(draft, save(source, draft, tmp_path / "a.txt"))
+    autosave.poll(draft, save(source, draft, tmp_path / "a.txt"))
     autosave._job.finish()
     assert not list((tmp_path / FOLDER).glob("*.json"))
-    autosave.look(draft.with_tiles({(1, 1): 1}), source)
+    autosave.poll(draft.with_tiles({(1, 1): 1}), source)
     autosave.close()
     assert not list((tmp_path / FOLDER).iterdir())
 
@@ -308,7 +308,7 @@ def test_a_damaged_autosave_and_a_folder_that_cannot_be_written_stop_nothing(tmp
     blocked = tmp_path / "file"
     blocked.write_text("")
     autosave = Autosave(blocked)
-    autosave.look(new_source().draft.with_tiles({(9, 9): 1}), new_source())
+    autosave.poll(new_source().draft.with_tiles({(9, 9): 1}), new_source())
     autosave._job.finish()
     assert "cannot be kept safe" in autosave.problem
     autosave.close()
@@ -322,7 +322,7 @@ from ninja_game.editor.files import new_source
 source = new_source()
 autosave = Autosave(Path(sys.argv[1]))
 for number in range(34 * 34):
-    autosave.look(source.draft.with_tiles({(1, 1): number // 34, (2, 1): number % 34, (3, 1): 1}), source)
+    autosave.poll(source.draft.with_tiles({(1, 1): number // 34, (2, 1): number % 34, (3, 1): 1}), source)
     print(number, flush=True)
     time.sleep(0.05)
 """

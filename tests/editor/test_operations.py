@@ -11,7 +11,16 @@ from hypothesis import strategies as st
 from ninja_game.editor.draft import Draft, Tiles
 from ninja_game.editor.history import History
 from ninja_game.editor.motion import CLOCKWISE, FLIP, HALF_TURN, MIRROR, SYMMETRIES, Motion
-from ninja_game.editor.records import PROPERTIES, carried, points, properties, settled, sort_name, with_word, word
+from ninja_game.editor.records import (
+    PROPERTIES,
+    carried,
+    object_type_name,
+    points,
+    properties,
+    settled,
+    with_word,
+    word,
+)
 from ninja_game.editor.stamp import (
     Selection,
     Stamp,
@@ -192,11 +201,11 @@ def test_an_object_is_itself_again_after_a_motion_and_its_inverse(one: ObjectSpe
     inverse = Motion(motion.xx, motion.yx, motion.xy, motion.yy).about(396, 300)
     there = carried(one, about)
     for part, point in points(one).items():
-        if sort_name(one) != "floor guard":
+        if object_type_name(one) != "floor guard":
             assert points(there)[part] == pytest.approx(about.point(*point))
     back = carried(there, inverse)
     assert back.values == pytest.approx(one.values)
-    assert (there == one) == (not motion.turns) or sort_name(one) in ("ninja", "bounce block", "floor guard")
+    assert (there == one) == (not motion.turns) or object_type_name(one) in ("ninja", "bounce block", "floor guard")
 
 
 @pytest.mark.parametrize("motion", EIGHT)
@@ -295,6 +304,6 @@ def test_properties_say_what_the_records_words_say() -> None:
                     assert word(changed, name) == text
                     world = Simulation(Level(objects=(RECORDS[0], changed))).world
                     assert world.objects[2].kind == kind
-    door = with_word(record("locked door 9,21 left switch 3,19"), "sort", "automatic door")
+    door = with_word(record("locked door 9,21 left switch 3,19"), "type", "automatic door")
     assert settled(door) == record("automatic door 9,21 left")
     assert door.kind == DOOR

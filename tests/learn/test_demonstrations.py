@@ -133,13 +133,13 @@ def test_several_parts_are_written_under_their_names(tmp_path: Path, monkeypatch
 
 def test_the_command_writes_demonstrations_and_names_what_it_leaves_out(tmp_path: Path) -> None:
     out = tmp_path / "demos.npz"
-    words = ["learn", "demos", str(bundled_replays()[0]), "-o", str(out), "--memory", "plain", "--actions", "buttons"]
+    words = ["demonstrations", str(bundled_replays()[0]), "-o", str(out), "--memory", "plain", "--actions", "buttons"]
     result = CliRunner().invoke(cli, words)
     assert result.exit_code == 0, result.output
     assert "1 demonstrations, 149 steps, 1 to the exit" in result.stdout
     with np.load(out) as stored:
         assert stored["actions"].shape == (149, 3)
-    for wrong in (words[:3], [*words[:4], str(tmp_path / "demos.txt")], [*words, "--observation", "smell"]):
+    for wrong in (words[:2], [*words[:3], str(tmp_path / "demos.txt")], [*words, "--observation", "smell"]):
         result = CliRunner().invoke(cli, wrong)
         assert result.exit_code == 2
         assert result.stdout == ""
@@ -164,6 +164,6 @@ def test_reference_recordings_are_demonstrations_unless_they_press_jump_anew() -
 
 def test_without_minari_it_is_said_how_to_install_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("ninja_game.learn.demonstrations.find_spec", lambda _: None)
-    result = CliRunner().invoke(cli, ["learn", "demos", str(bundled_replays()[0]), "--minari", "ninja/one-v0"])
+    result = CliRunner().invoke(cli, ["demonstrations", str(bundled_replays()[0]), "--minari", "ninja/one-v0"])
     assert (result.exit_code, result.stdout) == (2, "")
     assert "data sets of Minari need it" in result.stderr

@@ -5,16 +5,13 @@ from __future__ import annotations
 import csv
 import io
 import json
-from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
 import pytest
-from click.testing import CliRunner
 from numpy.typing import NDArray
 
 from ninja_game import load_replays
-from ninja_game.cli.main import cli
 from ninja_game.files.resources import bundled_replays
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.learn.evaluation import Evaluation, LevelResult, evaluate
@@ -45,7 +42,7 @@ class Runner:
 
 
 class Walker:
-    """Plans to run to the right for so many steps."""
+    """Plans to run to the right for this many steps."""
 
     settings: ClassVar[dict[str, Any]] = {"frame_skip": 4, "actions": "discrete"}
 
@@ -130,23 +127,3 @@ def test_tables_say_the_same_in_every_form() -> None:
         ("a", "9", "310.0", "0.9"),
         ("b", "0", "", "0.0"),
     ]
-
-
-def test_the_command_writes_the_table(tmp_path: Path) -> None:
-    words = ["learn", "eval", "random", "--levels", "00-0-first-steps", "--levels", str(tmp_path / "near.nlevel")]
-    (tmp_path / "near.nlevel").write_text("0" * 713 + "|5^100,566!11^260,564,230,564\n")
-    words += ["--episodes", "2", "--time-limit", "40", "--memory", "plain"]
-    shown = CliRunner().invoke(cli, words)
-    assert shown.exit_code == 0, shown.output
-    assert [line.split()[0] for line in shown.stdout.splitlines()] == ["level", "00-0-first-steps", "near", "random:"]
-    out = tmp_path / "random.json"
-    assert CliRunner().invoke(cli, [*words, "--json", "-o", str(out)]).exit_code == 0
-    assert [row["episodes"] for row in json.loads(out.read_text())["results"]] == [2, 2]
-    assert CliRunner().invoke(cli, [*words, "--csv"]).stdout.startswith("agent,level,episodes,passed")
-
-
-@pytest.mark.parametrize("wrong", [["nobody"], ["random", "--levels", "nowhere"], ["random", "-o", "."]])
-def test_the_command_says_what_is_wrong(wrong: list[str]) -> None:
-    result = CliRunner().invoke(cli, ["learn", "eval", *wrong])
-    assert (result.exit_code, result.stdout) == (2, "")
-    assert "Traceback" not in result.stderr

@@ -19,7 +19,7 @@ from gymnasium.wrappers import (
 )
 from gymnasium.wrappers import vector as vector_wrappers
 
-from ninja_game.environments import ENVIRONMENTS
+from ninja_game.learn import ENVIRONMENTS
 from ninja_game.learn.single import NinjaEnv
 from ninja_game.learn.vector import NinjaVectorEnv
 

@@ -10,10 +10,11 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from examples import evaluate, train
+from examples.agents import LEARNED
 from ninja_game.cli.main import cli
-from ninja_game.environments import ENVIRONMENTS
 from ninja_game.files.resources import data_folder
-from ninja_game.learn.agents.load import learned_file
+from ninja_game.learn import ENVIRONMENTS
 from ninja_game.learn.observations.observation import PARTS
 from ninja_game.learn.rewards import REWARD_TERMS
 
@@ -22,7 +23,7 @@ COMMANDS = [
     line
     for block in re.findall(r"^```sh\n(.*?)^```$", DOC, re.MULTILINE | re.DOTALL)
     for line in block.splitlines()
-    if line.startswith("ninja-game ")
+    if line.startswith(("ninja-game ", "python3 -m examples."))
 ]
 SHORTER = {
     "levels/certificates": "levels/certificates/00-0-first-steps.exit.replay.txt",
@@ -30,7 +31,7 @@ SHORTER = {
     "50": "3",
     "100": "3",
     "240": "1",
-    "agent.npz": str(learned_file()),
+    "agent.npz": str(LEARNED),
 }
 """What a command of the page is run with instead, so that a test takes seconds."""
 
@@ -40,8 +41,9 @@ def test_a_command_of_the_page_does_what_it_says(line: str, tmp_path: Path, monk
     monkeypatch.setenv("MINARI_DATASETS_PATH", str(tmp_path))
     monkeypatch.chdir(tmp_path)
     (tmp_path / "levels").symlink_to(data_folder("levels"))
-    words = [SHORTER.get(word, word) for word in shlex.split(line)[1:]]
-    result = CliRunner().invoke(cli, words)
+    program, *words = [SHORTER.get(word, word) for word in shlex.split(line.removeprefix("python3 -m "))]
+    command = {"ninja-game": cli, "examples.train": train.main, "examples.evaluate": evaluate.main}[program]
+    result = CliRunner().invoke(command, words)
     assert result.exit_code == 0, result.output
     assert result.stdout
 

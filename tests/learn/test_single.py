@@ -13,9 +13,9 @@ from gymnasium.error import ClosedEnvironmentError, InvalidAction, ResetNeeded, 
 from gymnasium.utils.env_checker import check_env
 
 from ninja_game import load_level, record_replay
-from ninja_game.environments import ENVIRONMENTS
 from ninja_game.errors import ArgumentError
 from ninja_game.files.resources import bundled_levels
+from ninja_game.learn import ENVIRONMENTS
 from ninja_game.learn.observations.local_tiles import LocalTiles
 from ninja_game.learn.observations.observation import PARTS
 from ninja_game.learn.rewards import REWARD_TERMS

@@ -205,7 +205,7 @@ def test_the_program_has_a_bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
     run_app(first, frames=1)
     (app,) = programs
-    assert app.open_bench is not None
+    assert app.open_tas_editor is not None
 
 
 def test_no_display_is_said(monkeypatch: pytest.MonkeyPatch) -> None:

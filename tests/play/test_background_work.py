@@ -20,10 +20,10 @@ from ninja_game.play.tas.tabs import lead_tab
 from ninja_game.search.formula import background
 from ninja_game.search.formula.background import SpanSearch
 from ninja_game.search.formula.task import SpanTask
-from tests.support.bench_driver import BenchDriver
 from tests.support.level_maker import ROOM, Maker
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
+from tests.support.tas_driver import TasDriver
 from tests.support.waiting import LONGEST
 
 RUN = PACK / "certificates" / "00-2-the-chimney.exit.replay.txt"
@@ -118,7 +118,7 @@ def test_a_level_that_cannot_be_examined_or_certified_says_why(
     try:
         maker.open("Editor")
         session = maker.editor.session
-        session.bench.load(ROOM)
+        session.tools.load(ROOM)
         until(maker, lambda: maker.app.notice)
         assert maker.app.notice == f"The level could not be examined: {why}"
         maker.press("f7")
@@ -131,7 +131,7 @@ def test_a_level_that_cannot_be_examined_or_certified_says_why(
 
 def test_runs_that_cannot_be_compared_say_why(tmp_path: Path, why: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(lead_tab, "lead_table", raising(why))
-    at = BenchDriver(tmp_path, RUN)
+    at = TasDriver(tmp_path, RUN)
     try:
         at.screen.show_tab(at.screen.tabs[2])
         until(at, lambda: at.screen.tabs[2].summary not in ("", "comparing ..."))  # type: ignore[attr-defined]
@@ -154,7 +154,7 @@ def test_a_run_whose_rules_cannot_be_loaded_says_why(
     monkeypatch.setattr(opening, "is_prepared", lambda: False)
     monkeypatch.setattr(opening, "prepare", raising(why))
     below = driver.top()
-    opening.open_bench(driver.app, load_replays(RUN)[0], [], 0)
+    opening.open_tas_editor(driver.app, load_replays(RUN)[0], [], 0)
     until(driver, lambda: driver.top() is below)
     assert driver.app.notice == f"It cannot be edited: {why}"
 

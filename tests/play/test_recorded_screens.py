@@ -15,9 +15,9 @@ from types import CodeType
 
 import pytest
 
-from tests.support.bench_screens import BenchLog, tas_editor, with_rows_once
 from tests.support.draw_log import DrawLog
 from tests.support.game_screens import screens_as_texts
+from tests.support.tas_screens import TasLog, tas_editor, with_rows_once
 from tools import ROOT
 
 GOLDEN = Path(__file__).parent / "golden"
@@ -39,13 +39,13 @@ NOT_SHOWN = {
 
 
 @pytest.fixture(scope="module")
-def logs() -> tuple[DrawLog, BenchLog]:
+def logs() -> tuple[DrawLog, TasLog]:
     """Of the two tours."""
-    return DrawLog(), BenchLog()
+    return DrawLog(), TasLog()
 
 
 @pytest.fixture(scope="module")
-def screens(tmp_path_factory: pytest.TempPathFactory, logs: tuple[DrawLog, BenchLog]) -> dict[str, str]:
+def screens(tmp_path_factory: pytest.TempPathFactory, logs: tuple[DrawLog, TasLog]) -> dict[str, str]:
     """The text of each screen by its folder and name."""
     game = screens_as_texts(tmp_path_factory.mktemp("player"), log=logs[0])
     tas = with_rows_once(screens_as_texts(tmp_path_factory.mktemp("player"), steps=tas_editor, log=logs[1]))
@@ -66,7 +66,7 @@ def drawing_functions() -> Iterator[tuple[str, CodeType]]:
 
 
 def test_every_function_that_draws_is_shown_by_some_screen(
-    screens: dict[str, str], logs: tuple[DrawLog, BenchLog]
+    screens: dict[str, str], logs: tuple[DrawLog, TasLog]
 ) -> None:
     """A new screen, part or tab is in a tour of tests/support, or here with a reason."""
     assert screens

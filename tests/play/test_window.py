@@ -76,7 +76,7 @@ def test_a_machine_without_a_sound_card_is_silent_on_the_terminal_too(tmp_path: 
 
 
 class Probe(Screen):
-    """Writes down what it is told."""
+    """Keeps what it gets."""
 
     def __init__(self, app: App, *, see_through: bool = False, below_runs: bool = False) -> None:
         super().__init__(app)

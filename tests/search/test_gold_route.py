@@ -9,6 +9,7 @@ import pytest
 
 from ninja_game.backend.memories import compiled_available
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.replay.text import Replay
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level
 
@@ -17,7 +18,7 @@ if not compiled_available():
 
 from ninja_game.search import sweeps
 from ninja_game.search.best_first import Leg, Search
-from ninja_game.search.certificate import VerifiedRun, verified_run
+from ninja_game.search.certificate import verified_run
 from ninja_game.search.engine import OTHER_ENDS
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.legs import Checkpoint, Frontier
@@ -178,21 +179,21 @@ def test_a_run_may_go_from_switch_to_switch_without_gold() -> None:
 
 
 @pytest.fixture(scope="module")
-def first() -> VerifiedRun:
+def first() -> Replay:
     """The first run with all gold of LINES that comes."""
     run = solve(Task(LINES, gold=-1, work=20_000_000, first_only=True))
     assert run
     return run
 
 
-def shortener_of(first: VerifiedRun) -> Shortener:
+def shortener_of(first: Replay) -> Shortener:
     """What sweeps a run of LINES."""
     start = open_start(LINES, box=False)
     search = Search(start, Heuristics(start.levels, start.worlds), nodes=50_000)
     return Shortener(search, first.inputs, seed=1)
 
 
-def test_a_run_with_gold_in_a_bad_order_gets_much_shorter(first: VerifiedRun) -> None:
+def test_a_run_with_gold_in_a_bad_order_gets_much_shorter(first: Replay) -> None:
     shortener = shortener_of(first)
     runs = [shortener.sweep(lambda _: False) for _ in range(4)]
     best = min(filter(None, runs), key=len)
@@ -200,7 +201,7 @@ def test_a_run_with_gold_in_a_bad_order_gets_much_shorter(first: VerifiedRun) ->
     assert verified_run(LINES, best, gold=all_gold(LINES)).end_tick < 0.85 * first.end_tick
 
 
-def test_a_sweep_keeps_moments_of_different_velocities(first: VerifiedRun) -> None:
+def test_a_sweep_keeps_moments_of_different_velocities(first: Replay) -> None:
     """No enemy is there: only the velocities differ."""
     shortener = shortener_of(first)
     shortener.sweep(lambda _: False)
@@ -208,7 +209,7 @@ def test_a_sweep_keeps_moments_of_different_velocities(first: VerifiedRun) -> No
     assert max(len({checkpoint.routines for checkpoint in frontier.checkpoints}) for frontier in frontiers) > 5
 
 
-def test_a_leg_that_finds_nothing_gets_more_work(first: VerifiedRun, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_leg_that_finds_nothing_gets_more_work(first: Replay, monkeypatch: pytest.MonkeyPatch) -> None:
     """Legs of one tick find nothing; only because they are tried again does the run get shorter."""
     monkeypatch.setattr(sweeps, "LEG_TICKS", 1)
     monkeypatch.setattr(sweeps, "EFFORTS", (1, 150_000))

@@ -197,7 +197,7 @@ def test_gold_in_a_wall_is_collected_from_beside_it() -> None:
 
 
 def key_after(text: str, ticks: int, resolution: Resolution) -> int:
-    """The key of the moment after so many ticks without keys; the ninja stands still."""
+    """The key of the moment after this many ticks without keys; the ninja stands still."""
     level = parse_level_string(text)
     start = open_start(level, box=False)
     goal = Search(start, Heuristics(start.levels, start.worlds), nodes=100).goal

@@ -37,7 +37,7 @@ from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK, instead_of_ours
 
 if TYPE_CHECKING:
-    from ninja_game.search.certificate import VerifiedRun
+    from ninja_game.formats.replay.text import Replay
 
 RANGE = """ninja-game level 1
 name: Target practice
@@ -332,17 +332,17 @@ def _editor_states(driver: MenuDriver) -> Iterator[str]:
     driver.frames(2)
     for name, tile in (("tiles", True), ("objects", False)):
         for symmetry in ("left-right", "both"):
-            screen.session.bench.symmetry = symmetry
-            screen.session.bench.take(8 if tile else ObjectSpec(GOLD, (0.0, 0.0)))
+            screen.session.tools.symmetry = symmetry
+            screen.session.tools.pick_up(8 if tile else ObjectSpec(GOLD, (0.0, 0.0)))
             driver.mouse(200, 160, click=False)
             yield f"editor-symmetry-{symmetry}-{name}"
-    screen.session.bench.symmetry = "off"
+    screen.session.tools.symmetry = "off"
     certifier = screen.session.certifier
     yield "editor-not-certified"
     replay = load_replays(bundled_replays()[0])[0]
     certifier.level, certifier.route = screen.session.draft.level, ((60.0, 542.0), (120.0, 500.0), (180.0, 540.0))
-    certifier.run, certifier._said = cast("VerifiedRun", replay), "Certified: 3.90 s"
-    screen.desk.stale = True
+    certifier.run, certifier._said = cast("Replay", replay), "Certified: 3.90 s"
+    screen.view.stale = True
     yield "editor-certified"
     driver.mouse(300, 300)
     driver.press("escape")
@@ -364,7 +364,7 @@ def _editor_states(driver: MenuDriver) -> Iterator[str]:
     driver.frames()
     yield "editor-save-as"
     driver.press("escape")
-    screen.session.bench.history.change(screen.session.source.draft)
+    screen.session.tools.history.change(screen.session.source.draft)
     screen.commands.open()
     driver.frames(20)
     yield "editor-open"

@@ -8,8 +8,8 @@ import pygame
 
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.stamp import Stamp, put
-from ninja_game.play.editor.desk import DESK
 from ninja_game.play.editor.screen import EditorScreen
+from ninja_game.play.editor.view import LAYOUT
 from ninja_game.play.input.scancodes import SCANCODES
 from ninja_game.play.menus.panels import Menu
 from ninja_game.sim.kinds import EXIT, NINJA
@@ -48,7 +48,7 @@ class Maker(MenuDriver):
 
     def at(self, x: float, y: float) -> tuple[float, float]:
         """Where a point of the level is seen."""
-        left, top, width, _ = DESK.level
+        left, top, width, _ = LAYOUT.level
         return left + x * width / 792, top + y * width / 792
 
     def drag(self, *places: tuple[float, float], button: int = 1) -> None:

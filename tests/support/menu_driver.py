@@ -15,7 +15,7 @@ from ninja_game.play.input.scancodes import SCANCODES
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.settings.screen import PAGES, SettingsScreen
 from ninja_game.play.screen import Screen
-from ninja_game.play.tas.opening import open_bench
+from ninja_game.play.tas.opening import open_tas_editor
 from ninja_game.player.player_data import PlayerData
 
 FRAME_MS = 25
@@ -38,7 +38,7 @@ class MenuDriver:
         self.keys = ScriptedKeys()
         self.keys.script = []
         self.app = build_app(folder, size=size, controls=self.keys)
-        self.app.open_bench = partial(open_bench, self.app)
+        self.app.open_tas_editor = partial(open_tas_editor, self.app)
         self.app.push(MainMenu(self.app))
         self.frames(2)
 

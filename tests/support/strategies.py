@@ -12,7 +12,7 @@ from ninja_game.sim.inputs import Demo
 from ninja_game.sim.kinds import VALUE_COUNTS
 from ninja_game.sim.level import TILES, Level, ObjectSpec
 from ninja_game.sim.memory.interface import BODIES
-from ninja_game.tas.take import Take
+from ninja_game.tas.input_track import InputTrack
 
 # Decimals of at most 15 digits, as they stand in levels, read by the game's rule.
 decimal_texts = st.one_of(
@@ -114,8 +114,8 @@ odd_inputs = st.lists(st.integers(0, 15), max_size=30).map(bytes)
 
 
 @st.composite
-def takes(draw: st.DrawFn, inputs: st.SearchStrategy[bytes] = odd_inputs) -> Take:
+def tracks(draw: st.DrawFn, inputs: st.SearchStrategy[bytes] = odd_inputs) -> InputTrack:
     """Runs under edit, with names of ticks."""
     keys = draw(inputs)
     markers = draw(st.dictionaries(names_of_ticks, st.integers(0, len(keys)), max_size=4))
-    return Take(keys, tuple(sorted(Marker(tick, name) for name, tick in markers.items())))
+    return InputTrack(keys, tuple(sorted(Marker(tick, name) for name, tick in markers.items())))

@@ -16,18 +16,19 @@ from ninja_game.formats.load import load_replays
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.tas.branches import Branch, Branches, branches_of_json
 from ninja_game.tas.files import open_run, save_run
+from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.journal import FOLDER, Journal, read_journal, recovered
 from ninja_game.tas.session import Session
-from ninja_game.tas.take import Take
-from tests.support.bench_edits import edit_at_random
 from tests.support.samples import replay_of_walk
-from tests.support.strategies import takes
+from tests.support.strategies import tracks
+from tests.support.tas_edits import edit_at_random
 
-branches_of_any_sort = st.builds(Branch, st.text(max_size=5), takes(), st.none(), st.integers(-1, 99), st.just("dead"))
+branches_of_any_sort = st.builds(Branch, st.text(max_size=5), tracks(), st.none(), st.integers(-1, 99), st.just("dead"))
 
 
 @given(
-    st.lists(st.tuples(st.sampled_from(["keep", "keep", "drop", "go_on", "rename"]), branches_of_any_sort)), st.data()
+    st.lists(st.tuples(st.sampled_from(["keep", "keep", "drop", "checkout", "rename"]), branches_of_any_sort)),
+    st.data(),
 )
 def test_branches_are_a_tree_whatever_is_done(steps: list[tuple[str, Branch]], data: st.DataObject) -> None:
     branches = Branches()
@@ -36,13 +37,13 @@ def test_branches_are_a_tree_whatever_is_done(steps: list[tuple[str, Branch]], d
         number = data.draw(st.integers(0, max(0, len(branches) - 1)))
         if what == "keep":
             kept = branches.keep(branch)
-            assert (branches.current, branches.all[kept].take) == (kept, branch.take)
+            assert (branches.current, branches.all[kept].track) == (kept, branch.track)
             told.do({"keep": json.loads(json.dumps(branches.as_json()["branches"][kept]))})
         elif not branches.all:
             continue
         elif what == "drop":
             parents = [each.parent for each in branches.all]
-            names = {at: id(each.take) for at, each in enumerate(branches.all)}
+            names = {at: id(each.track) for at, each in enumerate(branches.all)}
             branches.drop(number)
             told.do({"drop": number})
             for at, each in enumerate(branches.all):
@@ -50,10 +51,10 @@ def test_branches_are_a_tree_whatever_is_done(steps: list[tuple[str, Branch]], d
                 parent = parents[number] if parent == number else parent
                 assert (each.parent is None) == (parent is None)
                 if parent is not None and each.parent is not None:
-                    assert id(branches.all[each.parent].take) == names[parent]
-        elif what == "go_on":
-            assert branches.go_on_from(number) == branches.all[number].take
-            told.do({"go_on": number})
+                    assert id(branches.all[each.parent].track) == names[parent]
+        elif what == "checkout":
+            assert branches.checkout(number) == branches.all[number].track
+            told.do({"checkout": number})
         else:
             branches.rename(number, branch.name)
             told.do({"rename": number, "name": branch.name})
@@ -69,7 +70,7 @@ def test_branches_are_a_tree_whatever_is_done(steps: list[tuple[str, Branch]], d
 def test_a_long_line_of_branches_is_shown() -> None:
     branches = Branches()
     for _ in range(3000):
-        branches.keep(Branch("a", Take(b"")))
+        branches.keep(Branch("a", InputTrack(b"")))
     assert list(branches.in_tree())[-1] == (2999, 2999)
 
 
@@ -84,8 +85,8 @@ def damaged(text: str, rng: Random) -> str:
 
 def test_damaged_branches_are_told() -> None:
     branches = Branches()
-    branches.keep(Branch("one", Take(b"\1\2").named(1, "a")))
-    branches.keep(Branch("two", Take(b"\1\2\3")))
+    branches.keep(Branch("one", InputTrack(b"\1\2").named(1, "a")))
+    branches.keep(Branch("two", InputTrack(b"\1\2\3")))
     text = json.dumps(branches.as_json())
     rng = Random(2)
     for _ in range(4000):
@@ -111,12 +112,12 @@ def journal_of(folder: Path) -> Path:
 
 def test_a_kill_at_any_byte_loses_at_most_the_last_edit(session: Session, tmp_path: Path) -> None:
     rng = Random(3)
-    states = [(session.take, list(session.branches.all))]
+    states = [(session.track, list(session.branches.all))]
     sizes = []
-    session.change(session.take.replaced(0, 0, [1]))
+    session.change(session.track.replaced(0, 0, [1]))
     file = journal_of(tmp_path)
     for _ in range(60):
-        states.append((session.take, list(session.branches.all)))
+        states.append((session.track, list(session.branches.all)))
         sizes.append(file.stat().st_size)
         edit_at_random(session, rng, strokes=False)
     whole = file.read_bytes()
@@ -127,21 +128,21 @@ def test_a_kill_at_any_byte_loses_at_most_the_last_edit(session: Session, tmp_pa
         file.write_bytes(whole[:size])
         found = read_journal(file)
         done = sum(each <= size for each in sizes)
-        takes = (found.opened.take, *found.takes)
-        assert (takes[-1], found.branches.all) == states[done], size
+        tracks = (found.opened.track, *found.tracks)
+        assert (tracks[-1], found.branches.all) == states[done], size
         # What is written afterwards is read again, whatever was cut.
         journal = Journal(tmp_path, found.said, file)
         assert journal.note({"drop": 99})
         journal.close(keep=True)
-        assert read_journal(file).takes == found.takes
+        assert read_journal(file).tracks == found.tracks
 
 
 def test_damaged_journals_give_only_takes_that_there_were(session: Session, tmp_path: Path) -> None:
     rng = Random(4)
-    there = {session.take}
+    there = {session.track}
     for _ in range(25):
         edit_at_random(session, rng, strokes=False)
-        there.add(session.take)
+        there.add(session.track)
     session.close(keep=True)
     file = journal_of(tmp_path)
     whole = file.read_bytes().decode()
@@ -150,39 +151,39 @@ def test_damaged_journals_give_only_takes_that_there_were(session: Session, tmp_
         begin = file.read_bytes().split(b"\n")[0] == whole.encode().split(b"\n")[0]
         for found in recovered(tmp_path):
             if begin:
-                assert {found.opened.take, *found.takes} <= there
+                assert {found.opened.track, *found.tracks} <= there
             Session(found.opened, tmp_path, memory="plain").close()
 
 
 def test_a_run_goes_on_where_a_killed_session_was(session: Session, tmp_path: Path) -> None:
-    session.change(session.take.replaced(2, 3, [5]))
+    session.change(session.track.replaced(2, 3, [5]))
     session.keep_branch("one")
     session.begin()
     for tick in range(5):
-        session.change(session.take.replaced(tick, tick + 1, [4]))
+        session.change(session.track.replaced(tick, tick + 1, [4]))
     assert list(recovered(tmp_path)) == [], "it is running"
-    stroke = session.take
+    stroke = session.track
     session.journal.close(keep=True)
     (found,) = recovered(tmp_path)
-    assert found.takes[-1] == stroke, "also in the middle of a stroke"
-    assert len(found.takes) == 2
+    assert found.tracks[-1] == stroke, "also in the middle of a stroke"
+    assert len(found.tracks) == 2
     again = Session(found.opened, tmp_path, memory="plain")
     again.recover(found)
     assert again.file.path == tmp_path / "walk.replay.txt"
-    assert (again.take, [each.name for each in again.branches.all]) == (stroke, ["one"])
+    assert (again.track, [each.name for each in again.branches.all]) == (stroke, ["one"])
     assert not again.is_saved
     assert list(recovered(tmp_path)) == [], "it is gone on with"
     with pytest.raises(FileError, match="another window"):
         Session(found.opened, tmp_path, memory="plain").recover(found)
-    again.change(again.take.replaced(9, 10, [7]))
-    last = again.take
+    again.change(again.track.replaced(9, 10, [7]))
+    last = again.track
     again.journal.close(keep=True)
     (found,) = recovered(tmp_path)
-    assert found.takes[-1] == last
+    assert found.tracks[-1] == last
     third = Session(found.opened, tmp_path, memory="plain")
     third.recover(found)
     assert third.undo()
-    assert third.take == stroke
+    assert third.track == stroke
     third.save(tmp_path / "walk.replay.txt")
     assert load_replays(tmp_path / "walk.replay.txt")[0].replay.playback(9)[:5] == with_press_bits([4] * 5)
     assert list((tmp_path / FOLDER).iterdir()) == []
@@ -191,19 +192,19 @@ def test_a_run_goes_on_where_a_killed_session_was(session: Session, tmp_path: Pa
 def test_what_cannot_be_written_is_told_and_comes_later(
     session: Session, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    session.change(session.take.replaced(0, 1, [1]))
+    session.change(session.track.replaced(0, 1, [1]))
     write = os.write
     monkeypatch.setattr(os, "write", lambda handle, data: write(handle, data[: len(data) // 2]))
     session.keep_branch("lost?")
-    session.change(session.take.replaced(1, 2, [1]))
+    session.change(session.track.replaced(1, 2, [1]))
     assert "the disk is full" in session.journal.problem
     monkeypatch.setattr(os, "write", write)
     session.rename_branch(0, "kept")
-    session.change(session.take.replaced(2, 3, [1]))
+    session.change(session.track.replaced(2, 3, [1]))
     assert session.journal.problem == ""
     session.journal.close(keep=True)
     (found,) = recovered(tmp_path)
-    assert found.takes[-1] == session.take
+    assert found.tracks[-1] == session.track
     assert found.branches.all == session.branches.all
 
 
@@ -212,7 +213,7 @@ def test_a_place_without_files_is_told(tmp_path: Path) -> None:
     path.write_text(replay_of_walk(), "utf-8")
     (tmp_path / FOLDER).write_text("in the way")
     session = Session(open_run(path), tmp_path, memory="plain")
-    session.change(session.take.replaced(0, 1, [1]))
+    session.change(session.track.replaced(0, 1, [1]))
     assert "cannot be kept safe" in session.journal.problem
 
 
@@ -226,45 +227,45 @@ def test_undo_and_redo_bring_back_every_take(seed: int) -> None:
         path = Path(folder) / "walk.replay.txt"
         path.write_text(replay_of_walk(), "utf-8")
         session = Session(open_run(path), Path(folder), memory="plain")
-        takes = [session.take]
+        tracks = [session.track]
         for _ in range(20):
-            session.change(session.take.replaced(rng.randrange(30), 30, [rng.randrange(8)]))
-            if session.take != takes[-1]:
-                takes.append(session.take)
-        last = takes[-1]
+            session.change(session.track.replaced(rng.randrange(30), 30, [rng.randrange(8)]))
+            if session.track != tracks[-1]:
+                tracks.append(session.track)
+        last = tracks[-1]
         while session.undo():
-            takes.pop()
-            assert session.take == takes[-1]
-        assert len(takes) == 1
+            tracks.pop()
+            assert session.track == tracks[-1]
+        assert len(tracks) == 1
         while session.redo():
             pass
-        assert session.take == last
+        assert session.track == last
         session.close()
 
 
 def test_a_kill_between_the_file_and_its_journal_loses_nothing(session: Session, tmp_path: Path) -> None:
-    first = session.take
-    session.change(session.take.replaced(0, 24, []))
-    session.change(Take(b"\1"))
+    first = session.track
+    session.change(session.track.replaced(0, 24, []))
+    session.change(InputTrack(b"\1"))
     path = session.file.path
     assert path is not None
     session.journal.close(keep=True)
-    save_run(session.about, session.take, session.branches, path, session.file)
+    save_run(session.about, session.track, session.branches, path, session.file)
     (found,) = recovered(tmp_path)
     again = Session(found.opened, tmp_path, memory="plain")
     again.recover(found)
     again.undo()
     again.undo()
-    assert (again.take, again.is_saved) == (first, False)
+    assert (again.track, again.is_saved) == (first, False)
     again.save(path, replacing=True)
     assert again.is_saved
-    assert open_run(path).take == first
+    assert open_run(path).track == first
 
 
 def test_edits_of_an_empty_run_are_found_again(session: Session, tmp_path: Path) -> None:
-    session.change(Take(b""))
+    session.change(InputTrack(b""))
     session.journal.begin_anew(session._opened())
-    session.change(Take(b"\1"))
+    session.change(InputTrack(b"\1"))
     session.journal.close(keep=True)
     (found,) = recovered(tmp_path)
-    assert (found.opened.take, found.takes) == (Take(b""), (Take(b"\1"),))
+    assert (found.opened.track, found.tracks) == (InputTrack(b""), (InputTrack(b"\1"),))

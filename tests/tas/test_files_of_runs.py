@@ -18,47 +18,47 @@ from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.runs.verify import Verdict
-from ninja_game.sim.inputs import first_ticks
+from ninja_game.sim.inputs import fitted_inputs
 from ninja_game.tas.branches import Branches
-from ninja_game.tas.files import OpenedRun, RunFile, branches_path, open_run, save_run, take_of
+from ninja_game.tas.files import OpenedRun, RunFile, branches_path, open_run, save_run, track_of
+from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.journal import FOLDER, recovered
 from ninja_game.tas.session import Session
-from ninja_game.tas.take import Take
 from ninja_game.verification.verify_many import verify_all
 from tests.support.own_pack import PACK, instead_of_ours
 from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records
-from tests.support.strategies import takes
+from tests.support.strategies import tracks
 
 LEVEL = parse_level_string(WALK)
 
 
-def saved_take(opened: OpenedRun, take: Take, path: Path) -> OpenedRun:
-    """Save a take, and open it again."""
-    save_run(opened.recording, take, Branches(), path, opened.file)
+def saved_take(opened: OpenedRun, track: InputTrack, path: Path) -> OpenedRun:
+    """Save an input track, and open it again."""
+    save_run(opened.recording, track, Branches(), path, opened.file)
     return open_run(path)
 
 
-@given(takes(), st.sampled_from(["circle", "box"]))
-def test_what_is_saved_opens_again_as_it_was(take: Take, body: str) -> None:
+@given(tracks(), st.sampled_from(["circle", "box"]))
+def test_what_is_saved_opens_again_as_it_was(track: InputTrack, body: str) -> None:
     from tempfile import TemporaryDirectory
 
     replay = replace(parse_replay(replay_of_walk()), name="Töm\n", author='"us"', body=body, level_author="somebody")  # type: ignore[arg-type]
     recording = Recording(LEVEL, replay, file="a.txt")
     with TemporaryDirectory() as folder:
         path = Path(folder) / "a.replay.txt"
-        if not take.inputs:
+        if not track.inputs:
             with pytest.raises(ArgumentError, match="one tick"):
-                save_run(recording, take, Branches(), path, RunFile())
+                save_run(recording, track, Branches(), path, RunFile())
             return
-        again = saved_take(OpenedRun(recording, take, RunFile(), Branches()), take, path)
+        again = saved_take(OpenedRun(recording, track, RunFile(), Branches()), track, path)
     assert (again.recording.name, again.recording.author, again.recording.body) == ("Töm\n", '"us"', body)
     replay = again.recording.replay
     assert replay is not None
     assert replay.level_author == "somebody"
     # Ticks without a key behind the end may go, and those up to an end soon behind the keys come; nothing else.
-    assert again.take.inputs == first_ticks(take.inputs, len(again.take))
-    assert not any(take.inputs[len(again.take) :])
-    assert again.take.markers == take.markers
+    assert again.track.inputs == fitted_inputs(track.inputs, len(again.track))
+    assert not any(track.inputs[len(again.track) :])
+    assert again.track.markers == track.markers
     assert again.file.path == path
 
 
@@ -66,11 +66,11 @@ def test_an_exit_behind_the_last_key_is_saved(tmp_path: Path) -> None:
     path = tmp_path / "walk.replay.txt"
     path.write_text(replay_of_walk(), "utf-8")
     opened = open_run(path)
-    short = opened.take.replaced(WALK_END - 2, len(opened.take), [])
+    short = opened.track.replaced(WALK_END - 2, len(opened.track), [])
     again = saved_take(opened, short, path)
     assert again.recording.replay.outcome == "exit"
     assert again.recording.ticks > len(short)
-    assert again.take.inputs == first_ticks(short.inputs, again.recording.ticks)
+    assert again.track.inputs == fitted_inputs(short.inputs, again.recording.ticks)
 
 
 def test_inputs_that_name_a_level_are_their_own_file(tmp_path: Path) -> None:
@@ -84,12 +84,12 @@ def test_keys_behind_the_end_are_kept_without_claims(tmp_path: Path) -> None:
     path = tmp_path / "walk.replay.txt"
     path.write_text(replay_of_walk(), "utf-8")
     opened = open_run(path)
-    with_claims = saved_take(opened, opened.take.replaced(40, 60, [0] * 20), path)
+    with_claims = saved_take(opened, opened.track.replaced(40, 60, [0] * 20), path)
     assert (with_claims.recording.ticks, with_claims.recording.replay.unclaimed) == (WALK_END + 1, False)
-    for take in (opened.take.replaced(40, 41, [4]), opened.take.named(40, "later")):
-        loose = saved_take(open_run(path), take, path)
-        assert loose.take == take
-        assert loose.recording.replay.unclaimed
+    for track in (opened.track.replaced(40, 41, [4]), opened.track.named(40, "later")):
+        unclaimed = saved_take(open_run(path), track, path)
+        assert unclaimed.track == track
+        assert unclaimed.recording.replay.unclaimed
 
 
 def test_a_demo_of_n_opens_and_is_saved_as_a_new_replay(tmp_path: Path) -> None:
@@ -101,8 +101,8 @@ def test_a_demo_of_n_opens_and_is_saved_as_a_new_replay(tmp_path: Path) -> None:
         open_run(source, record=7)
     opened = open_run(source, record=0)
     assert opened.file == RunFile()
-    again = saved_take(opened, opened.take, tmp_path / "new.replay.txt")
-    assert (again.take, again.recording.author) == (opened.take, "me")
+    again = saved_take(opened, opened.track, tmp_path / "new.replay.txt")
+    assert (again.track, again.recording.author) == (opened.track, "me")
     (verdict,) = verify_all([tmp_path / "new.replay.txt"], memory="plain", jobs=1, processes=False)
     assert isinstance(verdict, Verdict)
     assert (verdict.outcome, verdict.problems) == ("exit", ())
@@ -114,15 +114,15 @@ def test_other_files_are_never_replaced_unasked(tmp_path: Path) -> None:
     path.write_text(replay_of_walk(), "utf-8")
     other.write_text("somebody's", "utf-8")
     session = Session(open_run(path), tmp_path, memory="plain")
-    session.change(session.take.replaced(3, 4, [5]))
-    with pytest.raises(OccupiedError, match=r"there is a file other\.replay\.txt already"):
+    session.change(session.track.replaced(3, 4, [5]))
+    with pytest.raises(OccupiedError, match=r"a file named other\.replay\.txt already exists"):
         session.save(other)
     path.write_text(replay_of_walk(gold=0), "utf-8")
     with pytest.raises(OccupiedError, match="changed by another program"):
         session.save(path)
     session.save(path, replacing=True)
     assert session.is_saved
-    session.change(session.take.replaced(3, 4, [2]))
+    session.change(session.track.replaced(3, 4, [2]))
     session.save(path)
     session.keep_branch("one")
     branches_path(path).write_text("somebody's", "utf-8")
@@ -135,7 +135,7 @@ def test_other_files_are_never_replaced_unasked(tmp_path: Path) -> None:
 def edited_and_lost(path: Path, folder: Path) -> Path:
     """The journal of a session that has died, with an edit of the run in a file."""
     session = Session(open_run(path), folder, memory="plain")
-    session.change(session.take.replaced(3, 4, [5]))
+    session.change(session.track.replaced(3, 4, [5]))
     session.close(keep=True)
     (journal,) = (folder / FOLDER).glob("*.jsonl")
     return journal
@@ -178,7 +178,7 @@ def test_branches_are_not_written_through_a_link(tmp_path: Path) -> None:
 
 def test_saving_what_was_not_changed_writes_nothing(tmp_path: Path) -> None:
     path = tmp_path / "walk.replay.txt"
-    path.write_text(replay_of_walk().replace("replay 3", "replay 2").replace("\nend\n", "\n"), "utf-8", newline="\r\n")
+    path.write_text(replay_of_walk(), "utf-8", newline="\r\n")
     data = path.read_bytes()
     session = Session(open_run(path), tmp_path, memory="plain")
     session.save(path)
@@ -208,9 +208,9 @@ def test_texts_that_a_person_wrote_are_not_replaced(tmp_path: Path, change: obje
     path.write_text(text, "utf-8")
     opened = open_run(path)
     assert opened.file == RunFile()
-    assert opened.take == Take(bytes([2] * 24))
+    assert opened.track == InputTrack(bytes([2] * 24))
     with pytest.raises(OccupiedError):
-        save_run(opened.recording, opened.take, Branches(), path, opened.file)
+        save_run(opened.recording, opened.track, Branches(), path, opened.file)
 
 
 def test_certificates_of_the_game_are_not_replaced(tmp_path: Path) -> None:
@@ -227,11 +227,11 @@ def test_a_replay_goes_on_naming_the_file_of_its_level(tmp_path: Path) -> None:
     path = tmp_path / "walk.replay.txt"
     path.write_text(replay_of_walk(level=None, level_path="level"), "utf-8")
     opened = open_run(path)
-    again = saved_take(opened, opened.take.replaced(0, 0, [0]), path)
+    again = saved_take(opened, opened.track.replaced(0, 0, [0]), path)
     replay = again.recording.replay
     assert replay is not None
     assert (replay.level_path, replay.level, replay.level_digest) == ("level", None, level_digest(LEVEL))
-    elsewhere = saved_take(opened, opened.take, tmp_path / "b.replay.txt")
+    elsewhere = saved_take(opened, opened.track, tmp_path / "b.replay.txt")
     assert elsewhere.recording.replay.level is not None
 
 
@@ -240,15 +240,15 @@ def test_branches_travel_beside_their_run(tmp_path: Path) -> None:
     path.write_text(replay_of_walk(), "utf-8")
     session = Session(open_run(path), tmp_path, memory="plain")
     session.keep_branch("as it was")
-    session.change(session.take.replaced(5, 9, [0] * 4))
+    session.change(session.track.replaced(5, 9, [0] * 4))
     session.keep_branch("slower")
     assert not session.is_saved
     session.save(path)
     again = Session(open_run(path), tmp_path, memory="plain")
     assert again.branches.all == session.branches.all
     assert [(each.outcome, each.end, each.gold) for each in again.branches.all] == [("exit", 23, 1), ("exit", 29, 1)]
-    again.take_branch(0)
-    assert again.take == Take(bytes([2] * 24))
+    again.checkout_branch(0)
+    assert again.track == InputTrack(bytes([2] * 24))
     for text in ("{", "[]", '{"branches": [{}], "current": null}', "[" * 100_000, '{"branches": [], "current": 1e999}'):
         branches_path(path).write_text(text, "utf-8")
         with pytest.raises(ReplayError, match="not the branches of a run"):
@@ -258,8 +258,8 @@ def test_branches_travel_beside_their_run(tmp_path: Path) -> None:
 def test_markers_that_no_text_can_hold_are_not_written() -> None:
     replay = parse_replay(replay_of_walk())
     for markers in (((1, "a b"),), ((1, "a"), (2, "a")), ((-1, "a"),), ((99, "a"),)):
-        take = Take(replay.inputs).named(1, "x")
-        bad = tuple(take.markers[0]._replace(tick=tick, name=name) for tick, name in markers)
+        track = InputTrack(replay.inputs).named(1, "x")
+        bad = tuple(track.markers[0]._replace(tick=tick, name=name) for tick, name in markers)
         with pytest.raises(ReplayError):
             write_replay(replace(replay, markers=bad))
 
@@ -277,9 +277,9 @@ def test_mutated_replays_open_or_are_refused(tmp_path: Path) -> None:
             opened = open_run(path)
         except NinjaGameError:
             continue
-        assert opened.take == take_of(opened.recording)
+        assert opened.track == track_of(opened.recording)
         if opened.file.path:
-            assert saved_take(opened, opened.take.replaced(0, 0, [1]), path).take.inputs[0] == 1
+            assert saved_take(opened, opened.track.replaced(0, 0, [1]), path).track.inputs[0] == 1
 
 
 def test_names_come_from_load_replays(tmp_path: Path) -> None:

@@ -29,7 +29,7 @@ def session_of_a_run(tmp_path: Path) -> Session:
 def test_the_run_itself_is_there_at_the_end_of_the_span(session: Session, make: object, span: tuple[int, int]) -> None:
     wanted = make(SearchedSpan(session, *span))  # type: ignore[operator]
     about = session.about
-    task = SpanTask(about.level, session.take.inputs, *span, *wanted)
+    task = SpanTask(about.level, session.track.inputs, *span, *wanted)
     trials = SpanWorlds(task, 1).try_all(task.base[:, np.newaxis])
     assert 0 < trials.ticks[0] <= task.length
 
@@ -43,10 +43,10 @@ def test_gold_that_is_left_is_collected(session: Session) -> None:
 
 def test_the_rest_follows_where_the_run_reaches_the_exit(session: Session) -> None:
     assert same_end(SearchedSpan(session, 0, 40)).rest
-    session.change(session.take.replaced(100, len(session.take), []))
+    session.change(session.track.replaced(100, len(session.track), []))
     assert not same_end(SearchedSpan(session, 0, 40)).rest
 
 
 def test_a_span_behind_the_run_is_refused(session: Session) -> None:
     with pytest.raises(ArgumentError, match="the span ends in tick"):
-        same_end(SearchedSpan(session, 0, len(session.take) + 500))
+        same_end(SearchedSpan(session, 0, len(session.track) + 500))

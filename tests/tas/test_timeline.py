@@ -14,12 +14,12 @@ from ninja_game.errors import ArgumentError
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.runs import save_states
-from ninja_game.runs.run_trace import trace_level
 from ninja_game.runs.save_states import SaveStates
+from ninja_game.runs.trace import trace_level
 from ninja_game.search.formula.names import FLAGS, NAMES, view_of
-from ninja_game.sim.inputs import MAX_TICKS, first_ticks, with_press_bits
+from ninja_game.sim.inputs import MAX_TICKS, fitted_inputs, with_press_bits
 from ninja_game.simulation import Simulation
-from ninja_game.tas.take import Take
+from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.timeline import AFTERMATH, Timeline
 from ninja_game.tas.watch import exit_distance, parse_watch
 from tests.support.memories import BOTH
@@ -35,8 +35,8 @@ RUNS = {
 
 def check(timeline: Timeline) -> None:
     """Compare every row with a straight run."""
-    straight = trace_level(timeline.level, first_ticks(timeline.inputs, len(timeline)), memory="plain", events=True)
-    valid = timeline.valid
+    straight = trace_level(timeline.level, fitted_inputs(timeline.inputs, len(timeline)), memory="plain", events=True)
+    valid = timeline.simulated_until
     for name in ("x", "y", "prev_x", "prev_y", "gold"):
         assert timeline.column(name).tobytes() == straight.ninja[name][:valid].tobytes(), name
     assert timeline.column("state").tolist() == straight.ninja["s"][:valid].tolist()
@@ -54,31 +54,31 @@ def check(timeline: Timeline) -> None:
 def test_after_any_edits_every_row_is_that_of_a_straight_run(memory: str, data: st.DataObject) -> None:
     most, save_states.MOST_STATES = save_states.MOST_STATES, data.draw(st.sampled_from([2, 3, 300]))
     try:
-        take = Take(
+        track = InputTrack(
             with_press_bits(data.draw(st.lists(st.integers(0, 7), max_size=20))) * data.draw(st.integers(1, 12))
         )
-        timeline = Timeline(RUNS["01-2-the-works"].level, take.inputs, memory=memory)
+        timeline = Timeline(RUNS["01-2-the-works"].level, track.inputs, memory=memory)
         ids = [id_ for id_, seen in enumerate(timeline._seen) if seen[0] in {0, 9, 11}][:3]
         for _ in range(data.draw(st.integers(1, 6))):
             what = data.draw(st.sampled_from(["edit", "edit", "work", "need", "watch"]))
             if what == "edit":
-                first = data.draw(st.integers(0, len(take) + 5))
+                first = data.draw(st.integers(0, len(track) + 5))
                 last = data.draw(st.integers(first, first + 30))
-                take = take.replaced(first, last, data.draw(st.lists(st.integers(0, 7), max_size=9)))
-                timeline.show(take.inputs)
+                track = track.replaced(first, last, data.draw(st.lists(st.integers(0, 7), max_size=9)))
+                timeline.set_inputs(track.inputs)
             elif what == "work":
-                timeline.work(data.draw(st.integers(1, 130)))
+                timeline.simulate(data.draw(st.integers(1, 130)))
             elif what == "need":
                 tick = data.draw(st.integers(0, len(timeline) + 10))
-                timeline.need(tick)
-                assert timeline.valid > min(tick, len(timeline) - 1)
+                timeline.ensure(tick)
+                assert timeline.simulated_until > min(tick, len(timeline) - 1)
             else:
                 timeline.watch(data.draw(st.lists(st.sampled_from(ids), max_size=3)))
-            assert timeline.valid <= len(timeline)
+            assert timeline.simulated_until <= len(timeline)
         check(timeline)
-        while not timeline.work(data.draw(st.integers(1, 70))):
+        while not timeline.simulate(data.draw(st.integers(1, 70))):
             pass
-        assert timeline.valid == len(timeline) == len(take) + AFTERMATH
+        assert timeline.simulated_until == len(timeline) == len(track) + AFTERMATH
         check(timeline)
     finally:
         save_states.MOST_STATES = most
@@ -86,34 +86,34 @@ def test_after_any_edits_every_row_is_that_of_a_straight_run(memory: str, data: 
 
 def test_an_edit_keeps_what_comes_before_it() -> None:
     timeline = Timeline(WALKED, bytes([2] * 20), memory="plain")
-    timeline.work(1000)
+    timeline.simulate(1000)
     assert timeline.end == (24, "exit")
-    assert timeline.show(bytes([2] * 10 + [0] + [2] * 9)) == 10
-    assert timeline.valid == 10
-    timeline.work(1000)
+    assert timeline.set_inputs(bytes([2] * 10 + [0] + [2] * 9)) == 10
+    assert timeline.simulated_until == 10
+    timeline.simulate(1000)
     # Behind the last input no key is down: such ticks more or less change nothing.
-    assert timeline.show(bytes([2] * 10 + [0] + [2] * 9 + [0] * 30)) == 50
-    assert timeline.valid >= 50
+    assert timeline.set_inputs(bytes([2] * 10 + [0] + [2] * 9 + [0] * 30)) == 50
+    assert timeline.simulated_until >= 50
 
 
 def test_states_of_a_timeline_begin_simulations() -> None:
     recording = RUNS["01-0-springtime"]
     timeline = Timeline(recording.level, recording.inputs, memory="plain")
-    timeline.work(10**6)
+    timeline.simulate(10**6)
     for tick in (0, 59, 60, 61, recording.ticks, 10**9):
         state = timeline.save_state(tick)
         assert state.tick <= tick
         world = Simulation(recording.level, memory="plain")
         world.restore(state)
         straight = Simulation(recording.level, memory="plain")
-        for keys in first_ticks(timeline.inputs, state.tick):
+        for keys in fitted_inputs(timeline.inputs, state.tick):
             straight.step_keys(keys)
         assert world.digest() == straight.digest()
 
 
 def test_the_longest_run_has_states_too() -> None:
     timeline = Timeline(WALKED, bytes(MAX_TICKS), memory="plain")
-    timeline.valid = len(timeline)
+    timeline.simulated_until = len(timeline)
     timeline._states.keep(MAX_TICKS + 20, timeline._memory.save())
     assert timeline.save_state(10**9).tick <= MAX_TICKS
 
@@ -141,18 +141,18 @@ def test_watched_values_are_those_of_a_search(name: str, memory: str) -> None:
     recording = RUNS[name]
     inputs = recording.inputs
     timeline = Timeline(recording.level, inputs, memory=memory)
-    timeline.work(10**6)
+    timeline.simulate(10**6)
     formulas = [each for each, count in NAMES.items() if not count] + ["distance(100, 200)", "hypot(vx, vy) * 2"]
     for id_, (kind, *_) in enumerate(timeline._seen):
         try:
-            timeline.first_look(id_)
+            timeline.at_start(id_)
         except ArgumentError:
             continue
         formulas += [f"object_x({id_}) + object_y({id_})"]
         formulas += [f"{what}({id_})" for what in FLAGS if kind in FLAGS[what]]
     watched = {text: parse_watch(text).values(timeline) for text in formulas}
     batch = Batch(recording.level, 1, memory="plain")
-    for tick, keys in enumerate(first_ticks(inputs, len(timeline))):
+    for tick, keys in enumerate(fitted_inputs(inputs, len(timeline))):
         batch.run([[keys]])
         view = view_of(batch)
         for text in formulas:
@@ -168,7 +168,7 @@ def test_watched_doors_are_open_as_long_as_they_are() -> None:
     # An automatic door in the way: it opens, and closes behind the ninja; its status is another one than at first.
     level = parse_level_string("0" * 713 + "|5^100,566!9^200,564,0,0,8,23,0,0,0!0^400,100")
     timeline = Timeline(level, bytes([2] * 80), memory="plain")
-    timeline.work(1000)
+    timeline.simulate(1000)
     door = next(id_ for id_, seen in enumerate(timeline._seen) if seen[0] == 9)
     opened = parse_watch(f"opened({door})").values(timeline)
     assert (opened[0], opened.max(), opened[-1]) == (0.0, 1.0, 0.0)
@@ -180,13 +180,13 @@ def test_watched_values_follow_edits_and_say_what_is_wrong() -> None:
     timeline = Timeline(level, bytes([2] * 30), memory="plain")
     watch = parse_watch("exit_distance")
     assert len(watch.values(timeline)) == 0
-    timeline.work(1000)
+    timeline.simulate(1000)
     assert (watch.values(timeline) <= 0).any()
     assert (exit_distance(timeline) == watch.values(timeline)).all()
     gone = parse_watch("taken(2)")
     assert gone.values(timeline).max() == 1.0
-    timeline.show(bytes(30))
-    timeline.work(1000)
+    timeline.set_inputs(bytes(30))
+    timeline.simulate(1000)
     assert gone.values(timeline).max() == 0.0
     for text in ("taken(99)", "object_x(0.5)", "opened(2)", "object_x(1 / 0)", "object_x(x)"):
         with pytest.raises(ArgumentError):

@@ -15,9 +15,9 @@ import pygame
 
 from ninja_game.editor.files import open_source
 from ninja_game.formats.load import load_replays
-from tests.support.bench_driver import BenchDriver
 from tests.support.level_maker import Maker, examine
 from tests.support.own_pack import PACK, instead_of_ours
+from tests.support.tas_driver import TasDriver
 from tools import ROOT
 
 PICTURES = ROOT / "docs" / "pictures"
@@ -48,13 +48,13 @@ def editor_picture(folder: Path) -> pygame.Surface:
 def bench_picture(folder: Path) -> pygame.Surface:
     """A run on the bench, some ticks selected, beside it one that goes another way from there on."""
     name = "01-0-springtime.exit.replay.txt"
-    at = BenchDriver(folder, Path(copy(PACK / "certificates" / name, folder)), (1280, 800))
-    jumps = at.bench.take.replaced(150, 190, [6] * 25)
+    at = TasDriver(folder, Path(copy(PACK / "certificates" / name, folder)), (1280, 800))
+    jumps = at.editor.track.replaced(150, 190, [6] * 25)
     at.screen.level.others.open([at.session.recording(jumps, "Somebody else")])
-    at.bench.edit(lambda take: take.named(134, "the pad"))
+    at.editor.edit(lambda track: track.named(134, "the pad"))
     at.chord("s", pygame.KMOD_LCTRL)
     at.app.notify("")
-    at.bench.select(150, 163)
+    at.editor.select(150, 163)
     at.frames(3)
     picture = at.app.surface.copy()
     at.close()

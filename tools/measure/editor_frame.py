@@ -45,7 +45,7 @@ def main() -> int:
     os.environ |= {"PYGAME_HIDE_SUPPORT_PROMPT": "1", "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
     import pygame
 
-    from ninja_game.editor.brush import SORTS, placed
+    from ninja_game.editor.brush import OBJECT_TYPES, placed
     from ninja_game.editor.files import Source
     from ninja_game.editor.records import BODY, points
     from ninja_game.editor.stamp import WHOLE, Selection, Stamp, put
@@ -58,7 +58,7 @@ def main() -> int:
         maker.open("Editor")
         places = ((30 + 37 * k % 730, 30 + 53 * k % 540) for k in range(options.objects + 20))
         objects = tuple(
-            placed(SORTS[2 + 7 * k % 15].record, *place, "quarter") for k, place in enumerate(places)
+            placed(OBJECT_TYPES[2 + 7 * k % 15].record, *place, "quarter") for k, place in enumerate(places)
         )  # fmt: skip
         maker.editor.commands.edit(Source(put(ROOM, Stamp({}, objects))))
         examine(maker.editor)
@@ -85,12 +85,12 @@ def main() -> int:
         maker.press("grave", "0")
         slow |= run("pointer moves, gold", lambda _: pygame.MOUSEMOTION)
         slow |= run("gold is drawn", pressed)
-        bench = maker.editor.session.bench
-        bench.snap = "px"
+        tools = maker.editor.session.tools
+        tools.snap = "px"
         for name, area in (("tiles and objects dragged", WHOLE), ("objects are dragged", None)):
             maker.chord("a", pygame.KMOD_LCTRL)
-            bench.selection = Selection(area, bench.selection.parts)
-            place = points(bench.draft.objects[100])[BODY]
+            tools.selection = Selection(area, tools.selection.parts)
+            place = points(tools.draft.objects[100])[BODY]
             slow |= run(name, lambda k: pygame.MOUSEMOTION if k else pygame.MOUSEBUTTONDOWN, *place, most=16.0)
             maker.chord("z", pygame.KMOD_LCTRL)
         print(f"{'check for problems':24} {summary(check_times(maker.draft.level))}   (beside the loop)")

@@ -39,7 +39,6 @@ from ninja_game.formats.pack.pars import parse_pars
 from ninja_game.formats.recording import parse_replays, record_of
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.formats.tas_lines import write_celeste, write_libtas
-from ninja_game.learn.agents.policy import load_policy
 from ninja_game.levels.warnings import level_warnings
 from ninja_game.play.ui.edited_text import EditedText
 from ninja_game.play.ui.stroke_font import StrokeFont
@@ -48,13 +47,12 @@ from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings_file import read_settings, write_changes
 from ninja_game.player.store import Store
 from ninja_game.runs.recording_reader import recordings_of, records_of
-from ninja_game.runs.run_trace import RunTrace, trace_level
-from ninja_game.runs.trace import first_difference, rows, trace_digests
+from ninja_game.runs.trace import RunTrace, first_difference, rows, trace_digests, trace_level
 from ninja_game.runs.trace_files import FiledTrace, read_csv, read_traces
 from ninja_game.search.formula.language import parse_truth
 from ninja_game.search.formula.names import FACTS, SPAN_NAMES
 from ninja_game.tas import journal
-from ninja_game.tas.files import branches_path, inputs_of_text, open_run, replay_of_take, runs_beside
+from ninja_game.tas.files import branches_path, inputs_of_text, open_run, replay_of_track, runs_of_level
 from ninja_game.tas.session import Session
 from ninja_game.tas.watch import parse_watch
 from ninja_game.verification.checkpoint_log import CheckpointLog
@@ -195,14 +193,14 @@ def _loaded(path: Path) -> list[Any]:
 def _run(path: Path) -> None:
     """A run as the bench opens it: beside itself, and in all notations that can say it."""
     opened = open_run(path, level=LEVEL)
-    runs_beside(path, opened.recording)
-    if len(opened.take) <= LONGEST_RUN:
-        if len(opened.take):
-            write_replay(replay_of_take(opened.recording, opened.take))
-        notations: list[Callable[[bytes], str]] = [partial(write_celeste, markers=opened.take.markers), write_libtas]
+    runs_of_level(path, opened.recording)
+    if len(opened.track) <= LONGEST_RUN:
+        if len(opened.track):
+            write_replay(replay_of_track(opened.recording, opened.track))
+        notations: list[Callable[[bytes], str]] = [partial(write_celeste, markers=opened.track.markers), write_libtas]
         for write in notations:
             with suppress(NinjaGameError):
-                write(opened.take.inputs)
+                write(opened.track.inputs)
 
 
 def _traces(found: Iterable[FiledTrace]) -> None:
@@ -259,7 +257,7 @@ def _name(text: str) -> None:
 def _journal(path: Path) -> None:
     journal.read_journal(path)
     for found in journal.recovered(path.parent.parent):
-        if len(found.opened.take) <= LONGEST_RUN and all(len(take) <= LONGEST_RUN for take in found.takes):
+        if len(found.opened.track) <= LONGEST_RUN and all(len(take) <= LONGEST_RUN for take in found.tracks):
             Session(found.opened, path.parent.parent, memory="plain").recover(found)
 
 
@@ -362,7 +360,6 @@ DOORS: dict[str, Door] = {
     "journal": _of_file(_journal, "tas/odd.jsonl", 6),
     "branches": Door(_branches),
     "autosave": _of_file(lambda path: list(autosave.recovered(path.parent.parent)), "editing/odd.json"),
-    "agent": _of_file(load_policy),
     "backup": Door(_backup, 2),
     "database": Door(_database, 1),
     "database rows": Door(_rows, 1),

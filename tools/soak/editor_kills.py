@@ -37,12 +37,12 @@ def edit(folder: str, seed: int, pipe: Connection) -> None:
     maker = Maker(Path(folder))
     maker.open("Editor")
     if maker.top() is not maker.editor:
-        maker.choose("Go on with it")
+        maker.choose("Recover")
     session = maker.editor.session
     while True:
         maker.press(rng.choice(("e", "d", "1", "grave", "3", "m")))
         maker.drag(*((rng.uniform(30, 760), rng.uniform(30, 570)) for _ in range(rng.randrange(1, 4))))
-        session.bench.finish()
+        session.tools.finish()
         digest = level_digest(session.draft.level)
         pipe.send(("drawn", digest, time.monotonic_ns()))
         if rng.random() < 0.04:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ninja_game.sim.level import Level
 
 WIDTH = 160
-"""Of a table in a pipe, letters."""
+"""Width of a table in a pipe, characters."""
 
 COLUMNS = (
     "level_digest",

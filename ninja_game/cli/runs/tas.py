@@ -1,4 +1,4 @@
-"""`ninja-game tas`: the bench."""
+"""`ninja-game tas`: the TAS editor."""
 
 from __future__ import annotations
 
@@ -45,23 +45,23 @@ def command(
       ninja-game tas old.replay.txt --level changed.txt
     """
     from ninja_game.cli.game.play import pixels
-    from ninja_game.tas.files import open_run, runs_beside
+    from ninja_game.tas.files import open_run, runs_of_level
 
     window = pixels(size) if size else None
     opened = open_run(file, record=record, level=level_given(level_path))
-    others = [run for path in beside for run in runs_beside(path, opened.recording)]
+    others = [run for path in beside for run in runs_of_level(path, opened.recording)]
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from ninja_game.play.main import run_app
     from ninja_game.play.tas.opening import OpeningScreen
     from ninja_game.play.tas.screen import TasScreen
 
-    def bench(app: App) -> TasScreen:
+    def editor(app: App) -> TasScreen:
         screen = TasScreen(app, opened, others)
-        screen.bench.go(tick)
+        screen.editor.go(tick)
         return screen
 
     def opening(app: App) -> Screen:
-        # So many pictures are pictures of the bench.
-        return bench(app) if frames is not None else OpeningScreen(app, opened.recording, lambda: bench(app))
+        # So many pictures are pictures of the TAS editor.
+        return editor(app) if frames is not None else OpeningScreen(app, opened.recording, lambda: editor(app))
 
     ctx.exit(run_app(opening, size=window, frames=frames, screenshot=screenshot))

@@ -8,22 +8,22 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ninja_game.editor.autosave import Recovered, recovered
-from ninja_game.editor.bench import TOOLS
 from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import SUFFIX, OccupiedError, Source, draft_of, new_source, open_source
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.records import points
 from ninja_game.editor.stamp import everything
+from ninja_game.editor.tools import TOOLS
 from ninja_game.errors import LevelError, NinjaGameError, reason
 from ninja_game.files.shown_text import file_stem
 from ninja_game.formats.ascii.writer import HEADER_KEYS
-from ninja_game.play.editor.desk import Desk
 from ninja_game.play.editor.marks import finding_points
 from ninja_game.play.editor.panels import LevelChoice, help_page
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.trying import TryScreen
-from ninja_game.play.menus.panels import STAY, Form, Menu, nothing
+from ninja_game.play.editor.view import EditorView
+from ninja_game.play.menus.panels import CANCEL, Form, Menu, nothing
 from ninja_game.player.catalogue import Entry
 
 if TYPE_CHECKING:
@@ -38,40 +38,40 @@ NAMELESS = "My level"
 class EditorCommands:
     """Runs commands by name (``controls.COMMANDS``). ``step_palette``: goes on in the palette."""
 
-    def __init__(self, app: App, session: EditorSession, desk: Desk) -> None:
+    def __init__(self, app: App, session: EditorSession, view: EditorView) -> None:
         self.app = app
         self.session = session
-        self.desk = desk
+        self.view = view
         self.step_palette: Callable[[int], object] = lambda _: None
         self._finding = -1
 
     def run(self, name: str) -> None:
         """Do what a command says."""
-        bench = self.session.bench
+        tools = self.session.tools
         if name in TOOLS:
-            bench.finish()
-            bench.tool = name
+            tools.finish()
+            tools.tool = name
         elif name.startswith("snap_"):
             names = list(SNAPS)
-            bench.snap = names[(names.index(bench.snap) + 1) % len(names)] if name == "snap_next" else name[5:]
+            tools.snap = names[(names.index(tools.snap) + 1) % len(names)] if name == "snap_next" else name[5:]
         else:
             self._table()[name]()
 
     def _table(self) -> dict[str, Action]:
-        bench, desk = self.session.bench, self.desk
+        tools, view = self.session.tools, self.view
         return {
             "help": lambda: self.app.push(help_page(self.app)), "menu": self.menu,
             "test": self.test, "test_here": lambda: self.test(here=True), "certify": self.certify,
             "save": self.save, "save_as": self.save_as, "open": self.open, "new": self.new, "about": self.about,
-            "undo": bench.undo, "redo": lambda: bench.undo(again=True),
-            "copy": bench.copy, "cut": bench.cut, "paste": bench.paste,
-            "choose_all": self.choose_all, "delete": bench.delete,
-            "next_tool": lambda: self.run(TOOLS[(TOOLS.index(bench.tool) + 1) % len(TOOLS)]),
-            "swap": lambda: bench.take(bench.tile if bench.objects else bench.record),
-            "mirror": lambda: bench.turn(MIRROR), "flip": lambda: bench.turn(FLIP),
-            "turn": lambda: bench.turn(CLOCKWISE), "symmetry": self.next_symmetry, "grid": desk.next_grid,
-            "lines": lambda: setattr(desk, "lines", not desk.lines),
-            "paths": lambda: setattr(desk, "paths", not desk.paths),
+            "undo": tools.undo, "redo": lambda: tools.undo(again=True),
+            "copy": tools.copy, "cut": tools.cut, "paste": tools.paste,
+            "choose_all": self.choose_all, "delete": tools.delete,
+            "next_tool": lambda: self.run(TOOLS[(TOOLS.index(tools.tool) + 1) % len(TOOLS)]),
+            "swap": lambda: tools.pick_up(tools.tile if tools.objects else tools.record),
+            "mirror": lambda: tools.turn(MIRROR), "flip": lambda: tools.turn(FLIP),
+            "turn": lambda: tools.turn(CLOCKWISE), "symmetry": self.next_symmetry, "grid": view.next_grid,
+            "lines": lambda: setattr(view, "lines", not view.lines),
+            "paths": lambda: setattr(view, "paths", not view.paths),
             "next_finding": lambda: self.go_to_finding(self._finding + 1),
             "next_entry": lambda: self.step_palette(1), "previous_entry": lambda: self.step_palette(-1),
         }  # fmt: skip
@@ -79,33 +79,33 @@ class EditorCommands:
     def next_symmetry(self) -> None:
         """Another symmetry."""
         names = list(SYMMETRIES)
-        bench = self.session.bench
-        bench.finish()
-        bench.symmetry = names[(names.index(bench.symmetry) + 1) % len(names)]
+        tools = self.session.tools
+        tools.finish()
+        tools.symmetry = names[(names.index(tools.symmetry) + 1) % len(names)]
 
     def choose_all(self) -> None:
         """Select everything."""
-        bench = self.session.bench
-        bench.finish()
-        bench.tool, bench.selection = "select", everything(bench.draft)
+        tools = self.session.tools
+        tools.finish()
+        tools.tool, tools.selection = "select", everything(tools.draft)
 
     def go_to_finding(self, index: int) -> None:
         """Put the pointer at a problem and select what it is about."""
-        findings, bench = self.session.findings, self.session.bench
+        findings, tools = self.session.findings, self.session.tools
         if not findings:
             self.app.notify("No problems found")
             return
         self._finding = index % len(findings)
         finding = findings[self._finding]
-        places = finding_points(bench.draft.level, finding)
-        records = [number for number in finding.records if number < len(bench.draft.objects)]
-        bench.choose(frozenset((n, part) for n in records for part in points(bench.draft.objects[n])))
+        places = finding_points(tools.draft.level, finding)
+        records = [number for number in finding.records if number < len(tools.draft.objects)]
+        tools.choose(frozenset((n, part) for n in records for part in points(tools.draft.objects[n])))
         if records:
-            bench.tool = "select"
+            tools.tool = "select"
         if places:
-            bench.pointer = places[0]
-            self.desk.hovering = True
-        self.desk.hint = f"{finding.sentence}. {finding.mend}"
+            tools.pointer = places[0]
+            self.view.hovering = True
+        self.view.hint = f"{finding.sentence}. {finding.mend}"
 
     # --- trying and certifying ---
 
@@ -123,7 +123,7 @@ class EditorCommands:
     def certify(self) -> None:
         """Start the solver, or stop it."""
         certifier = self.session.certifier
-        self.session.bench.finish()
+        self.session.tools.finish()
         if certifier.busy:
             certifier.stop()
         elif any(finding.text.startswith("there is no") for finding in self.session.findings):
@@ -136,13 +136,13 @@ class EditorCommands:
     def menu(self) -> None:
         """Give up what is half done, or open the file menu."""
         session = self.session
-        if session.bench.cancel():
+        if session.tools.cancel():
             return
         rows = [
             ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
             ("Open...", self.open, "Ctrl+O"), ("New", self.new, "Ctrl+N"), ("About the level...", self.about, "F2"),
-            ("Copy a link", session.copy_link, "Opens the level"), ("Copy as a string of N", session.copy_string, ""),
-            ("Paste a string of N", session.paste_string, "From the clipboard; any format of levels, or a link"),
+            ("Copy a link", session.copy_link, "Opens the level"), ("Copy as an N string", session.copy_string, ""),
+            ("Paste an N string", session.paste_string, "From the clipboard; any format of levels, or a link"),
             ("Export a picture", session.export_picture, "A PNG file among your exports"),
             ("Keep the solver's run", session.keep_certificate, "As a replay among yours"),
             ("Leave the editor", self.leave, ""),
@@ -164,7 +164,7 @@ class EditorCommands:
             text = str(error)
             rows = [
                 ("Save under another name", lambda: self.save_as(then), ""),
-                ("Replace it", lambda: self.save_to(path, then, replacing=True), "What it holds now is lost"), STAY,
+                ("Replace it", lambda: self.save_to(path, then, replacing=True), "What it holds now is lost"), CANCEL,
             ]  # fmt: skip
             self.app.push(Menu(self.app, text[0].upper() + text[1:], rows))
         except (NinjaGameError, OSError) as error:
@@ -177,26 +177,26 @@ class EditorCommands:
         session = self.session
         fields = [(f"Name of the level, or else {NAMELESS}", session.draft.name, 60)]
 
-        def take(texts: list[str]) -> None:
+        def on_accept(texts: list[str]) -> None:
             name = texts[0].strip() or NAMELESS
             folder = session.source.path.parent if session.source.path else self.app.player.folder / "levels"
-            session.bench.finish()
-            session.bench.history.change(replace(session.draft, name=name))
+            session.tools.finish()
+            session.tools.history.change(replace(session.draft, name=name))
             self.save_to(folder / f"{file_stem(name, 'level')}{SUFFIX}", then)
 
-        self.app.push(Form(self.app, "Save as", fields, "Save", take))
+        self.app.push(Form(self.app, "Save as", fields, "Save", on_accept))
 
     def about(self) -> None:
         """Name, author, comment, what the level teaches."""
         about = zip(HEADER_KEYS, self.session.draft.about, strict=True)
         fields = [(key.capitalize(), text, 200) for key, text in about]
 
-        def take(texts: list[str]) -> None:
-            bench = self.session.bench
-            bench.finish()
-            bench.history.change(Draft(bench.draft.level, *texts))
+        def on_accept(texts: list[str]) -> None:
+            tools = self.session.tools
+            tools.finish()
+            tools.history.change(Draft(tools.draft.level, *texts))
 
-        self.app.push(Form(self.app, "About the level", fields, "OK", take))
+        self.app.push(Form(self.app, "About the level", fields, "OK", on_accept))
 
     def open(self) -> None:
         """Choose a level to edit."""
@@ -213,7 +213,7 @@ class EditorCommands:
     def edit(self, source: Source, found: Recovered | None = None) -> None:
         """Edit this level, or one that was found again."""
         self.session.begin(source, found)
-        self.desk.stale = True
+        self.view.stale = True
 
     def offer_recovered(self) -> None:
         """Ask what to do with a level that was being edited when the program died."""
@@ -222,9 +222,9 @@ class EditorCommands:
             return
         name = found.draft.name or (found.source.path.name if found.source.path else "a new level")
         rows = [
-            ("Go on with it", lambda: self.edit(found.source, found), "As it was at most two seconds before the end"),
-            ("Later", lambda: None, "It is offered again"),
-            ("Forget it", found.forget, "It is lost"),
+            ("Recover", lambda: self.edit(found.source, found), "As it was at most two seconds before the end"),
+            ("Keep for later", nothing, "It is offered again"),
+            ("Discard", found.forget, "It is lost"),
         ]
         self.app.push(Menu(self.app, f"Not saved last time: {name}", rows))
 
@@ -243,9 +243,9 @@ class EditorCommands:
 
     def unless_unsaved(self, action: Action) -> None:
         """Do something after which the present level is gone; ask first if it is not saved."""
-        self.session.bench.finish()
+        self.session.tools.finish()
         if self.session.is_saved:
             action()
             return
-        rows = [STAY, ("Save first", lambda: self.save(action), ""), ("Leave it unsaved", action, "It is lost")]
+        rows = [CANCEL, ("Save", lambda: self.save(action), ""), ("Discard changes", action, "")]
         self.app.push(Menu(self.app, f"{self.session.name} is not saved", rows))

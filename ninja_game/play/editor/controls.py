@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ninja_game.editor.brush import FAMILIES, QUARTERS, SORTS
+from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, QUARTERS
 from ninja_game.play.input.commands import Command, key_text
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.input.scancodes import chord
@@ -43,7 +43,7 @@ COMMANDS = (
     Command("snap_quarter", "Snap to quarter cells", ("c",)),
     Command("snap_px", "Snap to px", ("z",)),
     Command("lines", "Lines from switches, on or off", ("t",)),
-    Command("paths", "Ways of the last test and of the solver", ("f8",)),
+    Command("paths", "Paths of the last test and of the solver", ("f8",)),
     Command("next_finding", "Go to the next problem", ("f4",)),
     Command("next_entry", "Next tile or object", ("pagedown",), "rightshoulder"),
     Command("previous_entry", "Tile or object before", ("pageup",), "leftshoulder"),
@@ -56,7 +56,7 @@ _BY_PAD = {command.pad: command.name for command in COMMANDS if command.pad}
 DIRECTION_KEYS = {"w": "up", "a": "left", "s": "down", "d": "right"}
 """Directions of objects, as in Ned."""
 
-SORT_OF_KEY = {sort.key: sort for sort in SORTS}
+OBJECT_TYPE_OF_KEY = {object_type.key: object_type for object_type in OBJECT_TYPES}
 """Objects by their keys."""
 
 _FAMILY_OF_KEY = {family.key: family for family in FAMILIES}

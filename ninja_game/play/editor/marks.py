@@ -1,4 +1,4 @@
-"""What lies over the level under edit: grid, lines from switches, signs of findings, ways of runs; and the grids."""
+"""What lies over the level under edit: grid, lines from switches, signs of findings, routes of runs; and the grids."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ninja_game.editor.certify import Route
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.records import BODY, SWITCH, has_switch, points
 from ninja_game.levels.findings import Finding
-from ninja_game.play.editor.sheet import Mark
+from ninja_game.play.editor.sheet import LevelMark
 from ninja_game.play.ui.canvas import Canvas, Colour, Point
 from ninja_game.play.ui.palette import Palette
 from ninja_game.play.view.sprites.draw_target import DrawTarget, is_near
@@ -63,26 +63,26 @@ def _rects(canvas: Canvas, a: Point, b: Point) -> Iterator[pygame.Rect]:
         yield pygame.Rect(x, y, *(canvas.px(abs(d)) for d in (bx - ax, by - ay))).inflate(8, 8)
 
 
-def line_mark(canvas: Canvas, colour: Colour, a: Point, b: Point, width: float = 0) -> Mark:
+def line_mark(canvas: Canvas, colour: Colour, a: Point, b: Point, width: float = 0) -> LevelMark:
     """A straight line."""
-    return Mark(lambda target: target.line(colour, *a, *b, width), tuple(_rects(canvas, a, b)))
+    return LevelMark(lambda target: target.line(colour, *a, *b, width), tuple(_rects(canvas, a, b)))
 
 
-def route_mark(canvas: Canvas, colour: Colour, route: Route) -> Mark:
-    """The way of a run, with a dot at its end."""
-    way = [point for point in route if is_near(*point)]
+def route_mark(canvas: Canvas, colour: Colour, route: Route) -> LevelMark:
+    """The route of a run, with a dot at its end."""
+    shown = [point for point in route if is_near(*point)]
 
     def draw(target: DrawTarget) -> None:
-        places = [target.canvas.exact(*point) for point in way]
+        places = [target.canvas.exact(*point) for point in shown]
         pygame.draw.lines(target.surface, colour, closed=False, points=places, width=target.canvas.px(1.4))
-        target.disc(colour, *way[-1], 3.0)
+        target.disc(colour, *shown[-1], 3.0)
 
-    x, y = [point[0] for point in way], [point[1] for point in way]
+    x, y = [point[0] for point in shown], [point[1] for point in shown]
     box = canvas.rect(min(x), min(y), max(x) - min(x), max(y) - min(y))
-    return Mark(draw, (box.inflate(20, 20),))
+    return LevelMark(draw, (box.inflate(20, 20),))
 
 
-def sign_mark(canvas: Canvas, palette: Palette, at: Point) -> Mark:
+def sign_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
     """The sign that something is odd here: a triangle with a stroke and a dot."""
     x, y = at[0], at[1] - 4.0
     corners = [(x, y - SIGN), (x + SIGN, y + SIGN - 1), (x - SIGN, y + SIGN - 1)]
@@ -94,7 +94,7 @@ def sign_mark(canvas: Canvas, palette: Palette, at: Point) -> Mark:
         target.line(palette.outline, x, y - 2.4, x, y + 1.6, 1.6)
         target.disc(palette.outline, x, y + 4.0, 0.9)
 
-    return Mark(draw, (canvas.rect(x - 9, y - 9, 18, 18),))
+    return LevelMark(draw, (canvas.rect(x - 9, y - 9, 18, 18),))
 
 
 def finding_points(level: Level, finding: Finding) -> list[Point]:
@@ -108,13 +108,13 @@ def finding_points(level: Level, finding: Finding) -> list[Point]:
 
 
 def level_marks(
-    canvas: Canvas, palette: Palette, draft: Draft, before: Mapping[Hashable, Mark], *, lines: bool,
+    canvas: Canvas, palette: Palette, draft: Draft, before: Mapping[Hashable, LevelMark], *, lines: bool,
     routes: Sequence[tuple[Route, Colour]], signs: Sequence[Point], axes: Sequence[tuple[Point, Point]],
-) -> dict[Hashable, Mark]:  # fmt: skip
+) -> dict[Hashable, LevelMark]:  # fmt: skip
     """All marks by what they show: equal keys, equal marks. Those of ``before`` are used again."""
-    marks: dict[Hashable, Mark] = {}
+    marks: dict[Hashable, LevelMark] = {}
 
-    def add(key: Hashable, make: Callable[[], Mark]) -> None:
+    def add(key: Hashable, make: Callable[[], LevelMark]) -> None:
         marks[key] = before[key] if key in before else make()
 
     for a, b in axes:

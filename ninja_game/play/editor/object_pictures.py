@@ -43,7 +43,7 @@ def _standing(s: Sketch, p: Palette) -> None:
     paint_figure(s, p, STAND, 1, (0.0, 0.0), colour=p.ninja)
 
 
-class Look(NamedTuple):
+class ObjectSprites(NamedTuple):
     """The sprites of a record, the px that they cover (an empty rectangle for what is not drawn), and its cells."""
 
     sprites: list[PlacedSprite]
@@ -85,7 +85,7 @@ class _Noted(DrawTarget):
 
 
 class ObjectPictures:
-    """The looks of records, for drawing at the scale and in the palette of ``target``.
+    """The sprites of records, for drawing at the scale and in the palette of ``target``.
 
     What is kept of each model: to which of its parts a sprite belongs, the sprite, and its place from there.
     """
@@ -94,8 +94,8 @@ class ObjectPictures:
         self.target = target
         self._kept: dict[ObjectSpec, list[tuple[int, SpriteKey, float, float]]] = {}
 
-    def looks(self, records: Iterable[ObjectSpec]) -> dict[ObjectSpec, Look]:
-        """How each of them looks. What looks alike everywhere is asked for once, in one place."""
+    def sprites_of(self, records: Iterable[ObjectSpec]) -> dict[ObjectSpec, ObjectSprites]:
+        """The sprites of each. What looks alike everywhere is asked for once, in one place."""
         models = {record: _model(record) for record in records}
         if len(self._kept) > _KEPT:
             self._kept.clear()
@@ -106,7 +106,7 @@ class ObjectPictures:
             self._learn(drawn[start : start + _TOGETHER])
         return {record: self._look(record, model) for record, model in models.items()}
 
-    def _look(self, record: ObjectSpec, model: ObjectSpec) -> Look:
+    def _look(self, record: ObjectSpec, model: ObjectSpec) -> ObjectSprites:
         places = points(record)
         if record.kind == kinds.FLOOR_GUARD and places:
             # It sinks to the floor of its cell.
@@ -121,7 +121,7 @@ class ObjectPictures:
             if is_near(x, y):
                 sprite, (px, py) = book.sprite(key), canvas.point(x, y)
                 rects.append(sprite.surface.get_rect(topleft=(px - sprite.ax, py - sprite.ay)))
-        return Look(sprites, rects[0].unionall(rects[1:]) if rects else pygame.Rect(0, 0, 0, 0), cells)
+        return ObjectSprites(sprites, rects[0].unionall(rects[1:]) if rects else pygame.Rect(0, 0, 0, 0), cells)
 
     def _learn(self, records: list[ObjectSpec]) -> None:
         try:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.editor.bench import DRAGGED, Bench
 from ninja_game.editor.brush import placed
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.records import BODY, SWITCH, carried, points
 from ninja_game.editor.stamp import Area, area_between, nearest
+from ninja_game.editor.tools import DRAGGED, EditorTools
 from ninja_game.play.editor.palette_view import tile_icon
 from ninja_game.play.editor.sheet import LevelSheet, joined
 from ninja_game.play.ui.canvas import Canvas, Colour
@@ -53,21 +53,21 @@ class Overlay:
             surface.blit(self.sheet.surface, shown, shown.move(-origin[0], -origin[1]))
         return changed
 
-    def draw(self, surface: pygame.Surface, bench: Bench, *, hovering: bool) -> list[pygame.Rect]:
+    def draw(self, surface: pygame.Surface, tools: EditorTools, *, hovering: bool) -> list[pygame.Rect]:
         """Draw it; the px of the window that it covers."""
         self.target.begin(surface)
         surface.set_clip(self.area)
-        if bench.selection.area:
-            self._frame(bench.selection.area, self.sheet.palette.accent)
-        for number, part in bench.selection.parts:
-            record = bench.draft.objects[number] if number < len(bench.draft.objects) else None
+        if tools.selection.area:
+            self._frame(tools.selection.area, self.sheet.palette.accent)
+        for number, part in tools.selection.parts:
+            record = tools.draft.objects[number] if number < len(tools.draft.objects) else None
             place = points(record).get(part) if record else None
             if place and is_near(*place):
                 self.target.sprite(_ring("accent"), *place)
-        if bench.marquee:
-            self._frame(area_between(*bench.marquee), self.sheet.palette.good)
+        if tools.marquee:
+            self._frame(area_between(*tools.marquee), self.sheet.palette.good)
         if hovering:
-            self._hover(bench)
+            self._hover(tools)
         surface.set_clip(None)
         return self.target.covered
 
@@ -80,31 +80,31 @@ class Overlay:
         pygame.draw.rect(self.target.surface, colour, rect, self.canvas.px(1.6))
         self._note(rect)
 
-    def _hover(self, bench: Bench) -> None:
+    def _hover(self, tools: EditorTools) -> None:
         """What a press would do here, and in the images of the symmetry."""
-        if bench.placing_switch:
+        if tools.placing_switch:
             return
-        drawing = bench.tool in ("brush", "rectangle") or (bench.tool == "fill" and not bench.objects)
-        motions = (Motion(), *(SYMMETRIES[bench.symmetry] if drawing else ()))
+        drawing = tools.tool in ("brush", "rectangle") or (tools.tool == "fill" and not tools.objects)
+        motions = (Motion(), *(SYMMETRIES[tools.symmetry] if drawing else ()))
         if not drawing:
-            found = nearest(bench.draft, *bench.pointer, DRAGGED)
+            found = nearest(tools.draft, *tools.pointer, DRAGGED)
             if found:
-                self.target.sprite(_ring("faint"), *points(bench.draft.objects[found[0]])[found[1]])
+                self.target.sprite(_ring("faint"), *points(tools.draft.objects[found[0]])[found[1]])
                 return
-        if not bench.objects or not drawing:
+        if not tools.objects or not drawing:
             for motion in motions:
-                cell = motion.cell(bench.cell)
+                cell = motion.cell(tools.cell)
                 if drawing:
-                    self._ghost_tile(cell, motion.tile(bench.tile))
+                    self._ghost_tile(cell, motion.tile(tools.tile))
                 self._frame((*cell, 1, 1), self.sheet.palette.accent)
             return
-        record = placed(bench.record, *bench.pointer, bench.snap)
-        x, y = points(record).get(BODY, bench.pointer)
-        there = nearest(bench.draft, x, y, _COVERED)
+        record = placed(tools.record, *tools.pointer, tools.snap)
+        x, y = points(record).get(BODY, tools.pointer)
+        there = nearest(tools.draft, x, y, _COVERED)
         if there is None or there[1] != SWITCH:
             images = [record] if record.kind in (NINJA, EXIT) else [carried(record, motion) for motion in motions]
-            for look in self.sheet.pictures.looks(images).values():
-                look.draw(self.target, alpha=GHOST)
+            for each in self.sheet.pictures.sprites_of(images).values():
+                each.draw(self.target, alpha=GHOST)
         for a, b in (((x - 4, y), (x + 4, y)), ((x, y - 4), (x, y + 4))):
             self.target.line(self.sheet.palette.accent, *a, *b)
 

@@ -1,4 +1,4 @@
-"""The palette: all tiles and all sorts of objects as they look; a click takes one in hand."""
+"""The palette: all tiles and all types of objects as they look; a click takes one in hand."""
 
 from __future__ import annotations
 
@@ -6,10 +6,20 @@ from functools import lru_cache
 
 import pygame
 
-from ninja_game.editor.bench import Bench
-from ninja_game.editor.brush import EMPTY, FAMILIES, FULL, SORTS, Sort, sort_of, tile_key, tile_name, with_switch
+from ninja_game.editor.brush import (
+    EMPTY,
+    FAMILIES,
+    FULL,
+    OBJECT_TYPES,
+    ObjectType,
+    object_type_of,
+    tile_key,
+    tile_name,
+    with_switch,
+)
 from ninja_game.editor.motion import TILE_IDS
 from ninja_game.editor.records import BODY, points
+from ninja_game.editor.tools import EditorTools
 from ninja_game.play.editor.object_pictures import ObjectPictures
 from ninja_game.play.input.commands import key_label_of
 from ninja_game.play.ui.canvas import Canvas
@@ -31,15 +41,15 @@ TILE_ORDER = (EMPTY, FULL, *(tile for family in FAMILIES for tile in family.tile
 class PaletteView(Widget):
     """Tiles above, objects below. ``hovered``: what the mouse is over."""
 
-    def __init__(self, area: Area, bench: Bench) -> None:
+    def __init__(self, area: Area, tools: EditorTools) -> None:
         super().__init__(area)
-        self.bench = bench
-        self.hovered: int | Sort | None = None
+        self.tools = tools
+        self.hovered: int | ObjectType | None = None
 
-    def places(self) -> list[tuple[int | Sort, Area]]:
+    def places(self) -> list[tuple[int | ObjectType, Area]]:
         """Every entry with its square; the four tiles of a family stand as their keys Q W A S do."""
         x, y, _, _ = self.area
-        found: list[tuple[int | Sort, Area]] = []
+        found: list[tuple[int | ObjectType, Area]] = []
         for number, tile in enumerate((EMPTY, FULL)):
             found.append((tile, (x + 126 + number * (TILE + 2), y + 1, TILE, TILE)))
         for number, family in enumerate(FAMILIES):
@@ -47,12 +57,12 @@ class PaletteView(Widget):
             left, top = x + 10 + column * BLOCK, y + 24 + row * BLOCK
             for k, tile in enumerate(family.tiles):
                 found.append((tile, (left + k % 2 * (TILE - 1), top + k // 2 * (TILE - 1), TILE - 1, TILE - 1)))
-        for number, sort in enumerate(SORTS):
+        for number, object_type in enumerate(OBJECT_TYPES):
             row, column = divmod(number, OBJECTS_PER_ROW)
-            found.append((sort, (x + column * (OBJECT + 0.6), y + 134 + row * (OBJECT + 1), OBJECT, OBJECT)))
+            found.append((object_type, (x + column * (OBJECT + 0.6), y + 134 + row * (OBJECT + 1), OBJECT, OBJECT)))
         return found
 
-    def _at(self, x: float, y: float) -> int | Sort | None:
+    def _at(self, x: float, y: float) -> int | ObjectType | None:
         return next(
             (what for what, (left, top, w, h) in self.places() if left <= x < left + w and top <= y < top + h), None
         )
@@ -61,7 +71,7 @@ class PaletteView(Widget):
         """Take what is there."""
         what = self._at(x, y)
         if what is not None:
-            self.bench.take(what.record if isinstance(what, Sort) else what)
+            self.tools.pick_up(what.record if isinstance(what, ObjectType) else what)
         return True
 
     def hover(self, x: float, y: float) -> str:
@@ -69,40 +79,40 @@ class PaletteView(Widget):
         self.hovered = self._at(x, y)
         if self.hovered is None:
             return ""
-        if isinstance(self.hovered, Sort):
+        if isinstance(self.hovered, ObjectType):
             return f"{self.hovered.name}    key {key_label_of(self.hovered.key)} among the objects"
         return f"{tile_name(self.hovered)}    keys {tile_key(self.hovered)} among the tiles"
 
     def step(self, by: int) -> None:
         """The entry before or after the one in hand."""
-        bench = self.bench
-        if bench.objects:
-            names = [sort.name for sort in SORTS]
-            bench.take(SORTS[(names.index(sort_of(bench.record)) + by) % len(SORTS)].record)
+        tools = self.tools
+        if tools.objects:
+            names = [object_type.name for object_type in OBJECT_TYPES]
+            tools.pick_up(OBJECT_TYPES[(names.index(object_type_of(tools.record)) + by) % len(OBJECT_TYPES)].record)
         else:
-            place = TILE_ORDER.index(bench.tile) if bench.tile in TILE_ORDER else 0
-            bench.take(TILE_ORDER[(place + by) % len(TILE_ORDER)])
+            place = TILE_ORDER.index(tools.tile) if tools.tile in TILE_ORDER else 0
+            tools.pick_up(TILE_ORDER[(place + by) % len(TILE_ORDER)])
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         """All of it; what is in hand has a frame."""
         canvas, palette = theme.canvas, theme.palette
         x, y, w, h = self.area
         canvas.fill_rect(surface, palette.panel, x - 4, y - 4, w + 6, h + 4, 3)
-        bench = self.bench
-        for text, top, lit in (("Tiles", y + 5, not bench.objects), ("Objects", y + 120, bench.objects)):
+        tools = self.tools
+        for text, top, lit in (("Tiles", y + 5, not tools.objects), ("Objects", y + 120, tools.objects)):
             colour = palette.accent if lit else palette.text
             theme.text(surface, text, x + 1, top, size=10, colour=colour, bold=lit)
         for number, family in enumerate(FAMILIES):
             row, column = divmod(number, 4)
             at = x + 2 + column * BLOCK, y + 36 + row * BLOCK
             theme.text(surface, family.key, *at, size=8, colour=palette.faint)
-        in_hand: int | str = sort_of(bench.record) if bench.objects else bench.tile
+        in_hand: int | str = object_type_of(tools.record) if tools.objects else tools.tile
         for what, area in self.places():
-            chosen = (what.name if isinstance(what, Sort) else what) == in_hand
+            chosen = (what.name if isinstance(what, ObjectType) else what) == in_hand
             canvas.fill_rect(surface, palette.background, *area)
             at = canvas.point(area[0], area[1])
             surface.blit(self._icon(theme, what, area), at, special_flags=pygame.BLEND_PREMULTIPLIED)
-            if isinstance(what, Sort):
+            if isinstance(what, ObjectType):
                 at = area[0] + 1.5, area[1] + 1
                 canvas.fill_rect(surface, palette.panel, area[0] + 0.5, area[1] + 0.5, 7, 9, 2)
                 theme.text(surface, key_label_of(what.key), *at, size=7, colour=palette.faint)
@@ -111,13 +121,13 @@ class PaletteView(Widget):
             if chosen:
                 canvas.frame_rect(surface, palette.accent, *area, 2)
 
-    def _icon(self, theme: Theme, what: int | Sort, area: Area) -> pygame.Surface:
+    def _icon(self, theme: Theme, what: int | ObjectType, area: Area) -> pygame.Surface:
         size = theme.canvas.rect(*area).size
-        if not isinstance(what, Sort):
+        if not isinstance(what, ObjectType):
             return tile_icon(what, size, theme.palette.name)
         # The one in hand as it is drawn now.
-        in_hand = self.bench.objects and sort_of(self.bench.record) == what.name
-        return object_icon(self.bench.record if in_hand else what.record, size, theme.canvas.scale, theme.palette.name)
+        in_hand = self.tools.objects and object_type_of(self.tools.record) == what.name
+        return object_icon(self.tools.record if in_hand else what.record, size, theme.canvas.scale, theme.palette.name)
 
 
 @lru_cache(maxsize=200)
@@ -140,5 +150,5 @@ def object_icon(record: ObjectSpec, size: tuple[int, int], scale: float, palette
     target = DrawTarget(canvas, PALETTES[palette], SpriteBook(canvas.scale, PALETTES[palette]))
     icon = pygame.Surface(size, pygame.SRCALPHA)
     target.begin(icon)
-    ObjectPictures(target).looks([far])[far].draw(target)
+    ObjectPictures(target).sprites_of([far])[far].draw(target)
     return icon

@@ -12,12 +12,12 @@ from ninja_game.editor.brush import SNAPS, snapped
 from ninja_game.editor.files import Source
 from ninja_game.editor.records import PROPERTIES, properties, with_word, word
 from ninja_game.play.editor.commands import EditorCommands
-from ninja_game.play.editor.controls import DIRECTION_KEYS, SORT_OF_KEY, command_of, tile_of_key
-from ninja_game.play.editor.desk import DESK, Desk
+from ninja_game.play.editor.controls import DIRECTION_KEYS, OBJECT_TYPE_OF_KEY, command_of, tile_of_key
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.properties import property_widgets, subject
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.toolbar import toolbar
+from ninja_game.play.editor.view import LAYOUT, EditorView
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.input.scancodes import chord
 from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
@@ -34,15 +34,15 @@ _LEFT, _MIDDLE, _RIGHT = 1, 2, 3
 
 
 class EditorScreen(MenuScreen):
-    """A level is made here. ``session``: what is edited; ``desk``: what is seen of it."""
+    """A level is made here. ``session``: what is edited; ``view``: what is seen of it."""
 
     def __init__(self, app: App, source: Source | None = None) -> None:
         super().__init__(app)
         self.session = EditorSession(app, source)
-        self.desk = Desk(app, self.session)
-        self.commands = EditorCommands(app, self.session, self.desk)
+        self.view = EditorView(app, self.session)
+        self.commands = EditorCommands(app, self.session, self.view)
         self.findings = ListView(
-            DESK.findings, 19, self._draw_finding, self.commands.go_to_finding, empty="No problems found",
+            LAYOUT.findings, 19, self._draw_finding, self.commands.go_to_finding, empty="No problems found",
             hint="A click goes there and selects it",
         )  # fmt: skip
         self._subject: tuple[object, ...] = ()
@@ -52,19 +52,19 @@ class EditorScreen(MenuScreen):
 
     def build(self) -> Sequence[Widget]:
         """Toolbar, palette, properties, findings."""
-        bench = self.session.bench
-        self._subject = subject(bench)
-        self.palette_view = PaletteView(DESK.palette, bench)
-        self.desk.toolbar = list(toolbar(bench, self.commands.run, lambda: self.desk.grid.name))
-        self.desk.properties = list(property_widgets(bench, DESK.properties))
-        return [*self.desk.toolbar, self.palette_view, *self.desk.properties, self.findings]
+        tools = self.session.tools
+        self._subject = subject(tools)
+        self.palette_view = PaletteView(LAYOUT.palette, tools)
+        self.view.toolbar = list(toolbar(tools, self.commands.run, lambda: self.view.grid.name))
+        self.view.properties = list(property_widgets(tools, LAYOUT.properties))
+        return [*self.view.toolbar, self.palette_view, *self.view.properties, self.findings]
 
     def enter(self) -> None:
         """Nothing has the focus: keys draw."""
         super().enter()
         self.focus = None
         self.commands.step_palette = self.palette_view.step
-        self.desk.stale = True
+        self.view.stale = True
         if not self._entered:
             self._entered = True
             self.commands.offer_recovered()
@@ -94,11 +94,11 @@ class EditorScreen(MenuScreen):
         """What the widgets want drawn again is the panels, not the level."""
         before, self.redraw = self.redraw, False
         yield
-        self.desk.stale, self.redraw = self.desk.stale or self.redraw, before
+        self.view.stale, self.redraw = self.view.stale or self.redraw, before
 
     def handle(self, event: InputEvent) -> None:
         """Mouse, keys, pads. A mouse tells of many places in a picture: what is dragged goes to the last one."""
-        if event.raw.type == pygame.MOUSEMOTION and self.session.bench.dragging:
+        if event.raw.type == pygame.MOUSEMOTION and self.session.tools.dragging:
             self._dragged_to = event.raw
             return
         self._drag_on()
@@ -110,10 +110,10 @@ class EditorScreen(MenuScreen):
             pass
         elif event.menu == "confirm":
             self._held = True
-            self.session.bench.press()
+            self.session.tools.press()
         elif event.menu_released == "confirm" and self._held:
             self._held = False
-            self.session.bench.release()
+            self.session.tools.release()
         else:
             super().handle(event)
         if event.raw.type != pygame.MOUSEMOTION:
@@ -126,8 +126,8 @@ class EditorScreen(MenuScreen):
 
     def _follow(self) -> None:
         """What is shown follows what was done."""
-        self.desk.stale = True
-        if subject(self.session.bench) != self._subject and not isinstance(self.focus, TextEntry):
+        self.view.stale = True
+        if subject(self.session.tools) != self._subject and not isinstance(self.focus, TextEntry):
             self.widgets = list(self.build())
             self.focus = None
 
@@ -135,28 +135,28 @@ class EditorScreen(MenuScreen):
         """Arrows move the pointer by the snap."""
         if action not in DIRECTIONS:
             return
-        bench, (dx, dy) = self.session.bench, DIRECTIONS[action]
-        snap = bench.snap if bench.objects or bench.tool == "select" else "cell"
-        x, y = bench.pointer
+        tools, (dx, dy) = self.session.tools, DIRECTIONS[action]
+        snap = tools.snap if tools.objects or tools.tool == "select" else "cell"
+        x, y = tools.pointer
         step = SNAPS[snap]
-        self.desk.hovering = True
-        bench.move(*snapped(x + dx * step, y + dy * step, snap))
-        self.desk.moved = True
+        self.view.hovering = True
+        tools.move(*snapped(x + dx * step, y + dy * step, snap))
+        self.view.moved = True
 
     def _choose_by_key(self, key: str) -> bool:
         """Keys that choose a tile, an object, a direction; Shift and arrows move what is selected."""
-        bench = self.session.bench
+        tools = self.session.tools
         if key.startswith("shift+") and key[6:] in DIRECTIONS:
-            bench.nudge(*DIRECTIONS[key[6:]])
+            tools.nudge(*DIRECTIONS[key[6:]])
             return True
-        if not bench.objects and not bench.selection:
-            tile = tile_of_key(key, bench.tile)
+        if not tools.objects and not tools.selection:
+            tile = tile_of_key(key, tools.tile)
             if tile is not None:
-                bench.take(tile)
+                tools.pick_up(tile)
             return tile is not None
-        sort = SORT_OF_KEY.get(key)
-        if sort and not bench.selection:
-            bench.take(sort.record)
+        object_type = OBJECT_TYPE_OF_KEY.get(key)
+        if object_type and not tools.selection:
+            tools.pick_up(object_type.record)
         elif key in DIRECTION_KEYS:
             self._direct(DIRECTION_KEYS[key])
         elif key in ("q", "e"):
@@ -164,52 +164,52 @@ class EditorScreen(MenuScreen):
         elif key == "n":
             self._next_word("seeker", 1)
         else:
-            return sort is not None
+            return object_type is not None
         return True
 
     def _direct(self, direction: str) -> None:
         """Turn the object in hand, or the selected one; doors have sides instead."""
-        record = self.session.bench.subject
+        record = self.session.tools.subject
         side = {"up": "top", "down": "bottom"}.get(direction, direction)
         for name, text in (("direction", direction), ("side", side)):
             if name in properties(record):
-                self.session.bench.put_subject(with_word(record, name, text))
+                self.session.tools.put_subject(with_word(record, name, text))
 
     def _next_word(self, name: str, by: int) -> None:
-        record = self.session.bench.subject
+        record = self.session.tools.subject
         if name in properties(record):
             words = list(PROPERTIES[record.kind][name].words)
             place = words.index(word(record, name)) if word(record, name) in words else 0
-            self.session.bench.put_subject(with_word(record, name, words[(place + by) % len(words)]))
+            self.session.tools.put_subject(with_word(record, name, words[(place + by) % len(words)]))
 
     # --- the mouse ---
 
     def _handle_mouse(self, event: pygame.Event) -> None:
-        bench, desk = self.session.bench, self.desk
+        tools, view = self.session.tools, self.view
         pos = pygame.mouse.get_pos() if event.type == pygame.MOUSEWHEEL else event.pos
-        over = desk.overlay.area.collidepoint(pos) and self._dragged is None
+        over = view.overlay.area.collidepoint(pos) and self._dragged is None
         if event.type == pygame.MOUSEMOTION:
-            desk.hovering = over
+            view.hovering = over
             if over or self._held:
-                desk.hint = ""
-                bench.move(*desk.overlay.canvas.logical(pos))
+                view.hint = ""
+                tools.move(*view.overlay.canvas.logical(pos))
             elif self._dragged is not None:
                 self._dragged.drag(*self.app.canvas.logical(pos))
-                desk.stale = True
+                view.stale = True
             else:
                 self._hover(*self.app.canvas.logical(pos))
-            desk.moved = True
+            view.moved = True
         elif event.type == pygame.MOUSEWHEEL and over:
             self.palette_view.step(-event.y)
         elif event.type == pygame.MOUSEBUTTONDOWN and over:
             self.focus = None
             self._held = True
-            bench.move(*desk.overlay.canvas.logical(pos))
+            tools.move(*view.overlay.canvas.logical(pos))
             add = bool(pygame.key.get_mods() & pygame.KMOD_SHIFT)
-            bench.press(erase=event.button == _RIGHT, pick=event.button == _MIDDLE, add=add)
+            tools.press(erase=event.button == _RIGHT, pick=event.button == _MIDDLE, add=add)
         elif event.type == pygame.MOUSEBUTTONUP and self._held:
             self._held = False
-            bench.release()
+            tools.release()
         else:
             with self._panels_only():
                 super()._handle_mouse(event)
@@ -217,12 +217,12 @@ class EditorScreen(MenuScreen):
     def _hover(self, x: float, y: float) -> None:
         """Say what the thing under the mouse is."""
         widget = self._at(x, y)
-        self.desk.hint = self.palette_view.hover(x, y) if widget is self.palette_view else widget.hint if widget else ""
+        self.view.hint = self.palette_view.hover(x, y) if widget is self.palette_view else widget.hint if widget else ""
 
     # --- findings ---
 
     def _draw_finding(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
-        finding = self.desk.shown_findings[index]
+        finding = self.view.shown_findings[index]
         x, y, w, _ = area
         theme.text(surface, "!", x + 4, y + 5, size=9.5, bold=True, colour=theme.palette.bad)
         theme.text(surface, f"{finding.sentence}. {finding.mend}", x + 14, y + 5, size=9.5, width=w - 16)
@@ -234,14 +234,14 @@ class EditorScreen(MenuScreen):
         super().update(real_ms)
         self._drag_on()
         self.session.update()
-        if self.session.certifier.text != self.desk.shown_certificate:
-            self.desk.shown_certificate = self.session.certifier.text
-            self.desk.stale = True
-        if self.session.findings is not self.desk.shown_findings:
-            self.desk.shown_findings = self.session.findings
+        if self.session.certifier.text != self.view.shown_certificate:
+            self.view.shown_certificate = self.session.certifier.text
+            self.view.stale = True
+        if self.session.findings is not self.view.shown_findings:
+            self.view.shown_findings = self.session.findings
             self.findings.fill(self.session.findings)
-            self.desk.stale = True
+            self.view.stale = True
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
         """All of it, or what has changed."""
-        return self.desk.draw(surface, self.widgets, self.focus, whole=self.redraw)
+        return self.view.draw(surface, self.widgets, self.focus, whole=self.redraw)

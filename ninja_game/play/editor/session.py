@@ -1,4 +1,4 @@
-"""What one editor works on: the bench, its file, what is kept safe, what is odd, certificate and tests."""
+"""What one editor works on: the tools, its file, what is kept safe, what is odd, certificate and tests."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 from ninja_game.editor.autosave import Autosave, Recovered
 from ninja_game.editor.background import NewestJob
-from ninja_game.editor.bench import Bench
-from ninja_game.editor.brush import SORTS, placed
+from ninja_game.editor.brush import OBJECT_TYPES, placed
 from ninja_game.editor.certify import Certifier, Route, route_of
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import SUFFIX, Source, draft_of_text, new_source, save
 from ninja_game.editor.stamp import Stamp, put
+from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import file_stem
 from ninja_game.files.user_folder import free_path
@@ -42,18 +42,18 @@ def _examine(level: Level) -> Examined:
 
 
 class EditorSession:
-    """``bench``: where the level is changed; ``source``: its file. ``last_try``: the way of the last test."""
+    """``tools``: where the level is changed; ``source``: its file. ``last_try``: the route of the last test."""
 
     def __init__(self, app: App, source: Source | None = None) -> None:
         self.app = app
         self.certifier = Certifier()
-        self.bench = Bench(new_source().draft)
+        self.tools = EditorTools(new_source().draft)
         self._checks: NewestJob[Level, Examined] = NewestJob(_examine)
         self._begin(source or new_source(app.settings.name))
 
     def _begin(self, source: Source, found: Recovered | None = None) -> None:
         self.source = found.source if found else source
-        self.bench.load(found.draft if found else source.draft)
+        self.tools.load(found.draft if found else source.draft)
         self.autosave = Autosave(self.app.player.folder, found.file if found else None)
         self.last_try: Route = ()
         self._asked: Level | None = None
@@ -67,7 +67,7 @@ class EditorSession:
     @property
     def draft(self) -> Draft:
         """The level as it is now."""
-        return self.bench.draft
+        return self.tools.draft
 
     @property
     def is_saved(self) -> bool:
@@ -91,7 +91,7 @@ class EditorSession:
 
     def update(self) -> None:
         """Keep the level safe and examine it, both in the background."""
-        self.autosave.look(self.draft, self.source)
+        self.autosave.poll(self.draft, self.source)
         if self.autosave.problem:
             self.app.notify(self.autosave.problem)
             self.autosave.problem = ""
@@ -99,7 +99,7 @@ class EditorSession:
             self.app.notify(f"The level could not be examined: {self._checks.problem}")
             self._checks.problem = ""
         due = self.draft.level is not self._asked and monotonic() - self._asked_at >= CHECK_SPACING
-        if due and not self.bench.dragging:
+        if due and not self.tools.dragging:
             self._asked, self._asked_at = self.draft.level, monotonic()
             self._checks.ask(self.draft.level)
 
@@ -121,7 +121,7 @@ class EditorSession:
 
         Raises OccupiedError where that would replace what somebody else wrote, OSError.
         """
-        self.bench.finish()
+        self.tools.finish()
         self.source = save(self.source, self.draft, path, replacing=replacing)
         mine = path.is_relative_to(self.app.player.folder / "levels")
         self.app.notify(f"Saved{', and in the menu Levels' * mine}: {path}")
@@ -136,7 +136,7 @@ class EditorSession:
         try:
             text = write_level_string(self.draft.level, exact=True)
         except NinjaGameError as error:
-            self.app.notify(f"No string of N can say this level: {error}")
+            self.app.notify(f"This level cannot be written as an N string: {error}")
             return
         copy_text(self.app, text, title=self.name, suffix=".nlevel")
 
@@ -147,8 +147,8 @@ class EditorSession:
     def paste_string(self) -> None:
         """The level of a text in the clipboard, in any format, in the place of this one; it can be undone."""
         try:
-            self.bench.finish()
-            self.bench.history.change(draft_of_text(pasted_text(), self.draft))
+            self.tools.finish()
+            self.tools.history.change(draft_of_text(pasted_text(), self.draft))
             self.app.notify("The level of the clipboard; undo brings yours back")
         except NinjaGameError:
             self.app.notify("There is no level in the clipboard: copy its text first")
@@ -157,14 +157,14 @@ class EditorSession:
 
     def level_to_test(self, *, here: bool) -> Level:
         """The level to try; ``here``: with the ninja at the pointer."""
-        self.bench.finish()
+        self.tools.finish()
         if not here:
             return self.draft.level
-        ninja = placed(SORTS[0].record, *self.bench.pointer, "px")
+        ninja = placed(OBJECT_TYPES[0].record, *self.tools.pointer, "px")
         return put(self.draft, Stamp({}, (ninja,))).level
 
     def tried(self, level: Level, inputs: bytes) -> None:
-        """A test was left: its way is shown."""
+        """A test was left: its route is shown."""
         if inputs:
             self.last_try = route_of(level, inputs)
 
@@ -174,7 +174,7 @@ class EditorSession:
         if run is None or self.certifier.is_stale(self.draft.level):
             self.app.notify("Certify the level first (F7)")
             return
-        from ninja_game.search.certificate import replay_of
+        from ninja_game.search.certificate import named_run
 
-        replay = replay_of(run, name=self.name, author="solver", level_author=self.draft.author)
+        replay = named_run(run, name=self.name, author="solver", level_author=self.draft.author)
         self.app.notify(keep_replay(self.app.player, replay))

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.editor.draft import Draft
-from ninja_game.play.editor.object_pictures import Look, ObjectPictures
+from ninja_game.play.editor.object_pictures import ObjectPictures, ObjectSprites
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.palette import Palette
 from ninja_game.play.view.sprites.draw_target import DrawTarget
@@ -30,7 +30,7 @@ _COVERED = 4
 """Eighths as solid: an object that a tile hides is seen through it."""
 
 
-class Mark(NamedTuple):
+class LevelMark(NamedTuple):
     """Something drawn over the level: a line, a sign. ``rects``: the px that it may cover."""
 
     draw: Callable[[DrawTarget], None]
@@ -52,10 +52,10 @@ class LevelSheet:
         self.pictures = ObjectPictures(self.target)
         self.draft: Draft | None = None
         self._tiles = TileSheet(self.canvas, palette)
-        self._looks: dict[ObjectSpec, Look] = {}
-        self._order: list[Look] = []
+        self._looks: dict[ObjectSpec, ObjectSprites] = {}
+        self._order: list[ObjectSprites] = []
         self._rects: list[pygame.Rect] = []
-        self.marks: dict[Hashable, Mark] = {}
+        self.marks: dict[Hashable, LevelMark] = {}
         self._grid: pygame.Surface | None = None
         self._dirty: list[pygame.Rect] = []
 
@@ -85,13 +85,13 @@ class LevelSheet:
 
     def _change_objects(self, draft: Draft) -> None:
         before = self._looks
-        found = before | self.pictures.looks(record for record in draft.objects if record not in before)
+        found = before | self.pictures.sprites_of(record for record in draft.objects if record not in before)
         self._looks = {record: found[record] for record in draft.objects}
         self._order = [found[record] for record in sorted(self._looks, key=lambda each: _FRONT.get(each.kind, 0))]
-        self._rects = [look.rect for look in self._order]
+        self._rects = [each.rect for each in self._order]
         self._dirty += [found[record].rect for record in before.keys() ^ self._looks.keys()]
 
-    def show_marks(self, marks: dict[Hashable, Mark]) -> None:
+    def show_marks(self, marks: dict[Hashable, LevelMark]) -> None:
         """Show these marks. A mark with the key of an earlier one is the same."""
         changed = [self.marks[key] for key in self.marks.keys() - marks.keys()]
         changed += [marks[key] for key in marks.keys() - self.marks.keys()]

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 import pygame
 
-from ninja_game.editor.bench import Bench
+from ninja_game.editor.tools import EditorTools
 from ninja_game.play.editor.controls import COMMANDS, keys_of
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button
@@ -29,29 +29,35 @@ class ToolButton(Button):
     """A button of a command, accented while the command is in force."""
 
     def __init__(
-        self, area: Area, name: str, text: str, run: Callable[[str], object], bench: Bench, grid: Callable[[], str]
+        self,
+        area: Area,
+        name: str,
+        text: str,
+        run: Callable[[str], object],
+        tools: EditorTools,
+        grid: Callable[[], str],
     ) -> None:
         hint = "    ".join(filter(None, (_LABELS[name], keys_of(name))))
         super().__init__(area, text, lambda: run(name), hint=hint, size=9)
-        self.name, self.bench, self.grid = name, bench, grid
+        self.name, self.tools, self.grid = name, tools, grid
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         """Its text in a panel."""
-        bench, (x, y, w, h) = self.bench, self.area
-        lit = self.name == bench.tool or (self.name == "symmetry" and bench.symmetry != "off")
+        tools, (x, y, w, h) = self.tools, self.area
+        lit = self.name == tools.tool or (self.name == "symmetry" and tools.symmetry != "off")
         theme.row(surface, self.area, chosen=lit, focused=lit, radius=3)
-        self.enabled = {"undo": bench.history.can_undo, "redo": bench.history.can_redo}.get(self.name, True)
-        text = self.text.format(symmetry=bench.symmetry, grid=self.grid(), snap=bench.snap)
+        self.enabled = {"undo": tools.history.can_undo, "redo": tools.history.can_redo}.get(self.name, True)
+        text = self.text.format(symmetry=tools.symmetry, grid=self.grid(), snap=tools.snap)
         colour = theme.palette.text if self.enabled else theme.palette.faint
         theme.text(
             surface, text, x + w / 2, y + (h - 9) / 2, size=9, colour=colour, align="centre", bold=lit or focused
         )
 
 
-def toolbar(bench: Bench, run: Callable[[str], object], grid: Callable[[], str]) -> Sequence[ToolButton]:
+def toolbar(tools: EditorTools, run: Callable[[str], object], grid: Callable[[], str]) -> Sequence[ToolButton]:
     """The buttons from left to right. ``run``: does a command; ``grid``: the name of the grid that is shown."""
     x, buttons = 6.0, []
     for name, text, width, gap in _BUTTONS:
-        buttons.append(ToolButton((x, TOP, width, TALL), name, text, run, bench, grid))
+        buttons.append(ToolButton((x, TOP, width, TALL), name, text, run, tools, grid))
         x += width + GAP + gap
     return buttons

@@ -63,7 +63,7 @@ class Ghost:
         self.catch_up(self._turn)
 
     def catch_up(self, most: int) -> int:
-        """Go on after a leap for so many ticks at most; how many it was."""
+        """Go on after a leap for this many ticks at most; how many it was."""
         before = self.simulation.tick
         ticks = min(self.behind, most)
         self.behind -= ticks

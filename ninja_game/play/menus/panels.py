@@ -27,7 +27,7 @@ def nothing() -> None:
     """The action of a button that does nothing but close; what is done behind saving, as a rule."""
 
 
-STAY: Row = ("Stay", nothing, "")
+CANCEL: Row = ("Cancel", nothing, "")
 
 
 class Panel(MenuScreen):
@@ -89,7 +89,7 @@ class Question(Panel):
 
     def rows(self) -> list[Row]:
         """No first, so that a hasty key does no harm."""
-        return [("Stay", self.back, ""), (self._yes, self._do, "")]
+        return [("Cancel", self.back, ""), (self._yes, self._do, "")]
 
     def _do(self) -> None:
         self.app.pop()

@@ -53,7 +53,7 @@ class Playback:
         self._states.forget_after(tick)
 
     def seek(self, tick: int, most: int = MAX_TICKS) -> int:
-        """Go to the moment after so many ticks, or as near as ``most`` ticks lead; how many of them are left."""
+        """Go to the moment after this many ticks, or as near as ``most`` ticks lead; how many of them are left."""
         run = self.simulation
         nearest, state = self._states.nearest(tick)
         if not nearest <= run.tick <= tick:

@@ -44,7 +44,7 @@ class ReplayScreen(Screen):
     """Shows a recording. Others on the same level run along as ghosts. Raises LevelError for one that cannot be played.
 
     ``end``: the tick of the exit contact or death, or the last one of the recording; ``outcome``: what it brought.
-    ``length``: ticks to show. ``editable``: whether the bench may be opened from here, if the app has one.
+    ``length``: ticks to show. ``editable``: whether the TAS editor may be opened from here, if the app has one.
 
     Between two pictures there is the work of a turn at most: in a long run the end is looked for while it plays, and
     until it is found ``end`` is the last tick of the recording; to seek far ahead takes several turns.
@@ -52,7 +52,7 @@ class ReplayScreen(Screen):
 
     def __init__(self, app: App, runs: Sequence[Recording], *, editable: bool = True) -> None:
         super().__init__(app)
-        self.open_bench = app.open_bench if editable else None
+        self.open_tas_editor = app.open_tas_editor if editable else None
         self.runs = runs
         self.clock = RunClock()
         self.overlays = Overlays()
@@ -101,7 +101,7 @@ class ReplayScreen(Screen):
 
     @property
     def tick(self) -> int:
-        """The moment shown: after so many ticks."""
+        """The moment shown: after this many ticks."""
         return self.playback.simulation.tick
 
     @property
@@ -112,7 +112,7 @@ class ReplayScreen(Screen):
     # --- moving in time ---
 
     def _look_ahead(self, ticks: int) -> None:
-        """Look for the end of the run for so many ticks."""
+        """Look for the end of the run for this many ticks."""
         end = self._scout.find_end(ticks) if self._scout else None
         if self._scout and end is not None:
             self.end, self.outcome, self.length = end, self._scout.simulation.outcome, end + AFTERMATH
@@ -120,7 +120,7 @@ class ReplayScreen(Screen):
             self.redraw = True
 
     def seek(self, tick: int) -> None:
-        """Show the moment after so many ticks, exactly; the corpse and particles are those of the last moments.
+        """Show the moment after this many ticks, exactly; the corpse and particles are those of the last moments.
 
         One that the work of a turn does not lead to is reached in the next ones.
         """
@@ -265,9 +265,9 @@ class ReplayScreen(Screen):
         copy_link(self.app, lambda: replay_link([_with_claims(self.run)]), title=self.run.title)
 
     def edit(self) -> None:
-        """Open the bench on this run, at this tick, with the others beside it."""
-        if self.open_bench:
-            self.open_bench(self.run, [run for run in self.runs if run is not self.run], max(0, self.tick - 1))
+        """Open the TAS editor on this run, at this tick, with the others beside it."""
+        if self.open_tas_editor:
+            self.open_tas_editor(self.run, [run for run in self.runs if run is not self.run], max(0, self.tick - 1))
 
     # --- picture ---
 
@@ -298,7 +298,7 @@ class ReplayScreen(Screen):
         return (
             f"{key('frame_back')} {key('frame_forward')}: tick by tick    {key('left')} {key('right')}: a second    "
             f"{key('slower')} {key('faster')}: speed    {key('export')}: film    "
-            + f"{key('edit')}: edit    " * bool(self.open_bench)
+            + f"{key('edit')}: edit    " * bool(self.open_tas_editor)
             + f"{key('link')}: link    {key('back')}: leave"
         )
 

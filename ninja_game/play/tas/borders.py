@@ -1,4 +1,4 @@
-"""What is between the parts of the bench: a drag there gives one of them more room."""
+"""What is between the parts of the TAS editor: a drag there gives one of them more room."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from contextlib import suppress
 
 import pygame
 
-from ninja_game.play.tas.bench import Bench
-from ninja_game.play.tas.layout import BenchLayout, Wishes, bench_canvas, bench_layout
+from ninja_game.play.tas.editor import TasEditor
+from ninja_game.play.tas.layout import LayoutPreferences, TasLayout, tas_canvas, tas_layout
 from ninja_game.play.tas.part import Commands, Part
 from ninja_game.play.ui.theme import Theme
 
-_LETTERS = (80, 90, 100, 110, 125, 140, 160, 180, 200, 240, 280, 320, 400)
+_TEXT_SCALES = (80, 90, 100, 110, 125, 140, 160, 180, 200, 240, 280, 320, 400)
 """Sizes of the letters that one can choose, percent."""
 
 
@@ -22,33 +22,33 @@ class Borders(Part):
     What was dragged, and the size of the letters, are settings.
     """
 
-    layout: BenchLayout
+    layout: TasLayout
 
-    def __init__(self, bench: Bench, parts: Sequence[Part]) -> None:
-        super().__init__(bench)
+    def __init__(self, editor: TasEditor, parts: Sequence[Part]) -> None:
+        super().__init__(editor)
         self._parts = parts
         self._known: tuple[object, ...] = ()
-        self._wishes: Wishes | None = None
+        self._dragged_to: LayoutPreferences | None = None
         self._side = ""
         self._grabbed = 0.0, 0.0
-        self._before: BenchLayout | None = None
+        self._before: TasLayout | None = None
 
     @property
-    def wishes(self) -> Wishes:
+    def preferences(self) -> LayoutPreferences:
         """What the player has chosen, or is dragging to."""
-        settings = self.bench.app.settings
-        return self._wishes or Wishes(settings.letters, settings.left_share, settings.tabs_share)
+        settings = self.editor.app.settings
+        return self._dragged_to or LayoutPreferences(settings.text_scale, settings.level_width, settings.tabs_height)
 
     def fit(self) -> bool:
         """Have theme and layout for the window as it is now, with all parts in their places; whether that is new."""
-        shown, wishes = self.bench.app.theme, self.wishes
-        if (shown, wishes) == self._known:
+        shown, preferences = self.editor.app.theme, self.preferences
+        if (shown, preferences) == self._known:
             return False
-        canvas = bench_canvas(shown.canvas.window, wishes.letters)
-        if self._known[:1] != (shown,) or self.bench.theme.canvas.scale != canvas.scale:
-            self.bench.theme = Theme(shown.palette, canvas)
-        self._known = shown, wishes
-        self.layout = bench_layout((canvas.window[0] / canvas.scale, canvas.window[1] / canvas.scale), wishes)
+        canvas = tas_canvas(shown.canvas.window, preferences.text_scale)
+        if self._known[:1] != (shown,) or self.editor.theme.canvas.scale != canvas.scale:
+            self.editor.theme = Theme(shown.palette, canvas)
+        self._known = shown, preferences
+        self.layout = tas_layout((canvas.window[0] / canvas.scale, canvas.window[1] / canvas.scale), preferences)
         for part in self._parts:
             part.place(getattr(self.layout, part.slot))
         return True
@@ -56,25 +56,25 @@ class Borders(Part):
     def commands(self) -> Commands:
         """The size of the letters."""
         return {
-            "larger_letters": lambda: self.change_letters(1), "smaller_letters": lambda: self.change_letters(-1),
-            "usual_letters": lambda: self.bench.app.change_settings(letters=0, left_share=0, tabs_share=0),
+            "zoom_in": lambda: self.change_text_scale(1), "zoom_out": lambda: self.change_text_scale(-1),
+            "reset_layout": lambda: self.editor.app.change_settings(text_scale=0, level_width=0, tabs_height=0),
         }  # fmt: skip
 
-    def change_letters(self, by: int) -> None:
+    def change_text_scale(self, by: int) -> None:
         """The next size, up or down, of those that fit the window."""
-        app = self.bench.app
-        now = self.bench.theme.canvas.scale * 100
+        app = self.editor.app
+        now = self.editor.theme.canvas.scale * 100
         largest = app.theme.canvas.scale * 100
-        sizes = [each for each in _LETTERS if (each - now) * by > 1 and each < largest]
-        letters = min(sizes, key=lambda each: abs(each - now), default=round(largest) if by > 0 else 0)
-        if not letters or (by > 0 and now > largest - 1):
-            app.notify(f"Letters are as {'large as this window allows' if by > 0 else 'small as can be'}")
+        sizes = [each for each in _TEXT_SCALES if (each - now) * by > 1 and each < largest]
+        text_scale = min(sizes, key=lambda each: abs(each - now), default=round(largest) if by > 0 else 0)
+        if not text_scale or (by > 0 and now > largest - 1):
+            app.notify(f"The layout is as {'large as this window allows' if by > 0 else 'small as can be'}")
         else:
-            app.change_settings(letters=letters)
+            app.change_settings(text_scale=text_scale)
 
     # --- a part of the window, without a picture ---
 
-    def look(self) -> tuple[object, ...]:
+    def render_key(self) -> tuple[object, ...]:
         """Nothing."""
         return ()
 
@@ -102,7 +102,7 @@ class Borders(Part):
         elif event.type == pygame.MOUSEMOTION:
             side = self._side or self._side_at(x, y)
             _show_pointer(pygame.SYSTEM_CURSOR_SIZEWE if side == "left" else pygame.SYSTEM_CURSOR_SIZENS)
-            self.bench.hint = "Drag: more room for one side; Ctrl+0: as it suits the window"
+            self.editor.hint = "Drag: more room for one side; Ctrl+0: reset the layout"
             if self._side:
                 self._drag(x, y)
         elif event.type == pygame.MOUSEBUTTONUP:
@@ -113,19 +113,19 @@ class Borders(Part):
         (left, top, w, h), tabs = self.layout.level, self.layout.tabs[3]
         dx, dy = self._grabbed
         if self._side == "left":
-            self._wishes = self.wishes._replace(left=_percent((x - dx - left) / (w + self.layout.roll[2])))
+            self._dragged_to = self.preferences._replace(left=_percent((x - dx - left) / (w + self.layout.roll[2])))
         else:
-            self._wishes = self.wishes._replace(tabs=_percent(1 - (y - dy - top) / (h + tabs)))
+            self._dragged_to = self.preferences._replace(tabs=_percent(1 - (y - dy - top) / (h + tabs)))
 
     def _end(self) -> None:
         """Keep what was dragged."""
         self._side = ""
-        if self._wishes is not None:
-            wishes, self._wishes = self._wishes, None
+        if self._dragged_to is not None:
+            preferences, self._dragged_to = self._dragged_to, None
             if self.layout == self._before:
                 # Where there is no room to drag, nothing is wished for larger windows either.
                 return
-            self.bench.app.change_settings(left_share=wishes.left, tabs_share=wishes.tabs)
+            self.editor.app.change_settings(level_width=preferences.left, tabs_height=preferences.tabs)
 
     def mouse_left(self) -> None:
         """The usual pointer again."""

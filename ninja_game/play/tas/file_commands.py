@@ -1,4 +1,4 @@
-"""What the bench does with files: save, open, what was not saved last time, leave."""
+"""What the TAS editor does with files: save, open, what was not saved last time, leave."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from ninja_game.files.user_folder import REPLAYS, free_path
 from ninja_game.formats.links.making import replay_link
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.help.commands_page import HelpPage
-from ninja_game.play.menus.panels import STAY, Form, Menu, Row, nothing
+from ninja_game.play.menus.panels import CANCEL, Form, Menu, Row, nothing
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.controls import COMMANDS
+from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.part import Commands
 from ninja_game.player.saving import keep_replay
-from ninja_game.tas.files import SUFFIX, branches_path, replay_of_take, same_level
+from ninja_game.tas.files import SUFFIX, branches_path, replay_of_track, same_level
 from ninja_game.tas.journal import Recovered, recovered
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 HELP = """\
 A row of the roll is a tick: click L, R or J to change a key, drag to paint, click the number of a tick to go there. \
 The level shows the world after that tick. Enter takes over: play on yourself, Enter again ends it.
-Mark some ticks and press F to search for a better way through them; a click on a result puts it into the run.
+Mark some ticks and press F to search for better keys there; a click on a result puts it into the run.
 The wheel scrolls the roll, and shows the level or a plot larger; the right button moves the level, the left one \
 a plot. With Ctrl the wheel goes tick by tick. Drag what is between the parts to give one of them more room."""
 """What one has to know to begin."""
@@ -47,12 +47,12 @@ class FileCommands:
     """
 
     def __init__(
-        self, app: App, bench: Bench, run: Callable[[str], object], go_on: Callable[[Recovered], object]
+        self, app: App, editor: TasEditor, run: Callable[[str], object], go_on: Callable[[Recovered], object]
     ) -> None:
         self.app = app
         self._go_on = go_on
-        self.bench = bench
-        self.session = bench.session
+        self.editor = editor
+        self.session = editor.session
         self._run = run
 
     def commands(self) -> Commands:
@@ -61,7 +61,7 @@ class FileCommands:
 
     def help(self) -> None:
         """All commands on one page."""
-        self.app.push(HelpPage(self.app, "The bench", HELP, COMMANDS))
+        self.app.push(HelpPage(self.app, "The TAS editor", HELP, COMMANDS))
 
     def menu(self) -> None:
         """The file menu."""
@@ -103,7 +103,7 @@ class FileCommands:
         free = free_path(folder, file_stem(self._name, "run"), SUFFIX)
         name = (path or free).name.removesuffix(SUFFIX)
 
-        def take(texts: list[str]) -> None:
+        def on_accept(texts: list[str]) -> None:
             path = folder / Path(texts[0].strip()).expanduser()
             if path.parent.is_dir():
                 self.save_to(path.with_name(f"{file_stem(path.name.removesuffix(SUFFIX), 'run')}{SUFFIX}"), then)
@@ -111,7 +111,7 @@ class FileCommands:
                 self.app.notify(f"Not saved: there is no folder {path.parent}")
 
         self.app.push(
-            Form(self.app, f"Save in {folder.absolute()}", [("Name or path of the file", name, 300)], "Save", take)
+            Form(self.app, f"Save in {folder.absolute()}", [("Name or path of the file", name, 300)], "Save", on_accept)
         )
 
     def save_to(self, path: Path, then: Callable[[], object] = nothing, *, replacing: bool = False) -> None:
@@ -122,7 +122,7 @@ class FileCommands:
             text = str(error)
             rows: list[Row] = [
                 ("Save under another name", lambda: self.save_as(then), ""),
-                ("Replace it", lambda: self.save_to(path, then, replacing=True), "What it holds now is lost"), STAY,
+                ("Replace it", lambda: self.save_to(path, then, replacing=True), "What it holds now is lost"), CANCEL,
             ]  # fmt: skip
             self.app.push(Menu(self.app, text[0].upper() + text[1:], rows))
         except (NinjaGameError, OSError) as error:
@@ -138,13 +138,13 @@ class FileCommands:
         if self.session.has_tail:
             self.app.notify("Keys are pressed behind the end: take them out first, with Ctrl+E")
             return
-        about, take = self.session.about, self.session.take
-        self.bench.attempt(lambda: self.app.notify(keep_replay(self.app.player, replay_of_take(about, take))))
+        about, track = self.session.about, self.session.track
+        self.editor.attempt(lambda: self.app.notify(keep_replay(self.app.player, replay_of_track(about, track))))
 
     def copy_link(self) -> None:
         """The run as a link, in the clipboard."""
-        about, take = self.session.about, self.session.take
-        copy_link(self.app, lambda: replay_link([replay_of_take(about, take)]), title=self._name)
+        about, track = self.session.about, self.session.track
+        copy_link(self.app, lambda: replay_link([replay_of_track(about, track)]), title=self._name)
 
     def watch(self) -> None:
         """The run in the replay viewer."""
@@ -174,7 +174,7 @@ class FileCommands:
         opened, session = found.opened, self.session
         if opened.file.path or session.file.path:
             return opened.file.path == (session.file.path and session.file.path.absolute())
-        return opened.take == session.take and same_level(opened.recording, session.about)
+        return opened.track == session.track and same_level(opened.recording, session.about)
 
     def list_recovered(self) -> None:
         """All runs that were being edited when the program died, or was closed."""
@@ -189,25 +189,26 @@ class FileCommands:
 
     def _offer(self, found: Recovered) -> None:
         forgetting: list[Row] = [
-            ("Keep it", lambda: None, "It is offered again"), ("Forget it", lambda: forget(found.file), "It is lost")
+            ("Keep for later", nothing, "It is offered again"),
+            ("Discard", lambda: forget(found.file), "It is lost"),
         ]  # fmt: skip
         rows: list[Row] = [
-            ("Go on with it", lambda: self.bench.attempt(lambda: self._go_on(found)), f"{_when(found)}; all undoable"),
-            ("Later", lambda: None, "It is offered again"),
-            ("Forget it...", lambda: self.app.push(Menu(self.app, f"Forget {_when(found)}?", forgetting)), ""),
+            ("Recover", lambda: self.editor.attempt(lambda: self._go_on(found)), _when(found)),
+            ("Keep for later", nothing, "It is offered again"),
+            ("Discard...", lambda: self.app.push(Menu(self.app, f"Discard {_when(found)}?", forgetting)), ""),
         ]  # fmt: skip
         self.app.push(Menu(self.app, f"Not saved last time: {_name_of(found)}", rows))
 
     def leave(self) -> None:
-        """Back to where the bench was opened; ask first if the run is not saved."""
+        """Back to where the TAS editor was opened; ask first if the run is not saved."""
         self.session.end()
         if self.session.is_saved:
             self._go()
             return
         rows: list[Row] = [
-            STAY,
-            ("Save first", lambda: self.save(self._go), ""),
-            ("Leave it unsaved", self._go, "It is lost"),
+            CANCEL,
+            ("Save", lambda: self.save(self._go), ""),
+            ("Discard changes", self._go, ""),
         ]
         self.app.push(Menu(self.app, f"{self._name} is not saved", rows))
 
@@ -223,6 +224,6 @@ def _name_of(found: Recovered) -> str:
 
 def _when(found: Recovered) -> str:
     """How many edits, and when the last one was."""
-    count = len(found.takes)
+    count = len(found.tracks)
     last = strftime("%Y-%m-%d %H:%M", localtime(found.file.stat().st_mtime)) if found.file.exists() else "gone"
     return f"{count} edit{'s' * (count != 1)}, the last {last}"

@@ -1,4 +1,4 @@
-"""The line above the bench and the line below it: which run, where the cursor is, what was just done."""
+"""The line above the TAS editor and the line below it: which run, where the cursor is, what was just done."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ class Head(Part):
 
     slot = "head"
 
-    def look(self) -> tuple[object, ...]:
+    def render_key(self) -> tuple[object, ...]:
         """Name, file, saved, outcome."""
-        session = self.bench.session
+        session = self.editor.session
         return session.about.name, session.file.path, session.is_saved, session.timeline.end, session.journal.problem
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """One line."""
-        session, palette, right = self.bench.session, theme.palette, self.area[2] - 8
+        session, palette, right = self.editor.session, theme.palette, self.area[2] - 8
         theme.canvas.fill_rect(surface, palette.tile, *self.area)
         end, outcome = session.timeline.end
         opened = Path(session.about.file).name
@@ -55,25 +55,32 @@ class Foot(Part):
 
     slot = "foot"
 
-    def look(self) -> tuple[object, ...]:
+    def render_key(self) -> tuple[object, ...]:
         """Cursor, selection, the run's length, the hint."""
-        bench = self.bench
-        beside = bench.chosen, len(bench.others), bench.ghosts
-        return bench.cursor, bench.selection, len(bench.take), bench.session.timeline.valid, bench.hint, beside
+        editor = self.editor
+        beside = editor.chosen, len(editor.others), editor.ghosts
+        return (
+            editor.cursor,
+            editor.selection,
+            len(editor.track),
+            editor.session.timeline.simulated_until,
+            editor.hint,
+            beside,
+        )
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """One line."""
-        bench, palette, (_, y, w, _) = self.bench, theme.palette, self.area
+        editor, palette, (_, y, w, _) = self.editor, theme.palette, self.area
         theme.canvas.fill_rect(surface, palette.tile, *self.area)
-        first, last = bench.selection
+        first, last = editor.selection
         selected = f"   {last - first} selected" if last - first > 1 else ""
-        timeline = bench.session.timeline
-        known = "" if timeline.complete else f"   simulated up to {timeline.valid}"
-        other = bench.others[bench.chosen % len(bench.others)] if bench.others and bench.ghosts else None
+        timeline = editor.session.timeline
+        known = "" if timeline.complete else f"   simulated up to {timeline.simulated_until}"
+        other = editor.others[editor.chosen % len(editor.others)] if editor.others and editor.ghosts else None
         beside = f"   beside {theme.fit(other.name, 110, 9.5)}" if other else ""
-        text = f"tick {bench.cursor} of {len(bench.take)}{selected}{known}{beside}"
+        text = f"tick {editor.cursor} of {len(editor.track)}{selected}{known}{beside}"
         theme.text(surface, text, 8, y + 5, size=9.5, colour=palette.on_tile)
-        hint = bench.hint or "Click L R J to change keys; Enter: take over; F: search; F1: help"
+        hint = editor.hint or "Click L R J to change keys; Enter: take over; F: search; F1: help"
         theme.text(
             surface,
             hint,

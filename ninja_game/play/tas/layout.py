@@ -1,4 +1,4 @@
-"""Where the parts of the bench are in a window of any size: half of what a window is larger goes to the letters."""
+"""Where the parts of the TAS editor are in a window of any size: half of a larger window goes to the text."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ _BETWEEN = _GAP + _STRIP + _THIN
 """From the level to the tabs."""
 
 
-class Wishes(NamedTuple):
+class LayoutPreferences(NamedTuple):
     """What the player has chosen, each a percentage or 0 for what suits the window.
 
-    ``letters``: their size; ``left``: the level's share of the width; ``tabs``: that of the tabs of the height.
+    ``text_scale``: the size of a logical px; ``left``: the level's share of the width; ``tabs``: of the height.
     """
 
-    letters: int = 0
+    text_scale: int = 0
     left: int = 0
     tabs: int = 0
 
 
-class BenchLayout(NamedTuple):
+class TasLayout(NamedTuple):
     """Logical px: areas of the parts. ``strip``: of the names of the tabs; ``notices``: a part of the foot."""
 
     size: Point
@@ -43,19 +43,19 @@ class BenchLayout(NamedTuple):
     notices: Area
 
 
-def bench_canvas(window: tuple[int, int], letters: int = 0) -> Canvas:
-    """A canvas that fills the window. A logical px, and so the letters, grows as the root of the window does.
+def tas_canvas(window: tuple[int, int], text_scale: int = 0) -> Canvas:
+    """A canvas that fills the window. A logical px, and so the text, grows as the root of the window does.
 
-    >>> [round(bench_canvas(size).scale, 2) for size in ((792, 600), (1920, 1080), (2560, 1440))]
+    >>> [round(tas_canvas(size).scale, 2) for size in ((792, 600), (1920, 1080), (2560, 1440))]
     [1.0, 1.34, 1.55]
     """
     width, height = max(1, window[0]), max(1, window[1])
     largest = min(width / WIDTH, height / HEIGHT)
-    scale = min(largest, letters / 100 if letters else largest**0.5)
+    scale = min(largest, text_scale / 100 if text_scale else largest**0.5)
     return Canvas((width, height), (width / scale, height / scale))
 
 
-def bench_layout(size: Point, wishes: Wishes) -> BenchLayout:
+def tas_layout(size: Point, preferences: LayoutPreferences) -> TasLayout:
     """The areas in a window of this logical size, at least that of the stage.
 
     Level and tabs are at the left, the roll at the right. Where nothing is wished, the level is as large as the usual
@@ -65,13 +65,13 @@ def bench_layout(size: Point, wishes: Wishes) -> BenchLayout:
     shared = w - 3 * _EDGE
     high = h - _ABOVE - _BETWEEN - _BELOW
     roll = min(max(NARROWEST_ROLL, shared - (high - USUAL_TABS) * WIDTH / HEIGHT), WIDEST_ROLL)
-    left = shared * wishes.left / 100 if wishes.left else shared - roll
+    left = shared * preferences.left / 100 if preferences.left else shared - roll
     left = min(max(NARROWEST_LEFT, left), shared - NARROWEST_ROLL)
-    tabs = high * wishes.tabs / 100 if wishes.tabs else max(USUAL_TABS, high - ceil(left * HEIGHT / WIDTH))
+    tabs = high * preferences.tabs / 100 if preferences.tabs else max(USUAL_TABS, high - ceil(left * HEIGHT / WIDTH))
     tabs = min(max(LOWEST_TABS, tabs), high - LOWEST_LEVEL)
     top = _ABOVE + high - tabs
     aside = left + 2 * _EDGE
-    return BenchLayout(
+    return TasLayout(
         size,
         head=(0, 0, w, _HEAD),
         level=(_EDGE, _ABOVE, left, high - tabs),

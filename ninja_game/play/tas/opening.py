@@ -1,4 +1,4 @@
-"""The bench is opened: on a run that is being watched, or behind a picture that says what takes so long."""
+"""The TAS editor is opened: on a run that is being watched, or behind a picture that says what takes so long."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ PATIENCE_MS = 1000
 """What takes longer is explained."""
 
 
-def open_bench(app: App, recording: Recording, others: Sequence[Recording], tick: int) -> None:
-    """Open the bench on a run, with others of its level beside it; a notice where that is impossible."""
+def open_tas_editor(app: App, recording: Recording, others: Sequence[Recording], tick: int) -> None:
+    """Open the TAS editor on a run, with others of its level beside it; a notice where that is impossible."""
 
     def make() -> TasScreen:
         # They import NumPy, which watching does without.
@@ -35,7 +35,7 @@ def open_bench(app: App, recording: Recording, others: Sequence[Recording], tick
 
         opened = open_recording(recording)
         screen = TasScreen(app, opened, [each for each in others if same_level(each, recording)])
-        screen.bench.go(tick)
+        screen.editor.go(tick)
         return screen
 
     if not is_prepared():
@@ -50,25 +50,25 @@ def open_bench(app: App, recording: Recording, others: Sequence[Recording], tick
 
 
 def is_prepared() -> bool:
-    """Whether the bench opens at once."""
+    """Whether the TAS editor opens at once."""
     from ninja_game.sim.memory.kernels import trace_world
 
     return not compiled_available() or is_compiled(trace_world)
 
 
 def prepare(run: Recording) -> None:
-    """Have the rules that the bench needs for a run in this process: loaded, or compiled."""
+    """Have the rules that the TAS editor needs for a run in this process: loaded, or compiled."""
     from ninja_game.simulation import Simulation
     from ninja_game.tas.timeline import Timeline
 
-    # What is wrong with the run, the bench says.
+    # What is wrong with the run, the TAS editor says.
     with suppress(NinjaGameError):
-        Timeline(run.level, b"\0", body=run.body).work(1)
+        Timeline(run.level, b"\0", body=run.body).simulate(1)
         Simulation(run.level, body=run.body, memory="auto").step_keys(0)
 
 
 class OpeningScreen(Screen):
-    """Says what is being done until the rules are there; then the bench, which ``make`` gives, takes its place.
+    """Says what is being done until the rules are there; then the TAS editor, which ``make`` gives, takes its place.
 
     What is wrong then is reported on the screen below, or raised where there is none: NinjaGameError, OSError.
     """

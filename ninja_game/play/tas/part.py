@@ -1,4 +1,4 @@
-"""A part of the bench's window: it draws itself when what it shows has changed."""
+"""A part of the TAS editor's window: it draws itself when what it shows has changed."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import ClassVar
 
 import pygame
 
-from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.ui.theme import Area, Theme
 
 Commands = Mapping[str, Callable[[], object]]
@@ -15,18 +15,18 @@ Commands = Mapping[str, Callable[[], object]]
 
 
 class Part:
-    """``area``: where it is, logical px. ``slot``: the name of that place in the bench's layout."""
+    """``area``: where it is, logical px. ``slot``: the name of that place in the TAS editor's layout."""
 
     slot: ClassVar[str] = ""
     area: Area = (0, 0, 0, 0)
 
-    def __init__(self, bench: Bench) -> None:
-        self.bench = bench
+    def __init__(self, editor: TasEditor) -> None:
+        self.editor = editor
         self._drawn: tuple[object, ...] = ()
 
     # --- what parts say of themselves ---
 
-    def look(self) -> tuple[object, ...]:
+    def render_key(self) -> tuple[object, ...]:
         """All that its picture depends on, besides the window's size and the palette."""
         raise NotImplementedError
 
@@ -64,10 +64,10 @@ class Part:
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, whole: bool) -> list[pygame.Rect]:
         """Draw it if anything has changed; the px that did."""
-        look = self.look()
-        if not whole and look == self._drawn:
+        render_key = self.render_key()
+        if not whole and render_key == self._drawn:
             return []
-        self._drawn = look
+        self._drawn = render_key
         rect = theme.canvas.rect(*self.area)
         surface.set_clip(rect)
         self.paint(surface, theme)

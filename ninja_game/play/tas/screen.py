@@ -1,4 +1,4 @@
-"""The bench in the window: its parts, and which of them gets what mouse and keys do."""
+"""The TAS editor in the window: its parts, and which of them gets what mouse and keys do."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ import pygame
 from ninja_game.formats.recording import Recording
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.borders import Borders
+from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.file_commands import FileCommands
 from ninja_game.play.tas.head import Foot, Head
 from ninja_game.play.tas.held_command import HeldCommand
@@ -37,7 +37,7 @@ _MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pyga
 
 
 class TasScreen(MenuScreen):
-    """A run is edited here. ``bench``: what is seen and selected; ``session``: the run.
+    """A run is edited here. ``editor``: what is seen and selected; ``session``: the run.
 
     ``beside``: other runs of its level; ``found``: what was not saved of the run last time. Raises LevelError for a run
     on a level that cannot be played, ReplayError for one beside that is of another level or has another body, FileError
@@ -51,15 +51,15 @@ class TasScreen(MenuScreen):
         self.session = Session(opened, app.player.folder)
         if found is not None:
             self.session.recover(found)
-        self.bench = Bench(app, self.session)
-        self.level, self.roll = LevelPart(self.bench), Roll(self.bench)
-        self.tabs = all_tabs(self.bench)
+        self.editor = TasEditor(app, self.session)
+        self.level, self.roll = LevelPart(self.editor), Roll(self.editor)
+        self.tabs = all_tabs(self.editor)
         self.tab: Tab = self.tabs[0]
         self.names = [TabName(tab, partial(self.show_tab, tab)) for tab in self.tabs]
-        self.head, self.foot_line = Head(self.bench), Foot(self.bench)
-        self.files = FileCommands(app, self.bench, self._run, self._go_on)
+        self.head, self.foot_line = Head(self.editor), Foot(self.editor)
+        self.files = FileCommands(app, self.editor, self._run, self._go_on)
         self.level.others.open(beside)
-        self.borders = Borders(self.bench, [self.head, self.level, self.roll, self.foot_line, *self.tabs])
+        self.borders = Borders(self.editor, [self.head, self.level, self.roll, self.foot_line, *self.tabs])
         self._entered = found is not None
         self._widgets_stale = True
         self._dragging: Part | None = None
@@ -73,12 +73,12 @@ class TasScreen(MenuScreen):
 
     @property
     def theme(self) -> Theme:
-        """The bench's own: a larger window has room for more, where other screens are larger."""
+        """The TAS editor's own: a larger window has room for more, where other screens are larger."""
         if self.borders.fit():
             self.redraw, layout = True, self.borders.layout
             self.notice_area = layout.notices
             put_side_by_side(self.names, layout.strip)
-        return self.bench.theme
+        return self.editor.theme
 
     def commands(self) -> Commands:
         """What commands do, by name."""
@@ -100,7 +100,7 @@ class TasScreen(MenuScreen):
     def enter(self) -> None:
         """Nothing has the focus: keys edit."""
         super().enter()
-        self.bench.theme = self.theme  # all parts are in their places before the first of them looks around
+        self.editor.theme = self.theme  # all parts are in their places before the first of them looks around
         self.focus = self._dragging = None
         self.await_text()
         self._widgets_stale = True
@@ -129,7 +129,7 @@ class TasScreen(MenuScreen):
     def show_tab(self, tab: Tab) -> None:
         """Show another tab."""
         self.tab = tab
-        self.bench.tab = tab.name
+        self.editor.tab = tab.name
         self.rebuild()
 
     def next_tab(self) -> None:
@@ -137,8 +137,8 @@ class TasScreen(MenuScreen):
         self.show_tab(self.tabs[(self.tabs.index(self.tab) + 1) % len(self.tabs)])
 
     def _show_asked(self) -> None:
-        """Show the tab that the bench says, and give the focus to what wants it."""
-        asked = next(tab for tab in self.tabs if tab.name == self.bench.tab)
+        """Show the tab that the TAS editor says, and give the focus to what wants it."""
+        asked = next(tab for tab in self.tabs if tab.name == self.editor.tab)
         if asked is not self.tab or asked.wants is not None:
             self.show_tab(asked)
 
@@ -200,7 +200,7 @@ class TasScreen(MenuScreen):
         pos = pygame.mouse.get_pos() if raw.type == pygame.MOUSEWHEEL else raw.pos
         x, y = self.theme.canvas.logical(pos)
         if raw.type == pygame.MOUSEMOTION:
-            self.bench.hint = ""
+            self.editor.hint = ""
         part = self._dragging or next((each for each in self.parts if each.contains(x, y)), None)
         if self._pointed is not part and self._pointed is not None:
             self._pointed.mouse_left()
@@ -228,7 +228,7 @@ class TasScreen(MenuScreen):
         for command in self._held.due(real_ms):
             self._run(command)
         if not self.level.take_over.on:
-            self.session.timeline.work(self.session.soon)
+            self.session.timeline.simulate(self.session.ticks_per_frame)
         for part in (self.level, self.roll, *self.tabs):
             part.update(real_ms)
         self._show_asked()

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 class Ghost(Protocol):
-    """Another run's ninja that goes along."""
+    """Another run's ninja that is shown too."""
 
     ninja_animation: NinjaAnimation
 

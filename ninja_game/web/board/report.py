@@ -100,7 +100,7 @@ def _is_date(text: str, now: datetime) -> bool:
 
 
 def dates_of(before: tuple[Rows, Rows], now: datetime) -> Dates:
-    """The dates of a ledger. A run that it does not have, or not with this way, is taken in now."""
+    """The dates of a ledger. A run that it does not have, or not with this path, is added now."""
     rows, today = before[1] | before[0], now.strftime(DATE)
 
     def date(key: Key, way: str) -> str:

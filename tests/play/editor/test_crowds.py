@@ -5,14 +5,14 @@ from __future__ import annotations
 import pygame
 import pytest
 
-from ninja_game.editor.brush import SORTS, placed
+from ninja_game.editor.brush import OBJECT_TYPES, placed
 from ninja_game.editor.files import Source
 from ninja_game.editor.records import BODY, points
 from ninja_game.editor.stamp import Selection, Stamp, put
 from ninja_game.files.resources import bundled_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.play.editor import object_pictures
-from ninja_game.play.editor.object_pictures import Look, ObjectPictures
+from ninja_game.play.editor.object_pictures import ObjectPictures, ObjectSprites
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.palette import PALETTES
 from ninja_game.play.view.sprites.draw_target import DrawTarget
@@ -20,7 +20,9 @@ from ninja_game.play.view.sprites.sprite_book import SpriteBook
 from ninja_game.sim.level import ObjectSpec
 from tests.support.level_maker import ROOM, Maker
 
-CROWD = tuple(placed(SORTS[2 + k * 7 % 15].record, 30 + 37 * k % 730, 30 + 53 * k % 540, "quarter") for k in range(500))
+CROWD = tuple(
+    placed(OBJECT_TYPES[2 + k * 7 % 15].record, 30 + 37 * k % 730, 30 + 53 * k % 540, "quarter") for k in range(500)
+)
 
 
 def pictures() -> ObjectPictures:
@@ -28,7 +30,7 @@ def pictures() -> ObjectPictures:
     return ObjectPictures(DrawTarget(canvas, palette, SpriteBook(canvas.scale, palette)))
 
 
-def rounded(look: Look) -> object:
+def rounded(look: ObjectSprites) -> object:
     return [(key, round(x, 6), round(y, 6)) for key, x, y in look.sprites], look.rect
 
 
@@ -40,9 +42,9 @@ def test_what_is_asked_for_in_one_place_looks_as_it_does_in_its_own(monkeypatch:
         for row in (0.0, 9.0, 25.0)
     ]
     records |= {*CROWD, *(ObjectSpec(9, values) for values in odd_doors), ObjectSpec(9, (1.0, 2.0)), ObjectSpec(77, ())}
-    quick = pictures().looks(records)
+    quick = pictures().sprites_of(records)
     monkeypatch.setattr(object_pictures, "_model", lambda record: record)
-    exact = pictures().looks(sorted(records))
+    exact = pictures().sprites_of(sorted(records))
     for record, look in exact.items():
         assert rounded(quick[record]) == rounded(look), record
     assert sum(bool(look.sprites) for look in exact.values()) > 500
@@ -51,20 +53,20 @@ def test_what_is_asked_for_in_one_place_looks_as_it_does_in_its_own(monkeypatch:
 def test_what_is_dragged_goes_to_the_last_place_that_the_mouse_tells_of(room: Maker) -> None:
     room.editor.commands.edit(Source(put(ROOM, Stamp({}, CROWD))))
     room.frames(3)
-    bench = room.editor.session.bench
-    bench.tool, bench.snap = "select", "px"
-    bench.selection = Selection(None, frozenset((n, BODY) for n in range(len(bench.draft.objects))))
-    before = [points(record)[BODY] for record in bench.draft.objects]
+    tools = room.editor.session.tools
+    tools.tool, tools.snap = "select", "px"
+    tools.selection = Selection(None, frozenset((n, BODY) for n in range(len(tools.draft.objects))))
+    before = [points(record)[BODY] for record in tools.draft.objects]
     x, y = before[100]
     places = [room.app.canvas.point(*room.at(x + k, y)) for k in range(30)]
     moves: list[float] = []
-    move = bench.move
+    move = tools.move
 
     def counted(x: float, y: float) -> None:
         moves.append(x)
         move(x, y)
 
-    bench.move = counted  # type: ignore[method-assign]
+    tools.move = counted  # type: ignore[method-assign]
     pygame.event.post(pygame.Event(pygame.MOUSEBUTTONDOWN, pos=places[0], button=1, touch=False))
     for place in places:
         pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=place, rel=(0, 0), buttons=(1, 0, 0), touch=False))
@@ -76,7 +78,7 @@ def test_what_is_dragged_goes_to_the_last_place_that_the_mouse_tells_of(room: Ma
     pygame.event.post(pygame.Event(pygame.MOUSEMOTION, pos=places[9], rel=(0, 0), buttons=(1, 0, 0), touch=False))
     pygame.event.post(pygame.Event(pygame.MOUSEBUTTONUP, pos=places[9], button=1, touch=False))
     room.frames()
-    gone = points(bench.draft.objects[100])[BODY][0] - x
+    gone = points(tools.draft.objects[100])[BODY][0] - x
     assert abs(gone - 9) <= 1
-    assert points(bench.draft.objects[0])[BODY] == (before[0][0] + gone, before[0][1])
-    assert not bench.dragging
+    assert points(tools.draft.objects[0])[BODY] == (before[0][0] + gone, before[0][1])
+    assert not tools.dragging

@@ -8,7 +8,7 @@ from time import thread_time
 import pygame
 import pytest
 
-from ninja_game.editor.brush import SORTS, placed
+from ninja_game.editor.brush import OBJECT_TYPES, placed
 from ninja_game.editor.files import Source
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.play.editor.controls import COMMANDS
@@ -38,26 +38,26 @@ def test_from_the_menu_a_level_is_drawn_by_mouse(maker: Maker) -> None:
 
 
 def test_keys_choose_draw_and_place_as_in_ned(room: Maker) -> None:
-    bench = room.editor.session.bench
+    tools = room.editor.session.tools
     room.press("4", "s")
-    assert bench.tile == 7
+    assert tools.tile == 7
     room.press("e", "right", "down")
-    before = bench.cell
+    before = tools.cell
     pygame.event.post(pygame.Event(pygame.KEYDOWN, key=0, scancode=SCANCODES["space"], mod=0, unicode=" "))
     room.press("right", "right")
     pygame.event.post(pygame.Event(pygame.KEYUP, key=0, scancode=SCANCODES["space"], mod=0, unicode=" "))
     room.frames()
-    assert bench.cell == (before[0] + 2, before[1])
+    assert tools.cell == (before[0] + 2, before[1])
     assert [room.draft.tile((before[0] + k, before[1])) for k in range(3)] == [1, 1, 1]
     room.press("grave", "5", "a", "space")
     assert room.draft.objects[-1].values[2] == 2.0
     room.press("v", "space")
     room.chord("left", pygame.KMOD_LSHIFT)
-    assert bench.chosen
-    x = bench.chosen.values[0]
+    assert tools.chosen
+    x = tools.chosen.values[0]
     room.press("w")
-    assert bench.chosen.values[2] == 3.0
-    assert bench.chosen.values[0] == x
+    assert tools.chosen.values[2] == 3.0
+    assert tools.chosen.values[0] == x
     room.press("delete")
     assert len(room.draft.objects) == 2
 
@@ -78,15 +78,15 @@ def test_the_next_exit_does_not_cover_a_switch_that_was_just_placed(maker: Maker
 
 
 def test_a_pad_draws_too(room: Maker) -> None:
-    bench = room.editor.session.bench
+    tools = room.editor.session.tools
     a, b, x, right, down = 0, 1, 2, 14, 12
     room.pad(right)
     room.pad(down)
-    cell = bench.cell
+    cell = tools.cell
     room.pad(a)
     assert room.draft.tile(cell) == 1
     room.pad(10)  # the next tile
-    assert bench.tile == 5
+    assert tools.tile == 5
     room.pad(b)
     assert isinstance(room.top(), Menu)
     room.pad(b)
@@ -97,9 +97,9 @@ def test_a_pad_draws_too(room: Maker) -> None:
 
 
 def test_a_test_leads_back_in_one_press_with_everything_as_it_was(room: Maker) -> None:
-    bench = room.editor.session.bench
+    tools = room.editor.session.tools
     room.drag((300, 300))
-    before, history = room.draft, list(bench.history._done)
+    before, history = room.draft, list(tools.history._done)
     room.press("f5")
     room.keys.script = [2] * 20
     room.press("space")
@@ -108,7 +108,7 @@ def test_a_test_leads_back_in_one_press_with_everything_as_it_was(room: Maker) -
     room.press("escape")
     assert isinstance(room.top(), EditorScreen)
     assert room.draft is before
-    assert bench.history._done == history
+    assert tools.history._done == history
     assert len(room.editor.session.last_try) == 20
     assert room.editor.session.last_try[0] == (60.0, 542.0)
     room.mouse(*room.at(400, 100), click=False)
@@ -144,10 +144,10 @@ def test_problems_are_shown_where_they_are_and_a_click_goes_there(room: Maker) -
     room.wait(lambda: session.examined is room.draft.level, "findings")
     assert [finding.text for finding in session.findings] == ["it is inside a tile: its rockets explode at once"]
     room.frames(2)
-    assert [key for key in room.editor.desk.sheet.marks if key[0] == "sign"]  # type: ignore[index]
+    assert [key for key in room.editor.view.sheet.marks if key[0] == "sign"]  # type: ignore[index]
     room.press("f4")
-    assert session.bench.selection.parts == {(2, 0)}
-    assert "Move it, or clear the tile." in room.editor.desk.hint
+    assert session.tools.selection.parts == {(2, 0)}
+    assert "Move it, or clear the tile." in room.editor.view.hint
     room.press("delete")
     room.wait(lambda: session.examined is room.draft.level, "findings")
     assert not session.findings
@@ -156,7 +156,7 @@ def test_problems_are_shown_where_they_are_and_a_click_goes_there(room: Maker) -
 
 
 def test_letters_typed_into_a_field_are_no_commands(room: Maker) -> None:
-    bench = room.editor.session.bench
+    tools = room.editor.session.tools
     room.press("v")
     room.drag((60, 542))
     place = next(widget for widget in room.editor.widgets if getattr(widget, "prompt", "") == "place")
@@ -169,9 +169,9 @@ def test_letters_typed_into_a_field_are_no_commands(room: Maker) -> None:
         pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=char))
     room.frames()
     assert room.draft.objects[0].values == (90.0, 500.0)
-    assert bench.tool == "select"
+    assert tools.tool == "select"
     room.press("return", "b")
-    assert bench.tool == "brush"
+    assert tools.tool == "brush"
 
 
 def test_a_click_on_a_property_changes_the_selected_object(room: Maker) -> None:
@@ -179,7 +179,7 @@ def test_a_click_on_a_property_changes_the_selected_object(room: Maker) -> None:
     room.drag((300, 300))
     room.press("v")
     room.drag((300, 300))
-    choice = room.editor.desk.properties[1]
+    choice = room.editor.view.properties[1]
     room.mouse(*choice.centre)
     assert room.draft.objects[-1].values[2] == 0.0
     room.chord("z", pygame.KMOD_LCTRL)
@@ -213,8 +213,8 @@ def test_only_what_changed_is_drawn_again_and_it_is_the_same_picture(room: Maker
     room.wait(lambda: session.examined is room.draft.level, "findings")
     room.frames(2)
     mended = room.app.surface.copy()
-    desk = room.editor.desk
-    desk._look = ()
+    view = room.editor.view
+    view._look = ()
     room.app.stack.redraw_all()
     room.app.draw()
     whole = room.app.surface
@@ -227,7 +227,8 @@ def test_a_frame_of_a_full_level_is_quick(tmp_path: Path) -> None:
     try:
         maker.open("Editor")
         objects = tuple(
-            placed(SORTS[2 + k * 7 % 15].record, 30 + 37 * k % 730, 30 + 53 * k % 540, "quarter") for k in range(500)
+            placed(OBJECT_TYPES[2 + k * 7 % 15].record, 30 + 37 * k % 730, 30 + 53 * k % 540, "quarter")
+            for k in range(500)
         )
         draft = put(ROOM, Stamp({}, objects))
         assert len(draft.objects) >= 495

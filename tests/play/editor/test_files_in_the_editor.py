@@ -81,7 +81,7 @@ def test_a_file_that_changed_meanwhile_is_not_replaced_unasked(room: Maker, tmp_
     room.chord("s", pygame.KMOD_LCTRL)
     assert isinstance(room.top(), Menu)
     assert "changed by another program" in room.top().title  # type: ignore[attr-defined]
-    room.choose("Stay")
+    room.choose("Cancel")
     assert path.read_text("utf-8").endswith("; by hand\n")
     assert not room.editor.session.is_saved
     room.chord("s", pygame.KMOD_LCTRL)
@@ -95,11 +95,11 @@ def test_leaving_asks_about_what_is_not_saved(room: Maker, tmp_path: Path) -> No
     room.press("escape")
     room.choose("Leave the editor")
     assert isinstance(room.top(), Menu)
-    room.choose("Stay")
+    room.choose("Cancel")
     assert isinstance(room.top(), EditorScreen)
     room.press("escape")
     room.choose("Leave the editor")
-    room.choose("Leave it unsaved")
+    room.choose("Discard changes")
     assert isinstance(room.top(), MainMenu)
     assert not list((tmp_path / "levels").iterdir())
 
@@ -113,7 +113,7 @@ def test_saving_first_goes_on_with_what_was_asked(maker: Maker, tmp_path: Path, 
     drawn = maker.draft
     maker.press("escape")
     maker.choose(asked)
-    maker.choose("Save first")
+    maker.choose("Save")
     if not named:
         assert isinstance(maker.top(), Form)
         maker.choose("Save")
@@ -133,13 +133,13 @@ def test_saving_first_stays_where_it_was_not_saved(room: Maker, tmp_path: Path) 
     room.drag((300, 300))
     room.press("escape")
     room.choose("Leave the editor")
-    room.choose("Save first")
+    room.choose("Save")
     assert "changed by another program" in room.top().title  # type: ignore[attr-defined]
-    room.choose("Stay")
+    room.choose("Cancel")
     assert isinstance(room.top(), EditorScreen)
     room.press("escape")
     room.choose("Leave the editor")
-    room.choose("Save first")
+    room.choose("Save")
     room.choose("Replace it")
     assert isinstance(room.top(), MainMenu)
     assert load_levels(path)[0].level.tile(12, 12) == 1
@@ -156,7 +156,7 @@ def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_pa
     room.open("Editor")
     assert isinstance(room.top(), Menu)
     assert "Not saved last time: Room" in room.top().title  # type: ignore[attr-defined]
-    room.choose("Go on with it")
+    room.choose("Recover")
     assert room.draft == lost
     assert not room.editor.session.is_saved
     room.chord("s", pygame.KMOD_LCTRL)
@@ -175,7 +175,7 @@ def test_what_a_backup_brings_is_never_saved_where_it_says(there: bool, maker: M
         archive.writestr(f"{FOLDER}/a.json", json.dumps(kept))
     read_backup(maker.app.player, (tmp_path / "all.zip").read_bytes())
     maker.open("Editor")
-    maker.choose("Go on with it")
+    maker.choose("Recover")
     maker.chord("s", pygame.KMOD_LCTRL)
     assert maker.editor.session.source.path == tmp_path / "levels" / "room.txt"
     assert victim.exists() == there
@@ -189,7 +189,7 @@ def test_a_path_that_somebody_put_among_the_autosaves_by_hand_counts_for_nothing
     kept = {"path": str(victim), "digest": sha256(b"mine").hexdigest(), "level": ascii_text(ROOM)}
     (tmp_path / FOLDER / "a.json").write_text(json.dumps(kept))
     maker.open("Editor")
-    maker.choose("Go on with it")
+    maker.choose("Recover")
     maker.chord("s", pygame.KMOD_LCTRL)
     assert victim.read_text() == "mine"
     assert (tmp_path / "levels" / "room.txt").is_file()
@@ -218,7 +218,7 @@ def test_levels_of_the_game_open_as_new_ones_and_own_ones_in_their_files(room: M
     room.chord("o", pygame.KMOD_LCTRL)
     choice = room.top() if isinstance(room.top(), LevelChoice) else None
     if choice is None:
-        room.choose("Leave it unsaved")
+        room.choose("Discard changes")
         choice = room.top()
     assert isinstance(choice, LevelChoice)
     index = next(k for k, entry in enumerate(choice.shown) if entry.source == "yours")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ninja_game.backend.memories import compiled_available
 from ninja_game.formats.load import load_levels
-from ninja_game.play.editor.desk import DESK
+from ninja_game.play.editor.view import LAYOUT
 from ninja_game.sim.kinds import DOOR
 from tests.support.real_window import NEEDS_WINDOW, TIMEOUT, Player, difference, virtual_screen
 from tests.support.waiting import LONGEST
@@ -16,7 +16,7 @@ pytestmark = NEEDS_WINDOW
 
 def at(column: float, row: float) -> tuple[float, float]:
     """The px of the window, in its size of 792 x 600, where the middle of a cell is seen."""
-    left, top, width, _ = DESK.level
+    left, top, width, _ = LAYOUT.level
     return left + (24 * column + 12) * width / 792, top + (24 * row + 12) * width / 792
 
 

@@ -1,4 +1,4 @@
-"""Somebody at the bench with a run of a small level."""
+"""Somebody at the TAS editor with a run of a small level."""
 
 from __future__ import annotations
 
@@ -10,27 +10,27 @@ import pytest
 
 from ninja_game.formats.load import load_replays
 from ninja_game.play.tas.opening import prepare
-from tests.support.bench_driver import BenchDriver
 from tests.support.own_pack import PACK
+from tests.support.tas_driver import TasDriver
 
 RUN = PACK / "certificates" / "00-2-the-chimney.exit.replay.txt"
 
 
 @pytest.fixture(scope="session", autouse=True)
 def rules_are_there() -> None:
-    """The bench opens at once from the viewer, too."""
+    """The TAS editor opens at once from the viewer, too."""
     prepare(load_replays(RUN)[0])
 
 
 @pytest.fixture
 def run() -> Path:
-    """The run on the bench; test files may have another one."""
+    """The run on the TAS editor; test files may have another one."""
     return RUN
 
 
 @pytest.fixture(name="at")
-def bench_with_a_run(run: Path, tmp_path: Path) -> Iterator[BenchDriver]:
-    driver = BenchDriver(tmp_path / "player", Path(copy(run, tmp_path / "run.replay.txt")))
+def bench_with_a_run(run: Path, tmp_path: Path) -> Iterator[TasDriver]:
+    driver = TasDriver(tmp_path / "player", Path(copy(run, tmp_path / "run.replay.txt")))
     try:
         yield driver
     finally:

@@ -1,4 +1,4 @@
-"""The bench in windows of many sizes: more rows and a larger level, borders that are dragged, letters as one likes."""
+"""The TAS editor in windows of any size: more rows and a larger level, borders that are dragged, text of any size."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ import pygame
 import pytest
 
 from ninja_game.play.menus.panels import Menu
-from ninja_game.play.tas.layout import NARROWEST_ROLL, Wishes, bench_canvas, bench_layout
+from ninja_game.play.tas.layout import NARROWEST_ROLL, LayoutPreferences, tas_canvas, tas_layout
 from ninja_game.play.tas.screen import TasScreen
 from ninja_game.play.ui.theme import Area
 from ninja_game.player.settings_file import read_settings
 from ninja_game.tas.files import open_run
 from tests.play.tas.conftest import RUN
-from tests.support.bench_driver import BenchDriver
+from tests.support.tas_driver import TasDriver
 
 SIZES = [(792, 600), (1280, 720), (1920, 1080), (2560, 1440), (3840, 2160), (1584, 1200), (800, 1600), (640, 480)]
 
 
-def resized(at: BenchDriver, size: tuple[int, int]) -> None:
+def resized(at: TasDriver, size: tuple[int, int]) -> None:
     """Make the window that large."""
     pygame.display.set_mode(size, pygame.RESIZABLE)
     pygame.event.post(pygame.Event(pygame.WINDOWSIZECHANGED))
@@ -33,12 +33,15 @@ def overlap(a: Area, b: Area) -> bool:
     return a[0] < b[0] + b[2] and b[0] < a[0] + a[2] and a[1] < b[1] + b[3] and b[1] < a[1] + a[3]
 
 
+CHOSEN = [LayoutPreferences(), LayoutPreferences(100, 99, 99), LayoutPreferences(400, 1, 1)]
+
+
 @pytest.mark.parametrize("size", SIZES)
-@pytest.mark.parametrize("wishes", [Wishes(), Wishes(100, 99, 99), Wishes(400, 1, 1)])
-def test_parts_are_in_the_window_beside_each_other(size: tuple[int, int], wishes: Wishes) -> None:
-    canvas = bench_canvas(size, wishes.letters)
+@pytest.mark.parametrize("preferences", CHOSEN)
+def test_parts_are_in_the_window_beside_each_other(size: tuple[int, int], preferences: LayoutPreferences) -> None:
+    canvas = tas_canvas(size, preferences.text_scale)
     width, height = size[0] / canvas.scale, size[1] / canvas.scale
-    layout = bench_layout((width, height), wishes)
+    layout = tas_layout((width, height), preferences)
     areas = layout[1:-1]
     assert all(x >= 0 and y >= 0 and x + w <= width + 0.01 and y + h <= height + 0.01 for x, y, w, h in areas)
     assert not [pair for pair in combinations(areas, 2) if overlap(*pair)]
@@ -47,25 +50,25 @@ def test_parts_are_in_the_window_beside_each_other(size: tuple[int, int], wishes
     assert layout.tabs[3] >= 149
 
 
-def test_a_larger_window_shows_more_rows_and_a_larger_level(at: BenchDriver) -> None:
-    rows, scales, letters = [], [], []
+def test_a_larger_window_shows_more_rows_and_a_larger_level(at: TasDriver) -> None:
+    rows, scales, text_scale = [], [], []
     for size in SIZES[:5]:
         resized(at, size)
         rows.append(at.screen.roll.layout.rows)
         scales.append(at.screen.level.picture.canvas.scale)
-        letters.append(at.screen.theme.canvas.scale)
-    for grown in (rows, scales, letters):
+        text_scale.append(at.screen.theme.canvas.scale)
+    for grown in (rows, scales, text_scale):
         assert grown == sorted(set(grown))
     assert rows[2] > 1.3 * rows[0]
     assert scales[2] > 2 * scales[0]
-    at.bench.go(50)
+    at.editor.go(50)
     at.frames()
-    before = at.bench.take.keys_at(60)
+    before = at.editor.track.keys_at(60)
     at.drag(at.cell(60, "left"))
-    assert at.bench.take.keys_at(60) == before ^ 1, "a click hits the cell that is seen"
+    assert at.editor.track.keys_at(60) == before ^ 1, "a click hits the cell that is seen"
 
 
-def test_a_dragged_border_and_the_size_of_letters_are_remembered(at: BenchDriver, tmp_path: Path) -> None:
+def test_a_dragged_border_and_the_size_of_letters_are_remembered(at: TasDriver, tmp_path: Path) -> None:
     resized(at, (1920, 1080))
     layout = at.screen.borders.layout
     x, y = layout.roll[0] - 3, layout.strip[1] - 1
@@ -77,10 +80,10 @@ def test_a_dragged_border_and_the_size_of_letters_are_remembered(at: BenchDriver
     rows = at.screen.roll.layout.rows
     at.chord("minus", pygame.KMOD_LCTRL)
     assert at.screen.roll.layout.rows > rows
-    settings, wishes = read_settings(at.player.folder / "settings.toml")[0], at.screen.borders.wishes
-    assert (settings.letters, settings.left_share, settings.tabs_share) == wishes
-    assert all(wishes)
-    again = BenchDriver(at.player.folder, Path(copy(RUN, tmp_path / "again.replay.txt")), (1920, 1080))
+    settings, preferences = read_settings(at.player.folder / "settings.toml")[0], at.screen.borders.preferences
+    assert (settings.text_scale, settings.level_width, settings.tabs_height) == preferences
+    assert all(preferences)
+    again = TasDriver(at.player.folder, Path(copy(RUN, tmp_path / "again.replay.txt")), (1920, 1080))
     assert again.screen.borders.layout == at.screen.borders.layout
     again.chord("0", pygame.KMOD_LCTRL)
     assert again.screen.borders.layout == layout
@@ -88,21 +91,21 @@ def test_a_dragged_border_and_the_size_of_letters_are_remembered(at: BenchDriver
     again.close()
 
 
-def test_a_bench_that_opens_at_a_tick_has_it_in_the_middle_of_the_roll(at: BenchDriver) -> None:
+def test_a_bench_that_opens_at_a_tick_has_it_in_the_middle_of_the_roll(at: TasDriver) -> None:
     screen = TasScreen(at.app, open_run(RUN))
-    screen.bench.go(90)
+    screen.editor.go(90)
     at.app.replace(screen)
     at.frames(2)
     assert 90 - screen.roll.layout.rows // 2 == screen.roll.top
 
 
-def test_a_border_that_cannot_be_dragged_wishes_nothing(at: BenchDriver) -> None:
+def test_a_border_that_cannot_be_dragged_wishes_nothing(at: TasDriver) -> None:
     x = at.screen.borders.layout.roll[0] - 3
     at.drag((x, 300), (x - 60, 300), (x - 100, 300))
-    assert at.app.settings.left_share == 0
+    assert at.app.settings.level_width == 0
 
 
-def test_a_press_that_opens_a_dialog_holds_nothing_after_it(at: BenchDriver) -> None:
+def test_a_press_that_opens_a_dialog_holds_nothing_after_it(at: TasDriver) -> None:
     resized(at, (1280, 720))
     x, y, w, _ = at.screen.roll.area
     at.event(pygame.MOUSEBUTTONDOWN, x + w / 2, y + 5, button=1)
@@ -111,13 +114,13 @@ def test_a_press_that_opens_a_dialog_holds_nothing_after_it(at: BenchDriver) -> 
     assert corner == middle == at.app.surface.get_at((1278, 718)), "the veil covers all of the window"
     at.event(pygame.MOUSEBUTTONUP, x + w / 2, y + 5, button=1)
     at.press("escape")
-    cursor = at.bench.cursor
+    cursor = at.editor.cursor
     at.choose("Branches")
     assert at.screen.tab.name == "Branches"
-    assert at.bench.cursor == cursor
+    assert at.editor.cursor == cursor
 
 
-def test_letters_end_at_the_size_that_fits(at: BenchDriver) -> None:
+def test_letters_end_at_the_size_that_fits(at: TasDriver) -> None:
     resized(at, (1280, 720))
     for _ in range(12):
         at.chord("equals", pygame.KMOD_LCTRL)

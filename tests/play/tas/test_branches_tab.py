@@ -7,35 +7,35 @@ import pytest
 from ninja_game.play.menus.panels import Question
 from ninja_game.play.tas.tabs.branches_tab import BranchesTab
 from ninja_game.sim.inputs import Input
-from tests.support.bench_driver import BenchDriver
+from tests.support.tas_driver import TasDriver
 
 
 @pytest.fixture(name="tab")
-def branches_tab(at: BenchDriver) -> BranchesTab:
+def branches_tab(at: TasDriver) -> BranchesTab:
     at.choose("Branches")
     tab = at.screen.tab
     assert isinstance(tab, BranchesTab)
     return tab
 
 
-def keep(at: BenchDriver, name: str) -> None:
+def keep(at: TasDriver, name: str) -> None:
     at.press("b")
     at.write(name)
     at.press("return")
 
 
-def row(at: BenchDriver, tab: BranchesTab, index: int) -> None:
+def row(at: TasDriver, tab: BranchesTab, index: int) -> None:
     x, y, _, h = tab.list.row_area(index)
     at.mouse(x + 60, y + h / 2)
 
 
-def test_the_name_that_is_proposed_is_the_outcome(at: BenchDriver, tab: BranchesTab) -> None:
+def test_the_name_that_is_proposed_is_the_outcome(at: TasDriver, tab: BranchesTab) -> None:
     at.press("b", "return")
     end, outcome = at.session.timeline.end
     assert [branch.name for branch in tab.branches.all] == [f"{outcome} {end}"]
 
 
-def test_branches_are_shown_as_a_tree(at: BenchDriver, tab: BranchesTab) -> None:
+def test_branches_are_shown_as_a_tree(at: TasDriver, tab: BranchesTab) -> None:
     for name in ("one", "two"):
         keep(at, name)
     row(at, tab, 0)
@@ -47,20 +47,20 @@ def test_branches_are_shown_as_a_tree(at: BenchDriver, tab: BranchesTab) -> None
     assert tab.chosen == 2, "the one that was kept last"
 
 
-def test_going_to_a_branch_is_an_edit(at: BenchDriver, tab: BranchesTab) -> None:
-    first = at.bench.take
+def test_going_to_a_branch_is_an_edit(at: TasDriver, tab: BranchesTab) -> None:
+    first = at.editor.track
     keep(at, "")
-    at.bench.edit(lambda take: take.with_key(5, 9, Input.LEFT, down=True))
-    second = at.bench.take
+    at.editor.edit(lambda track: track.with_key(5, 9, Input.LEFT, down=True))
+    second = at.editor.track
     row(at, tab, 0)
-    assert at.bench.take == second, "a click only chooses"
+    assert at.editor.track == second, "a click only chooses"
     at.choose("Go to it")
-    assert at.bench.take == first
+    assert at.editor.track == first
     at.session.undo()
-    assert at.bench.take == second
+    assert at.editor.track == second
 
 
-def test_a_branch_is_renamed_and_dropped_after_a_question(at: BenchDriver, tab: BranchesTab) -> None:
+def test_a_branch_is_renamed_and_dropped_after_a_question(at: TasDriver, tab: BranchesTab) -> None:
     keep(at, "")
     at.choose("Rename")
     at.write("again")
@@ -78,18 +78,18 @@ def test_a_branch_is_renamed_and_dropped_after_a_question(at: BenchDriver, tab: 
     assert at.top() is at.screen, "without a branch there is nothing to do"
 
 
-def test_comparing_opens_the_lead_over_the_branch(at: BenchDriver, tab: BranchesTab) -> None:
+def test_comparing_opens_the_lead_over_the_branch(at: TasDriver, tab: BranchesTab) -> None:
     keep(at, "")
-    at.bench.edit(lambda take: take.with_key(5, 9, Input.LEFT, down=True))
+    at.editor.edit(lambda track: track.with_key(5, 9, Input.LEFT, down=True))
     at.choose("Compare")
     assert at.screen.tab.name == "Lead"
-    assert at.bench.against == tab.branches.all[0].take
+    assert at.editor.against == tab.branches.all[0].track
 
 
-def test_differences_are_told_between_runs_to_the_exit(at: BenchDriver, tab: BranchesTab) -> None:
+def test_differences_are_told_between_runs_to_the_exit(at: TasDriver, tab: BranchesTab) -> None:
     keep(at, "")
     assert tab._difference(tab.branches.all[0]) == ("the same", 0)
-    at.bench.edit(lambda take: take.replaced(0, 0, [0] * 3))
+    at.editor.edit(lambda track: track.replaced(0, 0, [0] * 3))
     assert tab._difference(tab.branches.all[0]) == ("3 shorter", 3)
-    at.bench.edit(lambda take: take.replaced(10, len(take), []))
+    at.editor.edit(lambda track: track.replaced(10, len(track), []))
     assert tab._difference(tab.branches.all[0]) == ("", 0)

@@ -1,4 +1,4 @@
-"""A run whose level was changed after the recording is mended on the bench; its file stays as it is."""
+"""A run whose level was changed after the recording is mended on the TAS editor; its file stays as it is."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.play.menus.panels import Form, Menu
 from ninja_game.sim.inputs import KEY_RIGHT
 from ninja_game.tas.files import RunFile, open_run
-from tests.support.bench_driver import BenchDriver
 from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records
+from tests.support.tas_driver import TasDriver
 
 FARTHER = WALK.replace("160,564", "220,564")
 """The same level, its exit farther away."""
@@ -36,15 +36,15 @@ def test_the_question_leads_to_the_run_on_the_changed_level_and_to_a_new_recordi
     before = old.read_bytes()
     with pytest.raises(ReplayError, match="`ninja-game tas` opens the run on the changed level"):
         load_replays(old)
-    at = BenchDriver(tmp_path / "player", old)
+    at = TasDriver(tmp_path / "player", old)
     question = at.top()
     assert isinstance(question, Menu)
     assert question.title == "walk: this level is not the one that was recorded"
     at.choose("Edit it on this level")
-    assert at.bench.take.inputs == bytes([KEY_RIGHT] * (WALK_END + 1))
+    assert at.editor.track.inputs == bytes([KEY_RIGHT] * (WALK_END + 1))
     assert at.session.timeline.end[1] == "running", "the exit is farther away now"
-    at.bench.select(WALK_END, WALK_END + 21)
-    at.bench.edit(lambda take: take.with_key(WALK_END, WALK_END + 21, KEY_RIGHT, down=True))
+    at.editor.select(WALK_END, WALK_END + 21)
+    at.editor.edit(lambda track: track.with_key(WALK_END, WALK_END + 21, KEY_RIGHT, down=True))
     assert at.session.timeline.end[1] == "exit"
     at.chord("s", pygame.KMOD_LCTRL)
     form = at.top()
@@ -52,7 +52,7 @@ def test_the_question_leads_to_the_run_on_the_changed_level_and_to_a_new_recordi
     assert form.texts == ["walk-2"]
     form.texts[0] = "walk"
     at.choose("Save")
-    assert at.top().title == "There is a file walk.replay.txt already"  # type: ignore[attr-defined]
+    assert at.top().title == "A file named walk.replay.txt already exists"  # type: ignore[attr-defined]
     at.choose("Save under another name")
     at.choose("Save")
     at.close()
@@ -64,7 +64,7 @@ def test_the_question_leads_to_the_run_on_the_changed_level_and_to_a_new_recordi
 
 
 def test_one_who_does_not_want_that_leaves(old: Path, tmp_path: Path) -> None:
-    at = BenchDriver(tmp_path / "player", old)
+    at = TasDriver(tmp_path / "player", old)
     at.choose("Leave")
     assert not at.app.running
     at.close()

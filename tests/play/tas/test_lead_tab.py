@@ -5,28 +5,28 @@ from __future__ import annotations
 import pytest
 
 from ninja_game.play.tas.tabs.lead_tab import PAUSE_MS, LeadTab
-from tests.support.bench_driver import BenchDriver
+from tests.support.tas_driver import TasDriver
 
 
 @pytest.fixture(name="tab")
-def lead_tab(at: BenchDriver) -> LeadTab:
+def lead_tab(at: TasDriver) -> LeadTab:
     at.choose("Lead")
     tab = at.screen.tab
     assert isinstance(tab, LeadTab)
     return tab
 
 
-def compared(at: BenchDriver, tab: LeadTab) -> None:
+def compared(at: TasDriver, tab: LeadTab) -> None:
     at.wait(lambda: tab.is_current, "a comparison")
     at.frames()
 
 
-def test_the_lead_over_a_run_that_starts_earlier(at: BenchDriver, tab: LeadTab) -> None:
+def test_the_lead_over_a_run_that_starts_earlier(at: TasDriver, tab: LeadTab) -> None:
     compared(at, tab)
     assert tab.table
     assert tab.summary == "the same keys"
     assert {row.ahead for row in tab.table.rows} == {0}
-    at.bench.edit(lambda take: take.replaced(0, 0, [0] * 3).named(100, "ledge"))
+    at.editor.edit(lambda track: track.replaced(0, 0, [0] * 3).named(100, "ledge"))
     assert not tab.is_current
     compared(at, tab)
     assert {row.ahead for row in tab.table.rows if row.counts} == {-3}
@@ -35,19 +35,19 @@ def test_the_lead_over_a_run_that_starts_earlier(at: BenchDriver, tab: LeadTab) 
     assert "3 ticks behind at exit" in tab.summary
 
 
-def test_a_click_puts_the_cursor_there(at: BenchDriver, tab: LeadTab) -> None:
+def test_a_click_puts_the_cursor_there(at: TasDriver, tab: LeadTab) -> None:
     compared(at, tab)
     assert tab.table
     x, y, _, h = tab.list.row_area(2)
     at.mouse(x + 50, y + h / 2)
-    assert at.bench.cursor == tab.table.rows[2].tick
+    assert at.editor.cursor == tab.table.rows[2].tick
 
 
-def test_edits_are_compared_only_after_a_pause(at: BenchDriver, tab: LeadTab) -> None:
+def test_edits_are_compared_only_after_a_pause(at: TasDriver, tab: LeadTab) -> None:
     compared(at, tab)
     table = tab.table
     for _ in range(PAUSE_MS // 25 + 4):
-        at.bench.edit(lambda take: take.replaced(0, 0, [0]))
+        at.editor.edit(lambda track: track.replaced(0, 0, [0]))
         at.frames()
     assert tab._job.idle
     assert tab.table is table
@@ -55,26 +55,26 @@ def test_edits_are_compared_only_after_a_pause(at: BenchDriver, tab: LeadTab) ->
     assert tab.table is not table
 
 
-def test_the_other_run_is_chosen(at: BenchDriver, tab: LeadTab) -> None:
-    opened = at.bench.take
-    at.bench.edit(lambda take: take.replaced(0, 0, [0] * 3))
+def test_the_other_run_is_chosen(at: TasDriver, tab: LeadTab) -> None:
+    opened = at.editor.track
+    at.editor.edit(lambda track: track.replaced(0, 0, [0] * 3))
     at.session.keep_branch("late")
     at.frames()
     names = [name for name, _ in tab._choice.options]
     assert names == ["the run as it was opened", "branch: late"], "what was saved is the same as what was opened"
     x, y = tab._choice.centre
     at.mouse(x, y)
-    assert at.bench.against == at.bench.take
+    assert at.editor.against == at.editor.track
     at.session.change(opened)
     compared(at, tab)
     assert tab.table
     assert tab.table.rows[-1].ahead == 3
     at.session.drop_branch(0)
     at.frames()
-    assert at.bench.against is None
+    assert at.editor.against is None
 
 
-def test_a_run_that_cannot_be_compared_says_so(at: BenchDriver, tab: LeadTab, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_run_that_cannot_be_compared_says_so(at: TasDriver, tab: LeadTab, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("ninja_game.runs.comparison.MAX_PAIRS", 10)
     at.wait(lambda: tab.is_current, "an answer")
     assert "too long" in tab.summary

@@ -1,4 +1,4 @@
-"""The level on the bench: any tick exact, ways and ghosts, playing, other runs."""
+"""The level on the TAS editor: any tick exact, ways and ghosts, playing, other runs."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from ninja_game.play.tas.level.other_runs import OtherRunScreen
 from ninja_game.play.tas.level.paths import shown_span
 from ninja_game.play.tas.screen import TasScreen
 from ninja_game.play.tas.tabs.values_tab import ValuesTab
-from ninja_game.tas.files import open_run, runs_beside
-from tests.support.bench_driver import BenchDriver
+from ninja_game.tas.files import open_run, runs_of_level
 from tests.support.own_pack import PACK
+from tests.support.tas_driver import TasDriver
 
 RUN = PACK / "certificates" / "01-2-the-works.exit.replay.txt"
 
@@ -31,64 +31,64 @@ def run() -> Path:
     return RUN
 
 
-def test_any_tick_is_that_of_a_straight_run_after_any_edits(at: BenchDriver) -> None:
-    bench, rng = at.bench, Random(7)
+def test_any_tick_is_that_of_a_straight_run_after_any_edits(at: TasDriver) -> None:
+    editor, rng = at.editor, Random(7)
     for _ in range(40):
         if rng.random() < 0.5:
-            first = rng.randrange(len(bench.take))
+            first = rng.randrange(len(editor.track))
             keys = [rng.randrange(8) for _ in range(rng.randrange(1, 30))]
-            edited = bench.take.replaced(first, first + rng.randrange(9), keys)
-            assert bench.attempt(partial(at.session.change, edited))
+            edited = editor.track.replaced(first, first + rng.randrange(9), keys)
+            assert editor.attempt(partial(at.session.change, edited))
             at.frames()
-            assert at.shown_digest() == at.straight_digest(bench.cursor), "the cursor stays, the run is another"
-        bench.go(rng.choice([rng.randrange(bench.last_tick + 1), bench.cursor + rng.randrange(-3, 4)]))
+            assert at.shown_digest() == at.straight_digest(editor.cursor), "the cursor stays, the run is another"
+        editor.go(rng.choice([rng.randrange(editor.last_tick + 1), editor.cursor + rng.randrange(-3, 4)]))
         at.frames()
-        assert at.screen.level.picture.tick == bench.cursor
-        assert at.shown_digest() == at.straight_digest(bench.cursor)
+        assert at.screen.level.picture.tick == editor.cursor
+        assert at.shown_digest() == at.straight_digest(editor.cursor)
 
 
-def test_playing_takes_the_cursor_along_at_the_chosen_speed(at: BenchDriver) -> None:
+def test_playing_takes_the_cursor_along_at_the_chosen_speed(at: TasDriver) -> None:
     screen = at.screen
-    bench, playing = screen.bench, screen.level.playing
-    bench.go(50)
+    editor, playing = screen.editor, screen.level.playing
+    editor.go(50)
     at.press("space")
     at.frames(11)
-    assert 61 <= bench.cursor <= 62
+    assert 61 <= editor.cursor <= 62
     at.press("equals")
     at.frames(1)
     assert SPEEDS[playing.speed] == 2.0
-    before = bench.cursor
+    before = editor.cursor
     at.frames(10)
-    assert 19 <= bench.cursor - before <= 21
+    assert 19 <= editor.cursor - before <= 21
     at.press("escape")
     at.frames()
     assert not playing.on
     assert at.top() is screen
-    before = bench.cursor
+    before = editor.cursor
     at.frames(5)
-    assert bench.cursor == before
+    assert editor.cursor == before
     at.press("period")
     at.press("period")
     at.press("comma")
     at.frames()
-    assert bench.cursor == before + 1
+    assert editor.cursor == before + 1
     assert at.shown_digest() == at.straight_digest(before + 1)
 
 
-def test_it_stops_at_the_last_tick_and_begins_again(at: BenchDriver) -> None:
+def test_it_stops_at_the_last_tick_and_begins_again(at: TasDriver) -> None:
     screen = at.screen
-    bench = screen.bench
-    bench.go(bench.last_tick - 3)
+    editor = screen.editor
+    editor.go(editor.last_tick - 3)
     at.press("space")
     at.frames(10)
-    assert (bench.cursor, screen.level.playing.on) == (bench.last_tick, False)
+    assert (editor.cursor, screen.level.playing.on) == (editor.last_tick, False)
     at.press("space")
     at.frames(5)
-    assert bench.cursor < 10
+    assert editor.cursor < 10
 
 
 @pytest.mark.parametrize("tick", [0, 90, 200])
-def test_a_click_goes_to_the_nearest_tick(at: BenchDriver, tick: int) -> None:
+def test_a_click_goes_to_the_nearest_tick(at: TasDriver, tick: int) -> None:
     screen = at.screen
     positions = screen.session.timeline.positions
     left, top, *_ = screen.level.area
@@ -100,84 +100,84 @@ def test_a_click_goes_to_the_nearest_tick(at: BenchDriver, tick: int) -> None:
     assert np.hypot(*(positions[hovered] - positions[tick])) < 3
     at.mouse(*place)
     at.mouse(700, 300, click=False)
-    assert screen.bench.cursor == hovered
+    assert screen.editor.cursor == hovered
     assert screen.level.hover is None
 
 
-def test_the_run_before_the_edit_is_a_ghost_where_it_was_elsewhere(at: BenchDriver) -> None:
+def test_the_run_before_the_edit_is_a_ghost_where_it_was_elsewhere(at: TasDriver) -> None:
     screen = at.screen
-    bench = screen.bench
-    bench.go(150)
+    editor = screen.editor
+    editor.go(150)
     at.frames()
     assert not screen.level.ghosts
-    bench.edit(lambda take: take.replaced(100, 160, [1] * 60))
+    editor.edit(lambda track: track.replaced(100, 160, [1] * 60))
     at.frames()
     assert [ghost.label for ghost in screen.level.ghosts] == [""]
     (ghost,) = screen.level.ghosts
-    assert ghost.place(1.0) == tuple(bench.session.before.positions[150])
+    assert ghost.place(1.0) == tuple(editor.session.before.positions[150])
     at.press("g")
     at.frames()
     assert not screen.level.ghosts
     at.press("g")
-    bench.go(80)
+    editor.go(80)
     at.frames()
     assert not screen.level.ghosts, "there it was at the same place"
 
 
-def test_other_runs_are_opened_chosen_and_taken_in(at: BenchDriver) -> None:
+def test_other_runs_are_opened_chosen_and_taken_in(at: TasDriver) -> None:
     screen = at.screen
-    bench, mod = screen.bench, pygame.KMOD_LCTRL
-    before = bench.take
+    editor, mod = screen.editor, pygame.KMOD_LCTRL
+    before = editor.track
     at.chord("p", mod)
     at.frames()
-    assert bench.take == before
+    assert editor.track == before
     assert "Ctrl+O" in at.app.notice
     other = before.replaced(100, 140, [2] * 40)
     recording = screen.session.recording(other, "theirs")
     screen.level.others.open([recording, recording])
     at.frames()
-    assert len({run.name for run in bench.others}) == 2
+    assert len({run.name for run in editor.others}) == 2
     assert len(screen.level.ghosts) == 2
-    bench.select(110, 120)
+    editor.select(110, 120)
     at.chord("p", mod)
     at.frames()
-    assert bench.take.inputs[:110] == before.inputs[:110]
-    assert [bench.take.keys_at(tick) for tick in range(110, 120)] == [2] * 10
-    assert [bench.take.keys_at(k) for k in range(120, 200)] == [before.keys_at(k) for k in range(120, 200)]
+    assert editor.track.inputs[:110] == before.inputs[:110]
+    assert [editor.track.keys_at(tick) for tick in range(110, 120)] == [2] * 10
+    assert [editor.track.keys_at(k) for k in range(120, 200)] == [before.keys_at(k) for k in range(120, 200)]
     assert screen.session.undo()
-    assert bench.take == before
+    assert editor.track == before
     at.press("o")
     at.frames()
-    assert bench.chosen == 0
+    assert editor.chosen == 0
 
 
-def test_the_rest_of_another_run_from_the_nearest_place(at: BenchDriver) -> None:
-    bench = at.bench
-    mine = bench.take
+def test_the_rest_of_another_run_from_the_nearest_place(at: TasDriver) -> None:
+    editor = at.editor
+    mine = editor.track
     screen = at.screen
     screen.level.others.open([at.session.recording(mine.replaced(60, 60, [0] * 7), "later")])
-    bench.go(120)
-    here, there = at.session.timeline.positions[120], bench.others[0].positions
+    editor.go(120)
+    here, there = at.session.timeline.positions[120], editor.others[0].positions
     nearest = int(np.argmin(np.hypot(*(there - here).T)))
     at.chord("p", pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT)
-    theirs = bench.others[0].take
-    assert bench.take.inputs[:121] == mine.inputs[:121]
-    assert [bench.take.keys_at(121 + k) for k in range(300)] == [theirs.keys_at(nearest + 1 + k) for k in range(300)]
-    assert len(bench.take) == 121 + len(theirs) - nearest - 1
+    theirs = editor.others[0].track
+    assert editor.track.inputs[:121] == mine.inputs[:121]
+    assert [editor.track.keys_at(121 + k) for k in range(300)] == [theirs.keys_at(nearest + 1 + k) for k in range(300)]
+    assert len(editor.track) == 121 + len(theirs) - nearest - 1
     assert f"from its tick {nearest} on" in at.app.notice
 
 
-def test_a_run_of_another_level_is_refused(at: BenchDriver) -> None:
+def test_a_run_of_another_level_is_refused(at: TasDriver) -> None:
     screen = at.screen
     elsewhere = PACK / "certificates" / "00-0-first-steps.exit.replay.txt"
     with pytest.raises(ReplayError, match="another level"):
         screen.level.others.open(load_replays(elsewhere))
     with pytest.raises(ReplayError, match="no run of"):
-        runs_beside(elsewhere, screen.session.about)
-    assert len(runs_beside(RUN, screen.session.about)) == 1
+        runs_of_level(elsewhere, screen.session.about)
+    assert len(runs_of_level(RUN, screen.session.about)) == 1
 
 
-def test_the_list_of_other_runs_has_those_of_the_level(at: BenchDriver) -> None:
+def test_the_list_of_other_runs_has_those_of_the_level(at: TasDriver) -> None:
     screen = at.screen
     at.chord("o", pygame.KMOD_LCTRL)
     at.frames()
@@ -188,10 +188,10 @@ def test_the_list_of_other_runs_has_those_of_the_level(at: BenchDriver) -> None:
     at.press("return")
     at.frames()
     assert at.top() is screen
-    assert len(screen.bench.others) == 1
+    assert len(screen.editor.others) == 1
 
 
-def test_an_object_under_the_mouse_is_named_and_can_be_watched(at: BenchDriver) -> None:
+def test_an_object_under_the_mouse_is_named_and_can_be_watched(at: TasDriver) -> None:
     level = at.screen.level
     gold = next(each for each in level.picture.run.objects if each.kind == "gold")
     left, top, *_ = level.area
@@ -199,8 +199,8 @@ def test_an_object_under_the_mouse_is_named_and_can_be_watched(at: BenchDriver) 
     place = left + gold.x * factor, top + gold.y * factor
     at.mouse(*place, click=False)
     assert level.pointed == gold
-    assert f"gold {gold.id};" in at.bench.hint
-    cursor = at.bench.cursor
+    assert f"gold {gold.id};" in at.editor.hint
+    cursor = at.editor.cursor
     at.event(pygame.MOUSEBUTTONDOWN, *place, button=3)
     at.event(pygame.MOUSEBUTTONUP, *place, button=3)
     assert isinstance(at.top(), Form)
@@ -208,12 +208,12 @@ def test_an_object_under_the_mouse_is_named_and_can_be_watched(at: BenchDriver) 
     assert at.screen.tab.name == "Values"
     tab = next(tab for tab in at.screen.tabs if isinstance(tab, ValuesTab))
     assert tab.watched[-1].watch.text == f"taken({gold.id})"
-    assert at.bench.cursor == cursor
+    assert at.editor.cursor == cursor
     at.mouse(700, 300, click=False)
     assert level.pointed is None
 
 
-def test_other_runs_come_from_any_file(at: BenchDriver, tmp_path: Path) -> None:
+def test_other_runs_come_from_any_file(at: TasDriver, tmp_path: Path) -> None:
     copy(RUN, tmp_path / "other.replay.txt")
     (tmp_path / "notes.txt").write_text("nothing of ours")
     copy(PACK / "certificates" / "00-0-first-steps.exit.replay.txt", tmp_path / "elsewhere.replay.txt")
@@ -233,13 +233,13 @@ def test_other_runs_come_from_any_file(at: BenchDriver, tmp_path: Path) -> None:
     at.write("other.replay.txt")
     at.press("return")
     assert at.top() is at.screen
-    assert [run.name for run in at.bench.others] == ["other"]
+    assert [run.name for run in at.editor.others] == ["other"]
 
 
-def test_of_a_long_run_the_way_near_the_cursor_is_shown(at: BenchDriver) -> None:
-    at.bench.edit(lambda take: take.replaced(len(take), len(take), [0] * 20_000))
+def test_of_a_long_run_the_way_near_the_cursor_is_shown(at: TasDriver) -> None:
+    at.editor.edit(lambda track: track.replaced(len(track), len(track), [0] * 20_000))
     at.frames(10)
-    at.bench.go(15_300)
+    at.editor.go(15_300)
     at.frames()
     assert shown_span(15_300) == (13_000, 19_000)
     at.mouse(200, 200, click=False)
@@ -247,9 +247,9 @@ def test_of_a_long_run_the_way_near_the_cursor_is_shown(at: BenchDriver) -> None
     assert 13_000 <= at.screen.level.hover < 19_000
 
 
-def test_another_run_is_in_the_first_picture_and_in_that_of_a_larger_window(at: BenchDriver) -> None:
-    screen = TasScreen(at.app, open_run(RUN), runs_beside(RUN, at.session.about))
-    screen.bench.go(100)
+def test_another_run_is_in_the_first_picture_and_in_that_of_a_larger_window(at: TasDriver) -> None:
+    screen = TasScreen(at.app, open_run(RUN), runs_of_level(RUN, at.session.about))
+    screen.editor.go(100)
     at.app.replace(screen)
     picture = screen.level.picture
     for size in ((792, 600), (1280, 720)):
@@ -261,11 +261,11 @@ def test_another_run_is_in_the_first_picture_and_in_that_of_a_larger_window(at: 
         assert ghost.place(1.0) == tuple(screen.session.timeline.positions[100])
 
 
-def test_names_do_not_lie_on_each_other(at: BenchDriver) -> None:
+def test_names_do_not_lie_on_each_other(at: TasDriver) -> None:
     screen = at.screen
     screen.level.others.open([load_replays(RUN)[0]] * 3)
-    screen.bench.edit(lambda take: take.named(100, "here"))
-    screen.bench.go(100)
+    screen.editor.edit(lambda track: track.named(100, "here"))
+    screen.editor.go(100)
     at.frames(2)
     paths = screen.level._paths
     assert paths is not None

@@ -1,4 +1,4 @@
-"""Until the rules are loaded the window says what is being done; then it is the bench."""
+"""Until the rules are loaded the window says what is being done; then it is the TAS editor."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import NinjaGameError, ReplayError
 from ninja_game.formats.load import load_replays
 from ninja_game.play.tas import opening
-from ninja_game.play.tas.opening import OpeningScreen, is_prepared, open_bench
+from ninja_game.play.tas.opening import OpeningScreen, is_prepared, open_tas_editor
 from ninja_game.play.tas.screen import TasScreen
 from tests.play.tas.conftest import RUN
 from tests.support.menu_driver import MenuDriver
@@ -37,7 +37,7 @@ def loaded(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
 
 
 def opened(at: MenuDriver) -> None:
-    """Let pictures pass until the bench is there, or refused."""
+    """Let pictures pass until the TAS editor is there, or refused."""
     screen = at.top()
     assert isinstance(screen, OpeningScreen)
     screen._thread.join(60)
@@ -45,7 +45,7 @@ def opened(at: MenuDriver) -> None:
 
 
 def test_the_window_says_what_is_done_until_the_bench_is_there(at: MenuDriver, loaded: Event) -> None:
-    open_bench(at.app, load_replays(RUN)[0], [], 17)
+    open_tas_editor(at.app, load_replays(RUN)[0], [], 17)
     at.frames(2)
     screen = at.top()
     assert isinstance(screen, OpeningScreen)
@@ -59,10 +59,10 @@ def test_the_window_says_what_is_done_until_the_bench_is_there(at: MenuDriver, l
     assert at.top() is screen, "nothing can be done yet"
     loaded.set()
     opened(at)
-    bench = at.top()
-    assert isinstance(bench, TasScreen)
-    assert bench.bench.cursor == 17
-    bench.files.leave()
+    editor = at.top()
+    assert isinstance(editor, TasScreen)
+    assert editor.editor.cursor == 17
+    editor.files.leave()
     assert screen not in at.app.stack
 
 
@@ -74,7 +74,7 @@ def test_what_cannot_be_opened_is_told_where_one_came_from(
 
     monkeypatch.setattr("ninja_game.tas.files.open_recording", refuse)
     before = at.top()
-    open_bench(at.app, load_replays(RUN)[0], [], 0)
+    open_tas_editor(at.app, load_replays(RUN)[0], [], 0)
     loaded.set()
     at.frames()
     opened(at)
@@ -91,5 +91,5 @@ def test_what_was_prepared_is_there_at_once(at: MenuDriver) -> None:
     opening.prepare(load_replays(RUN)[0])
     assert is_prepared()
     if compiled_available():
-        open_bench(at.app, load_replays(RUN)[0], [], 3)
+        open_tas_editor(at.app, load_replays(RUN)[0], [], 3)
         assert isinstance(at.top(), TasScreen)

@@ -1,4 +1,4 @@
-"""The keys of another run beside those of the one on the bench."""
+"""The keys of another run beside those of the one on the TAS editor."""
 
 from __future__ import annotations
 
@@ -13,43 +13,43 @@ from ninja_game.play.tas.level.other_runs import OtherRunScreen
 from ninja_game.play.tas.roll.differences import compared, different_rows
 from ninja_game.play.tas.roll.facts import row_facts
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bits
-from ninja_game.tas.take import Take
-from tests.support.bench_driver import BenchDriver
+from ninja_game.tas.input_track import InputTrack
 from tests.support.samples import running, write_records
+from tests.support.tas_driver import TasDriver
 
-OURS = Take(with_press_bits([KEY_RIGHT] * 60))
-THEIRS = Take(with_press_bits([KEY_RIGHT] * 20 + [KEY_LEFT] * 5 + [KEY_RIGHT | JUMP_HELD] * 5 + [KEY_RIGHT] * 34))
+OURS = InputTrack(with_press_bits([KEY_RIGHT] * 60))
+THEIRS = InputTrack(with_press_bits([KEY_RIGHT] * 20 + [KEY_LEFT] * 5 + [KEY_RIGHT | JUMP_HELD] * 5 + [KEY_RIGHT] * 34))
 SHIFT = pygame.KMOD_LSHIFT
 
 
-def beside(at: BenchDriver, *others: Take) -> None:
-    """Runs with few keys on the bench and beside it."""
-    at.bench.edit(lambda take: OURS)
+def beside(at: TasDriver, *others: InputTrack) -> None:
+    """Runs with few keys on the TAS editor and beside it."""
+    at.editor.edit(lambda track: OURS)
     at.screen.level.others.open([at.session.recording(other, f"run {n}") for n, other in enumerate(others)])
     at.frames()
 
 
-def differing(at: BenchDriver) -> dict[int, int]:
-    return {row.tick: row.differs for row in row_facts(at.bench, 0, 100) if row.differs}
+def differing(at: TasDriver) -> dict[int, int]:
+    return {row.tick: row.differs for row in row_facts(at.editor, 0, 100) if row.differs}
 
 
-def test_keys_that_only_one_run_has_are_marked(at: BenchDriver) -> None:
+def test_keys_that_only_one_run_has_are_marked(at: TasDriver) -> None:
     beside(at, THEIRS)
     turned, jumped = dict.fromkeys(range(20, 25), KEY_LEFT | KEY_RIGHT), dict.fromkeys(range(25, 30), JUMP_HELD)
     assert differing(at) == turned | jumped | dict.fromkeys(range(60, 64), KEY_RIGHT)
     at.event(pygame.MOUSEMOTION, *at.cell(22, "left"))
-    assert at.bench.hint == "22:  R   run 0: L"
+    assert at.editor.hint == "22:  R   run 0: L"
     at.press("g")
     assert differing(at) == {}
     at.press("k")
     assert at.app.notice == "Other runs are not shown: G shows them"
 
 
-def test_a_mark_stands_at_the_right_of_the_cell_in_the_colour_of_the_ghost(at: BenchDriver) -> None:
+def test_a_mark_stands_at_the_right_of_the_cell_in_the_colour_of_the_ghost(at: TasDriver) -> None:
     beside(at, THEIRS)
-    at.bench.go(40)
+    at.editor.go(40)
     at.frames()
-    other = compared(at.bench)
+    other = compared(at.editor)
     assert other is not None
     place = next(each for each in at.screen.roll.layout.places if each.column.name == "left")
     right = place.left + place.width - 1
@@ -61,24 +61,24 @@ def test_a_mark_stands_at_the_right_of_the_cell_in_the_colour_of_the_ghost(at: B
     assert colour(26) != colour(22)
 
 
-def test_a_key_goes_from_difference_to_difference(at: BenchDriver) -> None:
+def test_a_key_goes_from_difference_to_difference(at: TasDriver) -> None:
     beside(at, THEIRS)
     places = []
     for _ in range(4):
         at.press("k")
-        places.append(at.bench.cursor)
+        places.append(at.editor.cursor)
     assert places == [20, 25, 60, 60]
     assert at.app.notice == "There are no more ticks with other keys than run 0"
     for _ in range(3):
         at.chord("k", SHIFT)
-    assert at.bench.cursor == 20
+    assert at.editor.cursor == 20
     at.chord("k", SHIFT)
     assert at.app.notice == "There are no earlier ticks with other keys than run 0"
 
 
-def test_the_chosen_run_is_compared_else_the_run_before_the_edit(at: BenchDriver) -> None:
-    at.bench.edit(lambda take: OURS)
-    at.bench.edit(lambda take: take.with_key(7, 9, JUMP_HELD, down=True))
+def test_the_chosen_run_is_compared_else_the_run_before_the_edit(at: TasDriver) -> None:
+    at.editor.edit(lambda track: OURS)
+    at.editor.edit(lambda track: track.with_key(7, 9, JUMP_HELD, down=True))
     assert differing(at) == {7: JUMP_HELD, 8: JUMP_HELD}
     at.chord("z", pygame.KMOD_LCTRL)
     assert differing(at) == {7: JUMP_HELD, 8: JUMP_HELD}
@@ -97,35 +97,35 @@ def test_the_bar_shows_where_keys_differ() -> None:
     assert different_rows(b"", b"", 40, 10) == []
 
 
-def test_undo_selects_again_what_a_key_has_changed(at: BenchDriver) -> None:
-    at.bench.edit(lambda take: OURS)
-    at.bench.select(30, 35)
+def test_undo_selects_again_what_a_key_has_changed(at: TasDriver) -> None:
+    at.editor.edit(lambda track: OURS)
+    at.editor.select(30, 35)
     at.press("insert")
-    assert at.bench.selection == (30, 35)
-    at.bench.go(33)
+    assert at.editor.selection == (30, 35)
+    at.editor.go(33)
     at.app.notify("something")
     at.chord("z", pygame.KMOD_LCTRL)
-    assert (at.bench.selection, at.bench.take.inputs, at.app.notice) == ((30, 35), OURS.inputs, "")
+    assert (at.editor.selection, at.editor.track.inputs, at.app.notice) == ((30, 35), OURS.inputs, "")
     at.press("backspace")
-    assert (at.bench.selection, len(at.bench.take)) == ((30, 31), 55)
+    assert (at.editor.selection, len(at.editor.track)) == ((30, 31), 55)
     at.chord("z", pygame.KMOD_LCTRL)
-    assert at.bench.selection == (30, 35)
+    assert at.editor.selection == (30, 35)
     at.screen.level.others.open([at.session.recording(THEIRS, "theirs")])
-    at.bench.select(20, 30)
+    at.editor.select(20, 30)
     at.chord("p", pygame.KMOD_LCTRL)
-    at.bench.go(3)
+    at.editor.go(3)
     at.chord("z", pygame.KMOD_LCTRL)
-    assert at.bench.selection == (20, 30)
+    assert at.editor.selection == (20, 30)
 
 
-def test_runs_of_one_file_of_n_are_told_apart(at: BenchDriver, tmp_path: Path) -> None:
+def test_runs_of_one_file_of_n_are_told_apart(at: TasDriver, tmp_path: Path) -> None:
     """The author in a record of N is that of its level."""
     level, ticks = at.session.about.level, (30, 10, 20)
     text = write_level_string(level, exact=True)
     records = [(f"a level {count}", text, running(count)) for count in ticks]
     file = write_records(tmp_path / "many.txt", *records)
     at.screen.level.others.open(load_replays(file))
-    assert [other.name for other in at.bench.others] == ["many.txt", "many.txt 1", "many.txt 2"]
+    assert [other.name for other in at.editor.others] == ["many.txt", "many.txt 1", "many.txt 2"]
     at.chord("o", pygame.KMOD_LCTRL)
     screen = at.top()
     assert isinstance(screen, OtherRunScreen)
@@ -136,8 +136,8 @@ def test_runs_of_one_file_of_n_are_told_apart(at: BenchDriver, tmp_path: Path) -
     assert screen.rows[:3] == rows, "the fastest first"
 
 
-def test_a_press_that_opens_a_dialog_holds_nothing(at: BenchDriver) -> None:
-    cursor = at.bench.cursor
+def test_a_press_that_opens_a_dialog_holds_nothing(at: TasDriver) -> None:
+    cursor = at.editor.cursor
     x, _ = at.cell(5, "x")
     heads = at.screen.theme.canvas.logical((0, at.screen.roll.layout.heads.centery))
     at.event(pygame.MOUSEBUTTONDOWN, x, heads[1], button=1)
@@ -145,4 +145,4 @@ def test_a_press_that_opens_a_dialog_holds_nothing(at: BenchDriver) -> None:
     at.event(pygame.MOUSEBUTTONUP, x, heads[1], button=1)
     at.press("escape")
     at.choose("Branches")
-    assert (at.bench.tab, at.bench.cursor) == ("Branches", cursor)
+    assert (at.editor.tab, at.editor.cursor) == ("Branches", cursor)

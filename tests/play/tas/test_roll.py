@@ -8,8 +8,8 @@ import pytest
 from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.play.input.scancodes import SCANCODES
 from ninja_game.play.tas.roll.part import MARGIN
-from ninja_game.tas.take import Take
-from tests.support.bench_driver import BenchDriver
+from ninja_game.tas.input_track import InputTrack
+from tests.support.tas_driver import TasDriver
 
 CTRL, SHIFT = pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT
 
@@ -22,42 +22,42 @@ def clipboard_of_the_tests(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return texts
 
 
-def test_keys_move_and_select(at: BenchDriver) -> None:
-    rows, bench = at.screen.roll.layout.rows, at.bench
+def test_keys_move_and_select(at: TasDriver) -> None:
+    rows, editor = at.screen.roll.layout.rows, at.editor
     at.press("down", "down", "up")
-    assert bench.selection == (1, 2)
+    assert editor.selection == (1, 2)
     at.chord("down", SHIFT)
     at.chord("pagedown", SHIFT)
-    assert bench.selection == (1, rows + 2)
+    assert editor.selection == (1, rows + 2)
     at.press("pageup", "pageup")
-    assert bench.selection == (0, 1)
+    assert editor.selection == (0, 1)
     at.press("end")
-    assert bench.cursor == at.session.timeline.end[0]
+    assert editor.cursor == at.session.timeline.end[0]
     at.press("end")
-    assert bench.cursor == bench.last_tick
-    assert at.screen.roll.top == bench.last_tick + 1 - rows
+    assert editor.cursor == editor.last_tick
+    assert at.screen.roll.top == editor.last_tick + 1 - rows
     at.press("home")
-    assert at.screen.roll.top == bench.cursor == 0
+    assert at.screen.roll.top == editor.cursor == 0
     at.chord("a", CTRL)
-    assert bench.selection == (0, len(bench.take))
+    assert editor.selection == (0, len(editor.track))
 
 
-def test_a_key_that_is_held_goes_on(at: BenchDriver) -> None:
+def test_a_key_that_is_held_goes_on(at: TasDriver) -> None:
     event = {"key": 0, "scancode": SCANCODES["down"], "mod": 0, "unicode": ""}
     pygame.event.post(pygame.Event(pygame.KEYDOWN, event))
     at.frames(10)
-    assert at.bench.cursor == 1
+    assert at.editor.cursor == 1
     at.frames(30)
-    assert 25 <= at.bench.cursor <= 33, "a tick in 25 ms"
+    assert 25 <= at.editor.cursor <= 33, "a tick in 25 ms"
     pygame.event.post(pygame.Event(pygame.KEYUP, event))
     at.frames(1)
-    stopped = at.bench.cursor
+    stopped = at.editor.cursor
     at.frames(30)
-    assert at.bench.cursor == stopped
+    assert at.editor.cursor == stopped
 
 
-def test_rows_scroll_with_the_cursor_before_it_reaches_the_edge(at: BenchDriver) -> None:
-    roll, bench = at.screen.roll, at.bench
+def test_rows_scroll_with_the_cursor_before_it_reaches_the_edge(at: TasDriver) -> None:
+    roll, editor = at.screen.roll, at.editor
     rows = roll.layout.rows
     at.mouse(*at.cell(rows - 2, "x"))
     assert roll.top == 0, "no row moves under the mouse"
@@ -65,20 +65,20 @@ def test_rows_scroll_with_the_cursor_before_it_reaches_the_edge(at: BenchDriver)
     assert roll.top == 3, "what is near the edge stays as near"
     at.press("up", "up")
     assert roll.top == 3
-    bench.go(200)
+    editor.go(200)
     at.frames()
     assert roll.top == 200 - rows // 2, "far away: into the middle"
     for _ in range(rows):
         at.press("down")
-    assert bench.cursor - roll.top == rows - 1 - rows // MARGIN
-    bench.go(0)
+    assert editor.cursor - roll.top == rows - 1 - rows // MARGIN
+    editor.go(0)
     at.frames()
     assert roll.top == 0
 
 
-def test_keys_of_the_game_go_down_and_up_in_the_selected_ticks(at: BenchDriver) -> None:
-    at.bench.edit(lambda take: take.replaced(10, 20, bytes([0, 1] * 5)))
-    at.bench.select(10, 20)
+def test_keys_of_the_game_go_down_and_up_in_the_selected_ticks(at: TasDriver) -> None:
+    at.editor.edit(lambda track: track.replaced(10, 20, bytes([0, 1] * 5)))
+    at.editor.select(10, 20)
     at.press("left")
     assert at.keys_down(10, 20) == [1] * 10
     at.press("z")
@@ -87,98 +87,98 @@ def test_keys_of_the_game_go_down_and_up_in_the_selected_ticks(at: BenchDriver) 
     assert at.keys_down(10, 20) == [4] * 10
     at.press("delete")
     assert at.keys_down(10, 20) == [0] * 10
-    assert at.bench.selection == (10, 20)
+    assert at.editor.selection == (10, 20)
 
 
-def test_ticks_are_put_in_and_taken_out(at: BenchDriver) -> None:
-    before = at.bench.take
-    at.bench.select(10, 13)
+def test_ticks_are_put_in_and_taken_out(at: TasDriver) -> None:
+    before = at.editor.track
+    at.editor.select(10, 13)
     at.press("insert")
-    assert len(at.bench.take) == len(before) + 3
+    assert len(at.editor.track) == len(before) + 3
     assert at.keys_down(10, 13) == [0, 0, 0]
     at.press("backspace")
-    assert at.bench.take == before
-    assert at.bench.selection == (10, 11)
-    at.bench.go(len(before) + 3)
+    assert at.editor.track == before
+    assert at.editor.selection == (10, 11)
+    at.editor.go(len(before) + 3)
     at.press("backspace")
-    assert at.bench.take == before, "there is nothing to take out behind the end"
-    assert "no keys here" in at.app.notice
+    assert at.editor.track == before, "there is nothing to take out behind the end"
+    assert "the run ends earlier" in at.app.notice
 
 
-def test_what_is_behind_the_end_is_cut(at: BenchDriver) -> None:
+def test_what_is_behind_the_end_is_cut(at: TasDriver) -> None:
     end = at.session.timeline.end[0]
-    at.bench.edit(lambda take: take.replaced(len(take), len(take), bytes([1] * 30)))
+    at.editor.edit(lambda track: track.replaced(len(track), len(track), bytes([1] * 30)))
     at.chord("e", CTRL)
-    assert len(at.bench.take) == end + 1
+    assert len(at.editor.track) == end + 1
     assert at.session.timeline.end[0] == end
-    at.bench.edit(lambda take: Take(b""))
+    at.editor.edit(lambda track: InputTrack(b""))
     at.chord("e", CTRL)
     assert "nothing behind" in at.app.notice
 
 
-def test_markers_are_named_found_and_dropped(at: BenchDriver) -> None:
-    at.bench.go(15)
+def test_markers_are_named_found_and_dropped(at: TasDriver) -> None:
+    at.editor.go(15)
     at.press("m")
     at.write("corner")
     at.press("return")
-    at.bench.edit(lambda take: take.named(40, "door"))
+    at.editor.edit(lambda track: track.named(40, "door"))
     at.press("n")
-    assert at.bench.cursor == 40
+    assert at.editor.cursor == 40
     at.chord("n", SHIFT)
-    assert at.bench.cursor == 15
-    for text, tick in (("#Door", 40), ("7", 7), ("999999999999", at.bench.last_tick)):
+    assert at.editor.cursor == 15
+    for text, tick in (("#Door", 40), ("7", 7), ("999999999999", at.editor.last_tick)):
         at.chord("g", CTRL)
         at.write(text)
         at.press("return")
-        assert at.bench.cursor == tick
+        assert at.editor.cursor == tick
     at.screen.roll.edits.go_to("nowhere")
     assert "nowhere" in at.app.notice
     at.screen.roll.edits._name(15, "a;b")
     assert "not a marker" in at.app.notice
     at.screen.roll.edits._name(15, "")
-    assert at.bench.take.markers == (Marker(40, "door"),)
+    assert at.editor.track.markers == (Marker(40, "door"),)
     at.chord("z", CTRL)
-    assert at.bench.cursor == 15, "undo shows the name that comes back"
+    assert at.editor.cursor == 15, "undo shows the name that comes back"
 
 
-def test_ticks_travel_as_text(at: BenchDriver, clipboard: list[str]) -> None:
-    at.bench.edit(lambda take: take.replaced(10, 16, bytes([2, 2, 2, 6, 6, 0])).named(13, "corner"))
-    before = at.bench.take
-    at.bench.select(10, 16)
+def test_ticks_travel_as_text(at: TasDriver, clipboard: list[str]) -> None:
+    at.editor.edit(lambda track: track.replaced(10, 16, bytes([2, 2, 2, 6, 6, 0])).named(13, "corner"))
+    before = at.editor.track
+    at.editor.select(10, 16)
     at.chord("c", CTRL)
     assert clipboard == ["R*3\n#corner RJ*2 ."]
     assert at.app.notice == "6 ticks copied"
     at.chord("x", CTRL)
-    assert len(at.bench.take) == len(before) - 6
+    assert len(at.editor.track) == len(before) - 6
     at.chord("v", CTRL, SHIFT)
-    assert at.bench.take == before, "name included"
-    at.bench.go(30)
+    assert at.editor.track == before, "name included"
+    at.editor.go(30)
     at.chord("v", CTRL)
-    assert len(at.bench.take) == len(before)
+    assert len(at.editor.track) == len(before)
     assert at.keys_down(30, 36) == [2, 2, 2, 6, 6, 0]
-    assert at.bench.selection == (30, 36)
-    assert at.bench.take.markers == before.markers, "a name stays where it is"
+    assert at.editor.selection == (30, 36)
+    assert at.editor.track.markers == before.markers, "a name stays where it is"
 
 
 @pytest.mark.parametrize(
     "text, made",
     [("(R J)*2 ; twice", [2, 4, 2, 4]), ("   3,R,J", [6, 6, 6]), ("\r\nL*2\r\n", [1, 1])],
 )
-def test_text_from_elsewhere_is_pasted(at: BenchDriver, clipboard: list[str], text: str, made: list[int]) -> None:
+def test_text_from_elsewhere_is_pasted(at: TasDriver, clipboard: list[str], text: str, made: list[int]) -> None:
     clipboard[0] = text
-    at.bench.go(5)
+    at.editor.go(5)
     at.chord("v", CTRL, SHIFT)
     assert at.keys_down(5, 5 + len(made)) == made
 
 
-def test_a_whole_replay_is_pasted(at: BenchDriver, clipboard: list[str]) -> None:
+def test_a_whole_replay_is_pasted(at: TasDriver, clipboard: list[str]) -> None:
     path = at.session.file.path
     assert path is not None
     clipboard[0] = path.read_text()
-    saved = at.bench.take
-    at.bench.edit(lambda take: Take(b""))
+    saved = at.editor.track
+    at.editor.edit(lambda track: InputTrack(b""))
     at.chord("v", CTRL)
-    assert [key & 7 for key in at.bench.take.inputs] == [key & 7 for key in saved.inputs]
+    assert [key & 7 for key in at.editor.track.inputs] == [key & 7 for key in saved.inputs]
 
 
 @pytest.mark.parametrize(
@@ -190,9 +190,9 @@ def test_a_whole_replay_is_pasted(at: BenchDriver, clipboard: list[str]) -> None
         ("(R", "block"),
     ],
 )
-def test_broken_text_is_refused_in_words(at: BenchDriver, clipboard: list[str], text: str, told: str) -> None:
+def test_broken_text_is_refused_in_words(at: TasDriver, clipboard: list[str], text: str, told: str) -> None:
     clipboard[0] = text
-    before = at.bench.take
+    before = at.editor.track
     at.chord("v", CTRL)
     assert told in at.app.notice
-    assert at.bench.take == before
+    assert at.editor.track == before

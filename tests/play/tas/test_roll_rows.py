@@ -8,34 +8,34 @@ import numpy as np
 import pygame
 import pytest
 
-from ninja_game.play.tas.layout import Wishes, bench_canvas, bench_layout
+from ninja_game.play.tas.layout import LayoutPreferences, tas_canvas, tas_layout
 from ninja_game.play.tas.roll.columns import COLUMNS, layout_of
 from ninja_game.play.tas.roll.facts import changed_ticks, in_words, row_facts
 from ninja_game.play.tas.roll.rows import RowSheet, shortened
 from ninja_game.sim.inputs import KEY_LEFT, KEY_RIGHT
-from ninja_game.tas.take import Take
-from tests.support.bench_driver import BenchDriver
+from ninja_game.tas.input_track import InputTrack
+from tests.support.tas_driver import TasDriver
 
 CTRL, SHIFT = pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT
 
 
-def test_runs_of_no_tick_and_of_one(at: BenchDriver) -> None:
-    at.bench.edit(lambda take: Take(b""))
+def test_runs_of_no_tick_and_of_one(at: TasDriver) -> None:
+    at.editor.edit(lambda track: InputTrack(b""))
     at.press("end", "end", "down", "home", "delete", "backspace", "m", "escape", "n")
     at.chord("c", CTRL)
     at.chord("a", CTRL)
-    assert at.bench.selection == (0, 1)
+    assert at.editor.selection == (0, 1)
     at.press("d")
-    assert at.bench.take.inputs == bytes([KEY_RIGHT])
+    assert at.editor.track.inputs == bytes([KEY_RIGHT])
     at.press("end", "backspace", "home", "backspace")
-    assert at.bench.take == Take(b"")
+    assert at.editor.track == InputTrack(b"")
 
 
-def test_a_very_long_run_scrolls_by_drawing_new_rows_only(at: BenchDriver, monkeypatch: pytest.MonkeyPatch) -> None:
-    at.bench.edit(lambda take: Take(bytes([1, 2] * 50_000)))
-    at.bench.edit(lambda take: take.named(60_000, "there"))
-    at.session.timeline.work(200_000)
-    at.bench.go(70_000)
+def test_a_very_long_run_scrolls_by_drawing_new_rows_only(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    at.editor.edit(lambda track: InputTrack(bytes([1, 2] * 50_000)))
+    at.editor.edit(lambda track: track.named(60_000, "there"))
+    at.session.timeline.simulate(200_000)
+    at.editor.go(70_000)
     at.frames()
     drawn: list[int] = []
     draw = RowSheet.draw
@@ -47,11 +47,11 @@ def test_a_very_long_run_scrolls_by_drawing_new_rows_only(at: BenchDriver, monke
         at.frames()
     assert roll.top == top + 4
     at.press("down")
-    at.bench.edit(lambda take: take.named(70_003, "here"))
+    at.editor.edit(lambda track: track.named(70_003, "here"))
     at.frames()
     assert drawn == [4, 4, 4, 2, 1]
     at.press("end", "end")
-    assert roll.top == at.bench.last_tick + 1 - roll.layout.rows
+    assert roll.top == at.editor.last_tick + 1 - roll.layout.rows
 
 
 def test_numbers_fit_their_columns() -> None:
@@ -61,35 +61,35 @@ def test_numbers_fit_their_columns() -> None:
     assert shortened(-1234567.0, 2) == "-"
 
 
-def test_rows_that_differ_from_the_saved_ones_are_marked(at: BenchDriver) -> None:
-    at.bench.edit(lambda take: take.with_key(20, 22, KEY_LEFT, down=not take.keys_at(20) & KEY_LEFT))
-    marked = [row.tick for row in row_facts(at.bench, 0, 60) if row.changed]
+def test_rows_that_differ_from_the_saved_ones_are_marked(at: TasDriver) -> None:
+    at.editor.edit(lambda track: track.with_key(20, 22, KEY_LEFT, down=not track.keys_at(20) & KEY_LEFT))
+    marked = [row.tick for row in row_facts(at.editor, 0, 60) if row.changed]
     assert 20 in marked
     assert set(marked) <= {20, 21}
-    taken = Take(bytes([1, 2, 1, 2, 2]))
-    assert changed_ticks(taken, Take(bytes([1, 2, 2]))) == range(2, 4)
+    taken = InputTrack(bytes([1, 2, 1, 2, 2]))
+    assert changed_ticks(taken, InputTrack(bytes([1, 2, 2]))) == range(2, 4)
     assert changed_ticks(taken, taken) == bytes(5)
 
 
-def test_rows_know_what_is_simulated_and_where_the_run_ends(at: BenchDriver) -> None:
+def test_rows_know_what_is_simulated_and_where_the_run_ends(at: TasDriver) -> None:
     timeline = at.session.timeline
-    end, count = timeline.end[0], len(at.bench.take)
-    rows = row_facts(at.bench, 0, len(timeline))
+    end, count = timeline.end[0], len(at.editor.track)
+    rows = row_facts(at.editor, 0, len(timeline))
     assert [row.tick for row in rows if row.over] == list(range(end + 1, len(timeline)))
     assert [row.tick for row in rows if row.beyond] == list(range(count, len(timeline)))
     row = rows[end - 5]
     assert row.values is not None
     assert row.values.vx == float(timeline.column("x")[end - 5] - timeline.column("prev_x")[end - 5])
-    timeline.valid = 30
-    rows = row_facts(at.bench, 25, 35)
+    timeline.simulated_until = 30
+    rows = row_facts(at.editor, 25, 35)
     assert [row.values is None for row in rows] == [False] * 5 + [True] * 5
     assert "not simulated" in in_words(rows[-1], numbers=True)
 
 
 @pytest.mark.parametrize("size", [(792, 600), (1188, 900), (1584, 1200), (1000, 1000), (3000, 700), (200, 150)])
 def test_columns_lie_side_by_side_in_any_window(size: tuple[int, int]) -> None:
-    canvas = bench_canvas(size)
-    area = bench_layout((size[0] / canvas.scale, size[1] / canvas.scale), Wishes()).roll
+    canvas = tas_canvas(size)
+    area = tas_layout((size[0] / canvas.scale, size[1] / canvas.scale), LayoutPreferences()).roll
     layout = layout_of(canvas, area, ())
     assert [place.column.name for place in layout.places] == [column.name for column in COLUMNS]
     edges = np.array([[place.left, place.left + place.width] for place in layout.places])
@@ -100,11 +100,11 @@ def test_columns_lie_side_by_side_in_any_window(size: tuple[int, int]) -> None:
     assert layout.rows >= 20
 
 
-def test_the_picture_of_rows_is_the_same_however_one_got_there(at: BenchDriver, tmp_path: Path) -> None:
+def test_the_picture_of_rows_is_the_same_however_one_got_there(at: TasDriver, tmp_path: Path) -> None:
     """Rows that are kept while scrolling look as rows that are drawn at once."""
     roll, area = at.screen.roll, at.screen.theme.canvas.rect(*at.screen.roll.area)
     for tick in (30, 90, 70, 75, 200, 60):
-        at.bench.go(tick)
+        at.editor.go(tick)
         at.frames()
     scrolled = at.app.surface.subsurface(area).copy()
     roll._sheet = None

@@ -18,13 +18,13 @@ from ninja_game.search.formula import background
 from ninja_game.search.formula.methods import fewest_ticks
 from ninja_game.search.formula.task import Found
 from ninja_game.sim.inputs import Input
-from tests.support.bench_driver import BenchDriver
+from tests.support.tas_driver import TasDriver
 from tests.support.waiting import LONGEST
 
 
 @pytest.fixture(name="tab")
-def search_tab(at: BenchDriver) -> Iterator[SearchTab]:
-    at.bench.select(100, 130)
+def search_tab(at: TasDriver) -> Iterator[SearchTab]:
+    at.editor.select(100, 130)
     at.press("f")
     tab = at.screen.tab
     assert isinstance(tab, SearchTab)
@@ -32,8 +32,8 @@ def search_tab(at: BenchDriver) -> Iterator[SearchTab]:
     tab.close()
 
 
-def wish(at: BenchDriver, name: str) -> None:
-    at.choose("What for ...")
+def wish(at: TasDriver, name: str) -> None:
+    at.choose("Presets")
     at.choose(name)
 
 
@@ -42,13 +42,13 @@ def results_of(tab: SearchTab) -> SpanResults:
     return tab.results
 
 
-def is_in(at: BenchDriver, results: SpanResults, found: Found) -> bool:
+def is_in(at: TasDriver, results: SpanResults, found: Found) -> bool:
     """Whether the run has the keys of a result up to its goal."""
     end = results.task.first + found.ticks
-    return at.bench.take.inputs[:end] == found.inputs[:end]
+    return at.editor.track.inputs[:end] == found.inputs[:end]
 
 
-def searched(at: BenchDriver, tab: SearchTab) -> SpanResults:
+def searched(at: TasDriver, tab: SearchTab) -> SpanResults:
     """Search until there is something better than the run, then stop."""
     at.press("return")
     results = results_of(tab)
@@ -59,32 +59,32 @@ def searched(at: BenchDriver, tab: SearchTab) -> SpanResults:
     return results
 
 
-def row(at: BenchDriver, tab: SearchTab, index: int, *, click: bool = True) -> None:
+def row(at: TasDriver, tab: SearchTab, index: int, *, click: bool = True) -> None:
     x, y, _, h = tab.list.row_area(index)
     at.mouse(x + 60, y + h / 2, click=click)
 
 
-def speed(at: BenchDriver, tick: int) -> float:
+def speed(at: TasDriver, tick: int) -> float:
     column = at.session.timeline.column
     return float(np.hypot(column("x")[tick] - column("prev_x")[tick], column("y")[tick] - column("prev_y")[tick]))
 
 
-def test_the_key_takes_the_selection_and_the_next_ones_are_typed(at: BenchDriver, tab: SearchTab) -> None:
+def test_the_key_takes_the_selection_and_the_next_ones_are_typed(at: TasDriver, tab: SearchTab) -> None:
     assert tab.span == (100, 130)
     at.press("escape")
-    before = at.bench.take
+    before = at.editor.track
     # A program that is slow to answer gets many keys at once.
     for key in ("f", "a", "d"):
         pygame.event.post(pygame.Event(pygame.KEYDOWN, key=0, scancode=SCANCODES[key], mod=0, unicode=key))
     at.write("x > 1")
     assert tab.goal.text == "x > 1"
-    assert at.bench.take == before
-    at.bench.go(50)
-    at.choose("Take the selection")
+    assert at.editor.track == before
+    at.editor.go(50)
+    at.choose("Use the selection")
     assert tab.span == (50, 90), "a second, where only one tick is selected"
 
 
-def test_a_click_into_a_field_starts_nothing(at: BenchDriver, tab: SearchTab) -> None:
+def test_a_click_into_a_field_starts_nothing(at: TasDriver, tab: SearchTab) -> None:
     at.write("x > 1")
     at.mouse(*tab.measure.centre)
     at.mouse(*tab.goal.centre)
@@ -92,7 +92,7 @@ def test_a_click_into_a_field_starts_nothing(at: BenchDriver, tab: SearchTab) ->
     assert tab.results is None
 
 
-def test_letters_are_typed_only_while_a_field_has_the_focus(at: BenchDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_letters_are_typed_only_while_a_field_has_the_focus(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
     on: list[bool] = []
     monkeypatch.setattr(pygame.key, "start_text_input", lambda: on.append(True))
     monkeypatch.setattr(pygame.key, "stop_text_input", lambda: on.append(False))
@@ -108,98 +108,98 @@ def test_letters_are_typed_only_while_a_field_has_the_focus(at: BenchDriver, mon
     assert on.pop(), "a form, and another tab behind it"
 
 
-def test_a_better_end_is_found_and_put_in_as_one_edit(at: BenchDriver, tab: SearchTab) -> None:
-    before, slow = at.bench.take, speed(at, 129)
+def test_a_better_end_is_found_and_put_in_as_one_edit(at: TasDriver, tab: SearchTab) -> None:
+    before, slow = at.editor.track, speed(at, 129)
     wish(at, "Greatest speed")
     results = searched(at, tab)
     best = tab.found[0]
     row(at, tab, 0)
-    assert at.bench.take != before
+    assert at.editor.track != before
     assert speed(at, 129) == pytest.approx(-best.score)
     assert speed(at, 129) > slow
     assert is_in(at, results, best)
     columns = [float(at.session.timeline.column(name)[129]) for name in ("x", "y")]
     assert best.end[:2] == pytest.approx(columns)
     assert float(np.hypot(best.end[2], best.end[3])) == pytest.approx(speed(at, 129))
-    assert at.bench.selection == (100, 130)
-    assert at.bench.take.inputs[130:] == before.inputs[130:]
+    assert at.editor.selection == (100, 130)
+    assert at.editor.track.inputs[130:] == before.inputs[130:]
     row(at, tab, 1)
     assert is_in(at, results, tab.found[1]), "another one takes its place"
     at.session.undo()
     at.session.undo()
-    assert at.bench.take == before
+    assert at.editor.track == before
 
 
-def test_other_ticks_make_the_goal_of_the_menu_anew_and_end_old_results(at: BenchDriver, tab: SearchTab) -> None:
+def test_other_ticks_make_the_goal_of_the_menu_anew_and_end_old_results(at: TasDriver, tab: SearchTab) -> None:
     wish(at, "Be there sooner")
     goal = tab.goal.text
     tab.start()
     at.wait(lambda: tab.results is not None, "search")
     results_of(tab).stop()
     at.wait(lambda: not results_of(tab).running, "end of the search")
-    at.bench.select(50, 90)
-    tab.take_selection()
+    at.editor.select(50, 90)
+    tab.use_selection()
     assert tab.span == (50, 90)
     assert tab.goal.text != goal
     assert tab.results is None
     tab.goal.show("x > 400")
-    at.bench.select(100, 130)
-    tab.take_selection()
+    at.editor.select(100, 130)
+    tab.use_selection()
     assert tab.goal.text == "x > 400", "what a person has typed stays"
 
 
-def test_results_that_end_alike_are_one(at: BenchDriver, tab: SearchTab) -> None:
+def test_results_that_end_alike_are_one(at: TasDriver, tab: SearchTab) -> None:
     wish(at, "Greatest speed")
     searched(at, tab)
     assert len({(each.gold, *np.round(each.end, 2)) for each in tab.found}) == len(tab.found)
     assert list(tab.found) == sorted(tab.found)
 
 
-def test_the_result_under_the_mouse_is_looked_at(at: BenchDriver, tab: SearchTab) -> None:
+def test_the_result_under_the_mouse_is_looked_at(at: TasDriver, tab: SearchTab) -> None:
     wish(at, "Greatest speed")
     searched(at, tab)
     row(at, tab, 0, click=False)
     at.frames()
-    preview = at.bench.preview
+    preview = at.editor.preview
     assert preview is not None
-    assert preview.take.inputs == tab.found[0].inputs
+    assert preview.track.inputs == tab.found[0].inputs
     assert len(preview.positions) >= 130
     at.mouse(300, 100, click=False)
     at.frames()
-    assert at.bench.preview is None
+    assert at.editor.preview is None
 
 
-def test_results_that_do_not_fit_any_more_are_refused(at: BenchDriver, tab: SearchTab) -> None:
+def test_results_that_do_not_fit_any_more_are_refused(at: TasDriver, tab: SearchTab) -> None:
     wish(at, "Greatest speed")
     results = searched(at, tab)
-    down = not at.bench.take.keys_at(50) & Input.LEFT
-    at.bench.edit(lambda take: take.with_key(50, 51, Input.LEFT, down=down))
-    changed = at.bench.take
+    down = not at.editor.track.keys_at(50) & Input.LEFT
+    at.editor.edit(lambda track: track.with_key(50, 51, Input.LEFT, down=down))
+    changed = at.editor.track
     row(at, tab, 0)
-    assert at.bench.take == changed
+    assert at.editor.track == changed
     assert "search again" in at.app.notice
     at.session.undo()
     assert results.behind == 130
-    at.bench.edit(lambda take: take.with_key(200, 210, Input.LEFT, down=True))
+    at.editor.edit(lambda track: track.with_key(200, 210, Input.LEFT, down=True))
     row(at, tab, 0)
     assert is_in(at, results, tab.found[0]), "what is behind the span does not matter"
 
 
-def test_an_edit_in_front_ends_the_search(at: BenchDriver, tab: SearchTab) -> None:
+def test_an_edit_in_front_ends_the_search(at: TasDriver, tab: SearchTab) -> None:
     wish(at, "Stay alive")
     at.press("return")
     results = results_of(tab)
     at.wait(lambda: results.search.ticks_run, "a search")
-    at.bench.edit(lambda take: take.replaced(0, 0, [0]))
+    at.editor.edit(lambda track: track.replaced(0, 0, [0]))
     at.wait(lambda: not results.running, "the end")
 
 
-def test_the_same_end_is_found_sooner_and_the_rest_follows(at: BenchDriver, tab: SearchTab) -> None:
+def test_the_same_end_is_found_sooner_and_the_rest_follows(at: TasDriver, tab: SearchTab) -> None:
     end = at.session.timeline.end[0]
-    at.bench.edit(lambda take: take.replaced(0, 0, [0] * 3))
+    at.editor.edit(lambda track: track.replaced(0, 0, [0] * 3))
     assert at.session.timeline.end == (end + 3, "exit")
-    at.bench.select(0, 24)
-    at.choose("Take the selection")
+    at.editor.select(0, 24)
+    at.choose("Use the selection")
     wish(at, "Same end, sooner")
     assert tab.rest
     results = searched(at, tab)
@@ -218,24 +218,24 @@ def test_the_same_end_is_found_sooner_and_the_rest_follows(at: BenchDriver, tab:
 
 
 @pytest.mark.parametrize("name", ["Be there sooner", "Go beyond sooner"])
-def test_a_run_gets_shorter_by_what_the_list_says(at: BenchDriver, tab: SearchTab, name: str) -> None:
-    at.bench.edit(lambda take: take.replaced(0, 0, [0] * 9))
-    at.bench.select(0, 40)
-    at.choose("Take the selection")
-    before = len(at.bench.take)
+def test_a_run_gets_shorter_by_what_the_list_says(at: TasDriver, tab: SearchTab, name: str) -> None:
+    at.editor.edit(lambda track: track.replaced(0, 0, [0] * 9))
+    at.editor.select(0, 40)
+    at.choose("Use the selection")
+    before = len(at.editor.track)
     wish(at, name)
     results = searched(at, tab)
     for index in (0, 1, 0):
         gain = results.words(tab.found[index])[-1]
         row(at, tab, index)
         assert is_in(at, results, tab.found[index])
-        assert gain.split(" tick")[0] == str(before - len(at.bench.take))
+        assert gain.split(" tick")[0] == str(before - len(at.editor.track))
 
 
 def test_a_search_is_cancelled_by_hand_and_when_the_bench_is_left(
-    at: BenchDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
+    at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert span_results.CLOSING_SECONDS <= 0.5, "nobody waits longer for a bench to close"
+    assert span_results.CLOSING_SECONDS <= 0.5, "nobody waits longer for a TAS editor to close"
     # On a slow machine a round of trials takes longer.
     monkeypatch.setattr(span_results, "CLOSING_SECONDS", LONGEST)
     wish(at, "Greatest speed")
@@ -251,7 +251,7 @@ def test_a_search_is_cancelled_by_hand_and_when_the_bench_is_left(
     assert not second.running
 
 
-def test_the_button_stops_what_still_compiles(at: BenchDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_button_stops_what_still_compiles(at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch) -> None:
     compiled = Event()
     monkeypatch.setattr(background, "search_span", lambda *_, **__: compiled.wait(60.0))
     wish(at, "Greatest speed")
@@ -265,7 +265,7 @@ def test_the_button_stops_what_still_compiles(at: BenchDriver, tab: SearchTab, m
     compiled.set()
 
 
-def test_what_is_wrong_is_told(at: BenchDriver, tab: SearchTab) -> None:
+def test_what_is_wrong_is_told(at: TasDriver, tab: SearchTab) -> None:
     at.press("return")
     assert at.app.notice.startswith("Say what for")
     at.write("x > colour")
@@ -276,13 +276,13 @@ def test_what_is_wrong_is_told(at: BenchDriver, tab: SearchTab) -> None:
     at.press("return")
     at.wait(lambda: not results_of(tab).running, "the end")
     assert "no object 9999" in results_of(tab).note
-    at.bench.select(len(at.bench.take) + 20, len(at.bench.take) + 30)
-    at.choose("Take the selection")
+    at.editor.select(len(at.editor.track) + 20, len(at.editor.track) + 30)
+    at.choose("Use the selection")
     at.choose("Start")
     assert "the run ends" in at.app.notice
 
 
-def test_what_is_no_better_than_the_run_is_not_listed(at: BenchDriver, tab: SearchTab) -> None:
+def test_what_is_no_better_than_the_run_is_not_listed(at: TasDriver, tab: SearchTab) -> None:
     at.write("tick >= 109")
     at.press("return")
     results = results_of(tab)
@@ -293,7 +293,7 @@ def test_what_is_no_better_than_the_run_is_not_listed(at: BenchDriver, tab: Sear
     assert results.note == "Nothing better than the run's own keys: goal after tick 109."
 
 
-def test_a_goal_out_of_reach_is_not_reached(at: BenchDriver, tab: SearchTab) -> None:
+def test_a_goal_out_of_reach_is_not_reached(at: TasDriver, tab: SearchTab) -> None:
     at.write("x > 10000")
     at.press("return")
     at.wait(lambda: results_of(tab).search.ticks_run, "a search")
@@ -303,7 +303,7 @@ def test_a_goal_out_of_reach_is_not_reached(at: BenchDriver, tab: SearchTab) -> 
     assert results_of(tab).note == NOTHING
 
 
-def test_the_rest_of_the_run_and_a_measure_exclude_each_other(at: BenchDriver, tab: SearchTab) -> None:
+def test_the_rest_of_the_run_and_a_measure_exclude_each_other(at: TasDriver, tab: SearchTab) -> None:
     tab._put_order("smallest")
     tab._put_rest(True)
     assert (tab.order, tab.task.measure) == ("earliest", "")

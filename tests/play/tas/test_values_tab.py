@@ -11,39 +11,39 @@ import pytest
 
 from ninja_game.play.menus.panels import Form
 from ninja_game.play.tas.tabs.object_list import ObjectList
-from ninja_game.play.tas.tabs.plot import Window
+from ninja_game.play.tas.tabs.plot import TickRange
 from ninja_game.play.tas.tabs.values_tab import ValuesTab
 from ninja_game.play.tas.tabs.watched import shown_value, watched_values
 from ninja_game.sim.inputs import Input
 from ninja_game.simulation import Simulation
-from ninja_game.tas.take import Take
-from tests.support.bench_driver import BenchDriver
+from ninja_game.tas.input_track import InputTrack
+from tests.support.tas_driver import TasDriver
 
 
 @pytest.fixture(name="tab")
-def values_tab(at: BenchDriver) -> ValuesTab:
+def values_tab(at: TasDriver) -> ValuesTab:
     tab = at.screen.tab
     assert isinstance(tab, ValuesTab)
     return tab
 
 
-def straight_speeds(at: BenchDriver) -> list[float]:
+def straight_speeds(at: TasDriver) -> list[float]:
     run = Simulation(at.session.about.level)
     speeds = []
     for tick in range(len(at.session.timeline)):
-        run.step_keys(at.bench.take.inputs[tick] if tick < len(at.bench.take) else 0)
+        run.step_keys(at.editor.track.inputs[tick] if tick < len(at.editor.track) else 0)
         speeds.append(float(np.hypot(run.ninja.x - run.ninja.prev_x, run.ninja.y - run.ninja.prev_y)))
     return speeds
 
 
-def test_values_are_those_of_a_straight_run_also_after_an_edit(at: BenchDriver, tab: ValuesTab) -> None:
+def test_values_are_those_of_a_straight_run_also_after_an_edit(at: TasDriver, tab: ValuesTab) -> None:
     np.testing.assert_allclose(tab.watched[0].values, straight_speeds(at), atol=1e-9)
-    at.bench.edit(lambda take: take.with_key(20, 40, Input.RIGHT, down=not take.keys_at(20) & Input.RIGHT))
+    at.editor.edit(lambda track: track.with_key(20, 40, Input.RIGHT, down=not track.keys_at(20) & Input.RIGHT))
     at.frames()
     np.testing.assert_allclose(tab.watched[0].values, straight_speeds(at), atol=1e-9)
 
 
-def test_a_formula_is_asked_for_and_its_value_shown(at: BenchDriver, tab: ValuesTab) -> None:
+def test_a_formula_is_asked_for_and_its_value_shown(at: TasDriver, tab: ValuesTab) -> None:
     at.press("v")
     assert isinstance(at.top(), Form)
     at.write("x > 100")
@@ -56,7 +56,7 @@ def test_a_formula_is_asked_for_and_its_value_shown(at: BenchDriver, tab: Values
     assert shown_value(watched, 10**6) == "-"
 
 
-def test_what_is_wrong_with_a_formula_is_told_with_its_column_and_asked_again(at: BenchDriver, tab: ValuesTab) -> None:
+def test_what_is_wrong_with_a_formula_is_told_with_its_column_and_asked_again(at: TasDriver, tab: ValuesTab) -> None:
     at.press("v")
     at.write("vx + colour")
     at.press("return")
@@ -72,7 +72,7 @@ def test_what_is_wrong_with_a_formula_is_told_with_its_column_and_asked_again(at
     assert len(tab.watched) == 3
 
 
-def test_an_object_is_found_by_its_id(at: BenchDriver, tab: ValuesTab) -> None:
+def test_an_object_is_found_by_its_id(at: TasDriver, tab: ValuesTab) -> None:
     at.choose("Objects")
     assert isinstance(at.top(), ObjectList)
     at.press("return")
@@ -81,41 +81,41 @@ def test_an_object_is_found_by_its_id(at: BenchDriver, tab: ValuesTab) -> None:
     at.press("return")
     assert [each.watch.text for each in tab.watched][3:] == form.texts
     assert at.session.timeline.watched
-    assert len(tab.watched[-1].values) == at.session.timeline.valid
+    assert len(tab.watched[-1].values) == at.session.timeline.simulated_until
 
 
-def test_a_click_in_the_plot_puts_the_cursor_there_and_a_drag_moves(at: BenchDriver, tab: ValuesTab) -> None:
+def test_a_click_in_the_plot_puts_the_cursor_there_and_a_drag_moves(at: TasDriver, tab: ValuesTab) -> None:
     window = tab.window
     assert window.is_whole
     y = 450
     at.drag((window.x(60), y))
-    assert at.bench.cursor == 60
+    assert at.editor.cursor == 60
     window.zoom(window.x(60), 5)
     at.frames()
     assert window.tick(window.x(60)) == pytest.approx(60)
     shown = window.last - window.first
     first = window.first
     at.drag((300, y), (290, y), (280, y))
-    assert at.bench.cursor == 60, "a drag moves the picture, not the cursor"
+    assert at.editor.cursor == 60, "a drag moves the picture, not the cursor"
     assert window.first == pytest.approx(first + shown * 20 / window.width)
-    at.bench.go(at.bench.last_tick)
+    at.editor.go(at.editor.last_tick)
     at.frames()
     assert window.last == pytest.approx(window.length), "it follows the cursor"
     at.event(pygame.MOUSEBUTTONDOWN, 300, y, button=3)
     assert window.is_whole
 
 
-def test_what_is_under_the_mouse_is_told(at: BenchDriver, tab: ValuesTab) -> None:
+def test_what_is_under_the_mouse_is_told(at: TasDriver, tab: ValuesTab) -> None:
     at.mouse(tab.window.x(60), 450, click=False)
-    assert at.bench.hint.startswith(f"tick 60  speed: {shown_value(tab.watched[0], 60)}")
+    assert at.editor.hint.startswith(f"tick 60  speed: {shown_value(tab.watched[0], 60)}")
     at.mouse(*at.button("Objects").centre, click=False)
-    assert at.bench.hint == "The objects of the level with their ids"
+    assert at.editor.hint == "The objects of the level with their ids"
     at.mouse(200, 565, click=False)
-    assert not at.bench.hint
+    assert not at.editor.hint
 
 
 def test_the_window_follows_the_cursor_and_the_length() -> None:
-    window = Window(0, 100)
+    window = TickRange(0, 100)
     window.fit(1000)
     assert (window.first, window.last) == (0, 1000)
     window.zoom(50, 20)
@@ -128,7 +128,7 @@ def test_the_window_follows_the_cursor_and_the_length() -> None:
     assert window.last - window.first == pytest.approx(10)
 
 
-def test_values_are_plotted_chosen_and_removed(at: BenchDriver, tab: ValuesTab) -> None:
+def test_values_are_plotted_chosen_and_removed(at: TasDriver, tab: ValuesTab) -> None:
     at.mouse(60, 378 + 8)
     assert [each.plotted for each in tab.watched] == [False, True, True]
     for text in ("x", "y", "tick"):
@@ -141,35 +141,35 @@ def test_values_are_plotted_chosen_and_removed(at: BenchDriver, tab: ValuesTab) 
     assert not tab.watched
 
 
-def test_the_mouse_over_a_list_takes_no_keys_away(at: BenchDriver) -> None:
-    at.bench.go(10)
+def test_the_mouse_over_a_list_takes_no_keys_away(at: TasDriver) -> None:
+    at.editor.go(10)
     at.mouse(60, 380, click=False)
     at.press("down")
-    assert at.bench.cursor == 11
+    assert at.editor.cursor == 11
     at.mouse(60, 380)
     at.press("down")
-    assert at.bench.cursor == 12
+    assert at.editor.cursor == 12
 
 
-def test_four_formulas_over_four_thousand_ticks_are_quick(at: BenchDriver, tab: ValuesTab) -> None:
-    at.bench.edit(lambda take: Take(bytes(4000)))
+def test_four_formulas_over_four_thousand_ticks_are_quick(at: TasDriver, tab: ValuesTab) -> None:
+    at.editor.edit(lambda track: InputTrack(bytes(4000)))
     for text in ("exit_distance", "hypot(vx, vy) * 2 + x", "x > 100 and vy < 0"):
         tab.add(text)
     tab.remove()
     times = []
     for key in range(20):
-        at.session.change(at.bench.take.with_key(100 + key, 101 + key, Input.RIGHT, down=True))
+        at.session.change(at.editor.track.with_key(100 + key, 101 + key, Input.RIGHT, down=True))
         start = thread_time()
         tab.refresh()
         times.append(thread_time() - start)
     assert sorted(times)[10] < 0.01, "ten times less on a quiet machine"
 
 
-def test_watched_values_are_kept_with_the_run(at: BenchDriver, tab: ValuesTab, tmp_path: Path) -> None:
+def test_watched_values_are_kept_with_the_run(at: TasDriver, tab: ValuesTab, tmp_path: Path) -> None:
     tab.remove()
     tab.add("hypot(vx, vy) * 10")
     at.chord("s", pygame.KMOD_LCTRL)
-    again = BenchDriver(tmp_path / "player", tmp_path / "run.replay.txt")
+    again = TasDriver(tmp_path / "player", tmp_path / "run.replay.txt")
     other = again.screen.tab
     assert isinstance(other, ValuesTab)
     assert [each.watch.text for each in other.watched] == [each.watch.text for each in tab.watched]

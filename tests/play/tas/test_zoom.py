@@ -8,42 +8,42 @@ import pytest
 
 from ninja_game.play.tas.level.camera import LARGEST
 from ninja_game.play.ui.canvas import Point
-from tests.support.bench_driver import BenchDriver
+from tests.support.tas_driver import TasDriver
 
 
-def on_screen(at: BenchDriver, place: Point) -> Point:
-    """Where a place of the level is; logical px of the bench."""
+def on_screen(at: TasDriver, place: Point) -> Point:
+    """Where a place of the level is; logical px of the TAS editor."""
     canvas, level = at.screen.theme.canvas, at.screen.level
     left, top = canvas.rect(*level.area).topleft
     x, y = level.picture.canvas.point(*place)
     return canvas.logical((x + left, y + top))
 
 
-def wheel(at: BenchDriver, notches: int, where: Point, monkeypatch: pytest.MonkeyPatch) -> None:
+def wheel(at: TasDriver, notches: int, where: Point, monkeypatch: pytest.MonkeyPatch) -> None:
     """Turn the wheel over a logical point."""
     monkeypatch.setattr(pygame.mouse, "get_pos", lambda: at.screen.theme.canvas.point(*where))
     pygame.event.post(pygame.Event(pygame.MOUSEWHEEL, x=0, y=notches, flipped=False))
     at.frames()
 
 
-def ninja_place(at: BenchDriver) -> Point:
-    x, y = at.session.timeline.positions[at.bench.cursor]
+def ninja_place(at: TasDriver) -> Point:
+    x, y = at.session.timeline.positions[at.editor.cursor]
     return float(x), float(y)
 
 
 def test_the_wheel_zooms_at_the_pointer_and_all_can_be_shown_again(
-    at: BenchDriver, monkeypatch: pytest.MonkeyPatch
+    at: TasDriver, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     level = at.screen.level
     whole = level.picture.canvas.scale
     under = (300.0, 330.0)
     pointer = on_screen(at, under)
-    cursor = at.bench.cursor
+    cursor = at.editor.cursor
     for _ in range(4):
         wheel(at, 1, pointer, monkeypatch)
         assert on_screen(at, under) == pytest.approx(pointer, abs=1.6)
     assert level.picture.canvas.scale == pytest.approx(whole * 1.25**4)
-    assert at.bench.cursor == cursor
+    assert at.editor.cursor == cursor
     wheel(at, 40, pointer, monkeypatch)
     assert level.picture.canvas.scale == pytest.approx(LARGEST)
     at.press("0")
@@ -57,20 +57,20 @@ def test_the_wheel_zooms_at_the_pointer_and_all_can_be_shown_again(
 
 
 def test_a_click_in_the_larger_level_goes_to_the_tick_that_is_there(
-    at: BenchDriver, monkeypatch: pytest.MonkeyPatch
+    at: TasDriver, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     positions = at.session.timeline.positions
     tick = 100
     wheel(at, 5, on_screen(at, tuple(positions[tick])), monkeypatch)
     at.mouse(*on_screen(at, tuple(positions[tick])))
-    assert np.hypot(*(positions[at.bench.cursor] - positions[tick])) < 1
+    assert np.hypot(*(positions[at.editor.cursor] - positions[tick])) < 1
 
 
-def test_it_is_drawn_at_its_size_wherever_it_was_moved_to(at: BenchDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_it_is_drawn_at_its_size_wherever_it_was_moved_to(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
     """What was moved, played and edited looks as what is drawn at once."""
     level = at.screen.level
     camera, picture = level.picture.camera, level.picture
-    at.bench.go(60)
+    at.editor.go(60)
     at.frames()
     wheel(at, 5, on_screen(at, ninja_place(at)), monkeypatch)
     x, y = on_screen(at, ninja_place(at))
@@ -91,9 +91,9 @@ def test_it_is_drawn_at_its_size_wherever_it_was_moved_to(at: BenchDriver, monke
     assert pygame.image.tobytes(kept, "RGB") == pygame.image.tobytes(picture.surface, "RGB")
 
 
-def test_it_goes_along_with_the_ninja(at: BenchDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_it_goes_along_with_the_ninja(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
     level = at.screen.level
-    at.bench.go(0)
+    at.editor.go(0)
     at.frames()
     wheel(at, 7, on_screen(at, ninja_place(at)), monkeypatch)
     seen = pygame.Rect((0, 0), level.picture.surface.get_size())
@@ -103,14 +103,14 @@ def test_it_goes_along_with_the_ninja(at: BenchDriver, monkeypatch: pytest.Monke
         assert seen.collidepoint(level.picture.canvas.point(*ninja_place(at)))
     at.press("space")
     for tick in (150, 20, 200):
-        at.bench.go(tick)
+        at.editor.go(tick)
         at.frames()
         assert seen.collidepoint(level.picture.canvas.point(*ninja_place(at)))
 
 
-def test_ctrl_and_the_wheel_go_tick_by_tick(at: BenchDriver, monkeypatch: pytest.MonkeyPatch) -> None:
-    at.bench.go(50)
+def test_ctrl_and_the_wheel_go_tick_by_tick(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+    at.editor.go(50)
     monkeypatch.setattr(pygame.key, "get_mods", lambda: pygame.KMOD_LCTRL)
     wheel(at, -2, (100, 100), monkeypatch)
-    assert at.bench.cursor == 52
+    assert at.editor.cursor == 52
     assert at.screen.level.picture.camera.zoom == 1.0

@@ -22,7 +22,7 @@ class Camera:
         self.centre: Point = WIDTH / 2, HEIGHT / 2
 
     @property
-    def look(self) -> tuple[object, ...]:
+    def render_key(self) -> tuple[object, ...]:
         """All that a picture depends on."""
         return self.zoom, self.centre
 
@@ -51,7 +51,7 @@ class Camera:
         self._look_at(window, x - (px[0] - window[0] / 2) / scale, y - (px[1] - window[1] / 2) / scale)
 
     def move(self, window: tuple[int, int], dx: float, dy: float) -> None:
-        """Move the picture by so many px."""
+        """Move the picture by this many px."""
         scale = self.canvas(window).scale
         self._look_at(window, self.centre[0] - dx / scale, self.centre[1] - dy / scale)
 

@@ -24,7 +24,7 @@ class LevelPointer:
 
     def __init__(self, part: LevelPart) -> None:
         self._part = part
-        self._bench = part.bench
+        self._editor = part.editor
         self._goes = False
         self._grabbed: Px | None = None
         self._moved = False
@@ -38,10 +38,10 @@ class LevelPointer:
         """What is going on ends."""
         self._goes, self._grabbed = False, None
 
-    def take(self, event: pygame.Event, x: float, y: float) -> None:
+    def handle_mouse(self, event: pygame.Event, x: float, y: float) -> None:
         """A mouse event at logical px of the window."""
-        rect = self._bench.theme.canvas.rect(*self._part.area)
-        left, top = self._bench.theme.canvas.point(x, y)
+        rect = self._editor.theme.canvas.rect(*self._part.area)
+        left, top = self._editor.theme.canvas.point(x, y)
         at = left - rect.left, top - rect.top
         if event.type == pygame.MOUSEMOTION and not any(event.buttons):
             self.release()
@@ -83,24 +83,24 @@ class LevelPointer:
         if button == pygame.BUTTON_MIDDLE:
             part.picture.camera.show_all()
         elif part.pointed is not None:
-            self._bench.ask_to_watch(proposal(part.pointed.id, KIND_NAMES.index(part.pointed.kind)))
+            self._editor.ask_to_watch(proposal(part.pointed.id, KIND_NAMES.index(part.pointed.kind)))
 
     def _point(self, event: pygame.Event, at: Px) -> None:
         """Tell what is there; a click, or a drag, goes to the tick in which the ninja was nearest."""
-        part, bench = self._part, self._bench
-        positions = bench.session.timeline.positions
+        part, editor = self._part, self._editor
+        positions = editor.session.timeline.positions
         if not len(positions):
             return
         place = part.picture.canvas.logical(at)
         dragged = event.type == pygame.MOUSEMOTION and bool(event.buttons[0])
         pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
-        tick = nearest_tick(positions, *place, bench.cursor, dragged=dragged)
+        tick = nearest_tick(positions, *place, editor.cursor, dragged=dragged)
         part.point_at(tick, None if dragged else object_at(part.picture.run, *place))
         found = part.pointed
         words = f"{found.kind} {found.id}; right button: watch it   " if found else ""
         zoomed = part.picture.camera.zoom > 1
-        bench.hint = f"{words}Click: to tick {tick}; wheel: zoom{', right button: move, 0: all' if zoomed else ''}"
+        editor.hint = f"{words}Click: to tick {tick}; wheel: zoom{', right button: move, 0: all' if zoomed else ''}"
         self._goes = dragged or pressed
         if self._goes:
             part.playing.stop()
-            bench.go(tick, select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
+            editor.go(tick, select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))

@@ -17,11 +17,11 @@ from ninja_game.play.input.events import InputEvent
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Form
 from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen
-from ninja_game.play.tas.bench import Bench, OtherRun
+from ninja_game.play.tas.editor import OtherRun, TasEditor
 from ninja_game.play.tas.part import Commands
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.records import SavedReplay
-from ninja_game.tas.files import runs_beside, same_level, take_of
+from ninja_game.tas.files import runs_of_level, same_level, track_of
 from ninja_game.tas.timeline import Timeline
 
 if TYPE_CHECKING:
@@ -33,71 +33,71 @@ NONE_YET = "No other run is open: Ctrl+O opens one"
 class OtherRuns:
     """The commands that concern other runs."""
 
-    def __init__(self, bench: Bench) -> None:
-        self.bench = bench
+    def __init__(self, editor: TasEditor) -> None:
+        self.editor = editor
 
     def commands(self) -> Commands:
         """By name."""
         return {
-            "open_other": lambda: self.bench.app.push(OtherRunScreen(self.bench.app, self)),
+            "open_other": lambda: self.editor.app.push(OtherRunScreen(self.editor.app, self)),
             "next_other": self.next, "splice": self.splice, "splice_here": self.splice_here,
         }  # fmt: skip
 
     def open(self, recordings: Sequence[Recording]) -> None:
         """Show recordings beside the run. Raises ReplayError for one of another level, or with another body."""
-        bench = self.bench
+        editor = self.editor
         for recording in recordings:
-            bench.others.append(other_run(bench, recording))
-            bench.chosen = len(bench.others) - 1
+            editor.others.append(other_run(editor, recording))
+            editor.chosen = len(editor.others) - 1
 
     @property
     def chosen(self) -> OtherRun | None:
         """The run that parts are taken from; a notice where there is none."""
-        bench = self.bench
-        if not bench.others:
-            bench.app.notify(NONE_YET)
+        editor = self.editor
+        if not editor.others:
+            editor.app.notify(NONE_YET)
             return None
-        return bench.others[bench.chosen % len(bench.others)]
+        return editor.others[editor.chosen % len(editor.others)]
 
     def next(self) -> None:
         """Choose the next one."""
-        bench = self.bench
+        editor = self.editor
         if self.chosen is not None:
-            bench.chosen = (bench.chosen + 1) % len(bench.others)
-            bench.app.notify(f"Compared, and parts are taken from: {bench.others[bench.chosen].name}")
+            editor.chosen = (editor.chosen + 1) % len(editor.others)
+            editor.app.notify(f"Compared, and parts are taken from: {editor.others[editor.chosen].name}")
 
     def splice(self) -> None:
         """The selected ticks get the keys that the other run has in the same ticks; all others keep theirs."""
         other = self.chosen
         if other is not None:
-            first, last = self.bench.selection
-            keys = [other.take.keys_at(tick) for tick in range(first, last)]
-            if self.bench.edit_selected(lambda take: take.replaced(first, last, keys)):
-                self.bench.app.notify(f"Ticks {first} to {last - 1} are those of {other.name}")
+            first, last = self.editor.selection
+            keys = [other.track.keys_at(tick) for tick in range(first, last)]
+            if self.editor.edit_selected(lambda track: track.replaced(first, last, keys)):
+                self.editor.app.notify(f"Ticks {first} to {last - 1} are those of {other.name}")
 
     def splice_here(self) -> None:
         """Behind the cursor comes the rest of the other run, from the tick in which its ninja was nearest to ours."""
-        bench, other = self.bench, self.chosen
-        tick, positions = bench.cursor, bench.session.timeline.positions
+        editor, other = self.editor, self.chosen
+        tick, positions = editor.cursor, editor.session.timeline.positions
         if other is None or tick >= len(positions):
             return
         far = np.hypot(*(other.positions - positions[tick]).T)
         there = int(np.argmin(far))
-        keys = [other.take.keys_at(k) for k in range(there + 1, len(other.take))]
-        if bench.edit(lambda take: take.replaced(tick + 1, max(tick + 1, len(take)), keys)):
-            bench.app.notify(f"From here on {other.name} from its tick {there} on, {far[there]:.2f} px away")
+        keys = [other.track.keys_at(k) for k in range(there + 1, len(other.track))]
+        if editor.edit(lambda track: track.replaced(tick + 1, max(tick + 1, len(track)), keys)):
+            editor.app.notify(f"From here on {other.name} from its tick {there} on, {far[there]:.2f} px away")
 
 
-def other_run(bench: Bench, recording: Recording) -> OtherRun:
+def other_run(editor: TasEditor, recording: Recording) -> OtherRun:
     """A recording as a run to be shown beside. Raises ReplayError for another level, or another body."""
-    about = bench.session.about
+    about = editor.session.about
     if not same_level(recording, about):
         what = "body" if recording.body != about.body else "level"
-        raise ReplayError(f"{recording.name or 'this run'} is a run with another {what} than the one on the bench")
-    take = take_of(recording)
-    timeline = Timeline(about.level, take.inputs, body=about.body, memory=bench.session.timeline.memory)
-    timeline.work(len(timeline))
-    return OtherRun(_free_name(recording, about, {other.name for other in bench.others}), take, timeline.course())
+        raise ReplayError(f"{recording.name or 'this run'} is a run with another {what} than the one in the TAS editor")
+    track = track_of(recording)
+    timeline = Timeline(about.level, track.inputs, body=about.body, memory=editor.session.timeline.memory)
+    timeline.simulate(len(timeline))
+    return OtherRun(_free_name(recording, about, {other.name for other in editor.others}), track, timeline.trajectory())
 
 
 def _free_name(recording: Recording, about: Recording, taken: set[str]) -> str:
@@ -114,15 +114,15 @@ def _place_of(recording: Recording) -> str:
 
 
 class OtherRunScreen(ReplaysScreen):
-    """The replays of the level that is on the bench; the chosen one is shown beside."""
+    """The replays of the level that is in the TAS editor; the chosen one is shown beside."""
 
     title = "Another run of this level"
     heads = "Run", "Player", "Result", "From"
-    hint = "Enter: show it beside the run on the bench"
+    hint = "Enter shows it beside the run"
 
     def __init__(self, app: App, others: OtherRuns) -> None:
         self.others = others
-        self._digest = level_digest(others.bench.session.about.level)
+        self._digest = level_digest(others.editor.session.about.level)
         super().__init__(app)
         self.list.empty = "No other run of this level is known. There may be one in a file"
 
@@ -136,7 +136,7 @@ class OtherRunScreen(ReplaysScreen):
 
     def places(self) -> list[tuple[str, Iterable[Path | LeftOut]]]:
         """Beside the file of the run, too."""
-        file = Path(self.others.bench.session.about.file)
+        file = Path(self.others.editor.session.about.file)
         beside = sorted(each for each in file.parent.glob("*.txt") if each.name != file.name) if file.is_file() else []
         return [("Same folder", beside[:FILES_SHOWN]), *super().places()]
 
@@ -158,16 +158,16 @@ class OtherRunScreen(ReplaysScreen):
         self.app.push(form)
 
     def open_file(self, text: str) -> None:
-        """Show the runs of a file or a link; a file is looked for beside that of the run on the bench too."""
-        about = self.others.bench.session.about
+        """Show the runs of a file or a link; a file is looked for beside that of the run in the TAS editor too."""
+        about = self.others.editor.session.about
         path = Path(text) if is_link(text) else Path(text).expanduser()
         beside = Path(about.file).parent / path
         path = beside if not is_link(path) and not path.exists() and beside.exists() else path
-        if self.others.bench.attempt(lambda: self.others.open(runs_beside(path, about))):
+        if self.others.editor.attempt(lambda: self.others.open(runs_of_level(path, about))):
             self.app.pop()
 
     def choose(self, source: SavedReplay | Recording) -> None:
-        """Show it, and go back to the bench."""
+        """Show it, and go back to the TAS editor."""
         if not isinstance(source, Recording):
             replay = self.player.records.replay(source.id)
             if replay is None or replay.level is None:
@@ -175,7 +175,7 @@ class OtherRunScreen(ReplaysScreen):
                 return
             source = Recording(replay.level, replay)
         recording = source
-        if self.others.bench.attempt(lambda: self.others.open([recording])):
+        if self.others.editor.attempt(lambda: self.others.open([recording])):
             self.app.pop()
 
 

@@ -1,4 +1,4 @@
-"""The level beside the roll: the world after the tick under the cursor, and the ways of runs."""
+"""The level beside the roll: the world after the tick under the cursor, and the paths of runs."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ import pygame
 
 from ninja_game.play.input.events import InputEvent
 from ninja_game.play.replay.screen import SPEEDS
-from ninja_game.play.tas.bench import Bench
 from ninja_game.play.tas.controls import command_of
+from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.level.mouse import LevelPointer
 from ninja_game.play.tas.level.other_runs import OtherRuns
 from ninja_game.play.tas.level.paths import (
@@ -17,7 +17,7 @@ from ninja_game.play.tas.level.paths import (
     NEAR,
     LevelPaths,
     Positions,
-    Way,
+    RunPath,
     first_other_place,
     shown_span,
 )
@@ -40,15 +40,15 @@ class LevelPart(Part):
 
     slot = "level"
 
-    def __init__(self, bench: Bench) -> None:
-        super().__init__(bench)
-        self.picture = LevelPicture(bench)
-        self.playing = Playing(bench, self.picture)
+    def __init__(self, editor: TasEditor) -> None:
+        super().__init__(editor)
+        self.picture = LevelPicture(editor)
+        self.playing = Playing(editor, self.picture)
         self.take_over = TakeOver(self.playing)
-        self.others = OtherRuns(bench)
+        self.others = OtherRuns(editor)
         self.hover: int | None = None
         self.pointed: ObjectView | None = None
-        self._hovered_run = bench.take
+        self._hovered_run = editor.track
         self._paths: LevelPaths | None = None
         self._ghosts: dict[object, RunGhost] = {}
         self._known: tuple[object, ...] = ()
@@ -82,7 +82,7 @@ class LevelPart(Part):
         return list(self._ghosts.values())
 
     def _toggle_ghosts(self) -> None:
-        self.bench.ghosts = not self.bench.ghosts
+        self.editor.ghosts = not self.editor.ghosts
 
     # --- time ---
 
@@ -90,7 +90,7 @@ class LevelPart(Part):
         """Play on."""
         self.playing.update(real_ms)
         self.take_over.update(real_ms)
-        if self._hovered_run is not self.bench.take:
+        if self._hovered_run is not self.editor.track:
             self.mouse_left()
 
     def stop(self) -> None:
@@ -115,13 +115,13 @@ class LevelPart(Part):
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         """Going along the run, looking closer."""
-        self._pointer.take(event, x, y)
+        self._pointer.handle_mouse(event, x, y)
         return True
 
     def point_at(self, tick: int, found: ObjectView | None) -> None:
         """Show the tick to which a click goes, and an object."""
         self.hover, self.pointed = tick, found
-        self._hovered_run = self.bench.take
+        self._hovered_run = self.editor.track
 
     def mouse_left(self) -> None:
         """Nothing is pointed at."""
@@ -130,27 +130,28 @@ class LevelPart(Part):
 
     # --- picture ---
 
-    def look(self) -> tuple[object, ...]:
+    def render_key(self) -> tuple[object, ...]:
         """Run, cursor, what is shown beside, playing."""
-        bench, timeline, playing = self.bench, self.bench.session.timeline, self.playing
+        editor, timeline, playing = self.editor, self.editor.session.timeline, self.playing
         moving = playing.on or self.take_over.on
         return (
-            bench.take, bench.cursor, bench.selection, timeline.valid, bench.session.before, bench.ghosts,
-            tuple(bench.others), bench.preview, self.hover, self.pointed, bench.app.settings, playing.on, playing.speed,
-            self.picture.camera.look, self.take_over.on, self.take_over.still, self.take_over.waiting,
+            editor.track, editor.cursor, editor.selection, timeline.simulated_until, editor.session.before,
+            editor.ghosts, tuple(editor.others), editor.preview, self.hover, self.pointed, editor.app.settings,
+            playing.on, playing.speed,
+            self.picture.camera.render_key, self.take_over.on, self.take_over.still, self.take_over.waiting,
             moving and playing.clock.remainder,
         )  # fmt: skip
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """The level, the ways of runs, their ghosts, what goes on."""
-        bench, picture = self.bench, self.picture
+        """The level, the paths of runs, their ghosts, what goes on."""
+        editor, picture = self.editor, self.picture
         rect = theme.canvas.rect(*self.area)
         running = self.playing.on or (self.take_over.on and not (self.take_over.still or self.take_over.waiting))
         fraction = self.playing.clock.fraction if running else 1.0
         positions = self._present()
         whole = picture.fit(rect.size)
-        ways = self._follow_others(positions)
-        picture.show(bench.cursor)
+        others = self._follow_others(positions)
+        picture.show(editor.cursor)
         self._follow_ninja(rect.size, fraction)
         whole = picture.fit(rect.size) or whole
         if whole or self._paths is None or self._paths.theme is not theme:
@@ -159,13 +160,13 @@ class LevelPart(Part):
         surface.blit(picture.surface, rect)
         inner = surface.subsurface(rect.clip(surface.get_rect()))
         paths = self._paths
-        paths.draw_beside(inner, ways)
-        paths.draw_flags(inner, positions, bench.take.markers)
+        paths.draw_beside(inner, others)
+        paths.draw_flags(inner, positions, editor.track.markers)
         for ghost in self.ghosts:
             if ghost.label:
                 paths.draw_name(inner, ghost.label, ghost.place(fraction), ghost.colour(theme.palette))
         if len(positions):
-            paths.draw_present(inner, positions, bench.cursor, bench.selection, shown_span(bench.cursor))
+            paths.draw_present(inner, positions, editor.cursor, editor.selection, shown_span(editor.cursor))
         picture.draw_ninja_over(inner, fraction)
         if self.hover is not None and self.hover < len(positions):
             paths.draw_hover(inner, positions, self.hover)
@@ -182,34 +183,34 @@ class LevelPart(Part):
 
     def _present(self) -> Positions:
         """Where the ninja is after each simulated tick."""
-        timeline = self.bench.session.timeline
-        known = timeline.inputs, timeline.valid
+        timeline = self.editor.session.timeline
+        known = timeline.inputs, timeline.simulated_until
         if known != self._known:
             self._known, self._positions = known, timeline.positions
         return self._positions
 
-    def _follow_others(self, positions: Positions) -> list[Way]:
-        """The ways of other runs, and of the run before the last edit where it was elsewhere; their ghosts go along."""
-        bench = self.bench
+    def _follow_others(self, positions: Positions) -> list[RunPath]:
+        """The paths of other runs, and of the run before the last edit where it differs; their ghosts go along."""
+        editor = self.editor
         kept, self._ghosts = self._ghosts, {}
-        if not bench.ghosts:
+        if not editor.ghosts:
             self.picture.follow([])
             return []
-        palette = self.bench.theme.palette
-        runs = [(run, colour_of(number, palette)) for number, run in enumerate(bench.others)]
-        if bench.preview is not None:
-            runs.append((bench.preview, palette.exit))
-        before = bench.session.before
+        palette = self.editor.theme.palette
+        runs = [(run, colour_of(number, palette)) for number, run in enumerate(editor.others)]
+        if editor.preview is not None:
+            runs.append((editor.preview, palette.exit))
+        before = editor.session.before
         at = first_other_place(positions, before.positions)
-        if at <= min(bench.cursor, len(before) - 1, len(positions) - 1):
+        if at <= min(editor.cursor, len(before) - 1, len(positions) - 1):
             self._ghosts[before] = kept.get(before) or RunGhost(before)
         for run, colour in runs:
-            self._ghosts[run.course] = kept.get(run.course) or RunGhost(run.course, run.name, colour)
+            self._ghosts[run.trajectory] = kept.get(run.trajectory) or RunGhost(run.trajectory, run.name, colour)
         self.picture.follow(self.ghosts)
         # Not at each tick of a run that is taken over is the other one shorter.
-        first, last = shown_span(bench.cursor)
-        beside = [Way(run.course, colour, first, last) for run, colour in runs]
-        return [Way(before, palette.ghost, max(first, at - at % NEAR - 1), last, FAINT), *beside]
+        first, last = shown_span(editor.cursor)
+        beside = [RunPath(run.trajectory, colour, first, last) for run, colour in runs]
+        return [RunPath(before, palette.ghost, max(first, at - at % NEAR - 1), last, FAINT), *beside]
 
     def _write(self, surface: pygame.Surface, theme: Theme) -> None:
         """What goes on, below the level."""

@@ -1,4 +1,4 @@
-"""The ways of runs over the level: drawn once, and again only where they change."""
+"""The paths of runs over the level: drawn once, and again only where they change."""
 
 from __future__ import annotations
 
@@ -11,27 +11,27 @@ from numpy.typing import NDArray
 
 from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.play.replay.paths import draw_path
-from ninja_game.play.tas.bench import Span
+from ninja_game.play.tas.editor import Span
 from ninja_game.play.ui.canvas import Canvas, Point
 from ninja_game.play.ui.theme import Theme
 from ninja_game.simulation import ObjectView
-from ninja_game.tas.course import Course
+from ninja_game.tas.timeline import Trajectory
 
 Positions = NDArray[np.float64]
 
 NEAR = 40
-"""Ticks before and after the cursor whose way is bright."""
+"""Ticks before and after the cursor whose path is bright."""
 _DOT_EVERY, _CLOSE = 10, 0.5
-"""Ticks between two dots on the bright way; where a px of the bench is less than so much of the level: each tick."""
+"""Ticks between two dots on the bright path; where a px of the window is less of the level: each tick."""
 FAINT, CLEAR = 110, 190
-"""Of 255: how solid ways are."""
+"""Of 255: how solid paths are."""
 _BLOCK = 1000
-"""Ticks by which the part of a long run moves whose way is shown."""
+"""Ticks by which the part of a long run moves whose path is shown."""
 LETTERS = 9
-"""Size of what is written over the level, logical px of the bench, as all sizes here."""
+"""Size of what is written over the level, logical px of the TAS editor, as all sizes here."""
 _LONGEST_NAME = 100
 _THIN, _THICK = 0.8, 2.7
-"""Width of ways, and of their selected part."""
+"""Width of paths, and of their selected part."""
 
 
 def shaded(colour: pygame.Color, alpha: int) -> pygame.Color:
@@ -40,23 +40,23 @@ def shaded(colour: pygame.Color, alpha: int) -> pygame.Color:
 
 
 def shown_span(cursor: int) -> Span:
-    """The ticks whose ways are shown: more would be a tangle."""
+    """The ticks whose path are shown: more would be a tangle."""
     middle = cursor - cursor % _BLOCK
     return max(0, middle - 2 * _BLOCK), middle + 4 * _BLOCK
 
 
-class Way(NamedTuple):
-    """The way of another run in the ticks ``first`` … ``last`` - 1; ``alpha``: of 255, how solid."""
+class RunPath(NamedTuple):
+    """The path of another run in the ticks ``first`` … ``last`` - 1; ``alpha``: of 255, how solid."""
 
-    course: Course
+    trajectory: Trajectory
     colour: pygame.Color
     first: int
     last: int
     alpha: int = CLEAR
 
 
-class WayLayer:
-    """One surface with the way of one run, to which more ticks are added as they are known. ``covered``: its px."""
+class PathLayer:
+    """One surface with the path of one run, to which more ticks are added as they are known. ``covered``: its px."""
 
     def __init__(self, canvas: Canvas, colour: pygame.Color, width: float) -> None:
         self.surface = pygame.Surface(canvas.window, pygame.SRCALPHA)
@@ -67,7 +67,7 @@ class WayLayer:
         self.covered = pygame.Rect(0, 0, 0, 0)
 
     def show(self, positions: Positions) -> None:
-        """Show this way; what it has in common with the last one stays."""
+        """Show this path; what it has in common with the last one stays."""
         known = len(self._drawn)
         if known > len(positions) or not np.array_equal(self._drawn, positions[:known]):
             self.surface.fill((0, 0, 0, 0), self.covered)
@@ -78,37 +78,37 @@ class WayLayer:
 
 
 class LevelPaths:
-    """What lies over a picture of the level. ``canvas``: of that picture; ``theme``: the bench's."""
+    """What lies over a picture of the level. ``canvas``: of that picture; ``theme``: the TAS editor's."""
 
     def __init__(self, theme: Theme, canvas: Canvas) -> None:
         self.theme = theme
         self.canvas = canvas
-        self._present = WayLayer(canvas, shaded(theme.palette.accent, FAINT), self._px(_THIN))
+        self._present = PathLayer(canvas, shaded(theme.palette.accent, FAINT), self._px(_THIN))
         self._under = pygame.Surface(canvas.window, pygame.SRCALPHA)
         self._covered = pygame.Rect(0, 0, 0, 0)
-        self._beside: tuple[Way, ...] = ()
+        self._beside: tuple[RunPath, ...] = ()
         self._labels: list[pygame.Rect] = []
 
     def _px(self, length: float) -> float:
-        """A length of the bench in px of the level: what is drawn over it does not grow with it."""
+        """A length of the TAS editor in px of the level: what is drawn over it does not grow with it."""
         return length * self.theme.canvas.scale / self.canvas.scale
 
     def _put(self, surface: pygame.Surface, layer: pygame.Surface, covered: pygame.Rect) -> None:
         seen = covered.clip(self.canvas.stage)
         surface.blit(layer, seen, seen)
 
-    def draw_beside(self, surface: pygame.Surface, ways: Sequence[Way]) -> None:
+    def draw_beside(self, surface: pygame.Surface, paths: Sequence[RunPath]) -> None:
         """The other runs; a picture begins."""
         self._labels.clear()
-        if tuple(ways) != self._beside:
-            self._beside = tuple(ways)
+        if tuple(paths) != self._beside:
+            self._beside = tuple(paths)
             self._under.fill((0, 0, 0, 0), self._covered)
             drawn = [
                 draw_path(
-                    self._under, self.canvas, way.course.positions[way.first : way.last],
-                    shaded(way.colour, way.alpha), self._px(_THIN),
+                    self._under, self.canvas, each.trajectory.positions[each.first : each.last],
+                    shaded(each.colour, each.alpha), self._px(_THIN),
                 )
-                for way in ways
+                for each in paths
             ]  # fmt: skip
             self._covered = union_of(drawn)
         self._put(surface, self._under, self._covered)
@@ -163,7 +163,7 @@ class LevelPaths:
         theme, px = self.theme, self.canvas.point(*at)
         if not surface.get_rect().collidepoint(px):
             return
-        # The bench fills its window: its logical px begin at the window's corner.
+        # The TAS editor fills its window: its logical px begin at the window's corner.
         scale = theme.canvas.scale
         w, (width, height) = theme.width(text, LETTERS), surface.get_size()
         x = min(max(1.0, px[0] / scale + beside[0]), width / scale - w - 4)

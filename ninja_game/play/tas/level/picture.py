@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.level.camera import Camera
 from ninja_game.play.tas.level.run_ghost import RunGhost
 from ninja_game.play.ui.canvas import Canvas, Point
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.ninja.ragdoll import Ragdoll
 from ninja_game.play.view.render_context import OffscreenContext
-from ninja_game.sim.inputs import first_ticks
+from ninja_game.sim.inputs import fitted_inputs
 from ninja_game.sim.memory.schema import World
 from ninja_game.simulation import SaveState, Simulation
 
@@ -25,7 +25,7 @@ _FALL = 40
 """Ticks after which a corpse lies still."""
 
 
-class _Seen(Simulation):
+class CachedWorldSimulation(Simulation):
     """A simulation whose world is copied once a tick at most."""
 
     _copy: World | None = None
@@ -54,11 +54,11 @@ class LevelPicture:
     ``camera``: which part of the level.
     """
 
-    def __init__(self, bench: Bench) -> None:
-        self.bench = bench
-        session = bench.session
-        self.run = _Seen(session.about.level, body=session.about.body, memory=session.timeline.memory)
-        self._context = OffscreenContext((1, 1), bench.app.settings)
+    def __init__(self, editor: TasEditor) -> None:
+        self.editor = editor
+        session = editor.session
+        self.run = CachedWorldSimulation(session.about.level, body=session.about.body, memory=session.timeline.memory)
+        self._context = OffscreenContext((1, 1), editor.app.settings)
         self._view: LevelView | None = None
         self.surface = pygame.Surface((1, 1))
         self.camera = Camera()
@@ -76,7 +76,7 @@ class LevelPicture:
 
     def fit(self, size: tuple[int, int]) -> bool:
         """Have a size, px, the player's settings and what the camera shows; whether all is to be drawn again."""
-        app, seen = self.bench.app, (size, *self.camera.look)
+        app, seen = self.editor.app, (size, *self.camera.render_key)
         settings = app.settings.changed(show_ghost=True)
         if self._view is not None and self._context.settings.palette == settings.palette and size == self._seen[0]:
             self._context.settings = settings
@@ -107,11 +107,11 @@ class LevelPicture:
 
     def show(self, tick: int, *, audible: bool = False) -> None:
         """Show the world after a tick, if that is simulated. ``audible``: it is played, and its events are heard."""
-        timeline = self.bench.session.timeline
+        timeline = self.editor.session.timeline
         moment = tick + 1
-        if timeline.valid < moment:
+        if timeline.simulated_until < moment:
             return
-        run, inputs = self.run, first_ticks(timeline.inputs[:moment], moment)
+        run, inputs = self.run, fitted_inputs(timeline.inputs[:moment], moment)
         if run.inputs == inputs:
             return
         if self._view is not None:
@@ -123,17 +123,17 @@ class LevelPicture:
             self._view.audible = False
 
     def _seek(self, moment: int, inputs: bytes) -> None:
-        """Some ticks before the moment after so many ticks."""
+        """Some ticks before the moment after this many ticks."""
         start = max(0, moment - _WARM)
-        end, outcome = self.bench.session.timeline.end
+        end, outcome = self.editor.session.timeline.end
         corpse = self._corpse(end, inputs, min(start - end, _FALL)) if outcome == "dead" and start > end else None
         self._go(start, inputs)
         if self._view is not None and corpse is not None:
             self._view.doll = corpse
 
     def _go(self, moment: int, inputs: bytes) -> None:
-        """Be at the moment after so many ticks, as if nothing had been seen before."""
-        self.run.restore(self.bench.session.timeline.save_state(moment))
+        """Be at the moment after this many ticks, as if nothing had been seen before."""
+        self.run.restore(self.editor.session.timeline.save_state(moment))
         while self.run.tick < moment:
             self.run.step_keys(inputs[self.run.tick])
         if self._view is not None:

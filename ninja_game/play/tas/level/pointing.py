@@ -16,7 +16,7 @@ _LEAP = 40.0
 
 
 def nearest_tick(positions: Positions, x: float, y: float, cursor: int, *, dragged: bool = False) -> int:
-    """The tick, of those whose way is shown, after which the ninja was nearest to a place, px of the level."""
+    """The tick, of those whose path is shown, after which the ninja was nearest to a place, px of the level."""
     first, last = shown_span(cursor)
     shown = positions[first:last] if first < len(positions) else positions
     first = first if first < len(positions) else 0

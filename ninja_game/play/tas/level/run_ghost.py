@@ -1,4 +1,4 @@
-"""The ninja of another run as a ghost: where that run's course has it, without a world of its own."""
+"""The ninja of another run as a ghost: where that run's trajectory has it, without a world of its own."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from ninja_game.play.ui.canvas import Point
 from ninja_game.play.ui.palette import Palette
 from ninja_game.play.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.sim.memory.schema import World
-from ninja_game.tas.course import Course
+from ninja_game.tas.timeline import Trajectory
 
 _WARM = 12
 """Ticks that its figure follows before the one that is sought."""
 
 
 class RunGhost:
-    """``label``: the run's name. ``shade``: its colour, None: the palette's for ghosts. The course has ticks."""
+    """``label``: the run's name. ``shade``: its colour, None: the palette's for ghosts. It has ticks."""
 
-    def __init__(self, course: Course, label: str = "", shade: pygame.Color | None = None) -> None:
-        self.course = course
+    def __init__(self, trajectory: Trajectory, label: str = "", shade: pygame.Color | None = None) -> None:
+        self.trajectory = trajectory
         self.label = label
         self.shade = shade
         self._world = World()
@@ -31,28 +31,28 @@ class RunGhost:
         """The fields of the ninja after a tick."""
         ninja = self._world.ninja
         ninja.was_in_air = ninja.in_air
-        for name, value in self.course.at(max(0, tick)).items():
+        for name, value in self.trajectory.at(max(0, tick)).items():
             setattr(ninja, name, value)
 
     def on_tick(self) -> None:
         """One more tick."""
         self._moment += 1
-        if self._moment <= len(self.course):
+        if self._moment <= len(self.trajectory):
             self._follow(self._moment - 1)
             self.ninja_animation.on_tick(self._world)
 
     def on_seek(self, tick: int) -> None:
         """Be where the run is after that many ticks."""
-        self._moment = max(0, min(tick, len(self.course)) - _WARM)
+        self._moment = max(0, min(tick, len(self.trajectory)) - _WARM)
         self._follow(self._moment - 1)
         self.ninja_animation = NinjaAnimation(self._world, self._random)
-        while self._moment < min(tick, len(self.course)):
+        while self._moment < min(tick, len(self.trajectory)):
             self.on_tick()
         self._moment = tick
 
     def place(self, fraction: float) -> Point:
         """Where to draw it."""
-        now, before = self.course.at(max(0, self._moment - 1)), self.course.at(max(0, self._moment - 2))
+        now, before = self.trajectory.at(max(0, self._moment - 1)), self.trajectory.at(max(0, self._moment - 2))
         (bx, by), (x, y) = (before["x"], before["y"]), (now["x"], now["y"])
         return bx + (x - bx) * fraction, by + (y - by) * fraction
 

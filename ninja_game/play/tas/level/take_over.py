@@ -30,35 +30,35 @@ class TakeOver:
 
     def __init__(self, playing: Playing) -> None:
         self.playing = playing
-        self.bench = playing.bench
+        self.editor = playing.editor
         self.on = self.waiting = self.still = False
         self.tick = 0
         self._held_before = 0
 
     def begin(self) -> None:
         """Take over from the tick under the cursor; it begins with the first key that is pressed."""
-        bench = self.bench
+        editor = self.editor
         self.playing.stop()
-        bench.session.timeline.need(bench.cursor)
-        if self._ended(bench.cursor):
-            end, outcome = bench.session.timeline.end
+        editor.session.timeline.ensure(editor.cursor)
+        if self._ended(editor.cursor):
+            end, outcome = editor.session.timeline.end
             words = "has left" if outcome == "exit" else "is dead"
-            bench.app.notify(f"The ninja {words} in tick {end}: take over in a tick before")
+            editor.app.notify(f"The ninja {words} in tick {end}: take over in a tick before")
             return
-        bench.session.begin()
+        editor.session.begin()
         self.on = self.waiting = True
         self.still = False
-        self.tick = bench.cursor
-        bench.go(self.tick)
-        self._held_before = bench.app.controls.held()
+        self.tick = editor.cursor
+        editor.go(self.tick)
+        self._held_before = editor.app.controls.held()
 
     def end(self) -> None:
         """The run is edited as before; all that was played is one edit."""
         if self.on:
             self.on = False
-            self.bench.app.audio_output.quiet()
-            self.bench.session.end()
-            self.bench.session.timeline.work(self.bench.session.soon)
+            self.editor.app.audio_output.quiet()
+            self.editor.session.end()
+            self.editor.session.timeline.simulate(self.editor.session.ticks_per_frame)
 
     def pause(self) -> None:
         """Stand still, or go on."""
@@ -68,7 +68,7 @@ class TakeOver:
         """Stand still, or not."""
         self.still, self.waiting = still, False
         self.playing.clock.reset()
-        self.bench.app.audio_output.quiet()
+        self.editor.app.audio_output.quiet()
 
     def step(self) -> None:
         """One tick with the keys that are down; then it stands still."""
@@ -82,26 +82,26 @@ class TakeOver:
 
     def _go(self, tick: int, *, audible: bool = False) -> None:
         self.tick = tick
-        self.bench.go(tick)
+        self.editor.go(tick)
         self.playing.picture.show(tick, audible=audible)
 
     def _ended(self, tick: int, after: int = 0) -> bool:
         """Whether the exit or death was so many ticks before."""
-        end = self.bench.session.timeline.end[0]
+        end = self.editor.session.timeline.end[0]
         return 0 <= end <= tick - after
 
     def _play_tick(self) -> None:
         """The next tick, with the keys that are down right now."""
-        bench, tick = self.bench, self.tick + 1
-        session = bench.session
+        editor, tick = self.editor, self.tick + 1
+        session = editor.session
         if not self._ended(self.tick):
-            keys = bench.app.controls.held()
-            if not bench.attempt(lambda: session.change(bench.take.replaced(tick, tick + 1, [keys]), ticks=0)):
+            keys = editor.app.controls.held()
+            if not editor.attempt(lambda: session.change(editor.track.replaced(tick, tick + 1, [keys]), ticks=0)):
                 self.end()
                 return
-        session.timeline.need(tick)
+        session.timeline.ensure(tick)
         self._go(tick, audible=True)
-        if self._ended(tick, AFTERMATH) or tick >= bench.last_tick:
+        if self._ended(tick, AFTERMATH) or tick >= editor.last_tick:
             self.end()
 
     def update(self, real_ms: int) -> None:
@@ -110,7 +110,7 @@ class TakeOver:
             return
         if self.waiting:
             # Keys that were down before do not count until they are pressed again.
-            held = self.bench.app.controls.held()
+            held = self.editor.app.controls.held()
             self._held_before &= held
             self.waiting = not held & ~self._held_before
             self.playing.clock.reset()

@@ -58,7 +58,7 @@ class Place(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Layout:
+class RollLayout:
     """Where things are, px of the window. ``rows``: how many are seen; ``row``: the height of one."""
 
     heads: pygame.Rect
@@ -77,7 +77,7 @@ class Layout:
         return next((place.column for place in self.places if x < place.left + place.width), self.places[-1].column)
 
 
-def layout_of(canvas: Canvas, area: Area, hidden: Collection[str]) -> Layout:
+def layout_of(canvas: Canvas, area: Area, hidden: Collection[str]) -> RollLayout:
     """Heads, rows and scroll bar in an area, logical px. All rows have the same height, whole px."""
     whole = canvas.rect(*area)
     head, row, bar = canvas.px(HEAD), max(6, int(ROW * canvas.scale)), canvas.px(BAR)
@@ -92,4 +92,4 @@ def layout_of(canvas: Canvas, area: Area, hidden: Collection[str]) -> Layout:
         places.append(Place(column, whole.left + first, behind - first))
     heads = pygame.Rect(whole.left, whole.top, whole.width, head)
     side = pygame.Rect(body.right, body.top, whole.right - body.right, whole.height - head)
-    return Layout(heads, body, side, row, rows, tuple(places))
+    return RollLayout(heads, body, side, row, rows, tuple(places))

@@ -9,20 +9,20 @@ import numpy as np
 import pygame
 from numpy.typing import NDArray
 
-from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.tabs.plot import colour_of
 from ninja_game.play.ui.palette import Palette
-from ninja_game.sim.inputs import KEYS_DOWN, first_ticks
-from ninja_game.tas.take import Take
+from ninja_game.sim.inputs import KEYS_DOWN, fitted_inputs
+from ninja_game.tas.input_track import InputTrack
 
 PREVIEW, BEFORE = -1, -2
 """Instead of the number of another run."""
 
 
 class Compared(NamedTuple):
-    """A run whose keys are marked beside those of the one on the bench. ``number``: of another run, or which it is."""
+    """A run whose keys are marked beside those of the one under edit. ``number``: of another run, or which it is."""
 
-    take: Take
+    track: InputTrack
     name: str
     number: int
 
@@ -33,19 +33,19 @@ class Compared(NamedTuple):
         return palette.exit if self.number == PREVIEW else colour_of(self.number, palette)
 
 
-def compared(bench: Bench) -> Compared | None:
+def compared(editor: TasEditor) -> Compared | None:
     """The result of a search that is looked at, else the chosen other run, else the run before the last edit.
 
     None where other runs are not shown.
     """
-    if not bench.ghosts:
+    if not editor.ghosts:
         return None
-    if bench.preview is not None:
-        return Compared(bench.preview.take, "the result", PREVIEW)
-    if bench.others:
-        number = bench.chosen % len(bench.others)
-        return Compared(bench.others[number].take, bench.others[number].name, number)
-    return Compared(bench.session.before_take, "before the edit", BEFORE)
+    if editor.preview is not None:
+        return Compared(editor.preview.track, "the result", PREVIEW)
+    if editor.others:
+        number = editor.chosen % len(editor.others)
+        return Compared(editor.others[number].track, editor.others[number].name, number)
+    return Compared(editor.session.before_track, "before the edit", BEFORE)
 
 
 @lru_cache(maxsize=4)
@@ -66,7 +66,7 @@ def changes(ours: bytes, theirs: bytes) -> NDArray[np.intp]:
 
 @lru_cache(maxsize=4)
 def different_rows(ours: bytes, theirs: bytes, ticks: int, height: int) -> list[int]:
-    """The px of a bar of this height, for so many ticks, in which there are ticks with different keys."""
+    """The px of a bar of this height, for this many ticks, in which there are ticks with different keys."""
     found = np.flatnonzero(different_keys(ours, theirs)[:ticks])
     return np.flatnonzero(np.bincount(found * height // ticks)).tolist()
 
@@ -74,4 +74,4 @@ def different_rows(ours: bytes, theirs: bytes, ticks: int, height: int) -> list[
 def _keys(*runs: bytes) -> list[NDArray[np.uint8]]:
     """The keys that are down in each tick of the longest of some runs."""
     ticks = max(map(len, runs))
-    return [np.frombuffer(first_ticks(inputs, ticks), np.uint8) & np.uint8(KEYS_DOWN) for inputs in runs]
+    return [np.frombuffer(fitted_inputs(inputs, ticks), np.uint8) & np.uint8(KEYS_DOWN) for inputs in runs]

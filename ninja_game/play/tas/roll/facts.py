@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ninja_game.formats.replay.input_runs import KEY_NAMES
-from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.roll.differences import compared, different_keys
 from ninja_game.sim.inputs import KEYS_DOWN
 from ninja_game.sim.states import STATE_NAMES
-from ninja_game.tas.take import Take
+from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.watch import exit_distance
 
 FLOOR, WALL_LEFT, WALL_RIGHT = 1, 2, 4
@@ -55,18 +55,18 @@ class RowFacts(NamedTuple):
     cursor: bool
 
 
-def row_facts(bench: Bench, first: int, last: int) -> list[RowFacts]:
+def row_facts(editor: TasEditor, first: int, last: int) -> list[RowFacts]:
     """The rows of the ticks ``first`` … ``last`` - 1."""
-    take, timeline = bench.take, bench.session.timeline
-    values: list[Values | None] = [*_values(bench, first, last)]
+    track, timeline = editor.track, editor.session.timeline
+    values: list[Values | None] = [*_values(editor, first, last)]
     values += [None] * (last - first - len(values))
     end = timeline.end[0]
-    begin, behind = bench.selection
-    changed = changed_ticks(take, bench.session.saved)
-    names = {tick: name for tick, name in take.markers if first <= tick < last}
-    count, inputs = len(take), take.inputs
-    other = compared(bench)
-    differs = different_keys(inputs, other.take.inputs)[first:last].tolist() if other else []
+    begin, behind = editor.selection
+    changed = changed_ticks(track, editor.session.saved)
+    names = {tick: name for tick, name in track.markers if first <= tick < last}
+    count, inputs = len(track), track.inputs
+    other = compared(editor)
+    differs = different_keys(inputs, other.track.inputs)[first:last].tolist() if other else []
     differs += [0] * (last - first - len(differs))
     return [
         RowFacts(
@@ -81,16 +81,16 @@ def row_facts(bench: Bench, first: int, last: int) -> list[RowFacts]:
             0 <= end < tick,
             tick in changed if isinstance(changed, range) else tick < count and bool(changed[tick]),
             begin <= tick < behind,
-            tick == bench.cursor,
+            tick == editor.cursor,
         )
         for tick in range(first, last)
     ]
 
 
-def _values(bench: Bench, first: int, last: int) -> list[Values]:
+def _values(editor: TasEditor, first: int, last: int) -> list[Values]:
     """The values of those ticks of them that are simulated."""
-    timeline = bench.session.timeline
-    span = slice(first, min(last, timeline.valid))
+    timeline = editor.session.timeline
+    span = slice(first, min(last, timeline.simulated_until))
     column = timeline.column
     x, y = column("x")[span], column("y")[span]
     wall = np.where(column("wall_x")[span] > 0, WALL_LEFT, WALL_RIGHT) * column("near_wall")[span]
@@ -103,12 +103,12 @@ def _values(bench: Bench, first: int, last: int) -> list[Values]:
 
 
 @lru_cache(maxsize=2)
-def changed_ticks(take: Take, saved: Take) -> range | bytes:
-    """Where a take is not the saved one: a truth a tick, or, where it is longer or shorter, the span between."""
-    ours, theirs = np.frombuffer(take.inputs, np.uint8), np.frombuffer(saved.inputs, np.uint8)
+def changed_ticks(track: InputTrack, saved: InputTrack) -> range | bytes:
+    """Where a track is not the saved one: a truth a tick, or, where it is longer or shorter, the span between."""
+    ours, theirs = np.frombuffer(track.inputs, np.uint8), np.frombuffer(saved.inputs, np.uint8)
     if len(ours) == len(theirs):
         return bytes(ours != theirs)
-    first, shared = take.first_difference(saved), min(len(ours), len(theirs))
+    first, shared = track.first_difference(saved), min(len(ours), len(theirs))
     unequal = np.flatnonzero(ours[::-1][:shared] != theirs[::-1][:shared])
     same = int(unequal[0]) if len(unequal) else shared
     return range(first, len(ours) - min(same, shared - first))

@@ -25,7 +25,7 @@ class RollMouse:
 
     def __init__(self, roll: Roll) -> None:
         self._roll = roll
-        self._bench = roll.bench
+        self._editor = roll.editor
         self._doing = ""
         self._key, self._down = 0, False
         self._tick = 0
@@ -34,7 +34,7 @@ class RollMouse:
         self._clicked = (-1, -DOUBLE_MS)
         self._told = ""
 
-    def take(self, event: pygame.Event, x: int, y: int) -> bool:
+    def handle_mouse(self, event: pygame.Event, x: int, y: int) -> bool:
         """A mouse event at a px; whether it was used."""
         self._at = x, y
         if event.type == pygame.MOUSEWHEEL:
@@ -53,12 +53,12 @@ class RollMouse:
     def stop(self) -> None:
         """What is going on ends; painting is one edit."""
         if self._doing == "paint":
-            self._bench.session.end()
+            self._editor.session.end()
         self._doing = ""
 
     def update(self, real_ms: int) -> None:
         """Scroll on while the pointer is beyond the upper or lower edge; what is told of a row stays true."""
-        if self._told and self._bench.hint == self._told:
+        if self._told and self._editor.hint == self._told:
             self._tell(*self._at)
         if self._doing not in ("paint", "select"):
             return
@@ -77,12 +77,12 @@ class RollMouse:
         """The tick whose row is at a px; beyond the edges the first or last one that is seen."""
         layout = self._roll.layout
         row = min(max(0, layout.row_at(y)), layout.rows - 1)
-        return min(self._roll.top + row, self._bench.last_tick)
+        return min(self._roll.top + row, self._editor.last_tick)
 
     def _wheel(self, notches: float) -> None:
-        bench = self._bench
+        editor = self._editor
         if pygame.key.get_mods() & pygame.KMOD_CTRL:
-            bench.go(bench.cursor - round(notches))
+            editor.go(editor.cursor - round(notches))
         else:
             self._roll.scroll(self._roll.top - round(notches * WHEEL_ROWS))
             self._go_on()
@@ -105,9 +105,9 @@ class RollMouse:
     def _paint(self, column: Column, tick: int, *, lift: bool) -> None:
         """Begin to paint: the key goes up where it is down, else down."""
         self._key = column.key
-        self._down = not lift and not self._bench.take.keys_at(tick) & column.key
+        self._down = not lift and not self._editor.track.keys_at(tick) & column.key
         self._doing, self._tick = "paint", tick
-        self._bench.session.begin()
+        self._editor.session.begin()
         self._stroke(tick)
 
     def _select(self, column: Column, tick: int) -> None:
@@ -118,7 +118,7 @@ class RollMouse:
         if column.name == "tick" and twice:
             self._roll.edits.name_tick()
             return
-        self._bench.go(tick, select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
+        self._editor.go(tick, select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
         self._roll.stay()
         self._doing = "select"
 
@@ -128,10 +128,10 @@ class RollMouse:
             self._roll.scroll(self._roll.bar.tick_at(self._at[1], self._roll.layout) - self._roll.layout.rows // 2)
             return
         tick = self._tick_at(self._at[1])
-        if self._doing == "select" and tick != self._bench.cursor:
-            self._bench.go(tick, select=True)
+        if self._doing == "select" and tick != self._editor.cursor:
+            self._editor.go(tick, select=True)
             self._roll.stay()
-        elif self._doing == "paint" and not self._bench.session.history.in_stroke:
+        elif self._doing == "paint" and not self._editor.session.history.in_stroke:
             self.stop()
         elif self._doing == "paint" and tick != self._tick:
             self._stroke(tick)
@@ -140,9 +140,9 @@ class RollMouse:
         """Paint from where the stroke is up to a tick."""
         first, last = min(tick, self._tick), max(tick, self._tick) + 1
         if not self._down:
-            last = min(last, len(self._bench.take))
+            last = min(last, len(self._editor.track))
         if first < last:
-            self._bench.edit(lambda take: take.with_key(first, last, self._key, down=self._down))
+            self._editor.edit(lambda track: track.with_key(first, last, self._key, down=self._down))
         self._tick = tick
 
     def _tell(self, x: int, y: int) -> None:
@@ -150,13 +150,13 @@ class RollMouse:
         layout = self._roll.layout
         column = layout.column_at(x)
         if layout.heads.collidepoint(x, y):
-            self._bench.hint = f"{column.meaning or column.head}; click: choose columns"
+            self._editor.hint = f"{column.meaning or column.head}; click: choose columns"
         elif x >= layout.bar.left:
-            self._bench.hint = f"tick {self._roll.bar.tick_at(y, layout)}"
-        elif layout.body.collidepoint(x, y) and layout.row_at(y) + self._roll.top <= self._bench.last_tick:
+            self._editor.hint = f"tick {self._roll.bar.tick_at(y, layout)}"
+        elif layout.body.collidepoint(x, y) and layout.row_at(y) + self._roll.top <= self._editor.last_tick:
             tick = self._tick_at(y)
-            other = compared(self._bench) if column.key else None
+            other = compared(self._editor) if column.key else None
             rest = column.name in ("state", "jump_timer", "contacts", "gold", "exit")
-            row = row_facts(self._bench, tick, tick + 1)[0]
-            self._bench.hint = keys_in_words(row, other.name) if other else in_words(row, numbers=not rest)
-        self._told = self._bench.hint
+            row = row_facts(self._editor, tick, tick + 1)[0]
+            self._editor.hint = keys_in_words(row, other.name) if other else in_words(row, numbers=not rest)
+        self._told = self._editor.hint

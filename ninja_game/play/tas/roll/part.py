@@ -7,10 +7,10 @@ from functools import partial
 import pygame
 
 from ninja_game.play.menus.panels import Menu
-from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.part import Commands, Part
 from ninja_game.play.tas.roll.bar import ScrollBar
-from ninja_game.play.tas.roll.columns import COLUMNS, Layout, layout_of
+from ninja_game.play.tas.roll.columns import COLUMNS, RollLayout, layout_of
 from ninja_game.play.tas.roll.commands import RollCommands
 from ninja_game.play.tas.roll.differences import compared
 from ninja_game.play.tas.roll.facts import row_facts
@@ -23,32 +23,32 @@ MARGIN = 4
 
 
 class Roll(Part):
-    """A row a tick. ``top``: the first tick that is seen; ``hidden``: the names of columns that are not."""
+    """One row per tick. ``top``: the first tick that is seen; ``hidden``: the names of columns that are not."""
 
     slot = "roll"
 
-    def __init__(self, bench: Bench) -> None:
-        super().__init__(bench)
+    def __init__(self, editor: TasEditor) -> None:
+        super().__init__(editor)
         self.top = 0
         self.hidden: frozenset[str] = frozenset()
         self._followed = 0
         self._sheet: RowSheet | None = None
-        self.bar = ScrollBar(bench)
-        self.edits = RollCommands(bench, lambda: self.layout.rows)
+        self.bar = ScrollBar(editor)
+        self.edits = RollCommands(editor, lambda: self.layout.rows)
         self.pointer = RollMouse(self)
 
     @property
-    def layout(self) -> Layout:
+    def layout(self) -> RollLayout:
         """Where things are in the window as it is now."""
-        return layout_of(self.bench.theme.canvas, self.area, self.hidden)
+        return layout_of(self.editor.theme.canvas, self.area, self.hidden)
 
     def scroll(self, top: int) -> None:
         """Have this tick at the upper edge, as far as there are ticks."""
-        self.top = max(0, min(top, self.bench.last_tick + 1 - self.layout.rows))
+        self.top = max(0, min(top, self.editor.last_tick + 1 - self.layout.rows))
 
     def follow(self) -> None:
         """Scroll with the cursor where it comes near the edge, and to it where it is out of sight."""
-        cursor, rows = self.bench.cursor, self.layout.rows
+        cursor, rows = self.editor.cursor, self.layout.rows
         moved, self._followed = cursor - self._followed, cursor
         # With the cursor there, ``lowest`` to ``highest`` are the first ticks that leave room above and below it.
         lowest, highest = cursor + 1 + rows // MARGIN - rows, cursor - rows // MARGIN
@@ -63,7 +63,7 @@ class Roll(Part):
 
     def stay(self) -> None:
         """Take the cursor's present tick as seen: no row moves under the mouse."""
-        self._followed = self.bench.cursor
+        self._followed = self.editor.cursor
 
     def choose_columns(self) -> None:
         """Ask which columns are shown."""
@@ -77,27 +77,27 @@ class Roll(Part):
             for each in COLUMNS
             if each.meaning
         ]
-        self.bench.app.push(Menu(self.bench.app, "Columns", [*rows, ("Done", lambda: None, "")]))
+        self.editor.app.push(Menu(self.editor.app, "Columns", [*rows, ("Done", lambda: None, "")]))
 
     # --- a part of the window ---
 
-    def look(self) -> tuple[object, ...]:
+    def render_key(self) -> tuple[object, ...]:
         """Runs, cursor, selection, what is simulated and what is seen of it."""
-        bench = self.bench
-        timeline = bench.session.timeline
+        editor = self.editor
+        timeline = editor.session.timeline
         return (
-            bench.take, bench.session.saved, compared(bench), bench.cursor, bench.selection, timeline.valid, self.top,
-            self.hidden,
+            editor.track, editor.session.saved, compared(editor), editor.cursor, editor.selection,
+            timeline.simulated_until, self.top, self.hidden,
         )  # fmt: skip
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """Heads, rows, scroll bar."""
-        layout, other, palette = self.layout, compared(self.bench), theme.palette
+        layout, other, palette = self.layout, compared(self.editor), theme.palette
         mark = other.colour(palette) if other else palette.ghost
         sheet = self._sheet
         if sheet is None or sheet.theme is not theme or sheet.layout != layout or sheet.mark != mark:
             self._sheet = sheet = RowSheet(theme, layout, mark)
-        sheet.draw(surface, row_facts(self.bench, self.top, min(self.top + layout.rows, self.bench.last_tick + 1)))
+        sheet.draw(surface, row_facts(self.editor, self.top, min(self.top + layout.rows, self.editor.last_tick + 1)))
         self.bar.draw(surface, theme, layout, self.top)
         surface.fill(palette.tile, layout.heads)
         scale = theme.canvas.scale
@@ -109,7 +109,7 @@ class Roll(Part):
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
         """Painting, selecting, scrolling."""
-        return self.pointer.take(event, *self.bench.theme.canvas.point(x, y))
+        return self.pointer.handle_mouse(event, *self.editor.theme.canvas.point(x, y))
 
     def update(self, real_ms: int) -> None:
         """A drag beyond the edge scrolls on; the cursor stays in sight."""

@@ -7,7 +7,7 @@ from math import isfinite
 
 import pygame
 
-from ninja_game.play.tas.roll.columns import Layout, Place
+from ninja_game.play.tas.roll.columns import Place, RollLayout
 from ninja_game.play.tas.roll.event_words import EVENTS, STATES
 from ninja_game.play.tas.roll.facts import FLOOR, WALL_LEFT, WALL_RIGHT, RowFacts, Values
 from ninja_game.play.tas.roll.glyphs import Blit, Digits
@@ -22,7 +22,7 @@ SHORTEST = 20.0
 """Room in which a name is worth beginning, logical px."""
 LONGEST = 6
 """Characters of a number."""
-_LETTERS = {KEY_LEFT: "L", KEY_RIGHT: "R", JUMP_HELD: "J"}
+_TEXT_SCALES = {KEY_LEFT: "L", KEY_RIGHT: "R", JUMP_HELD: "J"}
 
 
 class RowSheet:
@@ -31,7 +31,7 @@ class RowSheet:
     ``mark``: the colour of the run that this one is compared to.
     """
 
-    def __init__(self, theme: Theme, layout: Layout, mark: pygame.Color) -> None:
+    def __init__(self, theme: Theme, layout: RollLayout, mark: pygame.Color) -> None:
         self.theme, self.layout, self.mark = theme, layout, mark
         self._picture = pygame.Surface(layout.body.size)
         self._drawn: list[RowFacts | None] = [None] * layout.rows
@@ -121,7 +121,7 @@ class RowSheet:
         colour = palette.accent if key == JUMP_HELD else palette.switch
         box = (left + 1 + margin, y + gap, place.width - 2 * margin - 1, height - gap)
         self._picture.fill(mixed(colour, line, 0.35) if row.over else colour, box)
-        letter = _LETTERS[key] if begins else ""
+        letter = _TEXT_SCALES[key] if begins else ""
         if key == JUMP_HELD and row.keys != pressed(row.keys, row.before & JUMP_HELD):
             # A recording may jump without the press, and press without the jump.
             letter = "!" if row.keys & JUMP_PRESSED else "-"

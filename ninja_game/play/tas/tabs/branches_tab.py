@@ -1,13 +1,13 @@
-"""Branches: takes that are kept, as a tree."""
+"""Branches: input tracks that are kept, as a tree."""
 
 from __future__ import annotations
 
 import pygame
 
 from ninja_game.play.menus.panels import Form, Question
-from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.part import Commands
-from ninja_game.play.tas.tabs.tab import NOWHERE, SMALL, Rows, Tab, put_in_a_row
+from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button
 from ninja_game.tas.branches import Branch, Branches
@@ -25,18 +25,18 @@ class BranchesTab(Tab):
 
     name = "Branches"
 
-    def __init__(self, bench: Bench) -> None:
-        super().__init__(bench)
+    def __init__(self, editor: TasEditor) -> None:
+        super().__init__(editor)
         self.tree: list[tuple[int, int]] = []
         self.list = Rows(self._draw_row, lambda _: None, empty="B keeps the run as a branch")
         actions = [
             ("Keep", self.keep, "B: keep the run as it is now, as a child of the marked branch"),
-            ("Go to it", self.take, "The run becomes the chosen branch; undo brings back what was there"),
+            ("Go to it", self.checkout, "The run becomes the chosen branch; undo brings back what was there"),
             ("Compare", self.compare, "The lead of the run over the chosen branch"),
             ("Rename", self.rename, "Another name for the chosen branch"),
             ("Drop", self.drop, "Forget the chosen branch; what was made from it stays"),
         ]
-        self._buttons = [Button(NOWHERE, text, action, hint=hint, size=SMALL) for text, action, hint in actions]
+        self._buttons = [Button(UNPLACED, text, action, hint=hint, size=SMALL) for text, action, hint in actions]
         self._for_one = self._buttons[1:]
         self.widgets: list[Rows | Button] = [self.list, *self._buttons]
 
@@ -52,7 +52,7 @@ class BranchesTab(Tab):
     @property
     def branches(self) -> Branches:
         """The run's."""
-        return self.bench.session.branches
+        return self.editor.session.branches
 
     @property
     def chosen(self) -> int | None:
@@ -63,8 +63,8 @@ class BranchesTab(Tab):
 
     def keep(self) -> None:
         """Keep the run as a branch, after asking for a name."""
-        self.bench.tab = self.name
-        session = self.bench.session
+        self.editor.tab = self.name
+        session = self.editor.session
         end, outcome = session.timeline.end
         name = f"{outcome} {end}" if end >= 0 else f"branch {len(self.branches) + 1}"
 
@@ -73,27 +73,27 @@ class BranchesTab(Tab):
             self.refresh()
             self.list.index = [each for each, _ in self.tree].index(number)
 
-        app = self.bench.app
+        app = self.editor.app
         app.push(Form(app, "Keep the run as a branch", [("its name", name, LONGEST)], "Keep", kept))
 
-    def take(self) -> None:
+    def checkout(self) -> None:
         """Go on from the chosen branch."""
         number = self.chosen
         if number is not None:
-            self.bench.attempt(lambda: self.bench.session.take_branch(number))
+            self.editor.attempt(lambda: self.editor.session.checkout_branch(number))
 
     def compare(self) -> None:
         """Show the lead over the chosen branch."""
         if self.chosen is not None:
-            self.bench.against = self.branches.all[self.chosen].take
-            self.bench.tab = "Lead"
+            self.editor.against = self.branches.all[self.chosen].track
+            self.editor.tab = "Lead"
 
     def rename(self) -> None:
         """Ask for another name."""
         number = self.chosen
         if number is None:
             return
-        app, session, old = self.bench.app, self.bench.session, self.branches.all[number].name
+        app, session, old = self.editor.app, self.editor.session, self.branches.all[number].name
 
         def renamed(texts: list[str]) -> None:
             session.rename_branch(number, texts[0].strip() or old)
@@ -104,7 +104,7 @@ class BranchesTab(Tab):
         """Forget the chosen branch, after a question."""
         number = self.chosen
         if number is not None:
-            app, session = self.bench.app, self.bench.session
+            app, session = self.editor.app, self.editor.session
             title = f"Drop {self.branches.all[number].name}?"
             app.push(Question(app, title, "Drop it", lambda: session.drop_branch(number)))
 
@@ -117,11 +117,11 @@ class BranchesTab(Tab):
         for button in self._for_one:
             button.enabled = bool(self.tree)
 
-    def look(self) -> tuple[object, ...]:
+    def render_key(self) -> tuple[object, ...]:
         """Branches, the run and its end."""
-        session = self.bench.session
+        session = self.editor.session
         tree = tuple(self.branches.all), self.branches.current
-        return tree, session.take, session.timeline.end, self.list.over
+        return tree, session.track, session.timeline.end, self.list.over
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """The names of the columns; the list is a widget."""
@@ -143,7 +143,7 @@ class BranchesTab(Tab):
         if current:
             tip = left - 4
             theme.canvas.polygon(surface, palette.accent, [(tip - 6, y + 4), (tip - 6, y + h - 4), (tip, y + h / 2)])
-        changed = " (changed since)" if current and branch.take != self.bench.take else ""
+        changed = " (changed since)" if current and branch.track != self.editor.track else ""
         room = right - _COLUMNS[0] - left - 6
         theme.text(surface, branch.name + changed, left, y + 3, size=SMALL, bold=current, width=room)
         cells = (f"{branch.outcome} {branch.end}" if branch.end >= 0 else "no end", str(branch.gold))
@@ -155,8 +155,8 @@ class BranchesTab(Tab):
 
     def _difference(self, branch: Branch) -> tuple[str, int]:
         """How much a branch is shorter than the run, in words and ticks."""
-        end, outcome = self.bench.session.timeline.end
-        if branch.take.inputs == self.bench.take.inputs:
+        end, outcome = self.editor.session.timeline.end
+        if branch.track.inputs == self.editor.track.inputs:
             return "the same", 0
         if {branch.outcome, outcome} != {"exit"}:
             return "", 0

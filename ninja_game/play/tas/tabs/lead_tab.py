@@ -8,13 +8,13 @@ from ninja_game.editor.background import NewestJob
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.input_runs import Marker
-from ninja_game.play.tas.bench import Bench
-from ninja_game.play.tas.tabs.tab import NOWHERE, SMALL, Rows, Tab
+from ninja_game.play.tas.editor import TasEditor
+from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, Rows, Tab
 from ninja_game.play.ui.text_layout import counted
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Choice
+from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.leads import LeadTable, lead_table
-from ninja_game.tas.take import Take
 
 PAUSE_MS = 300
 """How long a run must stay as it is before it is compared."""
@@ -22,7 +22,7 @@ PAUSE_MS = 300
 _COLUMNS = (214, 144, 74)
 """Where the ticks and the lead stand, px from the right of a row."""
 
-Pair = tuple[Take, Take]
+Pair = tuple[InputTrack, InputTrack]
 Job = tuple[Pair, Recording, Recording, tuple[Marker, ...]]
 
 
@@ -40,13 +40,13 @@ class LeadTab(Tab):
 
     name = "Lead"
 
-    def __init__(self, bench: Bench) -> None:
-        super().__init__(bench)
-        self._opened = bench.take
+    def __init__(self, editor: TasEditor) -> None:
+        super().__init__(editor)
+        self._opened = editor.track
         self._asked: Pair | None = None
         self._still_ms = 0
         self._job: NewestJob[Job, tuple[Pair, LeadTable | str]] = NewestJob(compared)
-        self._choice = Choice(NOWHERE, "", self._options(), self._against, self._put,
+        self._choice = Choice(UNPLACED, "", self._options(), self._against, self._put,
                               hint="The run that this one is compared to")  # fmt: skip
         self.list = Rows(self._draw_row, self._go, keeps=False,
                          hint="A click puts the cursor there")  # fmt: skip
@@ -61,40 +61,40 @@ class LeadTab(Tab):
 
     def _options(self) -> list[tuple[str, object]]:
         """The other runs, each once."""
-        session, found = self.bench.session, [("the run as it was opened", self._opened)]
+        session, found = self.editor.session, [("the run as it was opened", self._opened)]
         if len(session.saved):
             found.append(("the run as it was saved", session.saved))
-        found += [(f"branch: {branch.name}", branch.take) for branch in session.branches.all]
-        found += [(other.name, other.take) for other in self.bench.others]
-        names: dict[Take, str] = {}
-        for name, take in found:
-            names.setdefault(take, name)
-        return [(name, take) for take, name in names.items()]
+        found += [(f"branch: {branch.name}", branch.track) for branch in session.branches.all]
+        found += [(other.name, other.track) for other in self.editor.others]
+        names: dict[InputTrack, str] = {}
+        for name, track in found:
+            names.setdefault(track, name)
+        return [(name, track) for track, name in names.items()]
 
-    def _against(self) -> Take:
-        return self._opened if self.bench.against is None else self.bench.against
+    def _against(self) -> InputTrack:
+        return self._opened if self.editor.against is None else self.editor.against
 
-    def _put(self, take: object) -> None:
-        self.bench.against = take if isinstance(take, Take) else None
+    def _put(self, track: object) -> None:
+        self.editor.against = track if isinstance(track, InputTrack) else None
 
     @property
     def _pair(self) -> Pair:
-        return self.bench.take, self._against()
+        return self.editor.track, self._against()
 
     def update(self, real_ms: int) -> None:
         """While it is shown: compare the runs once they stay as they are."""
-        if self.bench.tab != self.name:
+        if self.editor.tab != self.name:
             return
         self._choice.options = self._options()
-        if self._against() not in {take for _, take in self._choice.options}:
-            self.bench.against = None
+        if self._against() not in {track for _, track in self._choice.options}:
+            self.editor.against = None
         pair = self._pair
         if pair != self._asked:
             self._asked, self._still_ms = pair, 0
         elif self._still_ms < PAUSE_MS:
             self._still_ms += real_ms
             if self._still_ms >= PAUSE_MS:
-                session = self.bench.session
+                session = self.editor.session
                 ours, theirs = session.recording(pair[0], "this run"), session.recording(pair[1], "the other run")
                 self._job.ask((pair, ours, theirs, pair[0].markers))
         self.list.fill(self.table.rows if self.table else ())
@@ -116,7 +116,7 @@ class LeadTab(Tab):
 
     def _go(self, index: int) -> None:
         if self.table is not None:
-            self.bench.go(self.table.rows[index].tick)
+            self.editor.go(self.table.rows[index].tick)
 
     # --- picture ---
 
@@ -140,9 +140,9 @@ class LeadTab(Tab):
             parts.append(f"{lead_in_words(last.ahead)} at {last.name}")
         return "; ".join(parts)
 
-    def look(self) -> tuple[object, ...]:
+    def render_key(self) -> tuple[object, ...]:
         """Runs, the table, the cursor."""
-        return self._choice.options, self._against(), self.summary, id(self.table), self.bench.cursor, self.list.over
+        return self._choice.options, self._against(), self.summary, id(self.table), self.editor.cursor, self.list.over
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """What it comes to, and the names of the columns."""

@@ -23,7 +23,7 @@ _STEPS = (1, 2, 5, 10, 20, 40, 100, 200, 400, 1000, 2000, 4000, 10_000, 40_000)
 
 
 @dataclass
-class Window:
+class TickRange:
     """The ticks ``first`` … ``last`` (with fractions) of a run of ``length`` ticks, from ``left`` over ``width`` px."""
 
     left: float = 0.0
@@ -88,9 +88,9 @@ def colour_of(number: int, palette: Palette) -> pygame.Color:
 
 
 def draw_lane(
-    surface: pygame.Surface, theme: Theme, area: Area, window: Window, values: Numbers, colour: pygame.Color
+    surface: pygame.Surface, theme: Theme, area: Area, window: TickRange, values: Numbers, colour: pygame.Color
 ) -> None:  # fmt: skip
-    """The course of a value, float64 (ticks,), in the window; NaN leaves a gap. Its bounds stand at the left."""
+    """A value over ticks, float64 (ticks,), in the window; NaN leaves a gap. Its bounds stand at the left."""
     canvas, palette = theme.canvas, theme.palette
     x, y, w, h = area
     canvas.fill_rect(surface, palette.background, *area)

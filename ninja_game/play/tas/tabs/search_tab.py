@@ -9,10 +9,10 @@ import pygame
 
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.play.menus.panels import Menu
-from ninja_game.play.tas.bench import Bench, Span
+from ninja_game.play.tas.editor import Span, TasEditor
 from ninja_game.play.tas.part import Commands
 from ninja_game.play.tas.tabs.span_results import SpanResults
-from ninja_game.play.tas.tabs.tab import NOWHERE, SMALL, Field, Rows, Tab, what_is_wrong
+from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab, what_is_wrong
 from ninja_game.play.ui.text_layout import wrapped
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button, Choice
@@ -49,8 +49,8 @@ class SearchTab(Tab):
 
     name = "Search"
 
-    def __init__(self, bench: Bench) -> None:
-        super().__init__(bench)
+    def __init__(self, editor: TasEditor) -> None:
+        super().__init__(editor)
         self.span: Span = (0, 0)
         self.order: object = EARLIEST
         self.rest: object = False
@@ -58,21 +58,23 @@ class SearchTab(Tab):
         self.results: SpanResults | None = None
         self._preset: tuple[Callable[[SearchedSpan], Wanted], Wanted] | None = None
         self.found: tuple[Found, ...] = ()
-        self.goal = Field("x > 400, taken(12), distance(300, 200) < 6 ...", self.start, longest=LONGEST, hint=_NAMES)
-        self.measure = Field("speed; vx, y, gold ...", self.start, longest=LONGEST, hint=_NAMES)
-        self._button = Button(NOWHERE, "Start", self._start_or_stop, size=SMALL)
+        self.goal = EntryField(
+            "x > 400, taken(12), distance(300, 200) < 6 ...", self.start, longest=LONGEST, hint=_NAMES
+        )
+        self.measure = EntryField("speed; vx, y, gold ...", self.start, longest=LONGEST, hint=_NAMES)
+        self._button = Button(UNPLACED, "Start", self._start_or_stop, size=SMALL)
         self.list = Rows(self._draw_row, self._put, keeps=False,
-                         hint="Under the mouse: its way in the level; a click puts it into the run")  # fmt: skip
+                         hint="Under the mouse: its path in the level; a click puts it into the run")  # fmt: skip
         self.widgets = [
-            Button(NOWHERE, "Take the selection", self.take_selection, size=SMALL),
-            Button(NOWHERE, "What for ...", self.propose, size=SMALL, hint="What people want, as goals"),
+            Button(UNPLACED, "Use the selection", self.use_selection, size=SMALL),
+            Button(UNPLACED, "Presets", self.propose, size=SMALL, hint="Common goals, to begin with"),
             self.goal,
-            Choice(NOWHERE, "", _ORDERS, lambda: self.order, self._put_order,
+            Choice(UNPLACED, "", _ORDERS, lambda: self.order, self._put_order,
                    hint="Best is what reaches the goal first, or has the most or least of the value beside this"),
             self.measure,
-            Choice(NOWHERE, "", _RESTS, lambda: self.rest, self._put_rest,
+            Choice(UNPLACED, "", _RESTS, lambda: self.rest, self._put_rest,
                    hint="What follows the goal in the run is played, too, and must still reach the exit"),
-            Choice(NOWHERE, "", _METHODS, lambda: self.method, partial(setattr, self, "method"),
+            Choice(UNPLACED, "", _METHODS, lambda: self.method, partial(setattr, self, "method"),
                    hint="Beam: many states at once; small changes: of the keys there; all keys: short spans only"),
             self._button,
             self.list,
@@ -96,14 +98,14 @@ class SearchTab(Tab):
 
     def ask(self) -> None:
         """Show this tab for the selected ticks, with the focus on the goal."""
-        self.take_selection()
-        self.bench.tab = self.name
+        self.use_selection()
+        self.editor.tab = self.name
         self.wants = self.goal
 
-    def take_selection(self) -> None:
+    def use_selection(self) -> None:
         """Search the selected ticks; where only one is, a second from there on. A goal from the menu is made again."""
-        first, last = self.bench.selection
-        second = min(first + TICKS_PER_SECOND, max(len(self.bench.take), last))
+        first, last = self.editor.selection
+        second = min(first + TICKS_PER_SECOND, max(len(self.editor.track), last))
         before, self.span = self.span, (first, last if last > first + 1 else second)
         if self.span == before:
             return
@@ -115,13 +117,13 @@ class SearchTab(Tab):
     def propose(self) -> None:
         """A menu of what people want; it fills the fields."""
         rows = [(name, partial(self._fill, make), hint) for name, hint, make in PRESETS]
-        self.bench.app.push(Menu(self.bench.app, "What for?", rows))
+        self.editor.app.push(Menu(self.editor.app, "Presets", rows))
 
     def _fill(self, make: Callable[[SearchedSpan], Wanted]) -> None:
         try:
-            wanted = make(SearchedSpan(self.bench.session, *self.span))
+            wanted = make(SearchedSpan(self.editor.session, *self.span))
         except NinjaGameError as error:
-            self.bench.app.notify(str(error))
+            self.editor.app.notify(str(error))
             return
         self._preset = make, wanted
         self.goal.show(wanted.goal)
@@ -141,10 +143,10 @@ class SearchTab(Tab):
     @property
     def task(self) -> SpanTask:
         """What is wanted as a task. Raises FormulaError, ArgumentError."""
-        session, (first, last) = self.bench.session, self.span
+        session, (first, last) = self.editor.session, self.span
         measure = "" if self.order == EARLIEST else self.measure.text.strip() or "speed"
         return SpanTask(
-            session.about.level, session.take.inputs, first, last, self.goal.text.strip(), measure,
+            session.about.level, session.track.inputs, first, last, self.goal.text.strip(), measure,
             least=self.order == SMALLEST, rest=bool(self.rest), body=session.about.body,
         )  # fmt: skip
 
@@ -159,11 +161,11 @@ class SearchTab(Tab):
             if not (task.goal or task.measure or task.rest):
                 raise ArgumentError("Say what for: a goal, or a value that is to be the greatest or smallest")
             every = fewest_ticks(task.length) if self.method == "exhaustive" else 1
-            self.results = SpanResults(self.bench, task, str(self.method), every)
+            self.results = SpanResults(self.editor, task, str(self.method), every)
         except FormulaError as error:
-            self.bench.app.notify(what_is_wrong(error))
+            self.editor.app.notify(what_is_wrong(error))
         except NinjaGameError as error:
-            self.bench.app.notify(str(error))
+            self.editor.app.notify(str(error))
 
     def _start_or_stop(self) -> None:
         if self.results is not None and self.results.running:
@@ -175,12 +177,12 @@ class SearchTab(Tab):
         """End the search."""
         if self.results is not None:
             self.results.close()
-        self.results, self.found, self.bench.preview = None, (), None
+        self.results, self.found, self.editor.preview = None, (), None
 
     def update(self, real_ms: int) -> None:
         """Take what was found; where the run has changed, the search ends."""
         if not self.span[1]:
-            self.take_selection()
+            self.use_selection()
         results = self.results
         if results is None:
             return
@@ -189,8 +191,8 @@ class SearchTab(Tab):
         results.refresh()
         self.found = results.better
         self.list.fill(self.found)
-        over = self.list.over if results.behind is not None and self.bench.tab == self.name else -1
-        self.bench.preview = results.preview(self.found[over]) if 0 <= over < len(self.found) else None
+        over = self.list.over if results.behind is not None and self.editor.tab == self.name else -1
+        self.editor.preview = results.preview(self.found[over]) if 0 <= over < len(self.found) else None
 
     def _put(self, index: int) -> None:
         if self.results is not None and index < len(self.found):
@@ -198,13 +200,15 @@ class SearchTab(Tab):
 
     # --- picture ---
 
-    def look(self) -> tuple[object, ...]:
+    def render_key(self) -> tuple[object, ...]:
         """Span, what is wanted, how the search stands, its results."""
         results = self.results
         state = (
-            (results.status, results.running, results.behind, self.bench.take, *map(id, self.found)) if results else ()
+            (results.status, results.running, results.behind, self.editor.track, *map(id, self.found))
+            if results
+            else ()
         )
-        return self.span, self.bench.selection, self.order, self.rest, self.goal.text, self.list.over, state
+        return self.span, self.editor.selection, self.order, self.rest, self.goal.text, self.list.over, state
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """Span and state; all else is widgets."""
@@ -212,7 +216,7 @@ class SearchTab(Tab):
         palette, results, (x, y, w, _) = theme.palette, self.results, self.area
         first, last = self.span
         theme.text(surface, f"Ticks {first} to {last - 1}", x + 6, y + 8, size=11, bold=True, width=120)
-        if self.span != self.bench.selection and self.bench.anchor is not None:
+        if self.span != self.editor.selection and self.editor.anchor is not None:
             theme.text(surface, "not the selection", x + 132, y + 9, size=SMALL, colour=palette.faint, width=w - 318)
         theme.text(surface, "Goal", x + 6, y + 29, size=11)
         self._button.text = "Stop" if results is not None and results.running else "Start"

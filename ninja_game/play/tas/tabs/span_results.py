@@ -1,4 +1,4 @@
-"""A search of a span of the run on the bench, and what becomes of its results."""
+"""A search of a span of the run in the TAS editor, and what becomes of its results."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from time import monotonic
 import numpy as np
 
 from ninja_game.batch.thread_pool import cores
-from ninja_game.play.tas.bench import Bench, OtherRun
+from ninja_game.play.tas.editor import OtherRun, TasEditor
 from ninja_game.play.ui.text_layout import counted
 from ninja_game.search.formula.background import SpanSearch
 from ninja_game.search.formula.methods import KEPT
 from ninja_game.search.formula.task import Found, SpanTask, score_in_words
-from ninja_game.tas.take import Take, first_difference
+from ninja_game.tas.input_track import InputTrack, first_difference
 from ninja_game.tas.timeline import Timeline
 
 CLOSING_SECONDS = 0.5
-"""How long a search that is cancelled is waited for when the bench is left."""
+"""How long a search that is cancelled is waited for when the TAS editor is left."""
 
 
 COMPILING = "The rules are made ready. On a machine that has never searched this takes a minute or two."
@@ -33,10 +33,10 @@ class SpanResults:
     Raises what SpanSearch does.
     """
 
-    def __init__(self, bench: Bench, task: SpanTask, method: str, every: int) -> None:
-        self.bench = bench
+    def __init__(self, editor: TasEditor, task: SpanTask, method: str, every: int) -> None:
+        self.editor = editor
         self.task = task
-        memory = bench.session.timeline.memory
+        memory = editor.session.timeline.memory
         self.search = SpanSearch(task, method, max(1, cores() - 1), every=every, memory=memory)
         # The begins of runs that results fit to, and the first tick that follows a result in each: the run that is
         # searched and those that results were put into.
@@ -68,7 +68,7 @@ class SpanResults:
 
         As with the rest of a run, what follows is what the run did after its own moment at the goal.
         """
-        inputs = self.bench.take.inputs
+        inputs = self.editor.track.inputs
         for begin, behind in reversed(self._fitting):
             if inputs == begin if self.task.rest else inputs.startswith(begin):
                 return behind
@@ -78,32 +78,32 @@ class SpanResults:
         """Put a result into the run, as one edit, and select it; whether that was possible."""
         behind = self.behind
         if behind is None:
-            self.bench.app.notify("The run was changed: search again")
+            self.editor.app.notify("The run was changed: search again")
             return False
-        made = self._made(self.bench.take, found, behind)
-        if not self.bench.edit(lambda _: made):
+        made = self._made(self.editor.track, found, behind)
+        if not self.editor.edit(lambda _: made):
             return False
         end = self.task.first + found.ticks
         self._fitting.append((made.inputs if self.task.rest else made.inputs[:end], end))
-        self.bench.select(self.task.first, end)
+        self.editor.select(self.task.first, end)
         return True
 
-    def _made(self, take: Take, found: Found, behind: int) -> Take:
+    def _made(self, track: InputTrack, found: Found, behind: int) -> InputTrack:
         """The run with a result in it; with ``rest`` it is the run that reached the exit in the search."""
         first, keys = self.task.first, found.keys[: found.ticks].tolist()
         if not self.task.rest:
-            return take.replaced(first, behind, keys)
+            return track.replaced(first, behind, keys)
         rest = len(found.inputs) - first - found.ticks
-        made = take.replaced(first, len(take) - rest, keys)
-        return Take(take.inputs[:first] + found.inputs[first:], made.markers)
+        made = track.replaced(first, len(track) - rest, keys)
+        return InputTrack(track.inputs[:first] + found.inputs[first:], made.markers)
 
     def preview(self, found: Found) -> OtherRun:
         """The run that a result makes, to be looked at."""
         if self._preview is None or self._preview[0] is not found:
             task = self.task
-            timeline = Timeline(task.level, found.inputs, body=task.body, memory=self.bench.session.timeline.memory)
-            timeline.work(len(found.inputs))
-            self._preview = found, OtherRun("result", Take(found.inputs), timeline.course())
+            timeline = Timeline(task.level, found.inputs, body=task.body, memory=self.editor.session.timeline.memory)
+            timeline.simulate(len(found.inputs))
+            self._preview = found, OtherRun("result", InputTrack(found.inputs), timeline.trajectory())
         return self._preview[1]
 
     # --- in words ---

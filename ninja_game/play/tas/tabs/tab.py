@@ -8,7 +8,7 @@ from typing import ClassVar
 import pygame
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.part import Part
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_entry import TextEntry
@@ -20,14 +20,14 @@ SMALL = 9.0
 """Size of the text in lists and buttons, px."""
 ROW = 16
 """Height of a row of a list, px."""
-NOWHERE: Area = (0, 0, 0, 0)
+UNPLACED: Area = (0, 0, 0, 0)
 """Of widgets that their tab has not arranged yet."""
 _SHORT = 60
 """Longer lists of what is expected are left out of a line."""
 
 
 class Tab(Part):
-    """A part with widgets. ``widgets``: all of them, made once; what they show is part of ``look``.
+    """A part with widgets. ``widgets``: all of them, made once; what they show is part of ``render_key``.
 
     ``wants``: the widget that is to get the focus as soon as the tab is shown.
     """
@@ -35,8 +35,8 @@ class Tab(Part):
     slot = "tabs"
     name: ClassVar[str] = ""
 
-    def __init__(self, bench: Bench) -> None:
-        super().__init__(bench)
+    def __init__(self, editor: TasEditor) -> None:
+        super().__init__(editor)
         self.widgets: Sequence[Widget] = ()
         self.wants: Widget | None = None
 
@@ -57,7 +57,7 @@ class Tab(Part):
         """What the mouse is over is reported in the line below; all else is up to the widgets."""
         if event.type == pygame.MOUSEMOTION:
             self._leave_lists(x, y)
-            self.bench.hint = next((each.hint for each in self.widgets if each.contains(x, y)), "")
+            self.editor.hint = next((each.hint for each in self.widgets if each.contains(x, y)), "")
         return False
 
     def mouse_left(self) -> None:
@@ -70,19 +70,19 @@ class Tab(Part):
                 widget.over = -1
 
     def close(self) -> None:
-        """The bench is left: what goes on ends."""
+        """The TAS editor is left: what goes on ends."""
 
 
 class TabName(Button):
     """The name of a tab; that of the one that is shown stands out."""
 
     def __init__(self, tab: Tab, action: Callable[[], object]) -> None:
-        super().__init__(NOWHERE, tab.name, action, size=SMALL)
-        self._bench = tab.bench
+        super().__init__(UNPLACED, tab.name, action, size=SMALL)
+        self._editor = tab.editor
 
     def draw_base(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
         """Its panel."""
-        theme.row(surface, self.area, chosen=focused or self.text == self._bench.tab, focused=focused)
+        theme.row(surface, self.area, chosen=focused or self.text == self._editor.tab, focused=focused)
 
 
 class Rows(ListView):
@@ -95,7 +95,7 @@ class Rows(ListView):
         self, draw_row: Callable[[pygame.Surface, Theme, int, Area, bool], None], choose: Callable[[int], object],
         *, empty: str = "", hint: str = "", keeps: bool = True,
     ) -> None:  # fmt: skip
-        super().__init__(NOWHERE, ROW, self._draw_row, choose, empty=empty, hint=hint)
+        super().__init__(UNPLACED, ROW, self._draw_row, choose, empty=empty, hint=hint)
         self.over = -1
         self._keeps = keeps
         self._draw = draw_row
@@ -115,13 +115,13 @@ class Rows(ListView):
         self._draw(surface, theme, index, area, index == self.index)
 
 
-class Field(TextEntry):
+class EntryField(TextEntry):
     """A text field in which Enter does something."""
 
     def __init__(
         self, prompt: str, enter: Callable[[], object], *, longest: int, hint: str = ""
     ) -> None:  # fmt: skip
-        super().__init__(NOWHERE, prompt, "", lambda _: None, longest=longest, hint=hint)
+        super().__init__(UNPLACED, prompt, "", lambda _: None, longest=longest, hint=hint)
         self._enter = enter
 
     def confirm(self) -> bool:

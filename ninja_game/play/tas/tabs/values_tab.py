@@ -1,4 +1,4 @@
-"""Watched values: what they are at the cursor's tick, and their course over the run."""
+"""Watched values: what they are at the cursor's tick, and their plots over the run."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ import pygame
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.menus.panels import Form
-from ninja_game.play.tas.bench import Bench
+from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.part import Commands
 from ninja_game.play.tas.tabs.object_list import ObjectList
-from ninja_game.play.tas.tabs.plot import Window, colour_of, draw_lane
-from ninja_game.play.tas.tabs.tab import NOWHERE, SMALL, Rows, Tab, put_in_a_row, what_is_wrong
+from ninja_game.play.tas.tabs.plot import TickRange, colour_of, draw_lane
+from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row, what_is_wrong
 from ninja_game.play.tas.tabs.watched import LANES, USUAL, Watched, shown_value, watched_values
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button
@@ -29,22 +29,22 @@ class ValuesTab(Tab):
 
     name = "Values"
 
-    def __init__(self, bench: Bench) -> None:
-        super().__init__(bench)
-        self.watched = list(watched_values(bench.session.branches.watched or USUAL))
-        self.window = Window()
-        self._plot: Area = NOWHERE
+    def __init__(self, editor: TasEditor) -> None:
+        super().__init__(editor)
+        self.watched = list(watched_values(editor.session.branches.watched or USUAL))
+        self.window = TickRange()
+        self._plot: Area = UNPLACED
         self.events: list[tuple[int, str]] = []
         self.list = Rows(self._draw_row, self._toggle, empty="V watches a value",
-                         hint="Values at the cursor; a click shows or hides the course")  # fmt: skip
+                         hint="Values at the cursor; a click shows or hides the plot")  # fmt: skip
         actions = [
             ("Watch", self.ask, "V: watch another value, such as object_x(12) or x > 400"),
             ("Objects", self.show_objects, "The objects of the level with their ids"),
-            ("Remove", self.remove, "Watch the chosen value no more"),
+            ("Remove", self.remove, "Stop watching the chosen value"),
         ]
-        self._buttons = [Button(NOWHERE, text, action, hint=hint, size=SMALL) for text, action, hint in actions]
+        self._buttons = [Button(UNPLACED, text, action, hint=hint, size=SMALL) for text, action, hint in actions]
         self.widgets = [self.list, *self._buttons]
-        bench.ask_to_watch = self.ask
+        editor.ask_to_watch = self.ask
         self._made: tuple[object, ...] = ()
         self._cursor = 0
         self._grabbed: float | None = None
@@ -67,8 +67,8 @@ class ValuesTab(Tab):
 
     def refresh(self) -> None:
         """Have the values of the run as it is now."""
-        timeline = self.bench.session.timeline
-        made = (self.bench.take.inputs, timeline.valid, *self.watched)
+        timeline = self.editor.session.timeline
+        made = (self.editor.track.inputs, timeline.simulated_until, *self.watched)
         if made != self._made:
             for each in self.watched:
                 each.values = each.watch.values(timeline)
@@ -78,17 +78,17 @@ class ValuesTab(Tab):
 
     def ask(self, text: str = "") -> None:
         """Ask for a formula."""
-        self.bench.tab = self.name
+        self.editor.tab = self.name
         fields = [("speed, x > 400, object_x(12) ...", text, LONGEST)]
-        self.bench.app.push(Form(self.bench.app, "Watch a value", fields, "Watch", lambda texts: self.add(texts[0])))
+        self.editor.app.push(Form(self.editor.app, "Watch a value", fields, "Watch", lambda texts: self.add(texts[0])))
 
     def add(self, text: str) -> None:
         """Watch a formula; what is wrong with it is reported, and the question is put again."""
         try:
             watch = parse_watch(text)
-            watch.values(self.bench.session.timeline)
+            watch.values(self.editor.session.timeline)
         except NinjaGameError as error:
-            self.bench.app.notify(what_is_wrong(error))
+            self.editor.app.notify(what_is_wrong(error))
             self.ask(text)
             return
         number = next(k for k in range(len(self.watched) + 1) if k not in {each.number for each in self.watched})
@@ -104,12 +104,12 @@ class ValuesTab(Tab):
 
     def _keep(self) -> None:
         """The run remembers them when it is saved."""
-        self.bench.session.branches.watched = tuple(each.watch.text for each in self.watched)
+        self.editor.session.branches.watched = tuple(each.watch.text for each in self.watched)
         self.list.fill(self.watched)
 
     def show_objects(self) -> None:
         """The list of all objects; one that is chosen is proposed to be watched."""
-        self.bench.app.push(ObjectList(self.bench.app, self.bench.session.timeline.objects, self.ask))
+        self.editor.app.push(ObjectList(self.editor.app, self.editor.session.timeline.objects, self.ask))
 
     def _toggle(self, index: int) -> None:
         each = self.watched[index]
@@ -126,20 +126,28 @@ class ValuesTab(Tab):
 
     def update(self, real_ms: int) -> None:
         """While it is shown: follow the run and the cursor."""
-        if self.bench.tab != self.name:
+        if self.editor.tab != self.name:
             return
         self.refresh()
-        self.window.fit(self.bench.last_tick)
-        if self.bench.cursor != self._cursor:
-            self._cursor = self.bench.cursor
+        self.window.fit(self.editor.last_tick)
+        if self.editor.cursor != self._cursor:
+            self._cursor = self.editor.cursor
             self.window.follow(self._cursor)
 
-    def look(self) -> tuple[object, ...]:
+    def render_key(self) -> tuple[object, ...]:
         """Run, cursor, selection, what is watched, what is shown of it."""
-        bench = self.bench
+        editor = self.editor
         plotted = tuple((each, each.plotted) for each in self.watched)
         shown = self.window.first, self.window.last
-        return bench.take, bench.session.timeline.valid, bench.cursor, bench.selection, plotted, shown, self.list.over
+        return (
+            editor.track,
+            editor.session.timeline.simulated_until,
+            editor.cursor,
+            editor.selection,
+            plotted,
+            shown,
+            self.list.over,
+        )
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
         """The plots; the list is a widget."""
@@ -147,7 +155,7 @@ class ValuesTab(Tab):
         x, y, w, h = self._plot
         lanes = [each for each in self.watched if each.plotted]
         if not lanes:
-            theme.text(surface, "Click a value to see its course", x + w / 2, y + h / 2, size=SMALL, align="centre",
+            theme.text(surface, "Click a value to see its plot", x + w / 2, y + h / 2, size=SMALL, align="centre",
                        colour=theme.palette.faint, width=w)  # fmt: skip
         for k, each in enumerate(lanes):
             lane = (x, y + h * k / len(lanes), w, h / len(lanes) - 3)
@@ -160,7 +168,7 @@ class ValuesTab(Tab):
         x, y, w, h = self._plot
         before = surface.get_clip()
         surface.set_clip(canvas.rect(x, y, w, h + 8))
-        first, last = self.bench.selection
+        first, last = self.editor.selection
         if last - first > 1:
             tint = pygame.Color(palette.accent.r, palette.accent.g, palette.accent.b, 40)
             canvas.fill_rect(surface, tint, window.x(first), y, window.x(last) - window.x(first), h)
@@ -169,7 +177,7 @@ class ValuesTab(Tab):
                 counts = any(name in SPLIT_EVENTS for name in names.split())
                 colour = palette.gold_dark if "gold-taken" in names else palette.accent if counts else palette.faint
                 canvas.fill_rect(surface, colour, window.x(tick) - 0.5, y + h - 1, 1, 7 if counts else 3)
-        canvas.fill_rect(surface, palette.accent, window.x(self.bench.cursor) - 0.5, y, 1, h)
+        canvas.fill_rect(surface, palette.accent, window.x(self.editor.cursor) - 0.5, y, 1, h)
         surface.set_clip(before)
         for tick in window.axis():
             half = theme.width(str(tick), 8) / 2
@@ -186,7 +194,7 @@ class ValuesTab(Tab):
             theme.canvas.fill_rect(surface, colour, *sign, 2)
         else:
             theme.canvas.frame_rect(surface, colour, *sign, 1, 2)
-        value = shown_value(each, self.bench.cursor)
+        value = shown_value(each, self.editor.cursor)
         right = theme.text(surface, value, x + w - 4, y + 3, size=SMALL, bold=True, align="right")
         room = right.left / theme.canvas.scale - theme.canvas.origin[0] / theme.canvas.scale - (x + 16) - 4
         theme.text(surface, each.watch.text, x + 16, y + 3, size=SMALL, width=room)
@@ -199,7 +207,7 @@ class ValuesTab(Tab):
         inside = left <= x < left + w and top <= y < top + h + 18
         if event.type == pygame.MOUSEBUTTONUP and self._grabbed is not None:
             if not self._dragged:
-                self.bench.go(round(self.window.tick(x)), select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
+                self.editor.go(round(self.window.tick(x)), select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))
             self._grabbed = None
             return True
         if event.type == pygame.MOUSEMOTION and self._grabbed is not None:
@@ -223,6 +231,6 @@ class ValuesTab(Tab):
 
     def _tell(self, tick: int) -> None:
         """What is plotted at a tick, and what can be done."""
-        tick = min(max(0, tick), self.bench.last_tick)
+        tick = min(max(0, tick), self.editor.last_tick)
         values = "  ".join(f"{each.watch.text}: {shown_value(each, tick)}" for each in self.watched if each.plotted)
-        self.bench.hint = f"tick {tick}  {values}   (wheel: zoom, drag: move, right: all)"
+        self.editor.hint = f"tick {tick}  {values}   (wheel: zoom, drag: move, right: all)"

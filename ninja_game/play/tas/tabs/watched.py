@@ -15,12 +15,12 @@ from ninja_game.tas.watch import Watch, parse_watch
 USUAL = ("speed", "vx", "vy")
 """What is watched where nothing else is wanted."""
 LANES = 4
-"""Values whose course is shown at once."""
+"""Values whose plot is shown at once."""
 
 
 @dataclass(eq=False)
 class Watched:
-    """A value that is watched. ``plotted``: its course is shown; ``number``: of its colour."""
+    """A value that is watched. ``plotted``: its plot is shown; ``number``: of its colour."""
 
     watch: Watch
     number: int

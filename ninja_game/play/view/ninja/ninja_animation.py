@@ -11,7 +11,7 @@ from ninja_game.sim.memory.schema import Ninja, World
 from ninja_game.sim.states import CELEBRATING, DEAD, FALLING, JUMPING, RUNNING, SKIDDING, SLIDING
 
 _BLEND_TICKS = 3.0
-"""A new state's pose takes over from the old one in so many ticks."""
+"""A new state's pose takes over from the old one in this many ticks."""
 _UPRIGHT = 0.9
 """Share of its rotation that a body in the air keeps each tick."""
 

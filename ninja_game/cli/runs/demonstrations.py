@@ -1,0 +1,89 @@
+"""`ninja-game demonstrations`: recordings as observations, actions and rewards."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+
+from ninja_game.cli.main import complain
+from ninja_game.cli.run_options import level_given, level_option, memory_option, with_progress
+
+
+@click.command(name="demonstrations")
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
+@click.option("--output", "-o", type=click.Path(dir_okay=False, path_type=Path), help="Write arrays to this .npz file.")
+@click.option("--minari", "dataset", metavar="NAME", help="Write a Minari data set of this name, such as ninja/set-v0.")
+@click.option(
+    "--observation", "parts", metavar="PART", multiple=True, default=("state",), show_default=True,
+    help="What is observed, as `Ninja-v0` has it; may be given several times.",
+)  # fmt: skip
+@click.option("--flat", is_flag=True, help="Put all parts into one row of numbers.")
+@click.option(
+    "--actions", type=click.Choice(["discrete", "buttons"]), default="discrete", show_default=True,
+    help="An action as a number from 0 to 5, or as three keys, each up or down.",
+)  # fmt: skip
+@level_option
+@memory_option
+def command(
+    files: Sequence[Path],
+    output: Path | None,
+    dataset: str | None,
+    parts: Sequence[str],
+    flat: bool,
+    actions: str,
+    level_path: Path | None,
+    memory: str,
+) -> None:
+    """Make demonstrations for learning agents of recordings.
+
+    A demonstration has the observation, the action and the reward of each tick. It needs Gymnasium, the extra 'learn'.
+
+    FILE is a replay of ours, a file of $name#author#comment#level#demo# records, or a folder of them. Recordings that
+    no agent could have made, since they press jump again while it is held, are left out and named.
+
+    \b
+    Examples:
+      ninja-game demonstrations levels/certificates -o demos.npz
+      ninja-game demonstrations levels/certificates --minari ninja/set-v0
+    """
+    if (output is None) == (dataset is None):
+        raise click.UsageError("no output given; add --output FILE.npz or --minari NAME")
+    if output is not None and output.suffix != ".npz":
+        raise click.UsageError(f"{output}: expected a name that ends in .npz")
+    from ninja_game.errors import ArgumentError
+    from ninja_game.files.writing import check_output
+    from ninja_game.formats.load import load_replays
+    from ninja_game.learn.demonstrations import (
+        UnplayableRecordingError,
+        demonstration,
+        require_minari,
+        write_minari,
+        write_npz,
+    )
+
+    if output is not None:
+        check_output(output, keep=files)
+    else:
+        require_minari()
+    level = level_given(level_path)
+    recordings = [recording for file in files for recording in load_replays(file, level=level)]
+    observation = parts[0] if len(parts) == 1 else list(parts)
+    settings: dict[str, Any] = {"observation": observation, "flat": flat, "actions": actions}
+    made = []
+    for recording in with_progress(recordings, "recording"):
+        try:
+            made.append(demonstration(recording, memory=memory, **settings))
+        except UnplayableRecordingError as error:
+            complain(f"left out: {error}")
+    if not made:
+        raise ArgumentError("none of these recordings can be a demonstration")
+    if output is not None:
+        write_npz(output, made)
+    else:
+        write_minari(str(dataset), made, **settings)
+    steps, passed = sum(len(each.rewards) for each in made), sum(each.outcome == "exit" for each in made)
+    left = f", {len(recordings) - len(made)} left out" * (len(made) < len(recordings))
+    click.echo(f"{output or dataset}: {len(made)} demonstrations, {steps:,} steps, {passed} to the exit{left}")

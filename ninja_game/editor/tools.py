@@ -1,0 +1,370 @@
+"""The tools of the level editor: a draft, the tool in hand, and what presses, moves and releases of it do.
+
+They know no window: points are px of the level.
+"""
+
+from __future__ import annotations
+
+from ninja_game.editor.brush import (
+    OBJECT_TYPE_NAMES,
+    OBJECT_TYPES,
+    SNAPS,
+    cells_between,
+    object_type_of,
+    placed,
+    snapped,
+    with_switch,
+)
+from ninja_game.editor.draft import Cell, Draft, cell_of
+from ninja_game.editor.history import History
+from ninja_game.editor.motion import SYMMETRIES, Motion
+from ninja_game.editor.records import has_switch, points
+from ninja_game.editor.stamp import (
+    ObjectPart,
+    Selection,
+    Stamp,
+    area_between,
+    cells_of,
+    chosen_in,
+    copied,
+    filled,
+    middle_of,
+    moved,
+    nearest,
+    pasted,
+    put,
+    removed,
+)
+from ninja_game.sim.kinds import GOLD, MINE, NINJA
+from ninja_game.sim.level import ObjectSpec
+from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
+
+TOOLS = ("brush", "rectangle", "fill", "select", "pick")
+DRAGGED = 12.0
+"""A press that moves farther than this is a drag; what is nearer is chosen, px."""
+REACH = 17.32
+"""px within which an object is deleted (√300: game.md §6)."""
+
+
+class EditorTools:
+    """A draft with its history, the pointer, the tool in hand and what it draws, what is selected and copied.
+
+    ``tile`` and ``record``: what the brush draws, ``objects`` which of them. ``snap``, ``symmetry``: by name.
+    ``tool``: one of TOOLS; ``marquee``: the corners of the frame that is being drawn around what to select.
+    """
+
+    def __init__(self, draft: Draft) -> None:
+        self.history = History(draft)
+        self.objects = False
+        self.tile = 1
+        self.record: ObjectSpec = OBJECT_TYPES[2].record
+        self.snap = "cell"
+        self.symmetry = "off"
+        self.pointer = (396.0, 300.0)
+        self._pressed_at = self.pointer
+        self._switchless: ObjectSpec | None = None
+        self.tool = "brush"
+        self.selection = Selection()
+        self.clipboard: Stamp | None = None
+        self.marquee: tuple[Cell, Cell] | None = None
+        self._doing = ""
+        self._chosen_before = Selection()
+
+    @property
+    def draft(self) -> Draft:
+        """The level as it is now."""
+        return self.history.draft
+
+    @property
+    def cell(self) -> Cell:
+        """The cell under the pointer."""
+        return cell_of(*self.pointer)
+
+    @property
+    def placing_switch(self) -> bool:
+        """Whether the next press says where the switch of a door or an exit is."""
+        return self._switchless is not None
+
+    @property
+    def draws_one(self) -> bool:
+        """Whether every tool puts one object at a time: a ninja, or what has a switch to be placed after it."""
+        return self.objects and (self.record.kind == NINJA or has_switch(self.record))
+
+    @property
+    def dragging(self) -> bool:
+        """Whether what is chosen follows the pointer."""
+        return self._doing == "drag"
+
+    def load(self, draft: Draft) -> None:
+        """Work on another level, with the same tool in hand."""
+        self.finish()
+        self.history, self.selection = History(draft), Selection()
+
+    def move(self, x: float, y: float) -> None:
+        """The pointer is somewhere else; what is being dragged follows."""
+        before = self.cell
+        self.pointer = min(max(0.0, x), WORLD_WIDTH - 1e-6), min(max(0.0, y), WORLD_HEIGHT - 1e-6)
+        if self._doing in ("draw", "erase"):
+            self._draw_line(before, erasing=self._doing == "erase")
+        elif self._switchless is not None:
+            self._put_switch()
+        elif self._doing == "drop":
+            self._drop()
+        elif self._doing == "rectangle":
+            self._draw_rectangle()
+        elif self._doing == "drag":
+            self._drag()
+        elif self._doing == "choose":
+            self.marquee = cell_of(*self._pressed_at), self.cell
+            self.selection = self._joined(chosen_in(self.draft, area_between(*self.marquee)))
+
+    def press(self, *, erase: bool = False, pick: bool = False, add: bool = False) -> None:
+        """The button goes down at the pointer. ``add``: to what is chosen already."""
+        if self._switchless is not None:
+            if erase:
+                self.cancel()
+            else:
+                self.finish()
+            return
+        self._pressed_at = self.pointer
+        if pick or (self.tool == "pick" and not erase):
+            self.pick()
+        elif self.tool == "select" and not erase:
+            self._choose(add=add)
+        else:
+            self.history.begin()
+            self.selection = Selection()
+            self._begin_to_draw(erase=erase)
+
+    def _begin_to_draw(self, *, erase: bool) -> None:
+        if self.tool == "fill" and not self.objects and not erase:
+            self._change(Stamp(dict.fromkeys(filled(self.draft, self.cell), self.tile)))
+            return
+        many = not self.objects or self.record.kind in (GOLD, MINE)
+        boxed = self.tool == "rectangle" and not self.draws_one
+        drawn = "rectangle" if boxed else "draw" if many else "drop"
+        self._doing = "erase" if erase else drawn
+        self.move(*self.pointer)
+
+    def release(self) -> None:
+        """The button goes up."""
+        if self._doing == "drop" and has_switch(self._dropped()):
+            self._switchless = placed(self.record, *self._pressed_at, self.snap)
+            self._doing = ""
+            far = max(abs(a - b) for a, b in zip(self.pointer, self._pressed_at, strict=True)) > DRAGGED
+            if far:
+                self._put_switch()
+                self.finish()
+            return
+        if self._doing == "choose" and self.marquee is None and not self._chosen_before:
+            self.selection = Selection()
+        self._doing, self.marquee = "", None
+        self.history.end()
+
+    def finish(self) -> None:
+        """Whatever is half done is done now."""
+        self._switchless = None
+        self._doing, self.marquee = "", None
+        self.history.end()
+
+    def cancel(self) -> bool:
+        """Give up what is half done, or the selection; whether there was any."""
+        busy = bool(self._doing or self.placing_switch or self.selection)
+        if self._doing or self.placing_switch:
+            self.history.abandon()
+        self._switchless = None
+        self._doing, self.marquee, self.selection = "", None, Selection()
+        return busy
+
+    def pick(self) -> None:
+        """Draw with what is under the pointer."""
+        found = nearest(self.draft, *self.pointer, DRAGGED)
+        if found:
+            self.pick_up(self.draft.objects[found[0]])
+        else:
+            self.pick_up(self.draft.tile(self.cell))
+
+    def pick_up(self, what: int | ObjectSpec) -> None:
+        """Draw with a tile or with objects such as this one."""
+        self.finish()
+        if isinstance(what, int):
+            self.tile, self.objects = what, False
+        elif object_type_of(what) in OBJECT_TYPE_NAMES:
+            self.record, self.objects = what, True
+        if self.tool in ("select", "pick"):
+            self.tool = "brush"
+
+    # --- drawing ---
+
+    def _change(self, stamp: Stamp, draft: Draft | None = None) -> None:
+        self.history.change(put(draft or self.draft, stamp, SYMMETRIES[self.symmetry]))
+
+    def _draw_line(self, before: Cell, *, erasing: bool) -> None:
+        """Tiles from the last cell to this one, or objects where the pointer goes."""
+        if not self.objects:
+            tile = 0 if erasing else self.tile
+            self._change(Stamp(dict.fromkeys(cells_between(before, self.cell), tile)))
+        elif erasing:
+            self.delete_nearest()
+        else:
+            self._change(Stamp({}, (placed(self.record, *self.pointer, self.snap),)))
+
+    def _draw_rectangle(self) -> None:
+        area = area_between(cell_of(*self._pressed_at), self.cell)
+        if not self.objects:
+            self._change(Stamp(dict.fromkeys(cells_of(area), self.tile)), self.history.began)
+            return
+        step = max(SNAPS[self.snap], 12.0)
+        (ax, ay), (bx, by) = snapped(*self._pressed_at, self.snap), snapped(*self.pointer, self.snap)
+        columns, rows = int(abs(bx - ax) // step), int(abs(by - ay) // step)
+        x, y = min(ax, bx), min(ay, by)
+        places = [(x + step * i, y + step * j) for j in range(rows + 1) for i in range(columns + 1)]
+        objects = tuple(placed(self.record, *place, self.snap) for place in places)
+        self._change(Stamp({}, objects), self.history.began)
+
+    def _dropped(self) -> ObjectSpec:
+        """The brush's object as it would be placed now."""
+        return placed(self.record, *self.pointer, self.snap)
+
+    def _drop(self) -> None:
+        """One object under the pointer, until the button goes up; a switch is dragged out of its door."""
+        record = self._dropped()
+        if has_switch(record):
+            record = with_switch(placed(self.record, *self._pressed_at, self.snap), *self.pointer, self.snap)
+        self._change(Stamp({}, (record,)), self.history.began)
+
+    def _put_switch(self) -> None:
+        if self._switchless is not None:
+            record = with_switch(self._switchless, *self.pointer, self.snap)
+            self._change(Stamp({}, (record,)), self.history.began)
+
+    def delete_nearest(self) -> None:
+        """Delete the object nearest to the pointer, and its images in the symmetry."""
+        places = [self.pointer, *(motion.point(*self.pointer) for motion in SYMMETRIES[self.symmetry])]
+        for place in places:
+            found = nearest(self.draft, *place, REACH)
+            if found:
+                self.history.change(removed(self.draft, Selection(parts=frozenset({found}))))
+
+    # --- choosing ---
+
+    def _joined(self, selection: Selection) -> Selection:
+        before = self._chosen_before
+        return Selection(selection.area or before.area, selection.parts | before.parts)
+
+    def _choose(self, *, add: bool) -> None:
+        """Drag what is chosen, or choose what is under the pointer, or begin to draw a frame around what to choose."""
+        found = nearest(self.draft, *self.pointer, DRAGGED)
+        if not add and (found in self.selection.parts or self._in_area()):
+            self._begin_drag()
+            return
+        self._chosen_before = self.selection if add else Selection()
+        if found is None:
+            self._doing = "choose"
+        elif add and found in self.selection.parts:
+            self.selection = Selection(self.selection.area, self.selection.parts - {found})
+        else:
+            self.selection = self._joined(Selection(parts=frozenset({found})))
+            self._begin_drag()
+
+    def _in_area(self) -> bool:
+        return self.selection.area is not None and self.cell in cells_of(self.selection.area)
+
+    def _begin_drag(self) -> None:
+        self.history.begin()
+        self._doing = "drag"
+        self._chosen_before = self.selection
+
+    def _drag(self) -> None:
+        snap = "cell" if self._chosen_before.area else self.snap
+        (ax, ay), (bx, by) = snapped(*self._pressed_at, snap), snapped(*self.pointer, snap)
+        draft, self.selection = moved(self.history.began, self._chosen_before, Motion(dx=bx - ax, dy=by - ay))
+        self.history.change(draft)
+
+    def choose(self, parts: frozenset[ObjectPart]) -> None:
+        """Choose these parts of objects."""
+        self.finish()
+        self.selection = Selection(parts=parts)
+
+    def undo(self, *, again: bool = False) -> bool:
+        """Take the last edit back, or do again what was taken back; whether there was any."""
+        self.finish()
+        self.selection = Selection()
+        return self.history.redo() if again else self.history.undo()
+
+    # --- what is chosen ---
+
+    def nudge(self, dx: float, dy: float) -> None:
+        """Move what is chosen by steps of the snap, or of cells."""
+        step = 24.0 if self.selection.area else SNAPS[self.snap]
+        draft, self.selection = moved(self.draft, self.selection, Motion(dx=dx * step, dy=dy * step))
+        self.history.change(draft)
+
+    def turn(self, motion: Motion) -> None:
+        """Flip or turn what is chosen, in its place; without a selection what the brush draws."""
+        self.finish()
+        if self.selection:
+            about = motion.about(*middle_of(self.draft, self.selection, quarter=bool(motion.xy)))
+            draft, self.selection = moved(self.draft, self.selection, about)
+            self.history.change(draft)
+        elif self.objects:
+            self.record = Stamp({}, (self.record,)).carried(motion.about(36.0, 36.0)).objects[0]
+        else:
+            self.tile = motion.tile(self.tile)
+
+    def copy(self) -> bool:
+        """Remember what is chosen; whether anything is."""
+        if self.selection:
+            self.clipboard = copied(self.draft, self.selection)
+        return bool(self.selection)
+
+    def cut(self) -> None:
+        """Remember what is chosen, and delete it."""
+        if self.copy():
+            self.delete()
+
+    def delete(self) -> None:
+        """Delete what is chosen, or else the object nearest to the pointer."""
+        self.finish()
+        if self.selection:
+            self.history.change(removed(self.draft, self.selection))
+            self.selection = Selection()
+        else:
+            self.delete_nearest()
+
+    def paste(self) -> bool:
+        """Put what was copied under the pointer, and choose it; whether anything was copied."""
+        self.finish()
+        if self.clipboard is None:
+            return False
+        tiles = self.clipboard.tiles
+        places = [point for record in self.clipboard.objects for point in points(record).values()]
+        corner = (24.0 * min(c for c, _ in tiles), 24.0 * min(r for _, r in tiles)) if tiles else min(places)
+        there = (24.0 * self.cell[0], 24.0 * self.cell[1]) if tiles else snapped(*self.pointer, self.snap)
+        motion = Motion(dx=there[0] - corner[0], dy=there[1] - corner[1])
+        draft, self.selection = pasted(self.draft, self.clipboard.carried(motion))
+        self.tool = "select"
+        self.history.change(draft)
+        return True
+
+    @property
+    def chosen(self) -> ObjectSpec | None:
+        """The only object that is selected."""
+        records = self.selection.records
+        number = next(iter(records)) if len(records) == 1 and self.selection.area is None else -1
+        return self.draft.objects[number] if 0 <= number < len(self.draft.objects) else None
+
+    @property
+    def subject(self) -> ObjectSpec:
+        """The object whose properties can be changed: the selected one, or the one that is drawn with."""
+        return self.chosen or self.record
+
+    def put_subject(self, record: ObjectSpec) -> None:
+        """Another record in the place of the subject."""
+        if self.chosen is None:
+            self.record = record
+            return
+        number = next(iter(self.selection.records))
+        objects = (*self.draft.objects[:number], record, *self.draft.objects[number + 1 :])
+        self.history.change(self.draft.with_objects(objects))
+        self.selection = Selection(None, frozenset((number, part) for part in points(record)))

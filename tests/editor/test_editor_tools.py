@@ -1,0 +1,224 @@
+"""The workbench by presses, moves and releases: what a hand at the mouse does, without a window."""
+
+from __future__ import annotations
+
+import pytest
+
+from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, object_type_of, placed, snapped, tile_key, tile_name
+from ninja_game.editor.draft import Draft
+from ninja_game.editor.motion import CLOCKWISE, MIRROR
+from ninja_game.editor.records import points, word
+from ninja_game.editor.stamp import Selection
+from ninja_game.editor.tools import EditorTools
+from ninja_game.formats.ascii.object_writer import best_form
+from ninja_game.sim import kinds
+from ninja_game.sim.level import Level, ObjectSpec
+
+
+@pytest.fixture(name="tools")
+def empty_tools() -> EditorTools:
+    made = EditorTools(Draft(Level()))
+    made.snap = "half"
+    return made
+
+
+def object_type(name: str) -> ObjectSpec:
+    return next(each.record for each in OBJECT_TYPES if each.name == name)
+
+
+def drag(tools: EditorTools, *places: tuple[float, float], **how: bool) -> None:
+    tools.move(*places[0])
+    tools.press(**how)
+    for place in places[1:]:
+        tools.move(*place)
+    tools.release()
+
+
+def pending(tools: EditorTools) -> bool:
+    """Whether a switch is still to be placed, for a type checker that thinks it cannot change."""
+    return tools.placing_switch
+
+
+def forms(tools: EditorTools) -> list[str]:
+    return [" ".join(best_form(record)).strip() for record in tools.draft.objects]
+
+
+def test_a_dragged_brush_draws_every_cell_on_its_way_and_one_undo_takes_it_back(tools: EditorTools) -> None:
+    drag(tools, (36, 36), (300, 36), (300, 100))
+    assert [tools.draft.tile((column, 1)) for column in range(1, 14)] == [1] * 12 + [0]
+    drag(tools, (36, 36), (100, 36), erase=True)
+    assert tools.draft.tile((2, 1)) == 0
+    tools.undo()
+    tools.undo()
+    assert tools.draft == Draft(Level())
+    tools.undo(again=True)
+    assert tools.draft.tile((2, 1)) == 1
+
+
+def test_a_rectangle_shrinks_while_it_is_drawn(tools: EditorTools) -> None:
+    tools.tool = "rectangle"
+    drag(tools, (36, 36), (300, 300), (84, 60))
+    assert sum(tools.draft.level.tiles) == 3 * 2
+    tools.pick_up(object_type("gold"))
+    drag(tools, (120, 120), (180, 150))
+    assert len(tools.draft.objects) == 6 * 3
+    tools.undo()
+    assert not tools.draft.objects
+
+
+def test_fill_takes_one_press(tools: EditorTools) -> None:
+    tools.tool = "fill"
+    drag(tools, (300, 300))
+    assert set(tools.draft.level.tiles) == {1}
+
+
+@pytest.mark.parametrize("tool", ["brush", "rectangle"])
+@pytest.mark.parametrize("name", ["locked door", "trap door", "exit"])
+def test_what_has_a_switch_takes_two_presses_or_one_drag(tools: EditorTools, name: str, tool: str) -> None:
+    tools.tool = tool
+    tools.pick_up(object_type(name))
+    drag(tools, (238, 300))
+    assert pending(tools)
+    tools.move(400, 200)
+    drag(tools, (420, 204))
+    assert not pending(tools)
+    drag(tools, (238, 400), (300, 420), (420, 480))
+    first, second = tools.draft.objects
+    assert points(first)[1] == (420.0, 204.0)
+    assert points(second)[1] == (420.0, 480.0)
+    tools.undo()
+    assert len(tools.draft.objects) == 1
+    drag(tools, (238, 500))
+    tools.move(500, 500)
+    assert tools.cancel()
+    assert len(tools.draft.objects) == 1
+    assert not tools.cancel()
+
+
+def test_doors_go_to_the_nearest_side_and_the_rest_where_it_sits_in_a_cell(tools: EditorTools) -> None:
+    tools.snap = "cell"
+    for name, at in (("automatic door", (262, 252)), ("launch pad", (300, 300)), ("floor guard", (350, 350)),
+                     ("zap drone", (391, 402)), ("gold", (431, 431))):  # fmt: skip
+        tools.pick_up(object_type(name))
+        drag(tools, at)
+    assert forms(tools) == [
+        "automatic door 10,10 right", "launch pad 12,12 up", "floor guard 14,14",
+        "zap drone 16,16 surface-cw right", "gold 17,17",
+    ]  # fmt: skip
+    tools.snap = "px"
+    drag(tools, (433.2, 420.7))
+    assert tools.draft.objects[-1].values == (433.0, 421.0)
+
+
+def test_there_is_one_ninja_and_a_second_press_moves_it(tools: EditorTools) -> None:
+    tools.pick_up(object_type("gold"))
+    drag(tools, (100, 100))
+    tools.pick_up(object_type("ninja"))
+    drag(tools, (100, 200))
+    drag(tools, (204, 204))
+    assert [record.kind for record in tools.draft.objects] == [kinds.NINJA, kinds.GOLD]
+    assert tools.draft.objects[0].values == (204.0, 204.0)
+
+
+def test_what_is_selected_moves_turns_copies_and_goes(tools: EditorTools) -> None:
+    tools.pick_up(2)
+    drag(tools, (60, 60))
+    tools.pick_up(object_type("thwump"))
+    drag(tools, (84, 60))
+    tools.tool = "select"
+    drag(tools, (50, 50), (100, 70))
+    assert tools.selection == Selection((2, 2, 3, 1), frozenset({(0, 0)}))
+    drag(tools, (60, 60), (60, 90), (60, 108))
+    assert (tools.draft.tile((2, 4)), tools.draft.tile((2, 2))) == (2, 0)
+    assert tools.draft.objects[0].values[:2] == (84.0, 108.0)
+    tools.turn(MIRROR)
+    assert tools.draft.tile((4, 4)) == MIRROR.tile(2)
+    tools.turn(MIRROR)
+    assert tools.copy()
+    tools.move(300, 300)
+    assert tools.paste()
+    assert tools.draft.tile((12, 12)) == 2
+    assert tools.draft.objects[1].values[:2] == (324.0, 300.0)
+    tools.nudge(0, 1)
+    assert tools.draft.tile((12, 13)) == 2
+    tools.turn(CLOCKWISE)
+    tools.delete()
+    assert tools.draft.tile((2, 4)) == 2
+    assert len(tools.draft.objects) == 1
+    while tools.undo():
+        pass
+    assert tools.draft == Draft(Level())
+
+
+def test_shift_adds_to_a_selection_and_takes_away_again(tools: EditorTools) -> None:
+    tools.pick_up(object_type("mine"))
+    for x in (100, 200, 300):
+        drag(tools, (x, 100))
+    tools.tool = "select"
+    drag(tools, (96, 96))
+    drag(tools, (204, 96), add=True)
+    drag(tools, (300, 96), add=True)
+    assert len(tools.selection.parts) == 3
+    drag(tools, (204, 96), add=True)
+    assert len(tools.selection.parts) == 2
+    drag(tools, (600, 500))
+    assert not tools.selection
+
+
+def test_properties_belong_to_what_is_selected_or_to_the_brush(tools: EditorTools) -> None:
+    tools.pick_up(object_type("one-way"))
+    tools.put_subject(placed(tools.subject, 36, 36, "cell")._replace(values=(36.0, 36.0, 2.0)))
+    assert word(tools.record, "direction") == "left"
+    drag(tools, (300, 300))
+    tools.tool = "select"
+    drag(tools, (300, 300))
+    assert tools.chosen is not None
+    tools.put_subject(tools.chosen._replace(values=(300.0, 300.0, 1.0)))
+    assert word(tools.draft.objects[0], "direction") == "down"
+    assert word(tools.record, "direction") == "left"
+
+
+def test_pick_takes_objects_before_tiles(tools: EditorTools) -> None:
+    tools.pick_up(7)
+    drag(tools, (300, 300))
+    tools.pick_up(object_type("mine"))
+    drag(tools, (300, 300))
+    tools.tool = "pick"
+    tools.pick_up(1)
+    drag(tools, (303, 300), pick=True)
+    assert object_type_of(tools.record) == "mine"
+    tools.delete()
+    assert forms(tools) == []
+    drag(tools, (303, 300), pick=True)
+    assert (tools.objects, tools.tile) == (False, 7)
+
+
+def test_a_symmetric_stroke_is_erased_symmetrically(tools: EditorTools) -> None:
+    tools.symmetry = "both"
+    tools.pick_up(object_type("gold"))
+    drag(tools, (100, 100))
+    assert len(tools.draft.objects) == 4
+    drag(tools, (100, 100), erase=True)
+    assert forms(tools) == []
+    tools.pick_up(3)
+    drag(tools, (100, 100))
+    assert len(forms(tools)) + sum(map(bool, tools.draft.level.tiles)) == 4
+
+
+def test_every_sort_can_be_placed_and_every_tile_has_a_name_and_a_key(tools: EditorTools) -> None:
+    for number, each in enumerate(OBJECT_TYPES):
+        assert object_type_of(each.record) == each.name
+        tools.pick_up(each.record)
+        drag(tools, (60 + 36 * number, 300))
+        tools.finish()
+    assert len(tools.draft.objects) == len(OBJECT_TYPES)
+    assert len({tile_key(tile) for tile in range(34)}) == 34
+    assert not [tile for tile in range(34) if tile_name(tile).startswith("odd")]
+    assert sorted(tile for family in FAMILIES for tile in family.tiles) == list(range(2, 34))
+
+
+def test_snaps() -> None:
+    assert snapped(37, 59, "cell") == (36, 60)
+    assert snapped(37, 59, "half") == (36, 60)
+    assert snapped(40, 57, "quarter") == (42, 60)
+    assert snapped(40.4, 57.6, "px") == (40, 58)

@@ -1,0 +1,117 @@
+"""Somebody at the TAS editor, with mouse and keys."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import pygame
+
+from ninja_game.formats.recording import Recording
+from ninja_game.play.app import build_app
+from ninja_game.play.input.scancodes import SCANCODES
+from ninja_game.play.tas.screen import TasScreen
+from ninja_game.play.ui.widgets import Widget
+from ninja_game.simulation import Simulation
+from ninja_game.tas.files import open_run
+from tests.support.menu_driver import MenuDriver, ScriptedKeys
+from tests.support.waiting import LONGEST
+
+
+class TasDriver(MenuDriver):
+    """A run on the TAS editor, alone in its window."""
+
+    def __init__(self, folder: Path, run: Path, size: tuple[int, int] = (792, 600)) -> None:
+        self.keys = ScriptedKeys()
+        self.keys.script = []
+        self.app = build_app(folder, size=size, controls=self.keys)
+        self.screen = TasScreen(self.app, open_run(run))
+        self.editor = self.screen.editor
+        self.session = self.screen.session
+        self.app.push(self.screen)
+        self.frames(2)
+
+    @classmethod
+    def over(cls, driver: MenuDriver, run: Path, beside: Sequence[Recording] = ()) -> TasDriver:
+        """The same over the screens of a program that runs already."""
+        made = cls.__new__(cls)
+        made.keys, made.app = driver.keys, driver.app
+        made.app.push(TasScreen(made.app, open_run(run), beside))
+        made.adopt()
+        made.frames(2)
+        return made
+
+    def adopt(self) -> None:
+        """Go on at the TAS editor on top: it has taken the first one's place."""
+        assert isinstance(self.app.top, TasScreen)
+        self.screen = self.app.top
+        self.editor, self.session = self.screen.editor, self.screen.session
+
+    def event(self, kind: int, x: float = 0, y: float = 0, **more: object) -> None:
+        """A mouse event at a logical point, and a picture."""
+        px = self.top().theme.canvas.point(x, y)
+        shared = {"pos": px, "rel": (0, 0), "buttons": (0, 0, 0), "touch": False}
+        pygame.event.post(pygame.Event(kind, shared | more))
+        self.frames()
+
+    def drag(self, *places: tuple[float, float], button: int = 1) -> None:
+        """Press a mouse button at the first place, go to all others, release it."""
+        self.event(pygame.MOUSEMOTION, *places[0])
+        self.event(pygame.MOUSEBUTTONDOWN, *places[0], button=button)
+        for place in places[1:]:
+            self.event(pygame.MOUSEMOTION, *place, buttons=(button == 1, button == 2, button == 3))
+        self.event(pygame.MOUSEBUTTONUP, *places[-1], button=button)
+
+    def keys_down(self, first: int, last: int) -> list[int]:
+        """The keys of the ticks ``first`` … ``last`` - 1."""
+        return [self.editor.track.keys_at(tick) for tick in range(first, last)]
+
+    def cell(self, tick: int, column: str) -> tuple[float, float]:
+        """The middle of a cell of the roll, which may be beyond its edges; a logical point."""
+        roll = self.screen.roll
+        layout = roll.layout
+        place = next(each for each in layout.places if each.column.name == column)
+        y = layout.body.top + (tick - roll.top) * layout.row + layout.row // 2
+        return self.top().theme.canvas.logical((place.left + place.width // 2, y))
+
+    def chord(self, key: str, *modifiers: int) -> None:
+        """A key with modifiers."""
+        for kind in (pygame.KEYDOWN, pygame.KEYUP):
+            pygame.event.post(pygame.Event(kind, key=0, scancode=SCANCODES[key], mod=sum(modifiers), unicode=""))
+        self.frames()
+
+    def write(self, text: str) -> None:
+        """Type any text, as the system gives it behind the keys."""
+        pygame.event.post(pygame.Event(pygame.TEXTINPUT, text=text))
+        self.frames()
+
+    def button(self, text: str) -> Widget:
+        """The widget with a text on the screen on top."""
+        widgets = self.top().widgets  # type: ignore[attr-defined]
+        found: Widget = next(each for each in widgets if getattr(each, "text", "") == text)
+        return found
+
+    def choose(self, text: str) -> None:
+        """Click the button with a text."""
+        self.mouse(*self.button(text).centre)
+
+    def wait(self, condition: Callable[[], object], what: str, *, seconds: float = LONGEST) -> None:
+        """Let pictures pass until something is so."""
+        end = time.monotonic() + seconds
+        while not condition():
+            assert time.monotonic() < end, what
+            time.sleep(0.01)
+            self.frames()
+
+    def shown_digest(self) -> str:
+        """Of the world that the level shows."""
+        return self.screen.level.picture.run.digest()
+
+    def straight_digest(self, tick: int) -> str:
+        """Of the world after a tick of the run, run from its start."""
+        about, inputs = self.session.about, self.editor.track.inputs
+        run = Simulation(about.level, body=about.body)
+        for each in range(tick + 1):
+            run.step_keys(inputs[each] if each < len(inputs) else 0)
+        return run.digest()
