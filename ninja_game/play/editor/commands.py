@@ -7,10 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ninja_game.editor.autosave import Recovered, recovered
+from ninja_game.document import OccupiedError
+from ninja_game.editor.autosave import RecoveredDraft, recovered
 from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import SUFFIX, OccupiedError, Source, draft_of, new_source, open_source
+from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.records import points
 from ninja_game.editor.stamp import everything
@@ -210,7 +211,7 @@ class EditorCommands:
         except (NinjaGameError, OSError) as error:
             self.app.notify(str(error))
 
-    def edit(self, source: Source, found: Recovered | None = None) -> None:
+    def edit(self, source: Source, found: RecoveredDraft | None = None) -> None:
         """Edit this level, or one that was found again."""
         self.session.begin(source, found)
         self.view.stale = True

@@ -6,7 +6,7 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING
 
-from ninja_game.editor.autosave import Autosave, Recovered
+from ninja_game.editor.autosave import Autosave, RecoveredDraft
 from ninja_game.editor.background import NewestJob
 from ninja_game.editor.brush import OBJECT_TYPES, placed
 from ninja_game.editor.certify import Certifier, Route, route_of
@@ -51,7 +51,7 @@ class EditorSession:
         self._checks: NewestJob[Level, Examined] = NewestJob(_examine)
         self._begin(source or new_source(app.settings.name))
 
-    def _begin(self, source: Source, found: Recovered | None = None) -> None:
+    def _begin(self, source: Source, found: RecoveredDraft | None = None) -> None:
         self.source = found.source if found else source
         self.tools.load(found.draft if found else source.draft)
         self.autosave = Autosave(self.app.player.folder, found.file if found else None)
@@ -59,7 +59,7 @@ class EditorSession:
         self._asked: Level | None = None
         self._asked_at = 0.0
 
-    def begin(self, source: Source, found: Recovered | None = None) -> None:
+    def begin(self, source: Source, found: RecoveredDraft | None = None) -> None:
         """Edit another level, or one that was found again; what was not saved of the present one is given up."""
         self.close()
         self._begin(source, found)

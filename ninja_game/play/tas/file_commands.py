@@ -10,7 +10,7 @@ from pathlib import Path
 from time import localtime, strftime
 from typing import TYPE_CHECKING
 
-from ninja_game.editor.files import OccupiedError
+from ninja_game.document import OccupiedError
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.locking import forget
 from ninja_game.files.resources import data_folder
@@ -26,7 +26,7 @@ from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.part import Commands
 from ninja_game.player.saving import keep_replay
 from ninja_game.tas.files import SUFFIX, branches_path, replay_of_track, same_level
-from ninja_game.tas.journal import Recovered, recovered
+from ninja_game.tas.journal import RecoveredRun, recovered
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
@@ -47,7 +47,7 @@ class FileCommands:
     """
 
     def __init__(
-        self, app: App, editor: TasEditor, run: Callable[[str], object], go_on: Callable[[Recovered], object]
+        self, app: App, editor: TasEditor, run: Callable[[str], object], go_on: Callable[[RecoveredRun], object]
     ) -> None:
         self.app = app
         self._go_on = go_on
@@ -170,7 +170,7 @@ class FileCommands:
         elif lost:
             self.app.notify(f"Not saved last time: {_name_of(lost[0])}. Esc, Not saved last time")
 
-    def _is_of_this_run(self, found: Recovered) -> bool:
+    def _is_of_this_run(self, found: RecoveredRun) -> bool:
         opened, session = found.opened, self.session
         if opened.file.path or session.file.path:
             return opened.file.path == (session.file.path and session.file.path.absolute())
@@ -187,7 +187,7 @@ class FileCommands:
         else:
             self.app.notify("All runs that were edited are saved")
 
-    def _offer(self, found: Recovered) -> None:
+    def _offer(self, found: RecoveredRun) -> None:
         forgetting: list[Row] = [
             ("Keep for later", nothing, "It is offered again"),
             ("Discard", lambda: forget(found.file), "It is lost"),
@@ -217,12 +217,12 @@ class FileCommands:
         self.app.pop()
 
 
-def _name_of(found: Recovered) -> str:
+def _name_of(found: RecoveredRun) -> str:
     home = found.opened.file.path
     return home.name if home else found.opened.recording.name or "a run"
 
 
-def _when(found: Recovered) -> str:
+def _when(found: RecoveredRun) -> str:
     """How many edits, and when the last one was."""
     count = len(found.tracks)
     last = strftime("%Y-%m-%d %H:%M", localtime(found.file.stat().st_mtime)) if found.file.exists() else "gone"

@@ -31,7 +31,7 @@ from ninja_game.tas.session import Session
 if TYPE_CHECKING:
     from ninja_game.play.app import App
     from ninja_game.tas.files import OpenedRun
-    from ninja_game.tas.journal import Recovered
+    from ninja_game.tas.journal import RecoveredRun
 
 _MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL)
 
@@ -45,7 +45,7 @@ class TasScreen(MenuScreen):
     """
 
     def __init__(
-        self, app: App, opened: OpenedRun, beside: Sequence[Recording] = (), found: Recovered | None = None
+        self, app: App, opened: OpenedRun, beside: Sequence[Recording] = (), found: RecoveredRun | None = None
     ) -> None:
         super().__init__(app)
         self.session = Session(opened, app.player.folder)
@@ -90,7 +90,7 @@ class TasScreen(MenuScreen):
     def _run(self, name: str) -> None:
         self.commands()[name]()
 
-    def _go_on(self, found: Recovered) -> None:
+    def _go_on(self, found: RecoveredRun) -> None:
         self.app.replace(TasScreen(self.app, found.opened, found=found))
 
     def build(self) -> Sequence[Widget]:
