@@ -59,6 +59,11 @@ class Session:
         return self.history.draft
 
     @property
+    def name(self) -> str:
+        """What to call the run."""
+        return self.about.name or "run"
+
+    @property
     def is_saved(self) -> bool:
         """Whether the file holds what is here."""
         return not self._file_differs and self.track == self.saved and self.branches.all == self._saved_branches
