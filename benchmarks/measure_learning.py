@@ -6,8 +6,10 @@ run the same worlds through the same ticks, in turn.
 
 from __future__ import annotations
 
+import argparse
 import time
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from statistics import median
 from typing import Any, NamedTuple
 
@@ -20,6 +22,7 @@ from benchmarks.measure_worlds import resident_bytes
 from ninja_game.batch.kernels import run_worlds
 from ninja_game.batch.worlds import make_worlds
 from ninja_game.learn.actions import DISCRETE_KEYS
+from ninja_game.learn.levels import level_source
 from ninja_game.learn.single import NinjaEnv
 from ninja_game.learn.vector import NinjaVectorEnv
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED
@@ -181,3 +184,29 @@ def against_worlds(only: str = "") -> Chart:
                 chart.add("bare kernel", count, speed.kernel)
             chart.add(name, count, speed.environment)
     return chart
+
+
+def main() -> None:
+    """Print the table, save the chart."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", nargs="?", type=Path)
+    folder = parser.parse_args().folder
+    levels = level_source("set").levels[::5]
+    plain = single_speed(PlainWrapper, levels)
+    print(f"plain wrapper round Simulation: {plain:,.0f} ticks/s")
+    single = single_speed(single_env, levels)
+    print(f"NinjaEnv: {single:,.0f} ticks/s, {single / plain:.2f} of the plain wrapper")
+    for name, parts in OBSERVATIONS.items():
+        speed = vector_speed(1024, parts)
+        print(
+            f"NinjaVectorEnv, {1024} worlds, {name}: {speed.environment:,.0f} ticks/s, "
+            f"{speed.environment / FRAME_SKIP:,.0f} steps/s, {speed.share:.2f} of the "
+            f"bare kernel's {speed.kernel:,.0f} ticks/s, {speed.environment / plain:,.0f} times the plain wrapper"
+        )
+    print(f"memory of {MANY:,} worlds: {memory_of(MANY) / 2**20:,.0f} MiB")
+    if folder:
+        against_worlds().save(folder)
+
+
+if __name__ == "__main__":
+    main()

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
     from ninja_game.formats.replay.text import Replay, parse_replay, write_replay
     from ninja_game.runs.run import RunResult, record_replay, run_level
-    from ninja_game.runs.run_trace import RunTrace, trace_level
+    from ninja_game.runs.trace import RunTrace, trace_level
     from ninja_game.runs.verify import Verdict, verify_recording
     from ninja_game.sim.inputs import Demo, Input
     from ninja_game.sim.level import Level, ObjectSpec
@@ -50,7 +50,7 @@ _NAMES = {
     "formats.recording": ("Recording",),
     "formats.replay.text": ("Replay", "parse_replay", "write_replay"),
     "runs.run": ("RunResult", "record_replay", "run_level"),
-    "runs.run_trace": ("RunTrace", "trace_level"),
+    "runs.trace": ("RunTrace", "trace_level"),
     "runs.verify": ("Verdict", "verify_recording"),
     "sim.inputs": ("Demo", "Input"),
     "sim.level": ("Level", "ObjectSpec"),

@@ -41,7 +41,7 @@ def check_free(path: Path, there: str, known: str | None, *, replacing: bool) ->
     if replacing or (there == (known or "") and (there or not path.is_symlink())):
         return
     if known is None:
-        raise OccupiedError(f"there is a file {path.name} already")
+        raise OccupiedError(f"a file named {path.name} already exists")
     raise OccupiedError(f"{path.name} was {'changed' if there else 'removed'} by another program")
 
 

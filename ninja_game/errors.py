@@ -1,7 +1,7 @@
 """Everything this project raises on purpose.
 
 One family, so that a caller can write ``except NinjaGameError`` and mean "the input or the request was bad, and the
-message says how to mend it". Anything else that escapes is a bug of ours.
+message says how to fix it". Anything else that escapes is a bug of ours.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class MissingExtraError(NinjaGameError, ImportError):
 
 @dataclass(eq=False)
 class FormatError(NinjaGameError):
-    """Text that cannot be read: where, what was found, what was expected, how to mend it.
+    """Text that cannot be read: where, what was found, what was expected, how to fix it.
 
     ``line`` and ``column`` count from 1; 0 means "not known" and is left out of the message.
     """

@@ -242,7 +242,7 @@ class Simulation:
 
     @property
     def inputs(self) -> bytes:
-        """The inputs that led here, one byte a tick."""
+        """The inputs that led here, one byte per tick."""
         return bytes(self._inputs)
 
     def first_difference(self, other: Simulation) -> tuple[str, Any, Any] | None:

@@ -7,6 +7,7 @@ usage: python3 tools/dev.py COMMAND ...
   run              any `ninja-game` command: `run info levels/00-0-first-steps.txt`
   test             `lint`, then all tests; with words of your own (a file, `-k NAME`) pytest alone, with them
   lint             style, format, types, import contract; `lint --fix` mends what a program can mend
+  benchmark        measure how fast the world is on this machine; `benchmark --help` lists options
   golden           write the golden files of the tests again, after a change of the rules that is meant
   change-rules     test the tests: break the rules one at a time and tell which breaks no test notices
   accept-pictures  record the screens and pictures of the tests again, after a change of the looks that is meant
@@ -47,8 +48,8 @@ SOURCES = ("ninja_game", "tests", "tools", "benchmarks", "examples")
 EXTRAS = ("cluster", "fast", "film", "learn", "minari", "plots", "train")
 DEVELOPMENT = (*EXTRAS, "dev")
 USES = {
-    "play": (), "edit": ("fast",), "info": (), "convert": (), "record": (), "link": (), "player": (), "completion": (),
-    "lab": (), "site": (), "film": ("film",), "bench": ("fast", "plots"), "verify": ("cluster", "fast"),
+    "play": (), "edit": ("fast",), "info": (), "convert": (), "record": (), "link": (), "player": (),
+    "lab": (), "site": (), "film": ("film",), "verify": ("cluster", "fast"),
     "demonstrations": ("fast", "learn", "minari"),
 }  # fmt: skip
 """The extras that commands of the game use; those that are not here use Numba."""
@@ -208,6 +209,9 @@ def main(words: Sequence[str]) -> int:
         case ["docs"]:
             install(DEVELOPMENT)
             return max(run(program("python"), "-m", f"tools.{name}") for name in DRAWINGS)
+        case ["benchmark", *rest]:
+            install(DEVELOPMENT)
+            return become("-m", "benchmarks", *rest)
         case ["tool", name, *rest]:
             return tool(name, *rest)
         case ["clean"]:

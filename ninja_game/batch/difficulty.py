@@ -27,7 +27,7 @@ LOST_WEIGHT = 0.25
 
 
 def difficulty(level: Level, inputs: bytes, *, seed: int = 0, tries: int = TRIES, memory: str = "auto") -> float:
-    """The number for a level and a run to its exit, ``inputs`` a byte a tick; 0 where nothing can go wrong.
+    """The number for a level and a run to its exit, ``inputs`` one byte per tick; 0 where nothing can go wrong.
 
     From a save-state in every second of the run ``tries`` tries go on for a second and a half with the run's keys, each
     press and release of which comes up to ``SHIFT`` ticks early or late. A second fails by its share of deaths, and by

@@ -74,7 +74,7 @@ def block_of(count: int, slots: int) -> Records:
 
 
 def bytes_of(records: Records) -> NDArray[np.uint8]:
-    """The states in a block as a matrix of bytes, a row a world, without events; a view."""
+    """The states in a block as a matrix of bytes, one row per world, without events; a view."""
     return np.ndarray((len(records), records.strides[0]), np.uint8, records.base)[:, STATE_START:]
 
 

@@ -27,7 +27,7 @@ GROUPS = {
         "play": "Play a level in a window.",
         "edit": "Make a level, or change one, in a window.",
         "lab": "Drag, paint and watch: ten figures about how the world works.",
-        "player": "Put all data of a player into one file, or take such a file in.",
+        "player": "Export all data of a player to one file, or import such a file.",
         "film": "Write a film of a recording: a GIF, a WebM, or a folder of pictures.",
         "link": "Make a link that carries a level, a pack or replays.",
     },
@@ -45,7 +45,6 @@ GROUPS = {
         "trace": "Show every tick of recordings: position, velocity, state, events.",
         "splits": "Show when runs take gold, open doors and the exit, and end.",
         "compare": "Compare two runs of a level: where they part, and how far one is ahead.",
-        "bench": "Measure how fast the world is on this machine.",
         "solve": "Find a run to the exit, then shorten it.",
         "improve": "Shorten a run that exists.",
         "search": "Find other keys for a span of a run.",
@@ -55,17 +54,14 @@ GROUPS = {
         "site": "Build the game as a page in a browser: a folder for any static host.",
         "board": "Rank the runs of a folder, all simulated again: tables, pages, checks.",
     },
-    "": {"completion": "Set up completion of commands and options in your shell."},
 }
 """Commands with their first lines of help, by folder; ``ninja_game.cli.FOLDER.NAME`` holds one as ``command``."""
 
 COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}
-MODULES = {
-    name: ".".join(filter(None, ("ninja_game.cli", folder, name))) for folder, group in GROUPS.items() for name in group
-}
+MODULES = {name: f"ninja_game.cli.{folder}.{name}" for folder, group in GROUPS.items() for name in group}
 
 COMPILING = (
-    "verify", "board", "trace", "splits", "compare", "bench", "solve", "improve", "search", "tas",
+    "verify", "board", "trace", "splits", "compare", "solve", "improve", "search", "tas",
     "check", "levels", "generate", "demonstrations",
 )  # fmt: skip
 """Those that may have to compile the rules first."""
@@ -116,7 +112,7 @@ class Commands(click.Group):
         """The table of commands, without importing them."""
         width = max(map(len, COMMANDS))
         for folder, group in GROUPS.items():
-            with formatter.section(folder.capitalize() or "Shell"):
+            with formatter.section(folder.capitalize()):
                 formatter.write_dl([(name.ljust(width), text) for name, text in group.items()])
 
     def invoke(self, ctx: click.Context) -> Any:
@@ -169,7 +165,7 @@ def _stopped(error: BaseException | None) -> int:
 
 
 def _failed(error: BaseException) -> int:
-    """Tell what a command has raised, and its exit code."""
+    """Report what a command has raised; its exit code."""
     match error:
         case click.exceptions.NoArgsIsHelpError():
             _say(error.format_message())
@@ -225,7 +221,7 @@ def main() -> NoReturn:
 
 
 def _announce_compiling() -> None:
-    """Say it before the rules are compiled, since that takes a while."""
+    """Announce that the rules are compiled first, since that takes a while."""
     from ninja_game.backend.kernel_cache import before_compiling
 
     text = "ninja-game: compiling the rules for this machine, the first time only; it takes a minute or two"

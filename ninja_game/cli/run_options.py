@@ -78,7 +78,7 @@ memory_option = click.option(
 )  # fmt: skip
 
 jobs_option = click.option(
-    "--jobs", type=click.IntRange(1, 1024), help="How many workers run recordings. [default: one a core]"
+    "--jobs", type=click.IntRange(1, 1024), help="How many workers run recordings. [default: one per core]"
 )
 
 level_option = click.option(
@@ -102,7 +102,7 @@ def window_options(command: Callable[..., T]) -> Callable[..., T]:
     """The options of commands that open a window: its size in px, how many pictures, where the last one goes."""
     for option in (
         click.option("--screenshot", type=click.Path(dir_okay=False), help="Write the last picture to this PNG file."),
-        click.option("--frames", type=click.IntRange(1, 10**9), help="End after so many pictures."),
+        click.option("--frames", type=click.IntRange(1, 10**9), help="Exit after this many pictures."),
         click.option("--size", metavar="WIDTHxHEIGHT", help="Size of the window in px, e.g. 1584x1200."),
     ):
         command = option(command)
@@ -158,7 +158,7 @@ def with_progress(items: Iterable[T], label: str) -> Iterator[T]:
 
 @contextmanager
 def heartbeat(text: Callable[[], str]) -> Iterator[Event]:
-    """Say on stderr now and then what is done meanwhile, for work that may take long and tells nothing by itself.
+    """Say on stderr now and then what is done meanwhile, for work that may take long and shows nothing by itself.
 
     Gives what ends it early.
     """

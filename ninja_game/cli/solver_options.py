@@ -16,7 +16,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
     from ninja_game.formats.load import NamedLevel, Recording
-    from ninja_game.search.certificate import VerifiedRun
+    from ninja_game.formats.replay.text import Replay
     from ninja_game.search.solve import Progress, Task
     from ninja_game.sim.level import Level
 
@@ -67,7 +67,7 @@ def seconds_option(default: float) -> Callable[[F], F]:
 
 work_option = click.option(
     "--ticks", "work", type=click.IntRange(0, 10**15), default=0, metavar="N",
-    help="Stop after about N simulated ticks a job instead: with one job, always the same result.",
+    help="Stop after about N simulated ticks per job instead: with one job, always the same result.",
 )  # fmt: skip
 smooth_option = click.option(
     "--smooth", type=click.IntRange(0, 10**6), metavar="N",
@@ -77,7 +77,7 @@ seed_option = click.option(
     "--seed", type=click.IntRange(0, 10**9), default=1, show_default=True,
     help="With one job, the same seed does the same work in the same order.",
 )  # fmt: skip
-search_jobs_option = click.option("--jobs", type=click.IntRange(1, 1024), help="Threads. [default: one a core]")
+search_jobs_option = click.option("--jobs", type=click.IntRange(1, 1024), help="Threads. [default: one per core]")
 body_option = click.option(
     "--body", type=click.Choice(["circle", "box"]), default="circle", show_default=True, help="The ninja's body."
 )
@@ -168,18 +168,18 @@ def time_text(end_tick: int) -> str:
     return f"{end_tick} ticks ({end_tick / TICKS_PER_SECOND:.3f} s)"
 
 
-def smoothed_run(run: VerifiedRun, price: int) -> VerifiedRun:
+def smoothed_run(level: Level, run: Replay, price: int) -> Replay:
     """The run with fewer key changes, verified; at most ``price`` ticks longer and with no less gold."""
     from ninja_game.search.certificate import smoothed, verified_run
 
-    inputs = smoothed(run.level, run.inputs, body=run.body, gold=run.gold, price=price)
-    return verified_run(run.level, inputs, body=run.body, gold=run.gold)
+    inputs = smoothed(level, run.inputs, body=run.body, gold=run.gold, price=price)
+    return verified_run(level, inputs, body=run.body, gold=run.gold)
 
 
-def saver(path: Path, level: NamedLevel | Recording, author: str = "ninja-game solve") -> Callable[[VerifiedRun], None]:
+def saver(path: Path, level: NamedLevel | Recording, author: str = "ninja-game solve") -> Callable[[Replay], None]:
     """A function that writes each better run of a level to a file, which must not be the level's own."""
     from ninja_game.files.writing import check_output
-    from ninja_game.search.certificate import replay_of, save_replay
+    from ninja_game.search.certificate import named_run, save_replay
 
     check_output(path, keep=[Path(level.file)])
-    return lambda run: save_replay(path, replay_of(run, name=level.name, author=author, level_author=level.author))
+    return lambda run: save_replay(path, named_run(run, name=level.name, author=author, level_author=level.author))

@@ -16,7 +16,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Body
 
 if TYPE_CHECKING:
-    from ninja_game.search.certificate import VerifiedRun
+    from ninja_game.formats.replay.text import Replay
     from ninja_game.search.task import Progress
 
 SECONDS = 20.0
@@ -45,7 +45,7 @@ class Certifier:
     def __init__(self, seconds: float = SECONDS) -> None:
         self.seconds = seconds
         self.level: Level | None = None
-        self.run: VerifiedRun | None = None
+        self.run: Replay | None = None
         self.route: Route = ()
         self.share = 0.0
         self._said = ""
@@ -95,7 +95,7 @@ class Certifier:
             else:
                 self._said = f"{self._found()}, shortening"
 
-        def better(run: VerifiedRun) -> None:
+        def better(run: Replay) -> None:
             self.run, self.route = run, route_of(level, run.inputs)
 
         try:

@@ -24,7 +24,7 @@ SETTINGS, RECORDS = "settings.toml", "records.sqlite"
 def user_folder() -> Path:
     """The folder, whether it exists or not: ``NINJA_GAME_HOME``, else the system's place for data of programs.
 
-    Raises FileError where ``NINJA_GAME_HOME`` begins with a ``~name`` that is no user's, or the user has no home.
+    Raises FileError where ``NINJA_GAME_HOME`` begins with a ``~name`` of an unknown user, or the user has no home.
     """
     return chosen_folder(HOME_VARIABLE, _system_folder)
 

@@ -122,7 +122,7 @@ def write_celeste(inputs: bytes, markers: Sequence[Marker] = ()) -> str:
 
 
 def write_libtas(inputs: bytes) -> str:
-    """Inputs as libTAS notes them, a line a tick. Raises ReplayError for a jump that no keyboard can make."""
+    """Inputs as libTAS notes them, one line per tick. Raises ReplayError for a jump that no keyboard can make."""
     _check_keyboard(inputs)
     numbers = {letter: keysym for keysym, letter in reversed(KEYSYMS.items())}
     return "".join(f"|K{':'.join(numbers[letter] for letter in _letters(keys))}|\n" for keys in inputs)

@@ -64,12 +64,12 @@ def make_daily(levels: Path, day: date, *, report: Callable[[str], None], stop: 
 def _keep(file: Path, made: Generated) -> None:
     """Write a level into the pack, whose table of pars grows by a line; the level last, so that all of it is there."""
     from ninja_game.runs.verify import verify_recording
-    from ninja_game.search.certificate import replay_of
+    from ninja_game.search.certificate import named_run
 
     pack, tree = file.parent, Tree(file.parent)
     if not (pack / INDEX).exists():
         tree.write(INDEX, _INDEX)
-    replay = write_replay(replay_of(made.run, name=made.name, author=AUTHOR, level_author=AUTHOR))
+    replay = write_replay(named_run(made.run, name=made.name, author=AUTHOR, level_author=AUTHOR))
     tree.write(f"{CERTIFICATES}/{file.stem}.exit.replay.txt", replay)
     verdict = verify_recording(parse_replays(replay, file=file.stem, level=made.level)[0])
     level, run = level_digest(made.level)[:_DIGITS], verdict.xy_sha256[:_DIGITS]

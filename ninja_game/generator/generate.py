@@ -12,13 +12,14 @@ from threading import Event
 
 from ninja_game.batch.difficulty import TRIES, difficulty
 from ninja_game.formats.ascii.writer import write_ascii_level
+from ninja_game.formats.replay.text import Replay
 from ninja_game.generator.compose import compose
 from ninja_game.generator.hazards import mines_beside, nearest_hazard
 from ninja_game.generator.layouts import LAYOUTS
 from ninja_game.generator.naming import AUTHOR, name_for
 from ninja_game.generator.scene import Point, Scene
 from ninja_game.runs.run import run_level
-from ninja_game.search.certificate import UnverifiedRunError, VerifiedRun, verified_run
+from ninja_game.search.certificate import UnverifiedRunError, verified_run
 from ninja_game.search.solve import Task, solve
 from ninja_game.sim.level import Level
 
@@ -41,7 +42,7 @@ class Generated:
     name: str
     comment: str
     level: Level
-    run: VerifiedRun
+    run: Replay
     difficulty: float
     attempts: int
 
@@ -103,7 +104,7 @@ def generate(
         run, measured = found
         name = name_for(plan, rng)
         comment = f"seed {seed}, difficulty {wanted}: measured {measured:.1f}"
-        made = Generated(name, comment, run.level, run, measured, looked_at)
+        made = Generated(name, comment, scene.level, run, measured, looked_at)
         if best is None or abs(measured - wanted) < abs(best.difficulty - wanted):
             best = made
         if _near(measured, wanted):
@@ -116,17 +117,17 @@ def _near(measured: float, wanted: int) -> bool:
     return abs(measured - wanted) <= max(0.5, 0.15 * wanted)
 
 
-def _certified(scene: Scene, rng: Random, wanted: int, budget: Budget, stop: Event) -> tuple[VerifiedRun, float] | None:  # fmt: skip  # noqa: E501
+def _certified(scene: Scene, rng: Random, wanted: int, budget: Budget, stop: Event) -> tuple[Replay, float] | None:  # fmt: skip  # noqa: E501
     """A run through a scene whose hazards are changed until it is as hard as wanted, and how hard it is then."""
     run = solve(Task(scene.level, work=budget.find), stop=stop)
     if run is None:
         return None
-    measured = difficulty(run.level, run.inputs, tries=budget.tries)
+    measured = difficulty(scene.level, run.inputs, tries=budget.tries)
     spared = False
     for _ in range(budget.rounds):
         if _near(measured, wanted) or stop.is_set():
             break
-        path = path_of(run)
+        path = path_of(scene.level, run)
         before = list(scene.hazards)
         if measured < wanted:
             more = mines_beside(scene, path, rng)
@@ -144,19 +145,19 @@ def _certified(scene: Scene, rng: Random, wanted: int, budget: Budget, stop: Eve
         except UnverifiedRunError:
             scene.hazards = before
             continue
-        then = difficulty(changed.level, changed.inputs, tries=budget.tries)
+        then = difficulty(scene.level, changed.inputs, tries=budget.tries)
         # What makes it worse than it was, the other way, is taken back.
         if abs(then - wanted) > abs(measured - wanted) and (then > measured) == (measured < wanted):
             scene.hazards = before
             continue
         run, measured = changed, then
     if spared:
-        shorter = solve(Task(run.level, work=budget.shorten, first=run.inputs), stop=stop)
+        shorter = solve(Task(scene.level, work=budget.shorten, first=run.inputs), stop=stop)
         if shorter and shorter.end_tick < run.end_tick:
-            run, measured = shorter, difficulty(run.level, shorter.inputs, tries=budget.tries)
+            run, measured = shorter, difficulty(scene.level, shorter.inputs, tries=budget.tries)
     return run, round(measured, 2)
 
 
-def path_of(run: VerifiedRun) -> Sequence[Point]:
+def path_of(level: Level, run: Replay) -> Sequence[Point]:
     """Where the ninja is in each tick of a run, px."""
-    return [(x, y) for x, y in run_level(run.level, run.inputs).positions.tolist()]
+    return [(x, y) for x, y in run_level(level, run.inputs).positions.tolist()]

@@ -108,7 +108,7 @@ class Scene:
         return found
 
     def clear_of(self, point: Point, *, key: float, other: float) -> bool:
-        """Whether a point is in a cell that can be reached, and so many px from all that is there."""
+        """Whether a point is in a cell that can be reached, and this many px from all that is there."""
         ok = cell_of(point) in self.steps
         return ok and all(
             dist(point, place) >= (key if record.kind in _KEY else max(other, _ROOM.get(record.kind, 0.0)))

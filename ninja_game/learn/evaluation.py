@@ -43,7 +43,7 @@ class Policy(Protocol):
         """Keywords of ``NinjaEnv``, but level and body; the actions are discrete."""
 
     def reset(self, count: int, seed: int) -> None:
-        """Begin with so many worlds."""
+        """Begin with this many worlds."""
 
     def act(self, observations: Any) -> NDArray[np.integer]:
         """The action of each world, (n,), by the observations of all."""
@@ -100,7 +100,7 @@ class Evaluation:
         return sum(each.rate >= rate for each in self.results)
 
     def text(self) -> str:
-        """The table for people, a line a level, and a last one over all."""
+        """The table for people, one line per level, and a last one over all."""
         lines = [f"{'level':<26} {'passed':>11} {'dead':>6} {'late':>6} {'ticks':>7} {'gold':>6} {'reward':>8}"]
         for each in self.results:
             ticks = "-" if isnan(each.ticks) else f"{each.ticks:.0f}"
@@ -121,7 +121,7 @@ class Evaluation:
         return json.dumps({**asdict(self), "results": rows, "often_passed": self.often_passed()}, indent=1)
 
     def csv(self) -> str:
-        """The table for spreadsheets, a row a level."""
+        """The table for spreadsheets, one row per level."""
         text = io.StringIO()
         rows = csv.writer(text, lineterminator="\n")
         rows.writerow(["agent", *(field.name for field in fields(LevelResult)), "rate"])

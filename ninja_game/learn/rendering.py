@@ -57,7 +57,7 @@ class EpisodePicture:
         self._show()
 
     def follow(self, inputs: bytes, shown: int) -> None:
-        """Go on to the moment after these inputs, a byte a tick from the start of the level.
+        """Go on to the moment after these inputs, one byte per tick from the start of the level.
 
         ``shown``: how many of the last ticks a window shows.
         """

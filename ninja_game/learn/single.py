@@ -159,7 +159,7 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
 
     @property
     def inputs(self) -> bytes:
-        """The inputs of this episode, one byte a tick: what ``record_replay`` takes."""
+        """The inputs of this episode, one byte per tick: what ``record_replay`` takes."""
         return bytes(self._inputs)
 
     def save(self) -> SavedEpisode:

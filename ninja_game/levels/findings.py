@@ -1,4 +1,4 @@
-"""What an examination of a level or a pack can find, by code: what it says, and how to mend it (docs/findings.md)."""
+"""What an examination of a level or a pack can find, by code: what it says, and how to fix it (docs/findings.md)."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ class Finding(NamedTuple):
 
     @property
     def mend(self) -> str:
-        """How to mend it, a sentence."""
+        """How to fix it, a sentence."""
         return LEVEL_RULES[self.code].mend
 
     @property
@@ -155,7 +155,7 @@ class PackFinding(NamedTuple):
 
     @property
     def mend(self) -> str:
-        """How to mend it, a sentence."""
+        """How to fix it, a sentence."""
         return (PACK_RULES | LEVEL_RULES)[self.code].mend
 
 

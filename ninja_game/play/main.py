@@ -41,7 +41,7 @@ def main(
     ``level_path``: a pack, whose episodes are offered, or a file of levels, played from number ``record`` on, or a link
     to one of them or to replays; without it the main menu.
     ``replay_path``: watch the recordings of a file or link; ``level_path`` is then the level of those without one.
-    ``frames``: end after so many pictures. ``screenshot``: write the last picture to this PNG file.
+    ``frames``: end after this many pictures. ``screenshot``: write the last picture to this PNG file.
 
     Raises NinjaGameError for a file that cannot be read or written, and where there is no display.
     """

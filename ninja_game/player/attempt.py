@@ -22,9 +22,9 @@ Moment = tuple[SaveState, bytes, int, int]
 class Attempt:
     """One try at a level, from its start to the exit, to death, or to giving up.
 
-    ``lifetime``: ticks left, which gold adds to. ``inputs``: the recording, one byte a tick. ``score``: ticks, taken at
-    the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``assisted``: tools
-    were used (or it is practice), so it does not count as a record.
+    ``lifetime``: ticks left, which gold adds to. ``inputs``: the recording, one byte per tick. ``score``: ticks, taken
+    at the exit contact. ``ended_tick``: the tick of the first exit contact or death, counted from 0. ``assisted``:
+    tools were used (or it is practice), so it does not count as a record.
     """
 
     def __init__(

@@ -48,7 +48,7 @@ MOST_REPLAYS, MOST_ROWS = 5_000, 100_000
 """Of its records: replays, and rows of any other table."""
 
 FOLDERS = (LEVELS, REPLAYS, EXPORTS, EDITING := "editing")
-"""What of the player's folder goes along, besides the settings and the records."""
+"""What a backup holds of the player's folder besides the settings and the records."""
 
 MOST_OF_DRAFT, MOST_OF_LEVEL = 2**20, 2**20
 """Bytes of a level under edit, and of the level of a replay."""
@@ -164,13 +164,13 @@ def _opened(path: Path) -> Store:
             for name in TABLES & {name for _, name, *_ in there}:
                 ((rows,),) = db.execute(f"SELECT count(*) FROM {name}")
                 if rows > (most := MOST_REPLAYS if name == "replay" else MOST_ROWS):
-                    raise ValueError(f"{rows:,} rows in the table {name}, of which at most {most:,} are taken in")
+                    raise ValueError(f"{rows:,} rows in the table {name}, of which at most {most:,} are accepted")
             lengths = "max(length(CAST(level_text AS BLOB))), sum(length(inputs))"
             ((longest, ticks),) = db.execute(f"SELECT {lengths} FROM replay")
             if (longest or 0) > MOST_OF_LEVEL:
-                raise ValueError(f"a level of {longest:,} bytes, of which at most {MOST_OF_LEVEL:,} are taken in")
+                raise ValueError(f"a level of {longest:,} bytes, of which at most {MOST_OF_LEVEL:,} are accepted")
             if (ticks or 0) > MOST_TICKS:
-                raise ValueError(f"replays of {ticks:,} ticks, of which at most {MOST_TICKS:,} are taken in")
+                raise ValueError(f"replays of {ticks:,} ticks, of which at most {MOST_TICKS:,} are accepted")
         store = Store(path)
     except sqlite3.Error as error:
         raise ValueError(str(error)) from None

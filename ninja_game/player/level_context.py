@@ -21,7 +21,7 @@ YOUR_BEST = "your best"
 
 @dataclass(frozen=True)
 class GhostRun:
-    """A recording that runs along: ``inputs``, a byte a tick as in demos; ``colour`` "#rrggbb" or the palette's."""
+    """A recording that runs along: ``inputs``, one byte per tick as in demos; ``colour`` "#rrggbb" or the palette's."""
 
     label: str
     inputs: bytes

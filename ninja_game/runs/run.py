@@ -22,8 +22,9 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.replay.sections import Waypoint
 from ninja_game.formats.replay.text import WAYPOINT_TICKS, Replay
 from ninja_game.sim.digest import replay_digest
-from ninja_game.sim.inputs import check_inputs, first_ticks
+from ninja_game.sim.inputs import check_inputs, fitted_inputs
 from ninja_game.sim.level import Level
+from ninja_game.sim.memory.interface import RunRecord
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import OUTCOME_NAMES, STATE_NAMES
 from ninja_game.simulation import Body, is_box
@@ -39,13 +40,15 @@ class RunResult:
 
     ``outcome``: "exit", "dead" or "running"; ``end_tick``: the tick of that contact or death, -1 while running;
     ``places``: the ninja after each tick, x and y in turn as little-endian float64, px; ``state_numbers``: a byte each.
-    ``digest``: of what the world shows after the last tick, as replays have it, where it was asked for.
+    ``in_time``: the lifetime of a level that is played alone never ran out (game.md §1.1). ``digest``: of what the
+    world shows after the last tick, as replays have it, where it was asked for.
     """
 
     outcome: str
     gold: int
     places: bytes = field(repr=False)
     state_numbers: bytes = field(repr=False)
+    in_time: bool = True
     digest: str = ""
 
     def __eq__(self, other: object) -> bool:
@@ -56,7 +59,7 @@ class RunResult:
         return hash(self._key())
 
     def _key(self) -> tuple[object, ...]:
-        return self.outcome, self.gold, self.places, self.state_numbers, self.digest
+        return self.outcome, self.gold, self.places, self.state_numbers, self.in_time, self.digest
 
     @property
     def ticks(self) -> int:
@@ -109,7 +112,7 @@ def run_level(
 ) -> RunResult:
     """Run a level with one input a tick until the first exit contact or death, or to the end of ``inputs``.
 
-    ``inputs``: one byte a tick, the sum of its ``Input`` flags (``Recording.playback`` gives them). ``memory``: as of
+    ``inputs``: one byte per tick, the sum of its ``Input`` flags (``Recording.playback`` gives them). ``memory``: as of
     ``Simulation``. ``digest``: tell the digest at the end too, as replays have it. ``budget``: of work
     (``ninja_game.budget``).
 
@@ -118,12 +121,21 @@ def run_level(
     """
     check_inputs(inputs)
     world = open_memory(memory, level, box=is_box(body))
-    run = world.run(inputs[: affordable_ticks(level, budget)])
-    if not world.outcome and len(run.states) < len(inputs):
+    most = min(len(inputs), affordable_ticks(level, budget))
+    records: list[RunRecord] = []
+    in_time = True
+    while world.tick < most and not world.outcome:
+        # Up to the tick at which the lifetime would run out without more gold; nothing else can be too late.
+        deadline = LIFETIME + GOLD_BONUS * world.gold
+        in_time = in_time and world.tick < deadline
+        records.append(world.run(inputs[world.tick : min(most, deadline) if in_time else most]))
+    if not world.outcome and most < len(inputs):
         raise over_budget(level, len(inputs), budget)
-    places = _little_endian(array("d", _bytes(run.places))).tobytes()
+    in_time = in_time and world.tick - bool(world.outcome) < LIFETIME + GOLD_BONUS * world.gold
+    places = _little_endian(array("d", b"".join(_bytes(each.places) for each in records))).tobytes()
+    states = b"".join(_bytes(each.states) for each in records)
     end = replay_digest(world.world()) if digest else ""
-    return RunResult(OUTCOME_NAMES[world.outcome], world.gold, places, _bytes(run.states), end)
+    return RunResult(OUTCOME_NAMES[world.outcome], world.gold, places, states, in_time, end)
 
 
 def _little_endian(numbers: array[float]) -> array[float]:
@@ -154,7 +166,7 @@ def record_replay(
     can check. Raises LevelError for a level that cannot be played, ArgumentError for a run without ticks, BudgetError
     as ``run_level`` does.
     """
-    played = first_ticks(inputs, ticks) if ticks is not None else inputs
+    played = fitted_inputs(inputs, ticks) if ticks is not None else inputs
     if not played:
         raise ArgumentError("a replay has at least one tick")
     run = run_level(level, played, body=body, memory="plain", digest=True, budget=budget)

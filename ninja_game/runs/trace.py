@@ -1,7 +1,7 @@
-"""Traces: the digests of everything a run shows, and the first difference of two runs.
+"""Everything a run shows, tick by tick, as NumPy arrays: traces, their digests, and the first difference of two.
 
-One record a tick for the ninja and one for every object that is neither a ninja nor inert, in id order. What (x, y, s)
-means for a kind is listed in ``docs/replay-format.md``.
+One record a tick for the ninja and one for every object that is neither a ninja nor inert, in id order, on both
+memories bit for bit. What (x, y, s) means for a kind is listed in ``docs/replay-format.md``.
 """
 
 from __future__ import annotations
@@ -15,17 +15,79 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget
+from ninja_game.backend.memories import open_memory
+from ninja_game.budget import NO_LIMIT, RUN_BUDGET, affordable_ticks, over_budget
+from ninja_game.errors import ArgumentError
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.recording_reader import named_errors
-from ninja_game.runs.run import run_level
-from ninja_game.runs.run_trace import NINJA_RECORD, OBJECT_RECORD, RunTrace, trace_level
+from ninja_game.sim.events import EVENT_NAMES
+from ninja_game.sim.inputs import MAX_TICKS, check_inputs
+from ninja_game.sim.kinds import KIND_NAMES, KIND_OF
+from ninja_game.sim.level import Level
+from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES, TraceRecord
+from ninja_game.sim.memory.schema import MAX_EVENTS
+from ninja_game.simulation import Body, is_box
 
 Records: TypeAlias = NDArray[np.void]
 """An array of NINJA_RECORD or OBJECT_RECORD."""
 
 NINJA_NAME = "ninja"
 """Kind of the ninja's rows, beside the kinds of objects."""
+
+NINJA_RECORD = np.dtype(
+    [("x", "<f8"), ("y", "<f8"), ("prev_x", "<f8"), ("prev_y", "<f8"), ("s", "<i4"), ("gold", "<i4")]
+)
+"""The ninja after a tick: position and the one before (px), state number, gold collected."""
+
+OBJECT_RECORD = np.dtype([("x", "<f8"), ("y", "<f8"), ("s", "<i4")])
+"""An object after a tick: position (px) and status number, both by kind."""
+
+MAX_CELLS = 8_000_000
+"""Most objects times ticks in a trace: some 330 MB while it is made."""
+
+BLOCK = 256
+"""Ticks that are traced at a time where the end of the run is not known."""
+
+
+@dataclass(frozen=True)
+class RunTrace:
+    """Everything a run shows: ``ninja`` NINJA_RECORD (ticks,), ``objects`` OBJECT_RECORD (ticks, objects).
+
+    ``ids`` and ``kinds`` name the columns of ``objects``, ids ascending; ninjas and inert objects are not among them.
+    ``events``: per tick, names with blanks between, where asked for.
+    """
+
+    ninja: NDArray[np.void] = field(repr=False)
+    objects: NDArray[np.void] = field(repr=False)
+    ids: tuple[int, ...]
+    kinds: tuple[str, ...]
+    events: tuple[str, ...] = field(default=(), repr=False)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the traces are the same in every bit."""
+        return isinstance(other, RunTrace) and self._key() == other._key()
+
+    def __hash__(self) -> int:
+        return hash(self._key())
+
+    def _key(self) -> tuple[object, ...]:
+        return self.ninja.tobytes(), self.objects.tobytes(), self.ids, self.kinds, self.events
+
+
+def trace_level(
+    level: Level,
+    inputs: bytes,
+    *,
+    body: Body = "circle",
+    memory: str = "auto",
+    with_objects: bool = True,
+    events: bool = False,
+) -> RunTrace:
+    """Run all of ``inputs``, whatever happens, and record ninja and objects after each tick (canonical numbers).
+
+    ``with_objects``: record objects too. ``events``: record the names of what happens. Raises what ``run_level`` does.
+    """
+    return _trace(level, inputs, body, memory, with_objects=with_objects, events=events)
 
 
 def trace_recording(
@@ -43,14 +105,93 @@ def trace_recording(
     Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that costs more
     work than its ``budget``.
     """
-    body = recording.body
     with named_errors(recording):
-        if ticks is None:
-            ticks = run_level(recording.level, recording.inputs, body=body, memory=memory, budget=budget).ticks + after
-        inputs = recording.replay.playback(ticks)
-        if ticks > affordable_ticks(recording.level, budget):
-            raise over_budget(recording.level, ticks, budget)
-        return trace_level(recording.level, inputs, body=body, memory=memory, with_objects=objects, events=events)
+        inputs = recording.replay.playback(min(recording.ticks + after, MAX_TICKS) if ticks is None else ticks)
+        more = after if ticks is None else None
+        return _trace(
+            recording.level, inputs, recording.body, memory,
+            with_objects=objects, events=events, after=more, budget=budget,
+        )  # fmt: skip
+
+
+def _trace(
+    level: Level,
+    inputs: bytes,
+    body: Body,
+    memory: str,
+    *,
+    with_objects: bool,
+    events: bool,
+    after: int | None = None,
+    budget: int = NO_LIMIT,
+) -> RunTrace:
+    """The trace of all inputs, or of those up to ``after`` ticks behind the first exit contact or death."""
+    check_inputs(inputs)
+    world = open_memory(memory, level, box=is_box(body))
+    kinds = [world.observe(id_ + 1)[0] for id_ in range(world.id_count)] if with_objects else []
+    ids = tuple(id_ for id_, kind in enumerate(kinds) if KIND_OF[kind].traced)
+    end, most, at_once = len(inputs), affordable_ticks(level, budget), BLOCK if after is not None else MAX_TICKS
+    blocks: list[TraceRecord] = []
+    over = after is None
+    while world.tick < end:
+        if world.tick == most or (over and end > most):
+            raise over_budget(level, end, budget)
+        block = inputs[world.tick : min(end, most, world.tick + at_once)]
+        if (world.tick + len(block)) * len(ids) > MAX_CELLS:
+            found = f"{world.tick + len(block)} ticks of {len(ids)} objects"
+            raise ArgumentError(f"the trace is too large: {found}; leave the objects out, or trace fewer ticks")
+        blocks.append(world.trace(block, [id_ + 1 for id_ in ids], events=events))
+        if not over and world.outcome:
+            over = True
+            last = int(np.argmax(ninja_columns(blocks[-1])["outcome"] != 0))
+            end = min(end, world.tick - len(block) + last + 1 + (after or 0))
+    names = tuple(KIND_NAMES[kinds[id_]] for id_ in ids)
+    ninja = [_ninja_rows(record) for record in blocks] or [np.empty(0, NINJA_RECORD)]
+    objects = [object_rows(record, len(ids)) for record in blocks] or [np.empty((0, len(ids)), OBJECT_RECORD)]
+    happened = [event_names(record) for record in blocks]
+    return RunTrace(
+        np.concatenate(ninja)[:end], np.concatenate(objects)[:end], ids, names, tuple(chain(*happened))[:end]
+    )
+
+
+def ninja_columns(record: TraceRecord) -> dict[str, NDArray[Any]]:
+    """TRACED_PLACES (float64) and TRACED_NUMBERS (int32) by name, each (ticks,)."""
+    places = np.frombuffer(record.ninja, np.float64).reshape(-1, len(TRACED_PLACES))
+    numbers = np.frombuffer(record.numbers, np.int32).reshape(-1, len(TRACED_NUMBERS))
+    return dict(zip((*TRACED_PLACES, *TRACED_NUMBERS), (*places.T, *numbers.T), strict=True))
+
+
+def _ninja_rows(record: TraceRecord) -> NDArray[np.void]:
+    """The ninja of each tick as NINJA_RECORD."""
+    seen = ninja_columns(record)
+    rows = np.empty(len(seen["x"]), NINJA_RECORD)
+    for name in NINJA_RECORD.names or ():
+        rows[name] = seen["state" if name == "s" else name]
+    return rows
+
+
+def object_rows(record: TraceRecord, count: int) -> NDArray[np.void]:
+    """The objects of each tick as OBJECT_RECORD."""
+    shape = len(record.numbers) // len(TRACED_NUMBERS), count
+    places = np.frombuffer(record.places, np.float64).reshape(*shape, 2)
+    rows = np.empty(shape, OBJECT_RECORD)
+    rows["x"], rows["y"] = places[..., 0], places[..., 1]
+    rows["s"] = np.frombuffer(record.statuses, np.int32).reshape(shape)
+    return rows
+
+
+def switched_doors(record: TraceRecord, count: int) -> NDArray[np.uint8]:
+    """Whether each object is a door that is not as it began: an automatic or locked one open, a trap closed."""
+    return np.frombuffer(record.switched, np.uint8).reshape(len(record.numbers) // len(TRACED_NUMBERS), count)
+
+
+def event_names(record: TraceRecord) -> tuple[str, ...]:
+    """The names of each tick's events, with blanks between."""
+    ticks = np.frombuffer(record.events, np.uint8).reshape(-1, MAX_EVENTS)
+    names = [""] * len(ticks)
+    for tick in np.flatnonzero(ticks[:, 0]).tolist():
+        names[tick] = " ".join(EVENT_NAMES[number - 1] for number in ticks[tick].tolist() if number)
+    return tuple(names)
 
 
 @dataclass(frozen=True)

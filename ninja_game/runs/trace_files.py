@@ -22,8 +22,7 @@ from ninja_game.errors import FileError, FormatError
 from ninja_game.files.arrays import MOST_ARRAYS, UNREADABLE, read_array
 from ninja_game.files.reading import open_regular
 from ninja_game.files.zips import open_zip
-from ninja_game.runs.run_trace import NINJA_RECORD, OBJECT_RECORD, RunTrace
-from ninja_game.runs.trace import NINJA_NAME, rows
+from ninja_game.runs.trace import NINJA_NAME, NINJA_RECORD, OBJECT_RECORD, RunTrace, rows
 from ninja_game.sim.inputs import MAX_TICKS, Input
 
 COLUMNS = (
@@ -44,7 +43,7 @@ _UNREADABLE = (*UNREADABLE, csv.Error)
 
 
 class FiledTrace(NamedTuple):
-    """A trace, and which record of which name and file it was made from; ``inputs``: one byte a tick."""
+    """A trace, and which record of which name and file it was made from; ``inputs``: one byte per tick."""
 
     record: int
     name: str

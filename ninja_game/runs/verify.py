@@ -10,7 +10,7 @@ from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ninja_game.backend.memories import open_memory, proven_memory
+from ninja_game.backend.memories import proven_memory
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest
@@ -19,9 +19,7 @@ from ninja_game.formats.replay.text import RULES_VERSION, Replay
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import with_press_bits
-from ninja_game.sim.memory.interface import TRACED_NUMBERS
-from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
-from ninja_game.simulation import Simulation, is_box
+from ninja_game.simulation import Simulation
 
 STRICT = {
     "outcome": "exit",
@@ -125,7 +123,6 @@ def verify_recording(
                 digest=bool(recording.replay.digest),
                 budget=budget,
             )
-            in_time = _in_time(recording, run, one_memory)
         except IndexError as error:
             what = "the run leads out of its world's arrays and is not judged: a fault of this program, worth a report"
             raise OutOfRangeError(f"{recording.file}: record {recording.record}: {what}") from error
@@ -138,7 +135,7 @@ def verify_recording(
     return replace(
         verdict, outcome=run.outcome, end_tick=run.end_tick, gold=run.gold,
         score_ticks=run.score_ticks if run.outcome == "exit" else None, ticks=run.ticks, xy_sha256=run.xy_sha256,
-        possible_by_keyboard=with_press_bits(inputs[:sampled]) == inputs[:sampled], in_time=in_time,
+        possible_by_keyboard=with_press_bits(inputs[:sampled]) == inputs[:sampled], in_time=run.in_time,
         problems=tuple(problems),
     )  # fmt: skip
 
@@ -151,7 +148,7 @@ def judged(verdict: Verdict, levels: Mapping[str, str], *, only_these: bool, str
     """
     demanded = []
     if (only_these or strict) and verdict.level_digest not in levels:
-        demanded.append(f"level_digest is {verdict.level_digest}, which is none of the levels that count")
+        demanded.append(f"level_digest is {verdict.level_digest}, which is not one of the levels that count")
     unknown = (None, NOT_RUN) if demanded else ()
     for field, expected in STRICT.items() if strict else ():
         found = getattr(verdict, field)
@@ -174,21 +171,6 @@ def _ending(recording: Recording, run: RunResult) -> str:
         held = len(recording.replay.inputs)
         return f"the demo is truncated, it holds {held} of its {held + recording.missing} ticks"
     return f"still running after {run.ticks} ticks"
-
-
-def _in_time(recording: Recording, run: RunResult, memory: str) -> bool:
-    """Whether the lifetime lasted until the run's end (game.md §1.1): it begins full, as in a level played alone."""
-    if run.ticks <= LIFETIME:
-        return True
-    # After each tick but that of the end one tick of lifetime is gone; none may be the last.
-    lived = run.ticks - (run.outcome != "running")
-    if LIFETIME + GOLD_BONUS * run.gold <= lived:
-        return False
-    inputs = recording.inputs[: run.ticks]
-    record = open_memory(memory, recording.level, box=is_box(recording.body)).trace(inputs, [], events=False)
-    width, at = len(TRACED_NUMBERS), TRACED_NUMBERS.index("gold")
-    gold = map(int, record.numbers[at : width * lived : width])
-    return all(LIFETIME + GOLD_BONUS * got > tick for tick, got in enumerate(gold, 1))
 
 
 def _broken_claims(replay: Replay, run: RunResult) -> Iterator[str]:
@@ -225,7 +207,7 @@ def _missed_waypoint(replay: Replay, run: RunResult) -> Iterator[str]:
 
 
 def memory_difference(recording: Recording, ticks: int) -> str:
-    """The first of so many ticks, and the field, in which the two memories differ, '' if they never do.
+    """The first of this many ticks, and the field, in which the two memories differ, '' if they never do.
 
     Raises MemoryUnavailableError without Numba.
     """

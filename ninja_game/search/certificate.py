@@ -1,59 +1,38 @@
-"""From inputs that a search found to a replay: smoothed if wanted, and run again from tick 0 on the plain memory."""
+"""From inputs that a search found to a replay: smoothed if wanted, and played from tick 0 on the plain memory."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 
+from ninja_game.budget import NO_LIMIT
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.runs.run import record_replay, run_level
 from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
 from ninja_game.sim.level import Level
-from ninja_game.simulation import Body, Simulation
+from ninja_game.simulation import Body
 
 
 class UnverifiedRunError(NinjaGameError):
     """A run that the plain memory does not confirm."""
 
 
-@dataclass(frozen=True)
-class VerifiedRun:
-    """A run to the exit that the plain memory has confirmed from tick 0.
-
-    ``inputs``: one byte a tick, up to and including the tick of the exit contact; ``digest``: what a replay
-    states after it.
-    """
-
-    level: Level
-    body: Body
-    inputs: bytes
-    gold: int
-    digest: str
-
-    @property
-    def end_tick(self) -> int:
-        """The tick of the exit contact: the length by which runs are compared."""
-        return len(self.inputs) - 1
-
-
-def verified_run(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 0) -> VerifiedRun:
-    """Play inputs from the start on the plain memory. What comes after the exit is cut off.
+def verified_run(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 0) -> Replay:
+    """Play inputs from the start on the plain memory: a replay up to the tick of the exit contact.
 
     Raises UnverifiedRunError if they do not reach the exit, or with less gold than asked for.
     """
-    run = Simulation(level, body=body, memory="plain")
-    for keys in inputs:
-        run.step_keys(keys)
-        if run.outcome != "running":
-            break
+    if not inputs:
+        raise UnverifiedRunError("a run without inputs does not reach the exit")
+    run = record_replay(level, inputs, body=body, budget=NO_LIMIT)
     if run.outcome != "exit":
-        raise UnverifiedRunError(f"the run does not reach the exit: {run.outcome} after {run.tick} ticks")
+        raise UnverifiedRunError(f"the run does not reach the exit: {run.outcome} after {run.ticks} ticks")
     if run.gold < gold:
         raise UnverifiedRunError(f"the run collects {run.gold} pieces of gold, {gold} were asked for")
-    return VerifiedRun(level, body, inputs[: run.tick], run.gold, run.replay_digest())
+    return run
 
 
 def with_plain_triggers(level: Level, inputs: bytes, *, body: Body = "circle", gold: int = 0) -> bytes:
@@ -68,10 +47,9 @@ def with_plain_triggers(level: Level, inputs: bytes, *, body: Body = "circle", g
         raise UnverifiedRunError("the run triggers jumps without a fresh press, as no keyboard does") from None
 
 
-def replay_of(run: VerifiedRun, *, name: str = "", author: str = "", level_author: str = "") -> Replay:
-    """A replay that holds its level; both have the same name."""
-    replay = record_replay(run.level, run.inputs, body=run.body, name=name, author=author)
-    return replace(replay, level_name=name, level_author=level_author)
+def named_run(run: Replay, *, name: str = "", author: str = "", level_author: str = "") -> Replay:
+    """A run under a name, which its level has too."""
+    return replace(run, name=name, author=author, level_name=name, level_author=level_author)
 
 
 def save_replay(path: Path, replay: Replay) -> None:

@@ -17,8 +17,8 @@ from ninja_game.files.tree import Tree
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.recording import parse_replays
-from ninja_game.formats.replay.text import write_replay
-from ninja_game.search.certificate import UnverifiedRunError, VerifiedRun, replay_of, verified_run
+from ninja_game.formats.replay.text import Replay, write_replay
+from ninja_game.search.certificate import UnverifiedRunError, named_run, verified_run
 from ninja_game.search.solve import Progress, Task, solve
 from ninja_game.sim.kinds import GOLD
 
@@ -33,7 +33,7 @@ class Certified:
     ``progress``: where the search stood at its end, None where there was none.
     """
 
-    run: VerifiedRun | None
+    run: Replay | None
     gold: int
     how: str
     progress: Progress | None = None
@@ -102,7 +102,7 @@ def _certify(
 
 
 def _certify_goal(
-    level: NamedLevel, path: Path | None, task: Task, kept: tuple[VerifiedRun, bool] | None,
+    level: NamedLevel, path: Path | None, task: Task, kept: tuple[Replay, bool] | None,
     others: Mapping[str, Certified], report: Callable[[Progress], None], stop: Event, improve: bool,
 ) -> Certified:  # fmt: skip
     """The best run for a goal: the kept one, one found for another goal, or one that is searched now."""
@@ -119,7 +119,7 @@ def _certify_goal(
         last[:] = [progress]
         report(progress)
 
-    def keep(better: VerifiedRun) -> None:
+    def keep(better: Replay) -> None:
         if not (run and of_this_level and better.end_tick >= run.end_tick):
             _write(level, path, better)
 
@@ -137,7 +137,7 @@ def _certify_goal(
     return Certified(best, task.gold, how, *last)
 
 
-def kept_run(level: NamedLevel, path: Path, task: Task) -> tuple[VerifiedRun, bool] | None:
+def kept_run(level: NamedLevel, path: Path, task: Task) -> tuple[Replay, bool] | None:
     """A replay's run, if it still does on a level what is wanted, and whether it was made on just this level.
 
     None if the file is missing, or if its run does not pass this level any more. Raises NinjaGameError for a file that
@@ -154,7 +154,7 @@ def kept_run(level: NamedLevel, path: Path, task: Task) -> tuple[VerifiedRun, bo
         return None
 
 
-def _write(level: NamedLevel, path: Path | None, run: VerifiedRun) -> None:
+def _write(level: NamedLevel, path: Path | None, run: Replay) -> None:
     if path:
-        replay = replay_of(run, name=level.name, author=AUTHOR, level_author=level.author)
+        replay = named_run(run, name=level.name, author=AUTHOR, level_author=level.author)
         Tree(path.parent).write(path.name, write_replay(replay))

@@ -13,8 +13,9 @@ from math import inf
 from threading import Event
 
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.replay.text import Replay
 from ninja_game.search.best_first import Search
-from ninja_game.search.certificate import VerifiedRun, with_plain_triggers
+from ninja_game.search.certificate import with_plain_triggers
 from ninja_game.search.engine import MORE
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.nodes import Resolution, open_start
@@ -33,8 +34,8 @@ from ninja_game.search.task import (
     Progress,
     Report,
     SearchState,
-    Shares,
     Task,
+    WorkPlan,
     find_order,
 )
 
@@ -50,7 +51,7 @@ class _Job:
         self.number = number
         self.seed = task.seed * 1000 + number
         self.work = 0.0
-        self.shares = Shares()
+        self.shares = WorkPlan()
         self.start = open_start(task.level, box=task.body == "box")
         self.heuristics = Heuristics(self.start.levels, self.start.worlds)
         self._sweeper: Shortener | None = None
@@ -137,7 +138,7 @@ class _Job:
         self.shortener.search_spans(self.shortener.climb(best, shares.climb), shares.spans_with_gold)
 
     def _follow(self, route: Route, ticks: float) -> None:
-        """Search a run in legs, for so many ticks; one that is found is submitted."""
+        """Search a run in legs, for this many ticks; one that is found is submitted."""
         doing = f" of {route.gold} gold" if route.gold else ""
         until = self.work + ticks * SEARCH_COST
         first = not self.state.runs
@@ -164,7 +165,9 @@ class _Job:
         resolution = resolution._replace(slack=resolution.slack * shortest)
         given, early = bool(self.state.task.first), self._early
         bound = shortest + max(4, int(shortest * (GIVEN_BOUND if given else FOUND_BOUND)))
-        found = self._search_once(resolution, VARY_TICKS, seed=100 + turn, bound=bound, guided=resolution.slack > 0.0)
+        found = self._search_once(
+            resolution, VARY_TICKS, seed=100 + turn, bound=bound, backed_up=resolution.slack > 0.0
+        )
         if not early and not found:
             return
         run = self.shortener.climb(found or self.state.runs[0], self.shares.climb)
@@ -172,11 +175,11 @@ class _Job:
             self.shortener.search_spans(run, self.shares.spans)
 
     def _search_once(
-        self, resolution: Resolution, ticks: int, *, seed: int, bound: int, guided: bool = False,
+        self, resolution: Resolution, ticks: int, *, seed: int, bound: int, backed_up: bool = False,
         until_found: bool = False,
     ) -> bytes | None:  # fmt: skip
         search = self._search
-        search.begin(resolution, seed=self.seed * 1000 + seed, bound=bound, guided=guided)
+        search.begin(resolution, seed=self.seed * 1000 + seed, bound=bound, backed_up=backed_up)
         ended, worlds = MORE, 0
         while ended == MORE and search.ticks < ticks and not self._over:
             before = search.ticks
@@ -212,9 +215,9 @@ def solve(
     task: Task,
     *,
     report: Report | None = None,
-    on_better: Callable[[VerifiedRun], None] | None = None,
+    on_better: Callable[[Replay], None] | None = None,
     stop: Event | None = None,
-) -> VerifiedRun | None:
+) -> Replay | None:
     """The best run to the exit that was found in the time, None if there is none.
 
     ``report`` is called a few times a second, ``on_better`` with every verified run that is shorter than those before.

@@ -11,7 +11,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from threading import Event, Lock
 
-from ninja_game.search.certificate import VerifiedRun, verified_run
+from ninja_game.formats.replay.text import Replay
+from ninja_game.search.certificate import verified_run
 from ninja_game.search.nodes import Resolution
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level
@@ -42,7 +43,7 @@ class Progress:
 
 @dataclass(frozen=True)
 class Task:
-    """What to solve: ``gold`` pieces at least (-1: all), for ``seconds``, or for so many ticks of ``work`` a job.
+    """What to solve: ``gold`` pieces at least (-1: all), for ``seconds``, or for this many ticks of ``work`` a job.
 
     ``first``: a run to shorten; ``first_only``: the first run that is found will do.
     """
@@ -79,9 +80,9 @@ class SearchState:
     stop: Event = field(default_factory=Event)
     cancelled: Event = field(default_factory=Event)  #: by the caller
     runs: list[bytes] = field(default_factory=list)
-    best: VerifiedRun | None = None
+    best: Replay | None = None
     progress: Progress = field(default_factory=Progress)
-    on_better: Callable[[VerifiedRun], None] | None = None
+    on_better: Callable[[Replay], None] | None = None
 
     def submit(self, inputs: bytes) -> None:
         """Remember a run if it is among the best; a new best one is verified first."""
@@ -144,7 +145,7 @@ Before each but the first, a run from switch to switch is looked for, as long.
 VARY = (
     Resolution(cell=8.0, speed=0.5, macro=8, weight=1.0),
     Resolution(cell=8.0, speed=0.4, macro=6, jitter=3, weight=1.1),
-    Resolution(cell=6.0, speed=0.35, macro=6, weight=1.0, slack=0.2, off_guide=0.3),
+    Resolution(cell=6.0, speed=0.35, macro=6, weight=1.0, slack=0.2, off_table=0.3),
     Resolution(cell=12.0, speed=0.4, macro=7, weight=1.0),
     Resolution(cell=10.0, speed=0.35, macro=9, weight=1.2),
     Resolution(cell=6.0, speed=0.5, macro=10, weight=1.1),
@@ -168,7 +169,7 @@ COOLING = (6.0, 4.0, 2.5, 1.2, 0.4)
 
 
 @dataclass(frozen=True)
-class Shares:
+class WorkPlan:
     """How a solver's work is divided: the part of it that only looks for other routes; ticks of the others."""
 
     vary_until: float = 0.25

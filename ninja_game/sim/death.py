@@ -35,8 +35,8 @@ from ninja_game.sim.states import (
 def kill(w: World, cause: int, slot: int, fx: float, fy: float, cx: float, cy: float) -> None:
     """Kill the ninja if it is alive.
 
-    ``cause``: what kills (states.py); ``slot``: who, 0 for nobody. For the corpse: impulse (fx, fy) in px/tick, and
-    the point (cx, cy) in px where it acts.
+    ``cause``: what kills (states.py); ``slot``: the killer's, 0 without one. For the corpse: impulse (fx, fy) in
+    px/tick, and the point (cx, cy) in px where it acts.
     """
     n = w.ninja
     if n.state == DEAD:

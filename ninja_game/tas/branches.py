@@ -111,7 +111,7 @@ def branches_of_json(kept: dict[str, Any]) -> Branches:
     for number, each in enumerate(kept["branches"]):
         branch = branch_of_json(each)
         if branch.parent is not None and not 0 <= branch.parent < number:
-            raise ValueError("a branch that hangs on a later one")
+            raise ValueError("a branch whose parent comes later")
         found.all.append(branch)
     if kept["current"] is not None:
         found.checkout(int(kept["current"]))
@@ -161,5 +161,5 @@ def checked_track(inputs: bytes, markers: tuple[Marker, ...]) -> InputTrack:
     check_inputs(inputs)
     names = {name for tick, name in markers if 0 <= tick <= len(inputs) and is_marker_name(name)}
     if len(names) < len(markers):
-        raise ValueError("names of ticks that there cannot be")
+        raise ValueError("markers at impossible ticks")
     return InputTrack(inputs, markers)

@@ -15,7 +15,7 @@ from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, MAX_TICKS, pressed
 
 @dataclass(frozen=True)
 class InputTrack:
-    """``inputs``: one byte a tick, the sum of its ``Input`` flags; in ticks beyond them no key is down.
+    """``inputs``: one byte per tick, the sum of its ``Input`` flags; in ticks beyond them no key is down.
 
     The jump triggers where the key goes down. A recording that is odd there (``Input.JUMP_PRESSED`` without the key, or
     a key that goes down without it) stays as it is in all ticks that are not edited.

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from ninja_game.backend.memories import open_memory
 from ninja_game.budget import tick_cost
 from ninja_game.errors import ArgumentError
-from ninja_game.runs.run_trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
 from ninja_game.runs.save_states import SaveStates
-from ninja_game.sim.inputs import MAX_TICKS, first_ticks
+from ninja_game.runs.trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
+from ninja_game.sim.inputs import MAX_TICKS, fitted_inputs
 from ninja_game.sim.kinds import EXIT, KIND_OF
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES
@@ -100,7 +100,7 @@ class Timeline:
         """Other inputs. What they have in common with those before stays simulated. The first tick that differs."""
         # Behind the inputs no key is down: a run that grows by such ticks goes the same way.
         longest = max(len(self.inputs), len(inputs))
-        same = first_difference(first_ticks(self.inputs, longest), first_ticks(inputs, longest))
+        same = first_difference(fitted_inputs(self.inputs, longest), fitted_inputs(inputs, longest))
         self.inputs = inputs
         self._forget(min(same, len(self)))
         return same
@@ -146,7 +146,7 @@ class Timeline:
 
     def _run(self, first: int, last: int) -> None:
         """Simulate the ticks ``first`` … ``last`` - 1 and note what they show."""
-        inputs = first_ticks(self.inputs[first:last], last - first)
+        inputs = fitted_inputs(self.inputs[first:last], last - first)
         record = self._memory.trace(inputs, [id_ + 1 for id_ in self.watched], events=True)
         for name, values in ninja_columns(record).items():
             self._columns[name][first:last] = values
@@ -158,7 +158,7 @@ class Timeline:
         self.simulated_until = last
 
     def _reserve(self, rows: int) -> None:
-        """Have room for so many rows."""
+        """Have room for this many rows."""
         if len(self._objects) >= rows:
             return
         more = max(rows - len(self._objects), _GROWTH)
@@ -219,6 +219,6 @@ class Timeline:
         return (int(ended[0]), OUTCOME_NAMES[int(outcomes[ended[0]])]) if len(ended) else (-1, OUTCOME_NAMES[0])
 
     def save_state(self, tick: int) -> SaveState:
-        """The nearest moment that is kept at or before the one after so many ticks, for ``Simulation.restore``."""
+        """The nearest moment that is kept at or before the one after this many ticks, for ``Simulation.restore``."""
         at, state = self._states.nearest(min(tick, self.simulated_until, MAX_TICKS))
-        return SaveState(self.level, self.body, self.memory, first_ticks(self.inputs[:at], at), state)
+        return SaveState(self.level, self.body, self.memory, fitted_inputs(self.inputs[:at], at), state)

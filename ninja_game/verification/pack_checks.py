@@ -32,7 +32,7 @@ class Certificate:
 
     @cached_property
     def verdict(self) -> Verdict:
-        """What comes of it. Raises LevelError for a level that cannot be played."""
+        """The result. Raises LevelError for a level that cannot be played."""
         return verify_recording(self.recording)
 
     @property

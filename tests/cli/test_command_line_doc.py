@@ -17,7 +17,7 @@ DOC = (ROOT / "docs" / "command-line.md").read_text(encoding="utf-8")
 LINES = [
     line for block in re.findall(r"^```sh\n(.*?)^```$", DOC, re.MULTILINE | re.DOTALL) for line in block.splitlines()
 ]
-READING = ("info", "convert", "verify", "trace", "splits", "compare", "completion")
+READING = ("info", "convert", "verify", "trace", "splits", "compare")
 
 
 @pytest.mark.parametrize("line", LINES)

@@ -11,7 +11,6 @@ import click
 import pytest
 from click.testing import CliRunner
 
-from ninja_game.cli.completion import STARTUP_FILES
 from ninja_game.cli.main import COMMANDS, cli
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.resources import bundled_levels, data_folder
@@ -147,20 +146,16 @@ def test_a_signal_that_python_turns_into_another_error_is_still_one(
 
 
 def test_reader_that_leaves_early_is_no_error() -> None:
-    for words, reader in (("completion bash", "true"), (f"info {data_folder('levels')}", "sleep 0")):
+    for words, reader in (("link 00-0-first-steps", "true"), (f"info {data_folder('levels')}", "sleep 0")):
         command = f"{sys.executable} -m ninja_game {words} | {reader}; echo ${{PIPESTATUS[0]}}"
         result = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
         assert result.stderr == ""
         assert result.stdout.strip() in ("0", "141")
 
 
-@pytest.mark.parametrize("shell", STARTUP_FILES)
-def test_completion_prints_a_script_for(shell: str) -> None:
-    script = CliRunner().invoke(cli, ["completion", shell], prog_name="ninja-game")
-    assert script.exit_code == 0
-    assert "_NINJA_GAME_COMPLETE" in script.stdout
-
-
-def test_completion_without_a_shell_tells_what_to_do() -> None:
-    result = CliRunner().invoke(cli, ["completion"])
-    assert all(line in result.stdout for _, line in STARTUP_FILES.values())
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_click_completes_for(shell: str) -> None:
+    environment = os.environ | {"_NINJA_GAME_COMPLETE": f"{shell}_source"}
+    command = [sys.executable, "-m", "ninja_game"]
+    result = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
+    assert "_NINJA_GAME_COMPLETE" in result.stdout

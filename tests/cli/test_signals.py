@@ -11,7 +11,6 @@ from pathlib import Path
 import pytest
 
 from ninja_game.backend.memories import compiled_available
-from ninja_game.runs import benchmark
 from ninja_game.signals import GRACE, held_back
 from tests.support.samples import WALK, WALK_END, running, write_records
 from tests.support.stopping import COMMANDS, ended, make_work
@@ -173,14 +172,3 @@ def test_nothing_that_lies_in_the_current_folder_is_imported(door: str, tmp_path
     )  # fmt: skip
     assert not (tmp_path / "poisoned").exists(), done.stderr
     assert done.returncode == 0, done.stderr
-
-
-def test_the_processes_that_bench_measures_import_nothing_of_the_current_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    poison(tmp_path, "ninja_game")
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("POISONED", str(tmp_path / "poisoned"))
-    monkeypatch.delenv("PYTHONSAFEPATH", raising=False)
-    assert benchmark._first_tick("plain") > 0
-    assert not (tmp_path / "poisoned").exists()

@@ -1,4 +1,4 @@
-"""`ninja-game verify` on archives: reports, checkpoint logs, workers, clusters; `ninja-game bench --scaling`."""
+"""`ninja-game verify` on archives: reports, checkpoint logs, workers, clusters."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from ninja_game.backend.memories import compiled_available
 from ninja_game.cli.main import cli
 from tests.support.samples import SPIKED, WALK, WALK_END, running, write_records
 
@@ -68,17 +67,3 @@ def test_a_cluster_without_dask_is_an_error_in_words(archive: Path, monkeypatch:
     result = verify(archive, "--cluster", "tcp://127.0.0.1:1")
     assert result.exit_code == 2
     assert "ninja-game[cluster]" in result.stderr or "tools/dev.py run" in result.stderr
-
-
-@pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
-def test_scaling_writes_a_table_for_each_chart(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from benchmarks import charts
-
-    monkeypatch.setattr(charts, "ROUND_SECONDS", 0.0001)
-    monkeypatch.setattr(charts, "ROUNDS", 1)
-    path = write_records(tmp_path / "walk.txt", ("Walk", WALK, running(WALK_END)))
-    result = CliRunner().invoke(cli, ["bench", str(path), "--scaling", str(tmp_path / "charts"), "--only", "ray"])
-    assert result.exit_code == 0, result.stderr
-    lines = (tmp_path / "charts" / "ray-against-length.csv").read_text().splitlines()
-    assert lines[0] == "series,cells crossed,ns a ray"
-    assert len(lines) > 10

@@ -172,7 +172,7 @@ def test_nobodys_file_is_replaced_without_asking(tmp_path: Path) -> None:
         save(source, draft, path)
     other = tmp_path / "other.txt"
     other.write_text("mine")
-    with pytest.raises(OccupiedError, match=r"there is a file other.txt already"):
+    with pytest.raises(OccupiedError, match=r"a file named other.txt already exists"):
         save(source, draft, other)
     assert other.read_text() == "mine"
     source = save(source, draft, path, replacing=True)
@@ -263,7 +263,7 @@ def test_a_file_that_has_gone_meanwhile_is_not_made_again_without_asking(tmp_pat
     assert save(source, source.draft, path, replacing=True).path == path
     link = tmp_path / "link.txt"
     link.symlink_to(tmp_path / "nothing")
-    with pytest.raises(OccupiedError, match=r"there is a file link\.txt already"):
+    with pytest.raises(OccupiedError, match=r"a file named link\.txt already exists"):
         save(new_source(), source.draft, link)
 
 

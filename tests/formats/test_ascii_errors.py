@@ -1,4 +1,4 @@
-"""Every mistake in an ASCII level: the message names file, line and column, what was found and how to mend it."""
+"""Every mistake in an ASCII level: the message names file, line and column, what was found and how to fix it."""
 
 from __future__ import annotations
 

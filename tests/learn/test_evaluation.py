@@ -42,7 +42,7 @@ class Runner:
 
 
 class Walker:
-    """Plans to run to the right for so many steps."""
+    """Plans to run to the right for this many steps."""
 
     settings: ClassVar[dict[str, Any]] = {"frame_skip": 4, "actions": "discrete"}
 

@@ -12,7 +12,7 @@ import pytest
 
 from ninja_game.errors import LevelError
 from ninja_game.play.app import App, build_app
-from ninja_game.play.level.run_clock import RunClock
+from ninja_game.play.level.play import RunClock
 from ninja_game.play.main import main
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.screen import Screen
@@ -76,7 +76,7 @@ def test_a_machine_without_a_sound_card_is_silent_on_the_terminal_too(tmp_path: 
 
 
 class Probe(Screen):
-    """Writes down what it is told."""
+    """Keeps what it gets."""
 
     def __init__(self, app: App, *, see_through: bool = False, below_runs: bool = False) -> None:
         super().__init__(app)

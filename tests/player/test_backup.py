@@ -113,7 +113,7 @@ def packed(**files: bytes) -> bytes:
 def test_what_is_no_backup_changes_nothing(data: bytes, tmp_path: Path) -> None:
     here = player_data(tmp_path)
     before = sorted(tmp_path.rglob("*"))
-    with pytest.raises(FileError, match="no backup of a player's data"):
+    with pytest.raises(FileError, match="not a backup of a player's data"):
         read_backup(here, data)
     assert sorted(tmp_path.rglob("*")) == before
 

@@ -5,12 +5,15 @@ from __future__ import annotations
 import json
 import resource
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game import run_level
+from ninja_game.backend.memories import open_memory
 from ninja_game.budget import PAGE_BUDGET, RUN_BUDGET, affordable_ticks, tick_cost
 from ninja_game.cli.main import cli
 from ninja_game.errors import BudgetError
@@ -24,11 +27,13 @@ from ninja_game.runs import comparison
 from ninja_game.runs.comparison import aligned
 from ninja_game.runs.run import record_replay
 from ninja_game.runs.splits import run_splits
-from ninja_game.runs.trace import trace_recording
+from ninja_game.runs.trace import Difference, first_difference, trace_level, trace_recording
 from ninja_game.runs.verify import verify_recording
+from ninja_game.search.certificate import named_run, save_replay, verified_run
 from ninja_game.sim.inputs import MAX_DEMO_TICKS, Demo
 from ninja_game.sim.kinds import NO_KIND
 from ninja_game.sim.level import Level, ObjectSpec
+from ninja_game.sim.memory.interface import Memory
 from ninja_game.web.services import PageServices
 from tests.support.heavy import heavy_level
 from tests.support.memories import BOTH
@@ -134,11 +139,54 @@ def test_the_costliest_run_takes_seconds_of_the_processor(tmp_path: Path) -> Non
     assert json.loads(command("verify", file, "--json").output)["ticks"] == 31
 
 
-def test_lifetime_is_not_simulated_a_second_time_where_the_gold_cannot_have_sufficed(
-    monkeypatch: pytest.MonkeyPatch,
+@pytest.fixture
+def ticks_run(monkeypatch: pytest.MonkeyPatch) -> Callable[[], int]:
+    """How many ticks have been simulated for whole runs and traces."""
+    opened: list[Memory] = []
+
+    def opening(*words: Any, **options: Any) -> Memory:
+        opened.append(open_memory(*words, **options))
+        return opened[-1]
+
+    for module in ("run", "trace"):
+        monkeypatch.setattr(f"ninja_game.runs.{module}.open_memory", opening)
+    return lambda: sum(memory.tick for memory in opened)
+
+
+GOLD_AT_THE_START = "0" * 713 + "|5^100,566!0^104,566!0^108,566"
+
+
+@pytest.mark.parametrize("ticks, in_time", [(3599, True), (3759, True), (3760, False), (9000, False)])
+def test_a_run_is_judged_by_running_it_once_whether_it_is_in_time_or_not(
+    ticks: int, in_time: bool, ticks_run: Callable[[], int]
 ) -> None:
-    monkeypatch.setattr("ninja_game.runs.verify.open_memory", None)
-    assert not verify_recording(recording(parse_level("0" * 713 + "|5^100,566"), 4000), "plain").in_time
+    assert verify_recording(recording(parse_level(GOLD_AT_THE_START), ticks), "plain").in_time == in_time
+    assert ticks_run() == ticks
+
+
+@pytest.mark.parametrize("ticks", [10, 1000])
+def test_a_recording_is_traced_by_running_it_once(ticks: int, ticks_run: Callable[[], int]) -> None:
+    assert len(trace_recording(recording(parse_level(WALK), ticks), memory="plain").ninja) == ticks
+    assert ticks_run() == ticks
+
+
+def test_a_trace_ends_with_the_run_and_what_was_asked_for_behind_it() -> None:
+    walk = recording(parse_level(WALK), 0)
+    walk = replace(walk, replay=replace(walk.replay, inputs=bytes([2] * 1000), final_tick=999))
+    whole = trace_level(walk.level, bytes([2] * 300), memory="plain", events=True)
+    for after in (0, 250):
+        part = trace_recording(walk, after=after, memory="plain", events=True)
+        assert first_difference(part, whole) == Difference(
+            len(part.ninja), "run", "number of ticks", len(part.ninja), 300
+        )
+
+
+def test_the_run_of_a_search_is_verified_and_written_by_running_it_once(
+    tmp_path: Path, ticks_run: Callable[[], int]
+) -> None:
+    run = verified_run(parse_level(WALK), bytes([2] * 60))
+    save_replay(tmp_path / "run.txt", named_run(run, name="Walk"))
+    assert ticks_run() == WALK_END + 1
 
 
 def test_runs_of_very_different_lengths_are_not_compared_place_by_place(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -27,7 +27,7 @@ CERTIFICATES = sorted((Path(__file__).resolve().parent.parent / "pack").glob("**
 
 
 def walk(waiting: int, *, at: int = 0, level: str = LEVEL) -> Recording:
-    """The walk to the right, with so many ticks without a key from tick ``at`` on."""
+    """The walk to the right, with this many ticks without a key from tick ``at`` on."""
     inputs = bytes([2] * at + [0] * waiting + [2] * 60)
     on = parse_level(level)
     return Recording(on, Replay.of_inputs(inputs, on, name="walk"))

@@ -16,8 +16,7 @@ import pytest
 from numpy.typing import NDArray
 
 from ninja_game.errors import FormatError
-from ninja_game.runs.run_trace import NINJA_RECORD, OBJECT_RECORD, RunTrace
-from ninja_game.runs.trace import first_difference, rows, trace_digests
+from ninja_game.runs.trace import NINJA_RECORD, OBJECT_RECORD, RunTrace, first_difference, rows, trace_digests
 from ninja_game.runs.trace_files import COLUMNS, MOST_BYTES, FiledTrace, read_csv, read_traces, write_csv, write_npz
 from ninja_game.sim.inputs import MAX_TICKS
 from tests.support.reference import scene_traces, scenes

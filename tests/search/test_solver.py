@@ -10,6 +10,7 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import LevelError
 from ninja_game.formats.n14.level_string import parse_level_string
+from ninja_game.formats.replay.text import Replay
 from ninja_game.runs.run import run_level
 from ninja_game.sim.level import Level
 
@@ -17,7 +18,7 @@ if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
 from ninja_game.search.best_first import Search
-from ninja_game.search.certificate import UnverifiedRunError, VerifiedRun, replay_of, rows_of, smoothed, verified_run
+from ninja_game.search.certificate import UnverifiedRunError, named_run, rows_of, smoothed, verified_run
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.nodes import open_start
 from ninja_game.search.solve import Progress, Task, solve
@@ -48,7 +49,7 @@ CLOSED_IN = parse_level_string("0" * COLUMN * 5 + "1" * COLUMN + "0" * COLUMN * 
 SMALL_WORK = 300_000
 
 
-def replayed(level: Level, run: VerifiedRun | None, body: str = "circle") -> VerifiedRun:
+def replayed(level: Level, run: Replay | None, body: str = "circle") -> Replay:
     """The run, after it has reached the exit on the plain memory just where it says."""
     assert run is not None
     result = run_level(level, run.inputs, body="box" if body == "box" else "circle", memory="plain")
@@ -152,7 +153,7 @@ def test_one_job_and_one_seed_improve_a_run_in_one_way() -> None:
 
 
 def test_every_better_run_is_reported_verified_and_shorter_than_the_last() -> None:
-    runs: list[VerifiedRun] = []
+    runs: list[Replay] = []
     progress: list[Progress] = []
     best = solve(Task(LEDGE, work=3_000_000), report=progress.append, on_better=runs.append)
     assert best == runs[-1]
@@ -183,7 +184,7 @@ def test_a_level_without_a_ninja_is_refused() -> None:
 
 
 def test_the_replay_says_what_was_played() -> None:
-    replay = replay_of(verified_run(WALK, bytes([2] * 40)), name="Walk")
+    replay = named_run(verified_run(WALK, bytes([2] * 40)), name="Walk")
     assert (replay.final_tick, replay.outcome, replay.gold) == (WALK_TICKS, "exit", 1)
     assert len(replay.inputs) == WALK_TICKS + 1
 

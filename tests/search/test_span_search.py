@@ -1,4 +1,4 @@
-"""A span's search beside a program: live results, the end, what goes wrong."""
+"""A span search in the background: live results, the end, what goes wrong."""
 
 from __future__ import annotations
 

@@ -7,8 +7,7 @@ import numpy as np
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.runs.run import run_level
-from ninja_game.runs.run_trace import NINJA_RECORD, OBJECT_RECORD, RunTrace, trace_level
-from ninja_game.runs.trace import first_difference, trace_digests
+from ninja_game.runs.trace import NINJA_RECORD, OBJECT_RECORD, RunTrace, first_difference, trace_digests, trace_level
 from ninja_game.sim.states import STATE_NAMES
 from tests.support import reference
 

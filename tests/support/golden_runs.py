@@ -15,8 +15,7 @@ from ninja_game.backend.known_run import DIGEST, known_digest
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay
-from ninja_game.runs.run_trace import trace_level
-from ninja_game.runs.trace import trace_digests
+from ninja_game.runs.trace import trace_digests, trace_level
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.plain import PlainMemory
 from ninja_game.simulation import Body, Simulation

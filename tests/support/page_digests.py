@@ -17,7 +17,7 @@ EVERY = 25
 
 
 def digest_of(level: str, body: Any, keys: str) -> str:
-    """Sha256 of a run on the plain memory. ``level``: N's string; ``keys``: one byte a tick, in hexadecimal."""
+    """Sha256 of a run on the plain memory. ``level``: N's string; ``keys``: one byte per tick, in hexadecimal."""
     run = Simulation(parse_level_string(level), body=body, memory="plain")
     seen = sha256()
     for tick, key in enumerate(bytes.fromhex(keys)):

@@ -32,7 +32,7 @@ def unclaimed_text(level: str, *lines: str, headers: str = "") -> str:
 
 
 def running(ticks: int) -> str:
-    """The demo of holding right for so many ticks."""
+    """The demo of holding right for this many ticks."""
     return write_demo(Demo(bytes([2] * ticks), float(ticks)))
 
 

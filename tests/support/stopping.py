@@ -34,7 +34,6 @@ COMMANDS = {
     "improve": "improve walk.replay.txt --seconds 100 --jobs 1 -o out/run.replay.txt",
     "search": "search walk.replay.txt --from 0 --to 20 --goal x>9999 --seconds 100 -o out/run.replay.txt",
     "check": "check far.txt --seconds 100 --replays out",
-    "bench": "bench walk.replay.txt",
     "play": "play --replay archive.txt --size 132x100",
     "film": "film long.txt -o out/film.gif --to 300000",
     "convert": "convert archive.txt out/replays --to replay",
@@ -56,7 +55,6 @@ STARTED = COMMANDS | {
     "compare": "compare walk.replay.txt walk.replay.txt",
     "site": "site out/site",
     "board": "board pack",
-    "completion": "completion bash",
 }
 """Every command of the program; the short ones may be done before anybody stops them."""
 

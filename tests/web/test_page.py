@@ -102,7 +102,7 @@ def test_a_link_of_a_level_is_played_at_once_and_the_data_move_to_another_browse
     other.page.get_by_role("button", name="Back to the game").click()
     other.page.click("#panel-open")
     other.page.set_input_files("#panel input[accept='.zip']", CERTIFICATE)
-    other.page.get_by_text("no backup of a player's data").wait_for()
+    other.page.get_by_text("not a backup of a player's data").wait_for()
     other.page.get_by_role("button", name="Back to the game").click()
     other.page.click("#panel-open")
     other.page.set_input_files("#panel input[accept='.zip']", tmp_path / "player.zip")

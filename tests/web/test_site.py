@@ -79,7 +79,7 @@ def test_nothing_is_written_or_removed_through_a_link(place: str, pyodide: Path,
 def test_a_mark_that_is_nested_too_deep_is_no_mark(pyodide: Path, tmp_path: Path) -> None:
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / build.MARK).write_text("[" * 100_000)
-    with pytest.raises(FileError, match="no site of ninja-game"):
+    with pytest.raises(FileError, match="not a site of ninja-game"):
         build.build_site(tmp_path / "out", pyodide, tmp_path)
 
 
@@ -111,7 +111,7 @@ def test_the_archive_holds_the_game_and_nothing_that_the_page_cannot_use(pyodide
 def test_a_folder_with_other_things_is_left_alone(pyodide: Path, tmp_path: Path) -> None:
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "index.html").write_text("mine")
-    with pytest.raises(FileError, match=r"no site of ninja-game.*new or empty folder"):
+    with pytest.raises(FileError, match=r"not a site of ninja-game.*new or empty folder"):
         build.build_site(tmp_path / "mine", pyodide, tmp_path)
     assert names_in(tmp_path / "mine") == {"index.html"}
 

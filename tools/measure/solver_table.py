@@ -24,7 +24,7 @@ from typing import Any
 
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.search.certificate import VerifiedRun
+from ninja_game.formats.replay.text import Replay
 from ninja_game.search.solve import Progress, Task, compile_solver, solve
 from ninja_game.search.task import WORK_PER_SECOND
 from tools import ROOT
@@ -83,7 +83,7 @@ def _stop_when_late(stop: Event, until: float, _: Progress) -> None:
         stop.set()
 
 
-def _note(found: list[float], began: float, _: VerifiedRun) -> None:
+def _note(found: list[float], began: float, _: Replay) -> None:
     """Note after how many seconds a better run was found."""
     found.append(time.monotonic() - began)
 

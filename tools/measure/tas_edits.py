@@ -70,7 +70,7 @@ def percentiles(times: list[float]) -> str:
 
 
 def edit_times(run: Path, size: tuple[int, int], edits: int, clock: Callable[[], float]) -> dict[str, list[float]]:
-    """The longest turn of the program's loop during each of so many edits, ms, by the edit's name."""
+    """The longest turn of the program's loop during each of this many edits, ms, by the edit's name."""
     from tests.support.tas_driver import TasDriver
     from tests.support.tas_edits import EDITS, go_at_random
 

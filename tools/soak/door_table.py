@@ -40,15 +40,14 @@ from ninja_game.formats.recording import parse_replays, record_of
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.formats.tas_lines import write_celeste, write_libtas
 from ninja_game.levels.warnings import level_warnings
-from ninja_game.play.ui.edited_text import EditedText
 from ninja_game.play.ui.stroke_font import StrokeFont
+from ninja_game.play.ui.text_entry import EditedText
 from ninja_game.player.backup import read_backup
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings_file import read_settings, write_changes
 from ninja_game.player.store import Store
 from ninja_game.runs.recording_reader import recordings_of, records_of
-from ninja_game.runs.run_trace import RunTrace, trace_level
-from ninja_game.runs.trace import first_difference, rows, trace_digests
+from ninja_game.runs.trace import RunTrace, first_difference, rows, trace_digests, trace_level
 from ninja_game.runs.trace_files import FiledTrace, read_csv, read_traces
 from ninja_game.search.formula.language import parse_truth
 from ninja_game.search.formula.names import FACTS, SPAN_NAMES

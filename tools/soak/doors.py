@@ -254,7 +254,7 @@ def sound_inputs(names: list[str], kept: Path | None, *, reference: bool) -> Poo
 
 
 def write_smallest(trial: Trial, pool: Pool, folder: Path, longest: int) -> None:
-    """Write few short inputs that reach all the lines that those of a pool reach, and a sound one, a folder a door."""
+    """Write few short inputs that reach all the lines of a pool, and a sound one, one folder per door."""
     steps = Lines()
     for name, inputs in pool.items():
         known: set[Any] = set()

@@ -32,7 +32,7 @@ LONGEST_LIFE = 0.25
 
 
 def level_of(number: int) -> Level:
-    """A level that is passed by running right; each number makes another one."""
+    """A level for which running right is enough; each number makes another one."""
     return parse_level_string("0" * 713 + f"|5^100,566!11^160,564,130,564!0^{300 + number},100")
 
 

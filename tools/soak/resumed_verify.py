@@ -49,7 +49,7 @@ def make_archive(folder: Path, count: int, source: Path | None) -> None:
 
 
 def run(words: list[str], kill_after: float) -> tuple[int, float, float]:
-    """Exit code, seconds and peak memory (MiB) of a program, killed after so many seconds if there are any."""
+    """Exit code, seconds and peak memory (MiB) of a program, killed after this many seconds if there are any."""
     start = time.monotonic()
     process = subprocess.Popen(words, cwd=ROOT, stderr=subprocess.DEVNULL)
     while kill_after and process.poll() is None:

@@ -20,7 +20,7 @@ from ninja_game.formats.links.fragment import is_link
 @click.argument("replay", type=InputPath(dir_okay=False))
 @click.option(
     "-o", "--out", type=click.Path(path_type=Path),
-    help="The film: NAME.gif, NAME.webm, or a folder for one PNG picture a tick. [default: a new file with the "
+    help="The film: NAME.gif, NAME.webm, or a folder for one PNG picture per tick. [default: a new file with the "
     "replay's name and .gif]",
 )  # fmt: skip
 @click.option("--record", type=click.IntRange(min=0), default=0, help="Which recording of the file, counted from 0.")
@@ -28,16 +28,16 @@ from ninja_game.formats.links.fragment import is_link
     "--size", metavar="WIDTHxHEIGHT", default="528x400", show_default=True, help="Size of the pictures in px."
 )
 @click.option("--speed", type=click.FloatRange(0.05, 16), default=1.0, show_default=True, help="1 is the game's speed.")
-@click.option("--from", "first", type=click.IntRange(min=0), default=0, help="The moment after so many ticks is first.")
+@click.option("--from", "first", type=click.IntRange(min=0), default=0, help="First picture: after this many ticks.")
 @click.option(
     "--to",
     "last",
     type=click.IntRange(min=0),
-    help="The last one. [default: a second after the end; at most 20,000 pictures]",
+    help="Last picture. [default: a second after the end; at most 20,000 pictures]",
 )
 @click.option(
     "--ghost", "ghosts", multiple=True, metavar="FILE", type=InputPath(dir_okay=False),
-    help="The runs of this file on the same level go along; may be given again.",
+    help="Show the runs of this file on the same level as ghosts; may be given several times.",
 )  # fmt: skip
 @click.option("--keys", is_flag=True, help="Show the keys that are down.")
 @level_option

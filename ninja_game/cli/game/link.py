@@ -18,7 +18,7 @@ def command(files: Sequence[Path], record: int | None, base: str) -> None:
     """Make a link that carries a level, a pack or replays.
 
     FILE is a level, a pack (a folder or zip with pack.toml) or a replay, in any format; several replays of one level
-    run beside each other. The link holds the whole text, compressed: whoever opens it needs nothing else, and a link
+    run side by side. The link holds the whole text, compressed: whoever opens it needs nothing else, and a link
     without --base is opened with `ninja-game play LINK`. How links are written: docs/links.md.
 
     \b

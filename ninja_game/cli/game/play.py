@@ -57,7 +57,7 @@ def command(
       SDL_VIDEODRIVER=dummy ninja-game play --frames 40 --screenshot picture.png
     """
     if level is not None and replay is not None:
-        raise click.UsageError("LEVEL and --replay exclude each other")
+        raise click.UsageError("LEVEL and --replay cannot be used together")
     if level_path is not None and replay is None:
         raise click.UsageError("--level is the level of what --replay names")
     path = next((str(each) for each in (level, level_path) if each is not None), None)

@@ -16,7 +16,7 @@ from ninja_game.player.player_data import PlayerData
 
 @click.group()
 def command() -> None:
-    """Put all data of a player into one file, or take such a file in.
+    """Export all data of a player to one file, or import such a file.
 
     Settings, records, own levels and replays. The game in a browser writes and reads the same file (its page menu), so
     that records move between a page and this machine.
@@ -42,7 +42,7 @@ def export(file: Path) -> None:
 @command.command("import")
 @click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
 def take_in(file: Path) -> None:
-    """Take in what FILE holds. Better runs replace worse ones; nothing of yours is overwritten."""
+    """Import FILE. Better runs replace worse ones; nothing of yours is overwritten."""
     from ninja_game.files.reading import read_bytes
     from ninja_game.player.backup import MOST_BYTES, read_backup
 

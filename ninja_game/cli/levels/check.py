@@ -21,7 +21,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
     from ninja_game.formats.named_level import NamedLevel
-    from ninja_game.search.certificate import VerifiedRun
+    from ninja_game.formats.replay.text import Replay
     from ninja_game.search.certify import Certified
 
 
@@ -50,14 +50,14 @@ class GoldGoals(options.GoldCount):
 @options.work_option
 @options.seed_option
 @click.option("--first", "first_only", is_flag=True, help="Stop each search at the first run that it finds.")
-@click.option("--jobs", type=click.IntRange(1, 1024), help="Levels at a time. [default: one a core]")
+@click.option("--jobs", type=click.IntRange(1, 1024), help="Levels at the same time. [default: one per core]")
 @options.body_option
 @click.option(
     "--replays", metavar="FOLDER", type=click.Path(file_okay=False, path_type=Path),
     help="Keep the runs in this folder. One that is there and still right is not searched again.",
 )  # fmt: skip
 @click.option("--improve", is_flag=True, help="Shorten the runs that are kept, too.")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object a level, for programs.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object per level, for programs.")
 @click.pass_context
 def command(
     ctx: click.Context,
@@ -140,7 +140,7 @@ class _Tally:
         if "exit" in goals and self.without["exit"] and self.levels > 1:
             yield f"no run to the exit: {', '.join(self.without['exit'])}"
         if "gold" in goals and self.without["gold"] and self.levels > 1:
-            yield f"not with the gold: {', '.join(self.without['gold'])}"
+            yield f"no run with the gold: {', '.join(self.without['gold'])}"
 
 
 def _files(levels: Sequence[NamedLevel], goals: Iterable[str], folder: Path | None) -> Iterator[dict[str, Path]]:
@@ -201,7 +201,7 @@ def _facts(level: NamedLevel, found: Mapping[str, Certified], files: Mapping[str
     return facts
 
 
-def _warnings(level: NamedLevel, run: VerifiedRun | None) -> list[str]:
+def _warnings(level: NamedLevel, run: Replay | None) -> list[str]:
     """What is odd about a level, and the locked doors that its run does not open."""
     from ninja_game.levels.warnings import level_warnings, object_name
     from ninja_game.sim.arithmetic import is_set
@@ -212,7 +212,7 @@ def _warnings(level: NamedLevel, run: VerifiedRun | None) -> list[str]:
     specs = enumerate(filter(makes_object, level.level.objects))
     locked = {id_: spec for id_, spec in specs if spec.kind == DOOR and well_formed(spec) and is_set(spec.values[6])}
     if run and locked:
-        simulation = Simulation(run.level, body=run.body, memory="plain")
+        simulation = Simulation(level.level, body=run.body, memory="plain")
         for keys in run.inputs:
             simulation.step_keys(keys)
             for event in simulation.events:

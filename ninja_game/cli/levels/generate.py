@@ -16,11 +16,11 @@ from ninja_game.cli import solver_options as options
 )
 @click.option(
     "--difficulty", type=click.IntRange(1, 10), default=4, show_default=True, metavar="D",
-    help="How hard it is to be, 1 to 10, in the number that the game shows of levels.",
+    help="Difficulty, 1 to 10, on the scale that the game shows.",
 )  # fmt: skip
 @click.option(
     "-o", "--output", metavar="FILE", type=click.Path(dir_okay=False, path_type=Path),
-    help="Where the level goes. [default: a new file in the current folder, named after the level]",
+    help="Where to write the level. [default: a new file in the current folder, named after the level]",
 )  # fmt: skip
 @click.option(
     "--replay", metavar="FILE", type=click.Path(dir_okay=False, path_type=Path),
@@ -45,7 +45,7 @@ def command(
     from ninja_game.errors import FileError
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.generator.generate import generate
-    from ninja_game.search.certificate import replay_of, save_replay
+    from ninja_game.search.certificate import named_run, save_replay
 
     for path in filter(None, (output, replay)):
         check_output(path)
@@ -60,7 +60,7 @@ def command(
     output = output or _free(made.name)
     write_atomically(output, made.text)
     if replay:
-        save_replay(replay, replay_of(made.run, name=made.name, author=made.author, level_author=made.author))
+        save_replay(replay, named_run(made.run, name=made.name, author=made.author, level_author=made.author))
     click.echo(
         f"{output}: {made.name}, seed {seed}, difficulty {made.difficulty:.1f}, "
         f"certified in {options.time_text(made.run.end_tick)}"

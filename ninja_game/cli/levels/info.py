@@ -31,7 +31,7 @@ PIPE_WIDTH = 160
 @click.option("--record", type=click.IntRange(min=0), help="Show this one of a file's levels, counted from 0.")
 @level_option
 @click.option("--picture/--no-picture", default=None, help="Draw the level. [default: if it is the only one]")
-@click.option("--json", "as_json", is_flag=True, help="One JSON object a level, for programs.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object per level, for programs.")
 def command(
     files: Sequence[Path], record: int | None, level_path: Path | None, picture: bool | None, as_json: bool
 ) -> None:
@@ -52,7 +52,7 @@ def command(
 
     from ninja_game.formats.load import load_levels
 
-    # A pipe has no width; a table cut to 80 columns is of no use to whoever reads it.
+    # A pipe has no width; a table truncated to 80 columns is of no use to whoever reads it.
     console = Console(highlight=False, emoji=False, width=None if sys.stdout.isatty() else PIPE_WIDTH)
     given = level_given(level_path)
     runs = [run for file in files for run in _recordings(file, given)]
@@ -158,7 +158,7 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
 
 
 def _show_table(console: Console, levels: Sequence[NamedLevel], recordings: dict[tuple[str, int], Recording]) -> None:
-    """A row a level."""
+    """One row per level."""
     from rich.markup import escape
     from rich.table import Table
 

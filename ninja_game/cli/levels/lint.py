@@ -13,7 +13,7 @@ from ninja_game.files.shown_text import shown_text
 @click.argument("pack", type=click.Path(exists=True, path_type=Path))
 @click.pass_context
 def command(ctx: click.Context, pack: Path) -> None:
-    """Tell what is odd about a pack: its index, its levels, its certificates, its table of pars.
+    """Report what is odd about a pack: its index, its levels, its certificates, its table of pars.
 
     A line says how to mend what was found, and ends in its code (docs/findings.md).
 

@@ -50,7 +50,7 @@ def command(
       ninja-game demonstrations levels/certificates --minari ninja/set-v0
     """
     if (output is None) == (dataset is None):
-        raise click.UsageError("where to? give --output FILE.npz or --minari NAME")
+        raise click.UsageError("no output given; add --output FILE.npz or --minari NAME")
     if output is not None and output.suffix != ".npz":
         raise click.UsageError(f"{output}: expected a name that ends in .npz")
     from ninja_game.errors import ArgumentError

@@ -11,7 +11,7 @@ from ninja_game.cli import solver_options as options
 from ninja_game.cli.run_options import choose, level_given, level_option
 
 if TYPE_CHECKING:
-    from ninja_game.search.certificate import VerifiedRun
+    from ninja_game.formats.replay.text import Replay
 
 
 @click.command()
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 @options.smooth_option
 @click.option(
     "-o", "--output", metavar="REPLAY", required=True, type=click.Path(dir_okay=False, path_type=Path),
-    help="Where the best run so far is kept.",
+    help="Where to keep the best run so far.",
 )  # fmt: skip
 def command(
     replay: Path,
@@ -59,7 +59,7 @@ def command(
     before: list[int] = []
     save = options.saver(output, recording, recording.author)
 
-    def keep(found: VerifiedRun) -> None:
+    def keep(found: Replay) -> None:
         before.append(found.end_tick)
         save(found)
 
@@ -67,7 +67,7 @@ def command(
         run = solve(task, report=report, on_better=keep)
     assert run is not None  # noqa: S101 - the first run is one
     if smooth is not None:
-        run = options.smoothed_run(run, smooth)
+        run = options.smoothed_run(task.level, run, smooth)
         save(run)
     gain = before[0] - run.end_tick
     change = f"{abs(gain)} ticks {'shorter' if gain > 0 else 'longer'}" if gain else "no shorter run was found"

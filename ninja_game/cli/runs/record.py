@@ -30,7 +30,7 @@ def command(
 
     FILE is a replay text with or without claims (docs/replay-format.md), or any other recording. Its inputs run until
     the exit, death or their end; outcome, gold, digest and waypoints of that run are written with them. Comments,
-    blocks and files that are taken in become plain inputs; markers, names and authors stay. So does a replay whose
+    blocks and files that are included become plain inputs; markers, names and authors stay. So does a replay whose
     level was changed after the recording: its inputs run on the level as it is now.
 
     \b

@@ -19,18 +19,18 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("replay", metavar="RUN", type=InputPath(dir_okay=False))
 @click.option("--from", "first", required=True, type=click.IntRange(min=0), help="First tick whose keys may change.")
-@click.option("--to", "last", required=True, type=click.IntRange(min=1), help="First tick behind the span.")
-@click.option("--goal", default="", metavar="FORMULA", help="What must be true after a tick of the span.")
-@click.option("--maximise", default="", metavar="FORMULA", help="What is to be as great as possible at the goal.")
-@click.option("--minimise", default="", metavar="FORMULA", help="What is to be as small as possible at the goal.")
-@click.option("--rest", is_flag=True, help="Play on with what follows in RUN: it must still reach the exit, sooner.")
+@click.option("--to", "last", required=True, type=click.IntRange(min=1), help="First tick after the span.")
+@click.option("--goal", default="", metavar="FORMULA", help="Formula that must be true after a tick of the span.")
+@click.option("--maximise", default="", metavar="FORMULA", help="Formula to maximise at the goal.")
+@click.option("--minimise", default="", metavar="FORMULA", help="Formula to minimise at the goal.")
+@click.option("--rest", is_flag=True, help="Continue with the rest of RUN, which must reach the exit sooner.")
 @click.option(
     "--method", type=click.Choice(["auto", "local", "beam", "exhaustive"]), default="auto", show_default=True,
-    help="Small changes, a beam of promising states, all keys there are; auto: the first two in turn.",
+    help="local: small changes; beam: promising states; exhaustive: all keys; auto: local and beam in turn.",
 )  # fmt: skip
 @click.option(
     "--every", type=click.IntRange(min=1), default=1, show_default=True,
-    help="Of exhaustive: each choice of keys holds so many ticks.",
+    help="For exhaustive: ticks that each choice of keys lasts.",
 )  # fmt: skip
 @options.seconds_option(60.0)
 @options.seed_option
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 @level_option
 @click.option(
     "-o", "--output", metavar="REPLAY", type=click.Path(dir_okay=False, path_type=Path),
-    help="Where the best run so far is kept. [default: none is]",
+    help="Where to keep the best run so far. [default: nowhere]",
 )  # fmt: skip
 @click.pass_context
 def command(
@@ -68,9 +68,9 @@ def command(
     from ninja_game.search.formula.task import SpanTask, score_in_words
 
     if maximise and minimise:
-        raise click.UsageError("--maximise and --minimise exclude each other")
+        raise click.UsageError("--maximise and --minimise cannot be used together")
     if not (goal or maximise or minimise or rest):
-        raise click.UsageError("say what is wanted: --goal, --maximise, --minimise or --rest")
+        raise click.UsageError("nothing to search for; give --goal, --maximise, --minimise or --rest")
     if every > 1 and method != "exhaustive":
         raise click.UsageError("--every is for --method exhaustive")
     recording = choose(load_replays(replay, level=level_given(level_path)), "recordings", replay, record)

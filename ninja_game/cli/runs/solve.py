@@ -25,7 +25,7 @@ from ninja_game.files.user_folder import free_path
 @options.body_option
 @click.option(
     "-o", "--output", metavar="REPLAY", type=click.Path(dir_okay=False, path_type=Path),
-    help="Where the best run so far is kept. [default: LEVEL's name and .replay.txt, in the current folder]",
+    help="Where to keep the best run so far. [default: LEVEL's name and .replay.txt, in the current folder]",
 )  # fmt: skip
 @click.pass_context
 def command(
@@ -63,6 +63,6 @@ def command(
         click.echo(options.not_found_text(task, report.last))
         ctx.exit(options.NOT_FOUND)
     if smooth is not None:
-        run = options.smoothed_run(run, smooth)
+        run = options.smoothed_run(task.level, run, smooth)
         save(run)
     click.echo(f"{shown_text(str(output))}: {options.time_text(run.end_tick)}, {run.gold} gold")

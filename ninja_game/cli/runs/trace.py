@@ -26,7 +26,7 @@ from ninja_game.cli.run_options import (
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
-    from ninja_game.runs.run_trace import RunTrace
+    from ninja_game.runs.trace import RunTrace
     from ninja_game.runs.trace_files import FiledTrace
     from ninja_game.verification.archive_tracing import Traced
 
@@ -40,10 +40,10 @@ SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 @click.command()
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=InputPath())
 @click.option("--record", type=click.IntRange(min=0), help="Only this one of a file's recordings, counted from 0.")
-@click.option("--ticks", type=click.IntRange(1, MOST_TICKS), help="Exactly so many ticks, whatever happens.")
-@click.option("--after", type=click.IntRange(0, MOST_TICKS), help="So many ticks more than `verify` would run.")
+@click.option("--ticks", type=click.IntRange(1, MOST_TICKS), help="Run exactly this many ticks, whatever happens.")
+@click.option("--after", type=click.IntRange(0, MOST_TICKS), help="Run this many ticks more than `verify` does.")
 @click.option("--objects", is_flag=True, help="Rows for the objects too, not only for the ninja.")
-@click.option("--digests", is_flag=True, help="One JSON object a recording with digests of everything, instead.")
+@click.option("--digests", is_flag=True, help="One JSON object per recording with digests of everything, instead.")
 @click.option(
     "--against", type=click.Path(exists=True, dir_okay=False, path_type=Path),
     help="Compare with this trace, or with this file of recordings.",
@@ -90,7 +90,7 @@ def command(
       ninja-game trace demos.txt --digests --after 150
     """
     if ticks is not None and after is not None:
-        raise click.UsageError("--ticks and --after exclude each other")
+        raise click.UsageError("--ticks and --after cannot be used together")
     _check_output(digests, against, against_record, output)
     table = not digests and not against
     options = {
@@ -118,7 +118,7 @@ def _check_output(digests: bool, against: Path | None, against_record: int | Non
     if against_record is not None and not against:
         raise click.UsageError("--against-record needs --against")
     if digests + bool(against) + bool(output) > 1:
-        raise click.UsageError("--digests, --against and --output exclude each other")
+        raise click.UsageError("--digests, --against and --output cannot be used together")
 
 
 class Traces:

@@ -35,22 +35,22 @@ FAILED = 1
     "without.",
 )  # fmt: skip
 @budget_option
-@click.option("--strict", is_flag=True, help="Only what a board may believe: see docs/verification.md.")
+@click.option("--strict", is_flag=True, help="Accept only what a board can rely on: see docs/verification.md.")
 @jobs_option
 @click.option(
     "--workers", type=click.Choice(["threads", "processes"]),
-    help="What the workers are. [default: threads for compiled runs, else processes]",
+    help="Kind of workers. [default: threads for compiled runs, else processes]",
 )  # fmt: skip
 @click.option("--cluster", metavar="ADDRESS", default="", help="Run on the Dask cluster with this scheduler.")
 @click.option(
     "--resume", metavar="LOG", type=click.Path(dir_okay=False, path_type=Path),
-    help="Note in this file what is done; what it has already is not run again.",
+    help="Log finished work in this file; what it already has is not run again.",
 )  # fmt: skip
 @click.option(
     "--report", metavar="OUT", type=click.Path(dir_okay=False, path_type=Path),
     help="Write all results and their sums to this file: JSON if it ends in .json, else a table.",
 )  # fmt: skip
-@click.option("--json", "as_json", is_flag=True, help="One JSON object a recording, for programs.")
+@click.option("--json", "as_json", is_flag=True, help="One JSON object per recording, for programs.")
 @click.option("--quiet", "-q", is_flag=True, help="Only recordings that fail, and the summary.")
 @click.pass_context
 def command(

@@ -27,7 +27,7 @@ from ninja_game.cli.run_options import InputPath, jobs_option
 )  # fmt: skip
 @click.option(
     "--check", metavar="FILE", type=click.Path(exists=True, dir_okay=False, path_type=Path),
-    help="Tell what is different from this file of --json; exit code 1 if anything is refused, changed or gone.",
+    help="Report what differs from this file written by --json; exit code 1 if anything is refused, changed or gone.",
 )  # fmt: skip
 @jobs_option
 @click.pass_context

@@ -16,7 +16,7 @@ import click
 )  # fmt: skip
 @click.option("--serve", is_flag=True, help="Then serve it for this machine, until Ctrl-C.")
 @click.option(
-    "--port", type=click.IntRange(0, 65535), default=8000, show_default=True, help="Of --serve; 0: a free one."
+    "--port", type=click.IntRange(0, 65535), default=8000, show_default=True, help="Port for --serve; 0: any free port."
 )
 def command(out: Path | None, pyodide: Path | None, serve: bool, port: int) -> None:
     """Build the game as a page in a browser: a folder for any static host.

@@ -128,7 +128,7 @@ def _sort_words(keyword: str, form: Form, tokens: Sequence[Token]) -> tuple[list
 
 
 def _unknown_word(keyword: str, form: Form, token: Token, following: Token | None) -> LevelError:
-    """The error for a word that a form does not have, with the likeliest way to mend it."""
+    """The error for a word that a form does not have, with the likeliest way to fix it."""
     if keyword == "automatic door" and token.text == "switch":
         hint = "it opens for whoever comes near; write 'locked door' or 'trap door' for one with a switch"
         return LevelError("automatic doors have no switch", column=token.column, hint=hint)

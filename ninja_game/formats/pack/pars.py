@@ -77,7 +77,7 @@ def _is_whole(table: Mapping[str, Any]) -> bool:
 
 
 def write_pars(pars: Mapping[str, Pars]) -> str:
-    """The table as TOML, a line a level file, in their order."""
+    """The table as TOML, one line per level file, in their order."""
     lines = []
     for name in sorted(pars):
         each = pars[name]

@@ -22,10 +22,10 @@ def included_beside(file: str) -> Include | None:
             raise ReplayError("a file elsewhere", found=repr(name[:40]), expected=expected)
         if found.text is None:
             hint = found.problem or "no file of this name is there"
-            raise ReplayError("a file that cannot be taken in", found=repr(name[:40]), hint=hint)
+            raise ReplayError("a file that cannot be included", found=repr(name[:40]), hint=hint)
         texts[found.path] = found.text
         if sum(map(len, texts.values())) > MAX_BYTES:
-            raise ReplayError("too much taken in", found=repr(name[:40]), expected=f"{MAX_BYTES >> 20} MiB in all")
+            raise ReplayError("too much included", found=repr(name[:40]), expected=f"{MAX_BYTES >> 20} MiB in all")
         return found.path, found.text
 
     return include

@@ -70,7 +70,7 @@ class _Block:
     ticks: int = 0
 
     def add(self, items: Iterable[Run | str], ticks: int, place: tuple[str, int, int]) -> None:
-        """Append runs of so many ticks. Raises ReplayError for more than a million in all."""
+        """Append runs of this many ticks. Raises ReplayError for more than a million in all."""
         self.ticks += ticks
         if self.ticks > MAX_TICKS:
             found, expected = f"{self.ticks} ticks", f"at most {MAX_TICKS}"
@@ -187,7 +187,7 @@ def _as_inputs(items: Iterable[Run | str]) -> Inputs:
 
 
 def _bad_run(text: str, file: str, line: int, column: int) -> ReplayError:
-    """The error for a word that is not a run, with the likeliest way to mend it."""
+    """The error for a word that is not a run, with the likeliest way to fix it."""
     keys, star, count = text.partition("*")
     if star and not re.fullmatch("[1-9][0-9]{0,6}", count):
         hint = "a count is a whole number from 1"

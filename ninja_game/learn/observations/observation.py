@@ -38,7 +38,7 @@ Observed: TypeAlias = Array | dict[str, Array]
 def parts_of(observation: PartLike | Sequence[PartLike]) -> list[Part]:
     """The parts that are meant: a part, the name of one, or several of those.
 
-    Raises ArgumentError for what is none, and for two of the same name.
+    Raises ArgumentError for anything else, and for two of the same name.
     """
     several = isinstance(observation, Sequence) and not isinstance(observation, str)
     given: Any = observation if several else [observation]

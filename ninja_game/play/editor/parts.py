@@ -14,8 +14,7 @@ from ninja_game.play.editor.properties import property_widgets, subject
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
 from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.text_layout import wrapped
-from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.theme import Area, Theme, wrapped
 from ninja_game.play.ui.widgets import Button
 from ninja_game.play.workspace.part import Part
 

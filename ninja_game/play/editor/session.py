@@ -170,7 +170,7 @@ class EditorSession:
         if run is None or self.certifier.is_stale(self.draft.level):
             self.app.notify("Certify the level first (F7)")
             return
-        from ninja_game.search.certificate import replay_of
+        from ninja_game.search.certificate import named_run
 
-        replay = replay_of(run, name=self.name, author="solver", level_author=self.draft.author)
+        replay = named_run(run, name=self.name, author="solver", level_author=self.draft.author)
         self.app.notify(keep_replay(self.app.player, replay))

@@ -61,7 +61,7 @@ class Gamepads:
         return len(self._open)
 
     def changes(self, event: pygame.Event) -> list[Change]:
-        """What an event presses and releases. Pads that come and go are taken in and let go here."""
+        """What an event presses and releases. Pads are opened and closed here as they come and go."""
         kind = event.type
         if kind == pygame.JOYDEVICEADDED:
             self._add(event.device_index)

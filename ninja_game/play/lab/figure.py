@@ -90,7 +90,7 @@ class Figure:
         self.drag(self.x + dx, self.y + dy)
 
     def demonstrate(self, tick: int) -> None:
-        """Put the figure where its demonstration is after so many ticks; by default the handle goes round."""
+        """Put the figure where its demonstration is after this many ticks; by default the handle goes round."""
         angle = 2 * pi * tick / 240
         (x, y), zoom = self.start, self.view.zoom
         self.drag(x + 60 * cos(angle) / zoom, y + 40 * sin(2 * angle) / zoom)

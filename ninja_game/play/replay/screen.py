@@ -13,13 +13,12 @@ from ninja_game.formats.links.making import replay_link
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
-from ninja_game.play.level.run_clock import RunClock
-from ninja_game.play.replay.film_job import FilmJob
-from ninja_game.play.replay.playback import Playback
-from ninja_game.play.replay.seek_bar import ReplayBar
+from ninja_game.play.level.play import RunClock
+from ninja_game.play.replay.film import FilmJob
+from ninja_game.play.replay.playback import Playback, ReplayBar
 from ninja_game.play.screen import Screen
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays
@@ -101,7 +100,7 @@ class ReplayScreen(Screen):
 
     @property
     def tick(self) -> int:
-        """The moment shown: after so many ticks."""
+        """The moment shown: after this many ticks."""
         return self.playback.simulation.tick
 
     @property
@@ -112,7 +111,7 @@ class ReplayScreen(Screen):
     # --- moving in time ---
 
     def _look_ahead(self, ticks: int) -> None:
-        """Look for the end of the run for so many ticks."""
+        """Look for the end of the run for this many ticks."""
         end = self._scout.find_end(ticks) if self._scout else None
         if self._scout and end is not None:
             self.end, self.outcome, self.length = end, self._scout.simulation.outcome, end + AFTERMATH
@@ -120,7 +119,7 @@ class ReplayScreen(Screen):
             self.redraw = True
 
     def seek(self, tick: int) -> None:
-        """Show the moment after so many ticks, exactly; the corpse and particles are those of the last moments.
+        """Show the moment after this many ticks, exactly; the corpse and particles are those of the last moments.
 
         One that the work of a turn does not lead to is reached in the next ones.
         """

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ninja_game.formats.recording import Recording
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.tas.controls import TABLE
 from ninja_game.play.tas.document import TasDocument
 from ninja_game.play.tas.editor import TasEditor, TasPart

@@ -6,11 +6,9 @@ from collections.abc import Mapping, Sequence
 
 import pygame
 
-from ninja_game.play.input.commands import Command, key_text
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.input.gamepad import Gamepads
-from ninja_game.play.input.held_key import HeldKey
-from ninja_game.play.input.scancodes import chord
+from ninja_game.play.input.keys import Command, HeldKey, chord, key_text
 
 FIRST_REPEAT_MS = 300
 """A command whose key is held is repeated after so long."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import pygame
 
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.ui.widgets import Widget

@@ -114,7 +114,7 @@ def count_ways(task: SpanTask, every: int) -> int:
 
 
 def exhaust(task: SpanTask, every: int, results: Results) -> None:
-    """Try all keys that change every so many ticks."""
+    """Try all keys that change every this many ticks."""
     ways, choices = count_ways(task, every), -(-task.length // every)
     weights = len(ACTIONS) ** np.arange(choices)[:, np.newaxis]
     for first in range(0, ways, WORLDS):
@@ -147,7 +147,7 @@ def change(
 
 
 def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, noise: float) -> None:
-    """Go through the span in steps of so many ticks, all actions at each, and keep the most promising states only."""
+    """Go through the span in steps of this many ticks, all actions at each, and keep the most promising states only."""
     worlds, batch = results.worlds, results.worlds.batch
     batch.restore(worlds.start)
     survivors = np.zeros(1, np.intp)

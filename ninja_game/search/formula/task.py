@@ -27,8 +27,8 @@ LONGEST = 4000
 class SpanTask:
     """Other keys for the ticks ``first`` … ``last`` - 1 of a run, so that the goal is reached, and the measure is best.
 
-    ``inputs``: the run, a byte a tick. ``goal``: a formula that must be true after one of these ticks; "": after the
-    last one, whatever it is. ``measure``: a formula that is to be as great as possible at that moment, or, with
+    ``inputs``: the run, one byte per tick. ``goal``: a formula that must be true after one of these ticks; "": after
+    the last one, whatever it is. ``measure``: a formula that is to be as great as possible at that moment, or, with
     ``least``, as small; "": the goal is to be reached as early as possible. ``rest``: from that moment on is played
     what follows in the run after its own first moment at the goal (or after the span, if it has none there); the
     exit must still be reached, as early as possible.

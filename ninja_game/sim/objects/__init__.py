@@ -1,1 +1,1 @@
-"""One file a kind: what it does at load, in its updates and thinks, and when the ninja touches it."""
+"""One file per kind: what it does at load, in its updates and thinks, and when the ninja touches it."""

@@ -77,5 +77,5 @@ def _whole(text: str, levels: Mapping[str, Level]) -> Replay:
     parsed = parse_replay(text)
     level = parsed.level or levels.get(parsed.level_digest)
     if level is None:
-        raise ReplayError("it holds no level, and its level-digest is of none that counts")
+        raise ReplayError("it holds no level, and its level-digest matches no level that counts")
     return replace(parsed, level=level, level_path="", level_record=0)

@@ -12,7 +12,7 @@ from typing import Any
 from ninja_game.errors import FormatError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import shown_text
-from ninja_game.play.ui.text_layout import counted
+from ninja_game.play.ui.theme import counted
 from ninja_game.player.scoring import seconds_text
 from ninja_game.web.board.ranking import ORDERS, Ranking
 from ninja_game.web.board.runs import Apart, Dates, Judged, Key, Run
@@ -100,7 +100,7 @@ def _is_date(text: str, now: datetime) -> bool:
 
 
 def dates_of(before: tuple[Rows, Rows], now: datetime) -> Dates:
-    """The dates of a ledger. A run that it does not have, or not with this way, is taken in now."""
+    """The dates of a ledger. A run that it does not have, or not with this path, is added now."""
     rows, today = before[1] | before[0], now.strftime(DATE)
 
     def date(key: Key, way: str) -> str:

@@ -1,4 +1,4 @@
-"""The TAS editor in windows of any size: more rows and a larger level, borders that are dragged, text as one likes."""
+"""The TAS editor in windows of any size: more rows and a larger level, borders that are dragged, text of any size."""
 
 from __future__ import annotations
 

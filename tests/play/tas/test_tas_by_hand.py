@@ -36,7 +36,7 @@ def exit_tick(level: Level, inputs: bytes) -> int:
 
 
 def late(inputs: bytes, ticks: int) -> bytes:
-    """The same after standing for so many ticks."""
+    """The same after standing for this many ticks."""
     return with_press_bits([0] * ticks + list(inputs))
 
 

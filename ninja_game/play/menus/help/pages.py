@@ -23,7 +23,7 @@ _STROKE = re.compile(r"([lrj]*)([0-9]+)")
 
 @dataclass(frozen=True)
 class Page:
-    """A page of the help. ``inputs``: one byte a tick; ``shows``: names of events that must happen in it."""
+    """A page of the help. ``inputs``: one byte per tick; ``shows``: names of events that must happen in it."""
 
     title: str
     text: tuple[str, ...]

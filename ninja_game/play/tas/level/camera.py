@@ -51,7 +51,7 @@ class Camera:
         self._look_at(window, x - (px[0] - window[0] / 2) / scale, y - (px[1] - window[1] / 2) / scale)
 
     def move(self, window: tuple[int, int], dx: float, dy: float) -> None:
-        """Move the picture by so many px."""
+        """Move the picture by this many px."""
         scale = self.canvas(window).scale
         self._look_at(window, self.centre[0] - dx / scale, self.centre[1] - dy / scale)
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pygame
 
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.tas.controls import TABLE
 from ninja_game.play.tas.editor import TasEditor, TasPart

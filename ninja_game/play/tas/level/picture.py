@@ -11,7 +11,7 @@ from ninja_game.play.ui.canvas import Canvas, Point
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.ninja.ragdoll import Ragdoll
 from ninja_game.play.view.render_context import OffscreenContext
-from ninja_game.sim.inputs import first_ticks
+from ninja_game.sim.inputs import fitted_inputs
 from ninja_game.sim.memory.schema import World
 from ninja_game.simulation import SaveState, Simulation
 
@@ -111,7 +111,7 @@ class LevelPicture:
         moment = tick + 1
         if timeline.simulated_until < moment:
             return
-        run, inputs = self.run, first_ticks(timeline.inputs[:moment], moment)
+        run, inputs = self.run, fitted_inputs(timeline.inputs[:moment], moment)
         if run.inputs == inputs:
             return
         if self._view is not None:
@@ -123,7 +123,7 @@ class LevelPicture:
             self._view.audible = False
 
     def _seek(self, moment: int, inputs: bytes) -> None:
-        """Some ticks before the moment after so many ticks."""
+        """Some ticks before the moment after this many ticks."""
         start = max(0, moment - _WARM)
         end, outcome = self.editor.session.timeline.end
         corpse = self._corpse(end, inputs, min(start - end, _FALL)) if outcome == "dead" and start > end else None
@@ -132,7 +132,7 @@ class LevelPicture:
             self._view.doll = corpse
 
     def _go(self, moment: int, inputs: bytes) -> None:
-        """Be at the moment after so many ticks, as if nothing had been seen before."""
+        """Be at the moment after this many ticks, as if nothing had been seen before."""
         self.run.restore(self.editor.session.timeline.save_state(moment))
         while self.run.tick < moment:
             self.run.step_keys(inputs[self.run.tick])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ninja_game.play.level.run_clock import RunClock
+from ninja_game.play.level.play import RunClock
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.level.picture import LevelPicture
@@ -39,7 +39,7 @@ class Playing:
             self.toggle()
 
     def change_speed(self, by: int) -> None:
-        """Faster or slower by so many steps."""
+        """Faster or slower by this many steps."""
         self.speed = min(len(SPEEDS) - 1, max(0, self.speed + by))
         self.clock.reset()
 

@@ -23,7 +23,7 @@ MARGIN = 4
 
 
 class Roll(TasPart):
-    """A row a tick. ``top``: the first tick that is seen; ``hidden``: the names of columns that are not."""
+    """One row per tick. ``top``: the first tick that is seen; ``hidden``: the names of columns that are not."""
 
     slot = "roll"
 

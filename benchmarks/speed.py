@@ -166,7 +166,7 @@ def _first_tick(memory: str, **environment: str) -> float:
     """Seconds to the first tick of a new process, from its first import on."""
     code = [sys.executable, "-P", "-c", FIRST_TICK.format(memory=memory)]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path)), **environment}
-    return round(float(subprocess.check_output(code, env=environment, text=True)), 3)  # noqa: S603 - our own code
+    return round(float(subprocess.check_output(code, env=environment, text=True)), 3)
 
 
 def _compile_time() -> float:
