@@ -11,8 +11,7 @@ import pytest
 from ninja_game.files.reading import MAX_BYTES
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.memory.schema import CAPACITY
-from tests.support.api_page import HEADING, reference
-from tests.support.api_page import PAGES as API_PAGES
+from tests.support.api_page import HEADING, PAGES as API_PAGES, reference
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("tests/**/*.md")]
