@@ -40,17 +40,17 @@ from ninja_game.learn.evaluation import evaluate
     type=click.IntRange(0, 100),
     default=7,
     show_default=True,
-    help="At most so many steps of waiting at the start.",
+    help="Most steps of waiting at the start.",
 )
 @click.option(
     "--time-limit",
     type=click.IntRange(1, 100_000),
     default=2000,
     show_default=True,
-    help="An episode ends after so many ticks.",
+    help="Ticks after which an episode is truncated.",
 )
 @click.option("--json", "form", flag_value="json", help="One JSON object, for programs.")
-@click.option("--csv", "form", flag_value="csv", help="A row a level, for spreadsheets.")
+@click.option("--csv", "form", flag_value="csv", help="One row per level, for spreadsheets.")
 @click.option("--output", "-o", type=click.Path(dir_okay=False, path_type=Path), help="Write the table to this file.")
 @click.option(
     "--memory", type=click.Choice(["auto", "plain", "compiled"]), default="auto", show_default=True,

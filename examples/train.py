@@ -234,7 +234,7 @@ class Trainer:
     help="Stop after N steps of all worlds together instead: with the same seed always the same agent.",
 )  # fmt: skip
 @click.option("--seed", type=click.IntRange(0, 999_999), default=0, show_default=True)
-@click.option("--worlds", type=click.IntRange(1), default=1024, show_default=True, help="Worlds at a time.")
+@click.option("--worlds", type=click.IntRange(1), default=1024, show_default=True, help="Worlds in parallel.")
 @click.option("--output", "-o", default="agent.npz", show_default=True, type=click.Path(dir_okay=False, path_type=Path))
 def main(levels: Sequence[str], seconds: float, steps: int, seed: int, worlds: int, output: Path) -> None:
     if output.exists():

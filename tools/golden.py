@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from tests.support.api_page import write_api_pages
 from tests.support.golden_generated import write_generated
 from tests.support.golden_runs import GOLDEN, write_golden_files
 
 if __name__ == "__main__":
     write_golden_files()
-    write_api_pages()
     write_generated()
     tables = ", ".join(sorted(path.name for path in GOLDEN.glob("*.tsv")))
     print(f"wrote the replays of tests/pack and levels, {tables}")

@@ -22,7 +22,7 @@ from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.replay.sections import Waypoint
 from ninja_game.formats.replay.text import WAYPOINT_TICKS, Replay
 from ninja_game.sim.digest import replay_digest
-from ninja_game.sim.inputs import check_inputs, first_ticks
+from ninja_game.sim.inputs import check_inputs, fitted_inputs
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import RunRecord
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
@@ -166,7 +166,7 @@ def record_replay(
     can check. Raises LevelError for a level that cannot be played, ArgumentError for a run without ticks, BudgetError
     as ``run_level`` does.
     """
-    played = first_ticks(inputs, ticks) if ticks is not None else inputs
+    played = fitted_inputs(inputs, ticks) if ticks is not None else inputs
     if not played:
         raise ArgumentError("a replay has at least one tick")
     run = run_level(level, played, body=body, memory="plain", digest=True, budget=budget)

@@ -14,7 +14,7 @@ from ninja_game.budget import tick_cost
 from ninja_game.errors import ArgumentError
 from ninja_game.runs.save_states import SaveStates
 from ninja_game.runs.trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
-from ninja_game.sim.inputs import MAX_TICKS, first_ticks
+from ninja_game.sim.inputs import MAX_TICKS, fitted_inputs
 from ninja_game.sim.kinds import EXIT, KIND_OF
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES
@@ -100,7 +100,7 @@ class Timeline:
         """Other inputs. What they have in common with those before stays simulated. The first tick that differs."""
         # Behind the inputs no key is down: a run that grows by such ticks goes the same way.
         longest = max(len(self.inputs), len(inputs))
-        same = first_difference(first_ticks(self.inputs, longest), first_ticks(inputs, longest))
+        same = first_difference(fitted_inputs(self.inputs, longest), fitted_inputs(inputs, longest))
         self.inputs = inputs
         self._forget(min(same, len(self)))
         return same
@@ -146,7 +146,7 @@ class Timeline:
 
     def _run(self, first: int, last: int) -> None:
         """Simulate the ticks ``first`` … ``last`` - 1 and note what they show."""
-        inputs = first_ticks(self.inputs[first:last], last - first)
+        inputs = fitted_inputs(self.inputs[first:last], last - first)
         record = self._memory.trace(inputs, [id_ + 1 for id_ in self.watched], events=True)
         for name, values in ninja_columns(record).items():
             self._columns[name][first:last] = values
@@ -221,4 +221,4 @@ class Timeline:
     def save_state(self, tick: int) -> SaveState:
         """The nearest moment that is kept at or before the one after this many ticks, for ``Simulation.restore``."""
         at, state = self._states.nearest(min(tick, self.simulated_until, MAX_TICKS))
-        return SaveState(self.level, self.body, self.memory, first_ticks(self.inputs[:at], at), state)
+        return SaveState(self.level, self.body, self.memory, fitted_inputs(self.inputs[:at], at), state)

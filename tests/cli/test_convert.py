@@ -155,7 +155,7 @@ def test_input_is_never_replaced_and_other_files_only_by_force(tmp_path: Path) -
     for words in ((), ("--force",)):
         result = convert(source, source, *words)
         assert (result.exit_code, "the output is the input" in result.stderr) == (2, True)
-    assert "exists already; --force replaces it" in convert(source, target).stderr
+    assert "already exists; --force replaces it" in convert(source, target).stderr
     assert (source.read_text(), target.read_text()) == (TINY, "theirs")
     assert convert(source, target, "--force").exit_code == 0
     assert target.read_text().startswith("$Tiny#me##")

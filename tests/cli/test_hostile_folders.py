@@ -104,7 +104,7 @@ def test_levels_are_converted_through_no_link(target: str, tmp_path: Path, outsi
     many, folder = write_records(tmp_path / "many.txt", ("Walk", WALK, ""), ("", SPIKED, "")), tmp_path / "levels"
     folder.mkdir()
     (folder / "001.txt").symlink_to(tmp_path / target)
-    assert "the file exists already" in command("convert", many, folder).output
+    assert "the file already exists" in command("convert", many, folder).output
     result = command("convert", many, folder, "--force")
     assert (result.exit_code, "only a regular file is written" in result.output) == (2, True)
     assert [path.name for path in folder.iterdir()] == ["001.txt"]

@@ -16,13 +16,13 @@ from ninja_game.search.certificate import verified_run
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.known_run import NEVER, nearest
 from ninja_game.search.nodes import Resolution, open_start
-from ninja_game.search.spans import Fineness, RunShortener, SpanSearches
+from ninja_game.search.spans import RunShortener, SpanSearches, SpanSettings
 
 LEVEL = parse_level_string("0" * 713 + "|5^100,566!11^700,564,300,564!0^200,566")
 """Right over a piece of gold and the switch to the exit."""
 STANDING = bytes([2] * 20 + [0] * 30 + [2] * 220)
 """Stops on the way: a span of it can be better."""
-FINENESS = Fineness(Resolution(cell=4.0, speed=0.35, macro=3, jitter=5), 8.0, 64.0, 0.9, 2.0)
+FINENESS = SpanSettings(Resolution(cell=4.0, speed=0.35, macro=3, jitter=5), 8.0, 64.0, 0.9, 2.0)
 
 
 def searches(inputs: bytes = STANDING, *, gold: int = 0, level: Level = LEVEL) -> SpanSearches:

@@ -15,9 +15,9 @@ import pytest
 from ninja_game.formats.ascii.legend import SYMBOLS
 from ninja_game.formats.ascii.object_forms import FORMS
 from ninja_game.levels.picture import COLOURS
-from ninja_game.play.audio.table import BY_DEATH, BY_EVENT, OTHER_DEATH
-from ninja_game.play.view.sprites.draw_moving import PAINTERS
-from ninja_game.play.view.sprites.static_sprite_state import static_sprites_of
+from ninja_game.play.audio.player import BY_DEATH, BY_EVENT, OTHER_DEATH
+from ninja_game.play.view.sprites.moving_sprites import PAINTERS
+from ninja_game.play.view.sprites.static_sprites import static_sprites_of
 from ninja_game.player.statistics import KILLERS
 from ninja_game.sim import events, kinds
 from ninja_game.sim.death import idle_event

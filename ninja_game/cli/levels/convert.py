@@ -133,7 +133,7 @@ class Output:
             if path.exists() and any(source.samefile(path) for source in self.sources):
                 raise FileError("the output is the input", str(path), hint="choose another name for the output")
             if not self.force:
-                raise FileError("the file exists already", str(path), hint="--force replaces it")
+                raise FileError("the file already exists", str(path), hint="--force replaces it")
             check_output(path, keep=self.sources)
             if tree:
                 tree.check(path.name)

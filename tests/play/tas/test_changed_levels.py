@@ -52,7 +52,7 @@ def test_the_question_leads_to_the_run_on_the_changed_level_and_to_a_new_recordi
     assert form.texts == ["walk-2"]
     form.texts[0] = "walk"
     at.choose("Save")
-    assert at.top().title == "There is a file walk.replay.txt already"  # type: ignore[attr-defined]
+    assert at.top().title == "A file named walk.replay.txt already exists"  # type: ignore[attr-defined]
     at.choose("Save under another name")
     at.choose("Save")
     at.close()

@@ -9,7 +9,6 @@ import pygame
 
 from ninja_game.files.resources import data_folder
 from ninja_game.formats.load import load_replays
-from ninja_game.play.input.commands import key_label_of
 from ninja_game.play.menus.help.commands_page import HelpPage
 from ninja_game.play.menus.panels import Form, Menu
 from ninja_game.play.replay.screen import ReplayScreen
@@ -38,14 +37,6 @@ def journals(at: TasDriver) -> list[Path]:
 
 def test_every_command_of_the_table_is_offered_by_some_part(at: TasDriver) -> None:
     assert set(at.screen.commands()) == {command.name for command in COMMANDS}
-
-
-def test_the_document_has_the_keys_of_the_table(root: Path) -> None:
-    document = (root / "docs" / "tas-editor.md").read_text("utf-8").partition("## Keys")[2]
-    for command in COMMANDS:
-        keys = " or ".join("+".join(map(key_label_of, key.split("+"))) for key in command.keys)
-        assert f"| {keys} | {command.label} |\n" in document + "\n"
-    assert document.count("\n| ") == len(COMMANDS) + 1
 
 
 def test_a_run_is_saved_into_its_file(at: TasDriver) -> None:
@@ -93,7 +84,7 @@ def test_it_is_saved_under_another_name_and_asks_before_it_replaces(at: TasDrive
     assert isinstance(form, Form)
     form.texts[0] = "taken"
     at.choose("Save")
-    assert at.top().title == "There is a file taken.replay.txt already"  # type: ignore[attr-defined]
+    assert at.top().title == "A file named taken.replay.txt already exists"  # type: ignore[attr-defined]
     at.choose("Cancel")
     assert taken.read_text("utf-8") == "somebody's"
     path.write_text(path.read_text("utf-8") + "\n", "utf-8")
