@@ -113,7 +113,7 @@ def test_states_of_a_timeline_begin_simulations() -> None:
 def test_the_longest_run_has_states_too() -> None:
     timeline = Timeline(WALKED, bytes(MAX_TICKS), memory="plain")
     timeline.simulated_until = len(timeline)
-    timeline._states.keep(MAX_TICKS + 20, timeline._memory.save())
+    timeline._states.keep(MAX_TICKS + 20, timeline._worlds.save())
     assert timeline.save_state(10**9).tick <= MAX_TICKS
 
 
