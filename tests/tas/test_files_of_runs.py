@@ -8,8 +8,7 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from ninja_game.editor.files import OccupiedError, digest_of
 from ninja_game.errors import ArgumentError, FileError, NinjaGameError, ReplayError

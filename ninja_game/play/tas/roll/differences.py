@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.tabs.plot import colour_of
-from ninja_game.play.ui.palette import Palette
+from ninja_game.play.ui.theme import Palette
 from ninja_game.sim.inputs import KEYS_DOWN, fitted_inputs
 from ninja_game.tas.input_track import InputTrack
 
