@@ -22,6 +22,9 @@ from ninja_game.sim.inputs import Demo, fitted_demo
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import Body
 
+MOST_LEGACY_TICKS = 20_000_000
+"""Of one file: a demo of an older version is packed so that each character can be 400 ticks."""
+
 Form = Literal["replay", "file", "inputs"]
 """What a recording was read from: a replay of ours, a record of N, inputs in another tool's notation."""
 
@@ -145,10 +148,20 @@ def _read_recordings(records: Iterable[LevelRecord], file: str, level: Level | N
     """The recordings in the records of a text; a level that several share is read once."""
     known: dict[str, Level] = {}
     recordings = []
+    legacy_ticks = 0
     for record in records:
         if record.level and record.demo and record.level not in known:
             known[record.level] = parse_level_string(record.level, file=file, line=record.line)
         recordings.append(recording_of(record, file, known.get(record.level, level)))
+        legacy_ticks += recordings[-1].ticks if record.demo.startswith("A") else 0
+        if legacy_ticks > MOST_LEGACY_TICKS:
+            raise ReplayError(
+                "the demos of older versions in this file are too long together",
+                file,
+                record.line,
+                found=f"more than {MOST_LEGACY_TICKS:,} ticks",
+                hint="split the file, or `ninja-game verify` it, which reads one record after the other",
+            )
     return recordings
 
 

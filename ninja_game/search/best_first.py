@@ -10,22 +10,23 @@ import numpy as np
 from ninja_game.backend.memories import compiled
 from ninja_game.search.engine import MORE, add_root, expand, load_node
 from ninja_game.search.heuristics import POINTS, Field, Heuristics
-from ninja_game.search.macros import action_inputs
+from ninja_game.search.known_run import KnownRun, play_known
+from ninja_game.search.macros import inputs_of
 from ninja_game.search.nodes import (
-    Entry,
-    Guide,
+    BackedUpHeuristic,
     Resolution,
     Start,
-    Words,
+    StateWords,
+    TableEntry,
     back_up_values,
     clear,
     new_memory,
     new_table,
     zeroed,
 )
-from ninja_game.search.states import MAX_SWITCH_STATES, NOT_MADE, WANTED, Goals
+from ninja_game.search.states import MAX_SWITCH_STATES, NOT_MADE, WANTED, Goal
 
-NO_GUIDE = Guide(zeroed(Entry, 1), Resolution())
+NO_BACKED_UP = BackedUpHeuristic(zeroed(TableEntry, 1), Resolution())
 SWEEPS = 40
 """Most sweeps over all links that make a guide's values."""
 
@@ -43,7 +44,7 @@ class Leg(NamedTuple):
     ends (0: any).
     """
 
-    roots: Sequence[Words]
+    roots: Sequence[StateWords]
     until: int
     mask: int
     gold: int
@@ -62,7 +63,7 @@ class End(NamedTuple):
 
     root: int
     inputs: bytes
-    words: Words
+    words: StateWords
     tick: int
     taken: int
     mask: int
@@ -74,10 +75,10 @@ class End(NamedTuple):
 class Search:
     """Best-first searches of a level, one after the other, in memory for so many ``nodes``."""
 
-    def __init__(self, start: Start, heuristics: Heuristics, *, nodes: int) -> None:
+    def __init__(self, start: Start, heuristics: Heuristics, *, nodes: int, along: bool = False) -> None:
         self.start = start
         self.heuristics = heuristics
-        self.goals = Goals(
+        self.goal = Goal(
             gold=0,
             leg=0,
             mask=0,
@@ -89,40 +90,52 @@ class Search:
             switch_slots=heuristics.slots,
             masks=np.full(MAX_SWITCH_STATES, -1, np.int64),
             places=np.zeros((MAX_SWITCH_STATES, 2)),
-            fields=np.zeros((MAX_SWITCH_STATES, POINTS), np.float32),
+            fields=np.zeros((MAX_SWITCH_STATES, 1 if along else POINTS), np.float32),
         )
-        self.goals.fields[:, 0] = NOT_MADE
+        if not along:
+            self.goal.fields[:, 0] = NOT_MADE
         self.resolution = Resolution()
         self.memory = new_memory(nodes)
         self.counters = self.memory.counters[0]
-        self.guide = NO_GUIDE
+        self.backed_up = NO_BACKED_UP
         self._nodes = nodes
         self._other_table: Any = None
         self._field: FieldOf = heuristics.field
+        self._known: KnownRun | None = None
+        self._known_inputs = b""
 
-    def begin(self, resolution: Resolution, *, seed: int, bound: int, guided: bool = False) -> None:
+    def begin(self, resolution: Resolution, *, seed: int, bound: int, backed_up: bool = False) -> None:
         """Begin a new search from the start to the exit. ``bound``: only runs of fewer ticks count (0: any).
 
-        ``guided``: by what the last search has learned; otherwise that is forgotten.
+        ``backed_up``: by what the last search has learned; otherwise that is forgotten.
         """
-        self.guide = self._learned() if guided else NO_GUIDE
-        self._begin([self.start.base], resolution, seed, bound)
+        self.backed_up = self._learned() if backed_up else NO_BACKED_UP
+        self._begin([self.start.initial], resolution, seed, bound)
 
     def begin_leg(self, leg: Leg, resolution: Resolution, *, seed: int, bound: int) -> None:
         """Begin a new search from other moments to another goal; ``bound`` as for ``begin``."""
-        self.guide = NO_GUIDE
-        self.goals = self.goals._replace(
+        self.backed_up = NO_BACKED_UP
+        self.goal = self.goal._replace(
             gold=leg.gold, leg=leg.until, mask=leg.mask, wanted=leg.wanted, ends=leg.ends, rollouts=leg.rollouts
         )
-        self.goals.fields[:, 0] = NOT_MADE
+        self.goal.fields[:, 0] = NOT_MADE
         self._field = leg.field
         self._begin(leg.roots, resolution, seed, bound)
 
-    def _begin(self, roots: Sequence[Words], resolution: Resolution, seed: int, bound: int) -> None:
+    def begin_along(self, run: KnownRun, inputs: bytes, resolution: Resolution, *, seed: int, gold: int) -> None:
+        """Begin a search at the span of a known run, whose inputs are given, for a shorter one with so much gold."""
+        self.goal = self.goal._replace(gold=gold)
+        self.goal.masks[:] = -1
+        self._known, self._known_inputs = run, inputs
+        compiled(play_known)(self.start, run, self.goal.switch_slots, run.span[0], 0)
+        self._begin([self.start.scratch.copy()], resolution, seed, len(inputs))
+
+    def _begin(self, roots: Sequence[StateWords], resolution: Resolution, seed: int, bound: int) -> None:
         clear(self.memory)
-        random = np.random.default_rng([seed, 6])
+        random = np.random.default_rng([seed, 6 if self._known is None else 8])
         shifts = random.random(2) * resolution.cell
-        speed_shifts = resolution.speed * 0.5 + random.random(2) * resolution.speed * 0.5
+        least = 0.5 if self._known is None else 0.0
+        speed_shifts = resolution.speed * least + random.random(2) * resolution.speed * (1.0 - least)
         self.resolution = resolution._replace(
             shift_x=float(shifts[0]),
             shift_y=float(shifts[1]),
@@ -132,11 +145,11 @@ class Search:
         self.counters.best_ticks = bound
         self.counters.random = int(random.integers(1, 1 << 62))
         for words in roots:
-            self.start.work_words[:] = words
-            compiled(add_root)(self.start, self.memory, self.goals, self.resolution)
+            self.start.scratch[:] = words
+            compiled(add_root)(self.start, self.memory, self.goal, self.resolution)
         self._fill_fields()
 
-    def _learned(self) -> Guide:
+    def _learned(self) -> BackedUpHeuristic:
         """The table of the search just made, with its values; the next search gets the other table."""
         table = self.memory.table
         compiled(back_up_values)(table, self.memory.links, int(self.counters.links), SWEEPS)
@@ -144,15 +157,16 @@ class Search:
         other[:] = 0
         self.memory = self.memory._replace(table=other)
         self._other_table = table
-        return Guide(table, self.resolution)
+        return BackedUpHeuristic(table, self.resolution)
 
     def run(self, budget: int) -> int:
         """Search on for about ``budget`` ticks; MORE, EXHAUSTED or NO_ROOM."""
         end = self.ticks + budget
         while self.ticks < end:
-            left = end - self.ticks
-            ended = compiled(expand)(self.start, self.memory, self.goals, self.guide, self.resolution, left)
-            if self.counters.wanted_fields:
+            ended = compiled(expand)(
+                self.start, self.memory, self.goal, self._known, self.backed_up, self.resolution, end - self.ticks
+            )
+            if self.counters.fields_wanted:
                 self._fill_fields()
             elif ended != MORE or self._enough_ends:
                 return int(ended)
@@ -169,20 +183,20 @@ class Search:
             self.run(min(part, stop - before))
             if over(self.ticks - before) or self.ticks == before or self._enough_ends:
                 return
-            if self.counters.ends > self.counters.others or self.counters.best_node >= 0:
+            if self.counters.ends > self.counters.other_ends or self.counters.best_node >= 0:
                 stop = min(stop, max(2 * self.ticks, least)) if stop == budget else stop
 
     @property
     def _enough_ends(self) -> bool:
-        return bool(self.counters.ends - self.counters.others >= self.goals.ends)
+        return bool(self.counters.ends - self.counters.other_ends >= self.goal.ends)
 
     def _fill_fields(self) -> None:
         """Make the distance fields that the search wants."""
-        goals = self.goals
-        for index in np.flatnonzero(goals.fields[:, 0] == WANTED):
-            x, y = goals.places[index]
-            goals.fields[index] = self._field(int(goals.masks[index]), float(x), float(y))
-        self.counters.wanted_fields = 0
+        goal = self.goal
+        for index in np.flatnonzero(goal.fields[:, 0] == WANTED):
+            x, y = goal.places[index]
+            goal.fields[index] = self._field(int(goal.masks[index]), float(x), float(y))
+        self.counters.fields_wanted = 0
 
     def ends(self) -> list[End]:
         """The moments at which the leg has ended so far."""
@@ -190,10 +204,10 @@ class Search:
         for index in self.memory.ends[: int(self.counters.ends)].tolist():
             compiled(load_node)(self.start, self.memory, index)
             root, inputs = self._path(index)
-            words = self.start.work_words.copy()
+            words = self.start.scratch.copy()
             world = self.start.worlds[1]
             place = (float(world["ninja"]["x"]), float(world["ninja"]["y"]))
-            mask = int(self.goals.masks[self.memory.nodes[index].switch_state])
+            mask = int(self.goal.masks[self.memory.nodes[index].switch_state])
             taken, routines = self.heuristics.taken(world), self.heuristics.routines(world)
             ninja = world["ninja"]
             moved = (float(ninja["x"] - ninja["prev_x"]) / 1.5, float(ninja["y"] - ninja["prev_y"]) / 1.5)
@@ -207,7 +221,7 @@ class Search:
         parents, actions = nodes["parent"], nodes["action"]
         parts = []
         while parents[index] >= 0:
-            parts.append(action_inputs(int(actions[index])))
+            parts.append(inputs_of(int(actions[index]), self._known_inputs))
             index = int(parents[index])
         return index, b"".join(reversed(parts))
 

@@ -1,22 +1,33 @@
-"""Best-first search over save-states: the compiled inner loop.
+"""Best-first search (weighted A*) over save-states: the compiled inner loop of every search.
 
-The node with the least (ticks so far + weight x estimated ticks to go) is taken from the buckets, all macros are
-played from its save-state, and every moment whose key is news becomes a node.
+The node with the least (ticks so far + weight x estimated ticks to go) is taken from the open list, all macros are
+played from its save-state, and every state that is not a duplicate becomes a node. What differs between goals is the
+estimate and what ends a search: the exit, the end of a leg, or a shorter run than a known one (``Goal``).
 """
 
 from __future__ import annotations
 
 from ninja_game.search.heuristics import point_at
 from ninja_game.search.known_run import KnownRun, nearest
-from ninja_game.search.macros import PRESSED, PRESSED_AGAIN, RELEASED, action_code, play_macro
+from ninja_game.search.macros import (
+    MOST_ROWS,
+    PRESSED,
+    PRESSED_AGAIN,
+    RELEASED,
+    action_code,
+    follow,
+    followed_code,
+    play_macro,
+)
 from ninja_game.search.nodes import (
     BUCKETS,
+    BackedUpHeuristic,
     Counters,
-    Guide,
     Node,
     Resolution,
     SearchMemory,
     Start,
+    copy_words,
     drop_highest,
     free_state,
     keep_state,
@@ -25,32 +36,36 @@ from ninja_game.search.nodes import (
     push,
     random_below,
 )
-from ninja_game.search.states import MIX, Goals, estimate, find, gold_hash, is_news, key_of, open_mask, switch_state_of
-from ninja_game.sim.inputs import pressed
+from ninja_game.search.states import Goal, estimate, find_entry, gold_hash, is_new, key_of, switch_state_of
 from ninja_game.sim.memory.declare import entry_point, fast
-from ninja_game.sim.memory.schema import Ninja, TileMap, World
+from ninja_game.sim.memory.schema import Ninja
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
 from ninja_game.sim.states import JUMPING, OUTCOME_DEAD, OUTCOME_EXIT, OUTCOME_RUNNING
-from ninja_game.sim.world import step
 
 CHOICES = 10
 """Macros to choose from: three directions by three modes of the jump key, and waiting."""
+FOLLOW_CHOICES = 3
+"""Of a known run: from the row most like the present state, from the one before, from the next one."""
 BOUND_SHARE = 0.4
-"""What share of the estimate a run may count on when it is compared with the best one; fields are a guide only."""
+"""What share of the estimate counts when a node is compared with the best run: fields may be too high. Not tuned."""
+LEAST_GAIN = 0.5
+"""Ticks by which what is behind a span must seem to be shorter than the known run. Not tuned."""
 OTHER_ENDS = 8
-"""Ends of a leg that are kept where another switch than a wanted one was touched."""
+"""Ends of a leg that are kept where another switch than a wanted one was touched. Not tuned."""
+SURVIVAL = 60
+"""Ticks that the ninja must be able to live after the end of a leg. Not tuned."""
 MORE, EXHAUSTED, NO_ROOM = 0, 1, 2
 """How a slice of a search ended."""
 
 
 @entry_point
-def add_root(start: Start, memory: SearchMemory, goals: Goals, resolution: Resolution) -> None:
-    """Make the working world a node from which the search begins."""
+def add_root(start: Start, memory: SearchMemory, goal: Goal, resolution: Resolution) -> None:
+    """Make the scratch world a node from which the search begins."""
     w = start.worlds[1]
     counters = memory.counters[0]
-    switch_state = max(switch_state_of(w, goals, counters, 0), 0)
-    key = key_of(w, goals, switch_state, 0, resolution)
-    slot = find(memory.table, key)
+    switch_state = max(switch_state_of(w, goal, counters, 0), 0)
+    key = key_of(w, goal, switch_state, 0, resolution)
+    slot = find_entry(memory.table, key)
     if memory.table[slot].key == 0:
         memory.table[slot].key = key
         memory.table[slot].visits = 1
@@ -61,28 +76,32 @@ def add_root(start: Start, memory: SearchMemory, goals: Goals, resolution: Resol
     root = memory.nodes[index]
     root.switch_state = switch_state
     root.entry = slot
-    root.ahead = 0.0
-    keep_state(start.work_words, start.base, root, memory)
+    root.to_go = 0.0
+    keep_state(start.scratch, start.initial, root, memory)
     push(index, 0.0 + w.tick, memory)
 
 
 @entry_point
 def load_node(start: Start, memory: SearchMemory, index: int) -> None:
-    """Make the save-state of a node that has one the working world."""
-    load_state(start.work_words, start.base, memory.nodes[index], memory)
+    """Make the save-state of a node that has one the scratch world."""
+    load_state(start.scratch, start.initial, memory.nodes[index], memory)
 
 
 @entry_point
-def expand(start: Start, memory: SearchMemory, goals: Goals, guide: Guide, resolution: Resolution, budget: int) -> int:
+def expand(
+    start: Start, memory: SearchMemory, goal: Goal, known: KnownRun | None, backed_up: BackedUpHeuristic,
+    resolution: Resolution, budget: int,
+) -> int:  # fmt: skip
     """Expand nodes until ``budget`` ticks were run, a switch state wants its field, or enough ends of a leg are found.
 
-    Answers MORE, EXHAUSTED (nothing is left) or NO_ROOM (for nodes).
+    ``known``: the run along which to search; None: a search for the exit or of a leg, compiled without what runs along
+    one. Returns MORE, EXHAUSTED (nothing is left) or NO_ROOM (for nodes).
     """
     here = start.worlds[0]
     w = start.worlds[1]
     counters = memory.counters[0]
     stop = counters.ticks + budget
-    while counters.ticks < stop and counters.wanted_fields == 0 and counters.ends - counters.others < goals.ends:
+    while counters.ticks < stop and counters.fields_wanted == 0 and counters.ends - counters.other_ends < goal.ends:
         full = counters.nodes + 16 > len(memory.nodes) or counters.links + 16 > len(memory.links)
         if full or counters.entries * 4 > len(memory.table) * 3:
             return NO_ROOM
@@ -93,20 +112,31 @@ def expand(start: Start, memory: SearchMemory, goals: Goals, guide: Guide, resol
             continue
         counters.expanded += 1
         held = here.ninja.jump_held
-        for choice in range(CHOICES):
-            direction, mode, limit = macro_of(here.ninja, choice, counters, resolution)
-            if limit == 0:
-                continue
-            for k in range(len(start.node_words)):
-                start.work_words[k] = start.node_words[k]
-            played = play_macro(start.levels[0], w, direction, mode, limit)
+        row = -1
+        if known is not None:
+            row, _ = nearest(known, here, goal.masks[memory.nodes[index].switch_state])
+        for choice in range(CHOICES + FOLLOW_CHOICES if row >= 0 else CHOICES):
+            if choice < CHOICES:
+                direction, mode, limit = macro_of(here.ninja, choice, counters, resolution)
+                if limit == 0:
+                    continue
+                copy_words(start.scratch, start.node)
+                played = play_macro(start.levels[0], w, direction, mode, limit)
+                action = action_code(direction, mode, held, played)
+            else:
+                first = row + (choice - CHOICES + 1) % FOLLOW_CHOICES - 1
+                if not 0 <= first < MOST_ROWS:
+                    continue
+                copy_words(start.scratch, start.node)
+                played = 0
+                if known is not None:
+                    played = follow(start.levels[0], w, known.keys, first, 3 + random_below(counters, 24))
+                action = followed_code(first, played)
             counters.ticks += played
-            action = action_code(direction, mode, held, played)
-            if w.outcome == OUTCOME_RUNNING:
-                if w.tick < LIFETIME + GOLD_BONUS * w.gold:
-                    keep_child(index, action, played, start, memory, goals, guide, resolution)
-            elif w.outcome == OUTCOME_EXIT and w.gold >= goals.gold:
-                keep_end(index, action, played, w.tick, memory)
+            if w.outcome == OUTCOME_RUNNING and played > 0:
+                keep_child(index, action, played, start, memory, goal, known, backed_up, resolution)
+            elif w.outcome == OUTCOME_EXIT and w.gold >= goal.gold:
+                keep_run(index, action, played, w.tick, memory, known)
     return MORE
 
 
@@ -123,7 +153,7 @@ def take_state(node: Node, start: Start, memory: SearchMemory, resolution: Resol
     late = best > 0 and node.tick + 1 >= best
     wanted = not (stale or late)
     if wanted:
-        load_state(start.node_words, start.base, node, memory)
+        load_state(start.node, start.initial, node, memory)
     free_state(node.chunk, memory)
     node.chunk = -1
     return wanted
@@ -155,10 +185,11 @@ def macro_of(ninja: Ninja, choice: int, counters: Counters, resolution: Resoluti
 
 
 @fast
-def keep_end(parent: int, action: int, played: int, tick: int, memory: SearchMemory) -> None:
+def keep_run(parent: int, action: int, played: int, tick: int, memory: SearchMemory, known: KnownRun | None) -> None:
     """Note that a node leads to the exit; keep the run if it is the shortest."""
     counters = memory.counters[0]
-    note_link(memory, memory.nodes[parent].entry, -1, played)
+    if known is None:
+        note_link(memory, memory.nodes[parent].entry, -1, played)
     if counters.best_ticks == 0 or tick < counters.best_ticks:
         counters.best_ticks = tick
         counters.best_node = add_node(parent, action, tick, memory)
@@ -166,57 +197,94 @@ def keep_end(parent: int, action: int, played: int, tick: int, memory: SearchMem
 
 @fast
 def keep_child(
-    parent: int, action: int, played: int, start: Start, memory: SearchMemory, goals: Goals, guide: Guide,
-    resolution: Resolution,
+    parent: int, action: int, played: int, start: Start, memory: SearchMemory, goal: Goal, known: KnownRun | None,
+    backed_up: BackedUpHeuristic, resolution: Resolution,
 ) -> None:  # fmt: skip
-    """Make a node of the working world if its key is news and it can still beat the best run."""
+    """Make a node of the scratch world if it is not a duplicate and may still lead to a shorter run than the best."""
     w = start.worlds[1]
-    counters = memory.counters[0]
-    source = memory.nodes[parent]
-    switch_state = switch_state_of(w, goals, counters, source.switch_state)
+    if known is None and w.tick >= LIFETIME + GOLD_BONUS * w.gold:
+        return
+    switch_state = switch_state_of(w, goal, memory.counters[0], memory.nodes[parent].switch_state)
     if switch_state < 0:
         return
-    tick = w.tick
-    best = counters.best_ticks
-    ahead = estimate(goals, switch_state, point_at(w.ninja.x, w.ninja.y), source.ahead)
-    if best > 0 and tick + ahead * BOUND_SHARE >= best:
-        return
-    at_end = goals.leg > 0 and (w.gold >= goals.leg or goals.masks[switch_state] != goals.mask)
-    gold = gold_hash(w, goals) if at_end else 0
-    elsewhere = at_end and goals.wanted != 0 and not goals.masks[switch_state] & goals.wanted
-    if elsewhere and counters.others >= OTHER_ENDS:
-        return
-    key = key_of(w, goals, switch_state, gold, resolution)
-    slot = find(memory.table, key)
-    entry = memory.table[slot]
-    if entry.key != 0:
-        note_link(memory, source.entry, slot, played)
-        if not is_news(entry, tick, resolution):
-            return
-    if len(guide.table) > 1:
-        known = guide.table[find(guide.table, key_of(w, goals, switch_state, gold, guide.resolution))]
-        if known.key != 0 and known.value < 1.0e8:
-            ahead = 0.0 + known.value
-        else:
-            ahead = source.ahead - played + resolution.off_guide * played
-        if best > 0 and tick + ahead > best + resolution.slack:
-            return
-    if entry.key == 0:
-        note_link(memory, source.entry, slot, played)
-    index = keep_node(parent, action, slot, key, ahead, start, memory)
-    child = memory.nodes[index]
-    child.switch_state = switch_state
-    if not at_end:
-        push(index, tick + resolution.weight * ahead, memory)
-    elif child.chunk >= 0 and (goals.rollouts == 0 or survives(child, start, memory, goals.rollouts)):
-        memory.ends[counters.ends] = index
-        counters.ends += 1
-        counters.others += elsewhere
+    if known is None:
+        keep_toward(parent, action, played, switch_state, start, memory, goal, backed_up, resolution)
+    else:
+        keep_along(parent, action, switch_state, start, memory, goal, known, resolution)
 
 
 @fast
-def keep_node(parent: int, action: int, slot: int, key: int, ahead: float, start: Start, memory: SearchMemory) -> int:
-    """Make the working world a node, with a save-state if there is room, and note it under its key; its index.
+def keep_along(
+    parent: int, action: int, switch_state: int, start: Start, memory: SearchMemory, goal: Goal, known: KnownRun,
+    resolution: Resolution,
+) -> None:  # fmt: skip
+    """The same, by the ticks that the known run still has from its row that is most like the scratch world."""
+    w = start.worlds[1]
+    _, to_go = nearest(known, w, goal.masks[switch_state])
+    run_ticks = w.tick + to_go
+    delay = known.max_delay if w.tick < known.span[1] else -LEAST_GAIN
+    if run_ticks > memory.counters[0].best_ticks + delay:
+        return
+    key = key_of(w, goal, switch_state, 0, resolution)
+    slot = find_entry(memory.table, key)
+    if is_new(memory.table[slot], w.tick, resolution):
+        index = keep_node(parent, action, slot, key, to_go, switch_state, start, memory)
+        # Two buckets a tick; the known run's own states wait in the middle one.
+        push(index, 0.5 * BUCKETS + 2.0 * (run_ticks - len(known.keys)), memory)
+
+
+@fast
+def keep_toward(
+    parent: int, action: int, played: int, switch_state: int, start: Start, memory: SearchMemory, goal: Goal,
+    backed_up: BackedUpHeuristic, resolution: Resolution,
+) -> None:  # fmt: skip
+    """The same, by the distance field of the switch state, or by the backed-up heuristic of an earlier search."""
+    w = start.worlds[1]
+    counters = memory.counters[0]
+    source = memory.nodes[parent]
+    tick = w.tick
+    best = counters.best_ticks
+    to_go = estimate(goal, switch_state, point_at(w.ninja.x, w.ninja.y), source.to_go)
+    if best > 0 and tick + to_go * BOUND_SHARE >= best:
+        return
+    mask = goal.masks[switch_state]
+    at_end = goal.leg > 0 and (w.gold >= goal.leg or mask != goal.mask)
+    gold = gold_hash(w, goal) if at_end else 0
+    other_end = at_end and goal.wanted != 0 and not mask & goal.wanted
+    if other_end and counters.other_ends >= OTHER_ENDS:
+        return
+    key = key_of(w, goal, switch_state, gold, resolution)
+    slot = find_entry(memory.table, key)
+    entry = memory.table[slot]
+    if entry.key != 0:
+        note_link(memory, source.entry, slot, played)
+        if not is_new(entry, tick, resolution):
+            return
+    if len(backed_up.table) > 1:
+        known = backed_up.table[find_entry(backed_up.table, key_of(w, goal, switch_state, gold, backed_up.resolution))]
+        if known.key != 0 and known.value < 1.0e8:
+            to_go = 0.0 + known.value
+        else:
+            to_go = source.to_go - played + resolution.off_table * played
+        if best > 0 and tick + to_go > best + resolution.slack:
+            return
+    if entry.key == 0:
+        note_link(memory, source.entry, slot, played)
+    index = keep_node(parent, action, slot, key, to_go, switch_state, start, memory)
+    child = memory.nodes[index]
+    if not at_end:
+        push(index, tick + resolution.weight * to_go, memory)
+    elif child.chunk >= 0 and (goal.rollouts == 0 or survives(child, start, memory, goal.rollouts)):
+        memory.ends[counters.ends] = index
+        counters.ends += 1
+        counters.other_ends += other_end
+
+
+@fast
+def keep_node(
+    parent: int, action: int, slot: int, key: int, to_go: float, switch_state: int, start: Start, memory: SearchMemory
+) -> int:
+    """Make the scratch world a node, with a save-state if there is room, and note it under its key; its index.
 
     ``slot``: the place of the key in the table.
     """
@@ -233,8 +301,9 @@ def keep_node(parent: int, action: int, slot: int, key: int, ahead: float, start
     index = add_node(parent, action, tick, memory)
     node = memory.nodes[index]
     node.entry = slot
-    node.ahead = ahead
-    while not keep_state(start.work_words, start.base, node, memory) and counters.waiting > 0:
+    node.to_go = to_go
+    node.switch_state = switch_state
+    while not keep_state(start.scratch, start.initial, node, memory) and counters.waiting > 0:
         drop_highest(memory)
     return index
 
@@ -264,20 +333,16 @@ def note_link(memory: SearchMemory, source: int, target: int, ticks: int) -> Non
     link.ticks = ticks
 
 
-SURVIVAL = 60
-"""Ticks that the ninja must be able to live."""
-
-
 @fast
 def survives(node: Node, start: Start, memory: SearchMemory, rollouts: int) -> bool:
     """Whether a ninja with random keys, from a node's save-state on, ever lands or lives for a while.
 
-    The working world is used.
+    The scratch world is used.
     """
     w = start.worlds[1]
     counters = memory.counters[0]
     for _ in range(rollouts):
-        load_state(start.work_words, start.base, node, memory)
+        load_state(start.scratch, start.initial, node, memory)
         until = w.tick + SURVIVAL
         while w.outcome != OUTCOME_DEAD:
             if w.tick >= until or not w.ninja.in_air:
@@ -286,100 +351,3 @@ def survives(node: Node, start: Start, memory: SearchMemory, rollouts: int) -> b
             mode = RELEASED if random_below(counters, 3) else PRESSED
             counters.ticks += play_macro(start.levels[0], w, direction, mode, 4 + random_below(counters, 30))
     return False
-
-
-FOLLOWED = 3
-"""Mode of an action that plays on as the known run did, from the row in its bits 16 and up."""
-FOLLOW_CHOICES = 3
-"""From the row most like the present moment, from the one before, from the next one."""
-MOST_ROWS = 1 << 15
-"""An action has no room for a row from here on."""
-LEAST_GAIN = 0.5
-"""Ticks by which what is behind the span must promise to be shorter than the best run."""
-
-
-@fast
-def follow(level: TileMap, w: World, run: KnownRun, row: int, limit: int) -> int:
-    """Play on as the known run did from a row on; the ticks played."""
-    for k in range(limit):
-        if row + k >= len(run.keys):
-            return k
-        step(level, w, pressed(run.keys[row + k], w.ninja.jump_held))
-        if w.outcome != OUTCOME_RUNNING:
-            return k + 1
-    return limit
-
-
-@entry_point
-def expand_along(
-    start: Start, memory: SearchMemory, goals: Goals, run: KnownRun, resolution: Resolution, budget: int
-) -> int:
-    """Expand nodes until ``budget`` ticks were run: MORE, EXHAUSTED (nothing is left) or NO_ROOM (for nodes)."""
-    here = start.worlds[0]
-    w = start.worlds[1]
-    counters = memory.counters[0]
-    stop = counters.ticks + budget
-    while counters.ticks < stop:
-        if counters.nodes + 16 > len(memory.nodes) or counters.entries * 4 > len(memory.table) * 3:
-            return NO_ROOM
-        index = pop_lowest(memory)
-        if index < 0:
-            return EXHAUSTED
-        if not take_state(memory.nodes[index], start, memory, resolution):
-            continue
-        counters.expanded += 1
-        held = here.ninja.jump_held
-        row, _ = nearest(run, here, open_mask(here, goals.switch_slots))
-        for choice in range(CHOICES + FOLLOW_CHOICES):
-            action = 0
-            played = 0
-            if choice < CHOICES:
-                direction, mode, limit = macro_of(here.ninja, choice, counters, resolution)
-                if limit == 0:
-                    continue
-                for k in range(len(start.node_words)):
-                    start.work_words[k] = start.node_words[k]
-                played = play_macro(start.levels[0], w, direction, mode, limit)
-                action = action_code(direction, mode, held, played)
-            else:
-                first = row + (choice - CHOICES + 1) % FOLLOW_CHOICES - 1
-                if row < 0 or not 0 <= first < MOST_ROWS:
-                    continue
-                for k in range(len(start.node_words)):
-                    start.work_words[k] = start.node_words[k]
-                played = follow(start.levels[0], w, run, first, 3 + random_below(counters, 24))
-                action = FOLLOWED << 2 | played << 8 | first << 16
-            counters.ticks += played
-            if played == 0:
-                continue
-            if w.outcome == OUTCOME_RUNNING:
-                keep_ahead(index, action, start, memory, goals, run, resolution)
-            elif w.outcome == OUTCOME_EXIT and w.gold >= goals.gold and w.tick < counters.best_ticks:
-                counters.best_ticks = w.tick
-                counters.best_node = add_node(index, action, w.tick, memory)
-    return MORE
-
-
-@fast
-def keep_ahead(
-    parent: int, action: int, start: Start, memory: SearchMemory, goals: Goals, run: KnownRun, resolution: Resolution
-) -> None:
-    """Make a node of the working world if its key is news and it promises a shorter run."""
-    w = start.worlds[1]
-    counters = memory.counters[0]
-    mask = open_mask(w, goals.switch_slots)
-    _, ahead = nearest(run, w, mask)
-    promise = w.tick + ahead
-    late = run.behind if w.tick < run.span[1] else -LEAST_GAIN
-    if promise > counters.best_ticks + late:
-        return
-    # A key has nine bits for what is open: the bits of further switches are mixed into them.
-    switches = (mask ^ ((mask >> 9) * MIX >> 40)) & 511
-    key = key_of(w, goals, switches, 0, resolution)
-    slot = find(memory.table, key)
-    entry = memory.table[slot]
-    if entry.key != 0 and not is_news(entry, w.tick, resolution):
-        return
-    index = keep_node(parent, action, slot, key, ahead, start, memory)
-    # Two buckets a tick; the known run's own moments wait in the middle one.
-    push(index, 0.5 * BUCKETS + 2.0 * (promise - len(run.keys)), memory)

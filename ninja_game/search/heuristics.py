@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.memories import compiled_if_possible
+from ninja_game.search.switches import open_mask_at
 from ninja_game.sim import kinds
 from ninja_game.sim.collision.rays import solid_at
 from ninja_game.sim.memory.declare import entry_point, fast
@@ -206,11 +207,9 @@ class Heuristics:
         bits = world["objects"]["taken"][self.gold_slots] != 0
         return sum(1 << k for k in np.flatnonzero(bits).tolist())
 
-    def opened(self, world: Any) -> int:
-        """The switch state of a world."""
-        switches = world["objects"][self.slots]
-        bits = np.where(switches["kind"] == kinds.EXIT, switches["is_open"], switches["switched"]) != 0
-        return sum(1 << k for k in np.flatnonzero(bits).tolist())
+    def opened(self, worlds: Records, index: int) -> int:
+        """The switch state of one of some worlds."""
+        return int(compiled_if_possible(open_mask_at)(worlds, index, self.slots))
 
     def routines(self, world: Any) -> bytes:
         """What the moving enemies of a world do."""

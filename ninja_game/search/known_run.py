@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.search.nodes import Start
-from ninja_game.search.states import open_mask
-from ninja_game.sim.inputs import pressed
+from ninja_game.search.switches import open_mask
+from ninja_game.sim.inputs import KEYS_DOWN, pressed
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import OUTCOME_RUNNING
@@ -29,22 +29,24 @@ SLOW = 0.5
 
 
 class KnownRun(NamedTuple):
-    """A run of n ticks to the exit. Row k is what is so after k ticks; row 0 is the start.
-
-    ``span``: the first tick, and the tick behind the last, in which a search may fall behind the run; ``behind``: by
-    how many ticks; ``far``: px, across or down, by which a moment may differ; ``place_price``: of a difference of
-    place, in ticks a tick of the run's way; ``speed_price``: ticks a px/tick.
-    """
+    """A run of n ticks to the exit. Row k is what is so after k ticks; row 0 is the start."""
 
     moves: NDArray[np.float64]  #: x, y (px), velocity (px/tick); (n + 1, 4)
     keys: NDArray[np.uint8]  #: of each tick, without triggers
     masks: NDArray[np.int64]  #: what is open
     gold: NDArray[np.int64]  #: pieces that whoever is as far must have collected
-    span: tuple[int, int]
-    behind: float
-    far: float
-    place_price: float
-    speed_price: float
+    span: tuple[int, int]  #: its first tick, and the tick behind its last, in which a search may fall behind the run
+    max_delay: float  #: by how many ticks
+    max_distance: float  #: px across, and px down, by which a state may differ from its row
+    place_price: float  #: of a difference of place, in ticks a tick of the run's way
+    speed_price: float  #: ticks a px/tick
+
+
+def known_run(ticks: int, keys: bytes = b"") -> KnownRun:
+    """Room for a run of this many ticks, to be filled by ``play_known``."""
+    moves, (masks, gold) = np.zeros((ticks + 1, 4)), np.zeros((2, ticks + 1), np.int64)
+    held = np.array(list(keys), np.uint8) & np.uint8(KEYS_DOWN)
+    return KnownRun(moves, held, masks, gold, (0, ticks), 0.0, 64.0, 1.0, 1.0)
 
 
 @fast
@@ -64,8 +66,8 @@ def note(run: KnownRun, w: World, switch_slots: NDArray[np.int64]) -> None:
 def play_known(start: Start, run: KnownRun, switch_slots: NDArray[np.int64], until: int, noted: int) -> int:
     """Play the run's keys from the start to before tick ``until``, noted if that is 1; the ticks played."""
     w = start.worlds[1]
-    for k in range(len(start.base)):
-        start.work_words[k] = start.base[k]
+    for k in range(len(start.initial)):
+        start.scratch[k] = start.initial[k]
     if noted:
         note(run, w, switch_slots)
     for tick in range(until):
@@ -90,7 +92,13 @@ def nearest(run: KnownRun, w: World, mask: int) -> tuple[int, float]:
         row = run.moves[k]
         dx = abs(n.x - row[0])
         dy = abs(n.y - row[1])
-        if dx > run.far or dy > run.far or ticks - k >= least or run.masks[k] != mask or run.gold[k] > w.gold:
+        if (
+            dx > run.max_distance
+            or dy > run.max_distance
+            or ticks - k >= least
+            or run.masks[k] != mask
+            or run.gold[k] > w.gold
+        ):
             continue
         way = sqrt(row[2] * row[2] + row[3] * row[3])
         price = sqrt(dx * dx + dy * dy) * run.place_price / max(way, SLOW)

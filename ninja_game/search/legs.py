@@ -6,53 +6,53 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from ninja_game.search.nodes import Words
+from ninja_game.search.nodes import StateWords
 
 
 @dataclass
-class Moment:
+class Checkpoint:
     """A save-state on a run: its words, ticks, gold, open doors, place; the moment before it and the inputs since."""
 
-    words: Words
+    words: StateWords
     tick: int
     taken: int
     mask: int
     place: tuple[float, float]
     routines: bytes = b""
-    before: Moment | None = None
+    before: Checkpoint | None = None
     inputs: bytes = b""
 
     def run(self) -> bytes:
         """The inputs from the start of the level."""
         parts = []
-        moment: Moment | None = self
-        while moment:
-            parts.append(moment.inputs)
-            moment = moment.before
+        checkpoint: Checkpoint | None = self
+        while checkpoint:
+            parts.append(checkpoint.inputs)
+            checkpoint = checkpoint.before
         return b"".join(reversed(parts))
 
 
 @dataclass
-class Front:
+class Frontier:
     """Moments with the same gold and switches, earliest first; in which order to fetch the rest; tries, their ticks."""
 
     taken: int
     mask: int
-    moments: list[Moment] = field(default_factory=list)
+    checkpoints: list[Checkpoint] = field(default_factory=list)
     tour: list[int] = field(default_factory=list)
     tries: int = 0
     spent: int = 0
     failed: Counter[int] = field(default_factory=Counter)
 
-    def add(self, moment: Moment, width: int) -> None:
+    def add(self, checkpoint: Checkpoint, width: int) -> None:
         """Keep a moment if it is among the earliest; of each state of the enemies at least one, if possible."""
         ranks: Counter[bytes] = Counter()
         ranked = []
-        for other in sorted([*self.moments, moment], key=lambda moment: moment.tick):
+        for other in sorted([*self.checkpoints, checkpoint], key=lambda checkpoint: checkpoint.tick):
             ranked.append((ranks[other.routines], other))
             ranks[other.routines] += 1
         kept = sorted(ranked, key=lambda pair: pair[0])[:width]
-        self.moments = sorted((moment for _, moment in kept), key=lambda moment: moment.tick)
+        self.checkpoints = sorted((checkpoint for _, checkpoint in kept), key=lambda checkpoint: checkpoint.tick)
 
     @property
     def count(self) -> int:

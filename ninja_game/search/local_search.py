@@ -14,17 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.memories import compiled
-from ninja_game.search.nodes import RandomState, Start, Words, random_below, zeroed
+from ninja_game.search.macros import Keys
+from ninja_game.search.nodes import RandomState, Start, copy_words, random_below, zeroed
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, pressed, with_press_bits
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.memory.declare import entry_point, f8, fast, i8, struct
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING
 from ninja_game.sim.world import step
-
-Keys = NDArray[np.uint8]
-
-ALL_KEYS = 7
 
 
 @fast
@@ -47,7 +44,7 @@ def stretch(keys: Keys, length: int, tick: int, count: int) -> None:
 def overwrite(keys: Keys, length: int, start: int, end: int, mask: int, value: int) -> None:
     """Set some keys in the ticks from start to before end."""
     for k in range(max(start, 0), min(end, length)):
-        keys[k] = (keys[k] & (ALL_KEYS - mask)) | value
+        keys[k] = (keys[k] & (KEYS_DOWN - mask)) | value
 
 
 @fast
@@ -176,13 +173,6 @@ def score_of(w: World) -> float:
     return float(w.tick) - 0.99 * (1.0 - nearest / 22.0)
 
 
-@fast
-def copy_words(target: Words, source: Words) -> None:
-    """Copy a save-state."""
-    for k in range(len(target)):
-        target[k] = source[k]
-
-
 @entry_point
 def retrace(start: Start, runs: Runs, tick: int, limit: int) -> int:
     """Play the current run on from the checkpoint at or before ``tick``: its path and checkpoints; its ticks.
@@ -191,10 +181,10 @@ def retrace(start: Start, runs: Runs, tick: int, limit: int) -> int:
     """
     w = start.worlds[1]
     first = min(tick, limit - 1) // CHECKPOINT
-    copy_words(start.work_words, start.base if first == 0 else runs.checkpoints[first])
+    copy_words(start.scratch, start.initial if first == 0 else runs.checkpoints[first])
     for k in range(first * CHECKPOINT, limit):
         if k % CHECKPOINT == 0:
-            copy_words(runs.checkpoints[k // CHECKPOINT], start.work_words)
+            copy_words(runs.checkpoints[k // CHECKPOINT], start.scratch)
         step(start.levels[0], w, pressed(runs.current[k], w.ninja.jump_held))
         runs.path[k, 0] = w.ninja.x
         runs.path[k, 1] = w.ninja.y
@@ -259,7 +249,7 @@ def local_search(start: Start, runs: Runs, gold: int, temperature: float, budget
         luck = random_below(counters, 1000) / 1000.0
         allowed = counters.score + temperature * luck * luck * luck * luck
         checkpoint = tick // CHECKPOINT
-        copy_words(start.work_words, runs.checkpoints[checkpoint])
+        copy_words(start.scratch, runs.checkpoints[checkpoint])
         limit = min(int(allowed) + 1, room)
         counters.played += try_run(start.levels[0], w, runs, checkpoint * CHECKPOINT, shift, limit) + 4
         if w.outcome != OUTCOME_EXIT or w.gold < gold:
@@ -290,7 +280,7 @@ class LocalSearch:
         self.gold = gold
         room = len(inputs) + ROOM
         best, current, trial = np.zeros((3, room), np.uint8)
-        checkpoints = np.zeros((room // CHECKPOINT + 1, len(start.base)), np.int64)
+        checkpoints = np.zeros((room // CHECKPOINT + 1, len(start.initial)), np.int64)
         self.runs = Runs(best, current, trial, np.zeros((room, 2)), checkpoints, zeroed(LocalCounters, 1))
         self.counters = self.runs.counters[0]
         self.counters.random = int(np.random.default_rng([seed, 7]).integers(1, 1 << 62))

@@ -9,13 +9,23 @@ from __future__ import annotations
 
 from functools import cache
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, pressed
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.world import step
 
+Keys = NDArray[np.uint8]
+"""Keys that are down, one byte per tick: a sum of left, right and jump."""
+
 RELEASED, PRESSED, PRESSED_AGAIN = 0, 1, 2
 """Modes of the jump key: up; down (a press if it was up); up for one tick, then down."""
+FOLLOWED = 3
+"""Mode of an action that plays on as a known run did, from the row in its bits 16 and up."""
+MOST_ROWS = 1 << 15
+"""An action has no room for a row from here on."""
 
 
 @fast
@@ -65,3 +75,28 @@ def action_inputs(action: int) -> bytes:
     """The inputs of an action, one byte per tick."""
     direction, mode, held, ticks = (action & 3) - 1, action >> 2 & 3, action >> 4 & 1, action >> 8
     return bytes(macro_keys(direction, mode, held, k) for k in range(ticks))
+
+
+@fast
+def follow(level: TileMap, w: World, keys: Keys, row: int, limit: int) -> int:
+    """Play on with a known run's keys from a row on, at most ``limit`` ticks; the number played."""
+    for k in range(limit):
+        if row + k >= len(keys):
+            return k
+        step(level, w, pressed(keys[row + k], w.ninja.jump_held))
+        if w.outcome:
+            return k + 1
+    return limit
+
+
+@fast
+def followed_code(row: int, ticks: int) -> int:
+    """``ticks`` of a known run from a row on, in one number."""
+    return FOLLOWED << 2 | ticks << 8 | row << 16
+
+
+def inputs_of(action: int, known: bytes) -> bytes:
+    """The inputs of an action, one byte per tick; ``known``: the run that it may follow."""
+    if action >> 2 & 3 != FOLLOWED:
+        return action_inputs(action)
+    return known[action >> 16 : (action >> 16) + (action >> 8 & 255)]

@@ -20,7 +20,7 @@ from ninja_game.sim.memory.compiled import load_worlds
 from ninja_game.sim.memory.declare import entry_point, f4, fast, i4, i8, struct, struct_base
 from ninja_game.sim.memory.layout import STATE_START, Records, dtype_of, new_worlds, used_bytes
 
-Words = NDArray[np.int64]
+StateWords = NDArray[np.int64]
 Indices = NDArray[np.int32]
 
 CHUNK = 32
@@ -63,11 +63,11 @@ class Node:
     priority: i4  #: its bucket
     switch_state: i4  #: index of its switch state (heuristics.py)
     entry: i4  #: its place in the table
-    ahead: f4  #: estimated ticks to the exit
+    to_go: f4  #: estimated ticks to the exit
 
 
 @struct
-class Entry:
+class TableEntry:
     """What the table knows of the moments that count as the same."""
 
     key: i8  #: 0: empty
@@ -101,9 +101,9 @@ class Counters(RandomState):
     expanded: i8  #: nodes
     best_ticks: i8  #: of the shortest run; at first the bound, 0: none
     best_node: i8  #: its last node, -1: none found
-    wanted_fields: i8  #: switch states reached that have no field yet
+    fields_wanted: i8  #: switch states reached that have no field yet
     ends: i8  #: ends of a leg found so far
-    others: i8  #: those of them that are not at a wanted switch
+    other_ends: i8  #: those of them that are not at a wanted switch
 
 
 class Resolution(NamedTuple):
@@ -112,7 +112,7 @@ class Resolution(NamedTuple):
     ``weight``: of the estimated ticks to go against those run; ``patience``: ticks after which the same place counts
     as new, at most ``visits`` times; ``enemy_cell``: size of a place (px) of enemies nearer than ``enemy_reach`` (px,
     across and down together), 0: they do not count. Guided searches only: ``slack``: ticks by
-    which an estimate may exceed the best run, in a plan as a share of it; ``off_guide``: how much a tick counts where
+    which an estimate may exceed the best run, in a plan as a share of it; ``off_table``: how much a tick counts where
     the guide knows nothing. The shifts move the cells of places and velocities; each search draws its own.
     """
 
@@ -126,7 +126,7 @@ class Resolution(NamedTuple):
     enemy_cell: float = 0.0
     enemy_reach: float = 100.0
     slack: float = 0.0
-    off_guide: float = 1.0
+    off_table: float = 1.0
     shift_x: float = 0.0
     shift_y: float = 0.0
     shift_vx: float = 0.0
@@ -141,29 +141,29 @@ class Start(NamedTuple):
 
     levels: Any
     worlds: Any
-    base: Words
-    node_words: Words
-    work_words: Words
+    initial: StateWords
+    node: StateWords
+    scratch: StateWords
 
 
 class SearchMemory(NamedTuple):
     """The arrays of one search: nodes and what links them, the pool of save-states, the open list, a leg's ends."""
 
     nodes: Sequence[Node]
-    table: Sequence[Entry]
+    table: Sequence[TableEntry]
     links: Sequence[Link]
     chunk_next: Indices
     chunk_index: Indices
-    chunk_value: Words
+    chunk_value: StateWords
     buckets: Indices
     ends: Indices
     counters: Sequence[Counters]
 
 
-class Guide(NamedTuple):
+class BackedUpHeuristic(NamedTuple):
     """The table of an earlier search, whose values are the estimates (length 1: none), and how finely that looked."""
 
-    table: Sequence[Entry]
+    table: Sequence[TableEntry]
     resolution: Resolution
 
 
@@ -172,15 +172,15 @@ def open_start(level: Level, *, box: bool) -> Start:
     levels, first = load_worlds(compiled, [level], box=box)
     used = int(first["slots_used"][0])
     size = (used_bytes(used) - STATE_START) // 8
-    base = _words(first, 0, size).copy()
+    initial = _words(first, 0, size).copy()
     worlds = new_worlds(2, used)
-    start = Start(levels, worlds, base, _words(worlds, 0, size), _words(worlds, 1, size))
-    start.node_words[:] = base
-    start.work_words[:] = base
+    start = Start(levels, worlds, initial, _words(worlds, 0, size), _words(worlds, 1, size))
+    start.node[:] = initial
+    start.scratch[:] = initial
     return start
 
 
-def _words(worlds: Records, index: int, size: int) -> Words:
+def _words(worlds: Records, index: int, size: int) -> StateWords:
     """The state of a world as words, as a view."""
     return np.ndarray((size,), np.int64, worlds.base, index * worlds.strides[0] + STATE_START)
 
@@ -192,7 +192,7 @@ def zeroed(kind: type, count: int) -> Any:
 
 def new_table(nodes: int) -> Any:
     """An empty table for so many nodes; its length is a power of two."""
-    return zeroed(Entry, 1 << (2 * nodes - 1).bit_length())
+    return zeroed(TableEntry, 1 << (2 * nodes - 1).bit_length())
 
 
 def new_memory(nodes: int) -> SearchMemory:
@@ -217,7 +217,7 @@ def clear(memory: Any) -> None:
 
 
 @entry_point
-def back_up_values(table: Sequence[Entry], links: Sequence[Link], count: int, sweeps: int) -> int:
+def back_up_values(table: Sequence[TableEntry], links: Sequence[Link], count: int, sweeps: int) -> int:
     """Set ``value`` of all entries to the least ticks to the exit over the first ``count`` links; the sweeps made.
 
     The macros that were played link the entries; values spread backwards over them from the exit. Places that count as
@@ -241,14 +241,21 @@ def back_up_values(table: Sequence[Entry], links: Sequence[Link], count: int, sw
 
 
 @fast
-def keep_state(words: Words, base: Words, node: Node, memory: SearchMemory) -> bool:
+def copy_words(target: StateWords, source: StateWords) -> None:
+    """Copy a save-state."""
+    for k in range(len(target)):
+        target[k] = source[k]
+
+
+@fast
+def keep_state(words: StateWords, initial: StateWords, node: Node, memory: SearchMemory) -> bool:
     """Store the first word and those that differ from the start; False, and nothing stored, if the pool is empty."""
     counters = memory.counters[0]
     first = -1
     chunk = -1
     count = 0
     for k in range(len(words)):
-        if words[k] != base[k] or k == 0:
+        if words[k] != initial[k] or k == 0:
             if count % CHUNK == 0:
                 free = counters.free_chunk
                 if free < 0:
@@ -285,10 +292,10 @@ def free_state(first: int, memory: SearchMemory) -> None:
 
 
 @fast
-def load_state(words: Words, base: Words, node: Node, memory: SearchMemory) -> None:
+def load_state(words: StateWords, initial: StateWords, node: Node, memory: SearchMemory) -> None:
     """Make the world of a node: the start with the node's words."""
-    for k in range(len(base)):
-        words[k] = base[k]
+    for k in range(len(initial)):
+        words[k] = initial[k]
     chunk = node.chunk
     left = node.words
     while left > 0:

@@ -15,7 +15,7 @@ import numpy as np
 
 from ninja_game.search.best_first import FieldOf, Leg, Search
 from ninja_game.search.heuristics import UNREACHED, Field, Heuristics, point_at
-from ninja_game.search.legs import Front, Moment, pieces_of
+from ninja_game.search.legs import Checkpoint, Frontier, pieces_of
 from ninja_game.search.nodes import Resolution
 from ninja_game.search.tour import short_tour
 
@@ -65,7 +65,7 @@ class Route:
         self.most = 0
         self.ever_taken = 0
         self.urgency = np.zeros(len(self.heuristics.gold_places))
-        self.fronts: dict[tuple[int, int], Front] = {}
+        self.frontiers: dict[tuple[int, int], Frontier] = {}
         self._stalled_steps = self._stalled_ticks = self._restarts = 0
         self._most_now = 0.0
         self._leaving: dict[tuple[int, int], bool] = {}
@@ -77,9 +77,9 @@ class Route:
         self._doors = sum(1 << bit for bit, switch in switches if switch.door and not switch.trap)
         start = search.start
         ninja = start.worlds[0]["ninja"]
-        start.node_words[:] = start.base
-        self._first = Moment(
-            start.base, 0, 0, self.heuristics.opened(start.worlds[0]), (float(ninja["x"]), float(ninja["y"]))
+        start.node[:] = start.initial
+        self._first = Checkpoint(
+            start.initial, 0, 0, self.heuristics.opened(start.worlds, 0), (float(ninja["x"]), float(ninja["y"]))
         )
         self._add(self._first, [])
 
@@ -91,58 +91,58 @@ class Route:
         stalled = self._stalled_steps > STALL_STEPS or self._stalled_ticks > STALL_TICKS * (1 + self._restarts)
         if self.gold and stalled:
             self._restart()
-        front = max(self.fronts.values(), key=self._promise)
-        target = self._target(front)
-        ways = 1 if self.gold else 1 + (self._doors & ~front.mask).bit_count()
-        resolution, budget = LEGS[min(front.tries // ways, len(LEGS) - 1)]
-        front.tries += 1
+        frontier = max(self.frontiers.values(), key=self._promise)
+        target = self._target(frontier)
+        ways = 1 if self.gold else 1 + (self._doors & ~frontier.mask).bit_count()
+        resolution, budget = LEGS[min(frontier.tries // ways, len(LEGS) - 1)]
+        frontier.tries += 1
         self.steps += 1
-        leg = self._leg(front, target)
+        leg = self._leg(frontier, target)
         budget *= 4 if target < 0 and ways == 1 else 1
         self.search.begin_leg(leg, resolution, seed=self.seed * 10_000 + self.steps, bound=0)
         before = self._most_now
         self.search.run_leg(budget, over, part=EXTRA, least=EXTRA)
         self._stalled_ticks += self.search.ticks
-        front.spent += self.search.ticks
+        frontier.spent += self.search.ticks
         self._stalled_steps += 1
         if leg.gold < NEVER:
             best = self.search.best()
             if not best:
                 return None
-            return front.moments[best[0]].run() + best[1]
+            return frontier.checkpoints[best[0]].run() + best[1]
         ends = self.search.ends()
         if target >= 0 and not any(end.taken >> target & 1 for end in ends):
-            front.failed[target] += 1
+            frontier.failed[target] += 1
             self.urgency[target] *= 0.5
         for end in ends:
-            before_it = front.moments[end.root]
-            moment = Moment(
+            before_it = frontier.checkpoints[end.root]
+            checkpoint = Checkpoint(
                 end.words, end.tick, end.taken, end.mask, end.place, end.routines, before=before_it, inputs=end.inputs
             )
-            self._add(moment, front.tour)
+            self._add(checkpoint, frontier.tour)
         if self._most_now > before:
             self._stalled_steps = self._stalled_ticks = 0
         return None
 
-    def _promise(self, front: Front) -> tuple[float, int, int]:
+    def _promise(self, frontier: Frontier) -> tuple[float, int, int]:
         """How far a front is, less what its tries count; without gold, less the ticks that were spent on it."""
         if self.gold:
-            return self._done(front) - TRY_PENALTY * front.tries, front.taken, front.mask
+            return self._done(frontier) - TRY_PENALTY * frontier.tries, frontier.taken, frontier.mask
         # The exit is opened last, or the way to the doors may be shut.
-        early = bool(front.mask & self._exits) and not self._may_leave(front)
-        doors = (front.mask & self._doors).bit_count()
-        return doors - early - front.spent / DOOR_TICKS, -front.tries, front.mask
+        early = bool(frontier.mask & self._exits) and not self._may_leave(frontier)
+        doors = (frontier.mask & self._doors).bit_count()
+        return doors - early - frontier.spent / DOOR_TICKS, -frontier.tries, frontier.mask
 
-    def _done(self, front: Front) -> float:
+    def _done(self, frontier: Frontier) -> float:
         """Pieces collected and doors opened."""
-        useful = self._doors | (self._exits if front.count >= self.gold else 0)
-        return front.count + DOOR_WORTH * (front.mask & useful).bit_count()
+        useful = self._doors | (self._exits if frontier.count >= self.gold else 0)
+        return frontier.count + DOOR_WORTH * (frontier.mask & useful).bit_count()
 
-    def _may_leave(self, front: Front) -> bool:
+    def _may_leave(self, frontier: Frontier) -> bool:
         """Whether an open exit can be reached, as far as walls and doors tell; asked once a front."""
-        key = (front.taken, front.mask)
+        key = (frontier.taken, frontier.mask)
         if key not in self._leaving:
-            self._leaving[key] = self.heuristics.may_leave(front.mask, *front.moments[0].place)
+            self._leaving[key] = self.heuristics.may_leave(frontier.mask, *frontier.checkpoints[0].place)
         return self._leaving[key]
 
     def never_taken(self) -> list[int]:
@@ -151,82 +151,82 @@ class Route:
 
     def _restart(self) -> None:
         """Begin again from the start; what was left over this time is more urgent from now on."""
-        last = max(self.fronts.values(), key=lambda front: (front.count, -front.tries))
+        last = max(self.frontiers.values(), key=lambda frontier: (frontier.count, -frontier.tries))
         pieces = set(range(len(self._points)))
         left = pieces - set(pieces_of(last.taken))
         if last.count >= self.gold:
             # The way to the exit is shut: what was taken last comes earlier.
-            moment: Moment | None = last.moments[0]
-            while moment and moment.before and len(left) < len(pieces) // 4 + 1:
-                left |= set(pieces_of(moment.taken & ~moment.before.taken))
-                moment = moment.before
+            checkpoint: Checkpoint | None = last.checkpoints[0]
+            while checkpoint and checkpoint.before and len(left) < len(pieces) // 4 + 1:
+                left |= set(pieces_of(checkpoint.taken & ~checkpoint.before.taken))
+                checkpoint = checkpoint.before
         self.urgency[list(left)] += 1.0
-        self.fronts = {}
+        self.frontiers = {}
         self._stalled_steps = self._stalled_ticks = 0
         self._most_now = 0.0
         self._restarts += 1
         self._add(self._first, [])
 
-    def _leg(self, front: Front, target: int) -> Leg:
-        roots = [moment.words for moment in front.moments]
-        rollouts = ROLLOUTS if front.tries <= CAREFUL_TRIES else 0
+    def _leg(self, frontier: Frontier, target: int) -> Leg:
+        roots = [checkpoint.words for checkpoint in frontier.checkpoints]
+        rollouts = ROLLOUTS if frontier.tries <= CAREFUL_TRIES else 0
         if target >= 0:
-            return Leg(roots, front.count + 1, front.mask, NEVER, ENDS, rollouts, partial(self._field, target))
-        if self._may_leave(front):
-            return Leg(roots, 0, front.mask, self.gold, 1, 0, self.heuristics.field)
-        field, wanted = self._way_to_a_switch(front)
-        return Leg(roots, NEVER, front.mask, NEVER, ENDS, rollouts, field, wanted)
+            return Leg(roots, frontier.count + 1, frontier.mask, NEVER, ENDS, rollouts, partial(self._field, target))
+        if self._may_leave(frontier):
+            return Leg(roots, 0, frontier.mask, self.gold, 1, 0, self.heuristics.field)
+        field, wanted = self._way_to_a_switch(frontier)
+        return Leg(roots, NEVER, frontier.mask, NEVER, ENDS, rollouts, field, wanted)
 
-    def _way_to_a_switch(self, front: Front) -> tuple[FieldOf, int]:
+    def _way_to_a_switch(self, frontier: Frontier) -> tuple[FieldOf, int]:
         """The fields of the first door in the way; at later tries, in turn, those of the other doors' switches.
 
         And the bit of the switch that it is then about.
         """
         switches = enumerate(self.heuristics.switches)
-        closed = [(bit, s) for bit, s in switches if s.door and not s.trap and not front.mask >> bit & 1]
-        turn = (front.tries - 1) % (len(closed) + 1)
+        closed = [(bit, s) for bit, s in switches if s.door and not s.trap and not frontier.mask >> bit & 1]
+        turn = (frontier.tries - 1) % (len(closed) + 1)
         if turn == 0:
             return self.heuristics.field, 0
-        x, y = front.moments[0].place
+        x, y = frontier.checkpoints[0].place
         closed.sort(key=lambda pair: abs(pair[1].switch_x - x) + abs(pair[1].switch_y - y))
         bit, switch = closed[turn - 1]
         return partial(self.heuristics.field_to, (switch.switch_x, switch.switch_y)), 0 if self.gold else 1 << bit
 
-    def _add(self, moment: Moment, tour: list[int]) -> None:
+    def _add(self, checkpoint: Checkpoint, tour: list[int]) -> None:
         """Put a moment into its front, which keeps the best."""
-        key = (moment.taken if self.gold else 0, moment.mask)
-        if key not in self.fronts:
-            self.fronts[key] = Front(*key, tour=[k for k in tour if not moment.taken >> k & 1])
-        front = self.fronts[key]
-        self.ever_taken |= moment.taken
-        self.most = max(self.most, front.count)
-        self._most_now = max(self._most_now, self._done(front))
-        front.add(moment, WIDTH)
+        key = (checkpoint.taken if self.gold else 0, checkpoint.mask)
+        if key not in self.frontiers:
+            self.frontiers[key] = Frontier(*key, tour=[k for k in tour if not checkpoint.taken >> k & 1])
+        frontier = self.frontiers[key]
+        self.ever_taken |= checkpoint.taken
+        self.most = max(self.most, frontier.count)
+        self._most_now = max(self._most_now, self._done(frontier))
+        frontier.add(checkpoint, WIDTH)
 
-    def _target(self, front: Front) -> int:
+    def _target(self, frontier: Frontier) -> int:
         """The piece to fetch next from a front, -1: the exit or its switch.
 
         Pieces from which no way leads to others, or to the switch, come last: they are behind one-way platforms, say.
         """
-        left = [piece for piece in range(len(self._points)) if not front.taken >> piece & 1]
-        if front.count >= self.gold:
+        left = [piece for piece in range(len(self._points)) if not frontier.taken >> piece & 1]
+        if frontier.count >= self.gold:
             return -1
-        moment = front.moments[0]
-        fields = self._tour_fields(moment.mask)
-        here = fields[:, point_at(*moment.place)].astype(np.float64)
+        checkpoint = frontier.checkpoints[0]
+        fields = self._tour_fields(checkpoint.mask)
+        here = fields[:, point_at(*checkpoint.place)].astype(np.float64)
         start = here[left]
         home = fields[-1, self._points[left]]
         between = fields[left][:, self._points[left]].T.astype(np.float64)
         no_return = (home >= UNREACHED) & (here[-1] < UNREACHED)
-        if not front.mask & self._exits and no_return.all():
+        if not frontier.mask & self._exits and no_return.all():
             return -1
         shut = no_return | ((between >= UNREACHED) & (start < UNREACHED)).any(axis=1)
         names = {piece: k for k, piece in enumerate(left)}
-        order = [names[piece] for piece in front.tour]
+        order = [names[piece] for piece in frontier.tour]
         tour = short_tour(np.minimum(start, FAR), np.minimum(between, FAR), np.minimum(home, FAR).astype(float), order)
-        front.tour = [left[k] for k in tour]
+        frontier.tour = [left[k] for k in tour]
         nearest = np.argsort(start, kind="stable").tolist()
-        ranks = [min(tour.index(k), nearest.index(k) + 0.5) + 2.5 * front.failed[left[k]] for k in range(len(left))]
+        ranks = [min(tour.index(k), nearest.index(k) + 0.5) + 2.5 * frontier.failed[left[k]] for k in range(len(left))]
         ranked = zip(start >= UNREACHED, shut, -self.urgency[left], ranks, left, strict=True)
         return min(ranked)[-1]
 

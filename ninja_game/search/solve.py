@@ -34,8 +34,8 @@ from ninja_game.search.task import (
     Progress,
     Report,
     SearchState,
-    Shares,
     Task,
+    WorkPlan,
     find_order,
 )
 
@@ -51,7 +51,7 @@ class _Job:
         self.number = number
         self.seed = task.seed * 1000 + number
         self.work = 0.0
-        self.shares = Shares()
+        self.shares = WorkPlan()
         self.start = open_start(task.level, box=task.body == "box")
         self.heuristics = Heuristics(self.start.levels, self.start.worlds)
         self._sweeper: Shortener | None = None
@@ -165,7 +165,9 @@ class _Job:
         resolution = resolution._replace(slack=resolution.slack * shortest)
         given, early = bool(self.state.task.first), self._early
         bound = shortest + max(4, int(shortest * (GIVEN_BOUND if given else FOUND_BOUND)))
-        found = self._search_once(resolution, VARY_TICKS, seed=100 + turn, bound=bound, guided=resolution.slack > 0.0)
+        found = self._search_once(
+            resolution, VARY_TICKS, seed=100 + turn, bound=bound, backed_up=resolution.slack > 0.0
+        )
         if not early and not found:
             return
         run = self.shortener.climb(found or self.state.runs[0], self.shares.climb)
@@ -173,11 +175,11 @@ class _Job:
             self.shortener.search_spans(run, self.shares.spans)
 
     def _search_once(
-        self, resolution: Resolution, ticks: int, *, seed: int, bound: int, guided: bool = False,
+        self, resolution: Resolution, ticks: int, *, seed: int, bound: int, backed_up: bool = False,
         until_found: bool = False,
     ) -> bytes | None:  # fmt: skip
         search = self._search
-        search.begin(resolution, seed=self.seed * 1000 + seed, bound=bound, guided=guided)
+        search.begin(resolution, seed=self.seed * 1000 + seed, bound=bound, backed_up=backed_up)
         ended, worlds = MORE, 0
         while ended == MORE and search.ticks < ticks and not self._over:
             before = search.ticks

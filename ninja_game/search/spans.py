@@ -9,15 +9,14 @@ from typing import NamedTuple
 import numpy as np
 
 from ninja_game.backend.memories import compiled
-from ninja_game.search.engine import EXHAUSTED, FOLLOWED, MORE, add_root, expand_along
+from ninja_game.search.best_first import Search
+from ninja_game.search.engine import EXHAUSTED, MORE
 from ninja_game.search.heuristics import Heuristics
-from ninja_game.search.known_run import KnownRun, play_known
+from ninja_game.search.known_run import KnownRun, known_run, play_known
 from ninja_game.search.local_search import LocalSearch
-from ninja_game.search.macros import action_inputs
-from ninja_game.search.nodes import Resolution, Start, clear, new_memory
-from ninja_game.search.states import MAX_SWITCH_STATES, NOT_MADE, Goals
+from ninja_game.search.nodes import Resolution, Start
 from ninja_game.search.task import COOLING, SEARCH_COST, SHORT_CLIMB, SLICE
-from ninja_game.sim.inputs import KEYS_DOWN, with_press_bits
+from ninja_game.sim.inputs import with_press_bits
 
 NODES = 300_000
 PART = 500_000
@@ -25,17 +24,13 @@ PART = 500_000
 
 
 CELLS, SPEEDS, MACROS, JITTERS = (3.0, 4.0, 6.0, 8.0), (0.2, 0.35, 0.5), (1, 2, 3, 4), (3, 5, 8)
-BEHIND, FAR, PLACE_PRICES, SPEED_PRICES = (
-    (4.0, 8.0, 16.0, 30.0),
-    (48.0, 64.0, 96.0, 160.0),
-    (0.6, 0.9, 1.2),
-    (0.5, 1.0, 2.0, 4.0),
-)
+DELAYS, DISTANCES = (4.0, 8.0, 16.0, 30.0), (48.0, 64.0, 96.0, 160.0)
+PLACE_PRICES, SPEED_PRICES = (0.6, 0.9, 1.2), (0.5, 1.0, 2.0, 4.0)
 ENEMY_CELLS = (0.0, 24.0)
 LENGTHS = (40, 60, 90, 150)
 """What is drawn for each search: see Resolution and KnownRun; ticks of a span."""
-LEAST_REACH, MOST_REACH = 0.5, 6.0
-"""By how much ``behind`` is multiplied: more while searches come to an end of their own, less while they do not."""
+LEAST_DELAY_FACTOR, MOST_DELAY_FACTOR = 0.5, 6.0
+"""By how much ``max_delay`` is multiplied: more while searches come to an end of their own, less while they do not."""
 FEW_TICKS, MANY_TICKS = 500_000, 2_000_000
 """An end of its own before the first is an early one, after the second a late one."""
 SPAN_TICKS, DOUBLINGS = 1_000_000, 3
@@ -44,41 +39,35 @@ EACH_COSTS = 10_000
 """Ticks that it takes to prepare a search."""
 
 
-class Fineness(NamedTuple):
+class SpanSettings(NamedTuple):
     """How a span is searched: the resolution, and what the known run needs besides its span."""
 
     resolution: Resolution
-    behind: float
-    far: float
+    max_delay: float
+    max_distance: float
     place_price: float
     speed_price: float
 
 
-def draw_fineness(random: np.random.Generator) -> Fineness:
+def draw_settings(random: np.random.Generator) -> SpanSettings:
     """Draw how finely to search."""
     resolution = Resolution(
         cell=float(random.choice(CELLS)), speed=float(random.choice(SPEEDS)), macro=int(random.choice(MACROS)),
         jitter=int(random.choice(JITTERS)), enemy_cell=float(random.choice(ENEMY_CELLS)),
     )  # fmt: skip
-    drawn = (float(random.choice(part)) for part in (BEHIND, FAR, PLACE_PRICES, SPEED_PRICES))
-    return Fineness(resolution, *drawn)
+    drawn = (float(random.choice(part)) for part in (DELAYS, DISTANCES, PLACE_PRICES, SPEED_PRICES))
+    return SpanSettings(resolution, *drawn)
 
 
 class SpanSearches:
     """Searches along runs of one level."""
 
     def __init__(self, start: Start, heuristics: Heuristics, *, gold: int) -> None:
-        self.start = start
-        self.memory = new_memory(NODES)
         self.gold = gold
-        self.goals = Goals(
-            gold=gold, leg=0, mask=0, wanted=0, ends=1, rollouts=0, gold_slots=heuristics.gold_slots,
-            enemies=heuristics.enemies, switch_slots=heuristics.slots, masks=np.full(MAX_SWITCH_STATES, -1, np.int64),
-            places=np.zeros((MAX_SWITCH_STATES, 2)), fields=np.full((MAX_SWITCH_STATES, 1), NOT_MADE, np.float32),
-        )  # fmt: skip
-        self.run = self._noted(b"")
+        self._search = Search(start, heuristics, nodes=NODES, along=True)
         self._inputs = b""
-        self._reach = 1.0
+        self.run = self._noted(b"")
+        self._delay_factor = 1.0
 
     def know(self, inputs: bytes) -> None:
         """Take a run to the exit as the known one."""
@@ -86,13 +75,11 @@ class SpanSearches:
             self._inputs, self.run = inputs, self._noted(inputs)
 
     def _noted(self, inputs: bytes) -> KnownRun:
-        ticks = len(inputs)
-        keys = np.array(list(inputs), np.uint8) & np.uint8(KEYS_DOWN)
-        masks, gold = np.zeros((2, ticks + 1), np.int64)
-        run = KnownRun(np.zeros((ticks + 1, 4)), keys, masks, gold, (0, ticks), 0.0, 64.0, 1.0, 1.0)
-        compiled(play_known)(self.start, run, self.goals.switch_slots, ticks, 1)
+        run = known_run(len(inputs), inputs)
+        search = self._search
+        compiled(play_known)(search.start, run, search.goal.switch_slots, len(inputs), 1)
         if not self.gold:
-            gold[:] = 0
+            run.gold[:] = 0
         return run
 
     def shorter(self, inputs: bytes, *, seed: int, over: Callable[[int], bool]) -> bytes | None:
@@ -103,66 +90,41 @@ class SpanSearches:
         while not over(EACH_COSTS):
             length = int(random.choice(LENGTHS))
             first = max(0, int(random.integers(-length // 2, max(len(inputs) - 5, 1))))
-            fineness = draw_fineness(random)
-            fineness = fineness._replace(behind=fineness.behind * self._reach)
+            settings = draw_settings(random)
+            settings = settings._replace(max_delay=settings.max_delay * self._delay_factor)
             chosen = int(random.integers(1 << 30))
             ticks = SPAN_TICKS << min(int(random.geometric(0.5)) - 1, DOUBLINGS)
-            found = self.search(first, first + length, fineness, seed=chosen, ticks=ticks, over=over)
+            found = self.search(first, first + length, settings, seed=chosen, ticks=ticks, over=over)
             if found:
                 return found
         return None
 
     def search(
-        self, first: int, last: int, fineness: Fineness, *, seed: int, ticks: int, over: Callable[[int], bool]
+        self, first: int, last: int, settings: SpanSettings, *, seed: int, ticks: int, over: Callable[[int], bool]
     ) -> bytes | None:
         """Search the span from tick ``first`` to before ``last``; a shorter run than the known one, None if none.
 
         ``over`` gets the ticks of each part, and may end it.
         """
+        search = self._search
+        _, max_delay, max_distance, place_price, speed_price = settings
         run = self.run._replace(
-            span=(first, last), behind=fineness.behind, far=fineness.far, place_price=fineness.place_price,
-            speed_price=fineness.speed_price,
+            span=(first, last), max_delay=max_delay, max_distance=max_distance, place_price=place_price,
+            speed_price=speed_price,
         )  # fmt: skip
-        clear(self.memory)
-        counters = self.memory.counters[0]
-        random = np.random.default_rng([seed, 8])
-        shifts = random.random(4)
-        resolution = fineness.resolution
-        resolution = resolution._replace(
-            shift_x=float(shifts[0]) * resolution.cell, shift_y=float(shifts[1]) * resolution.cell,
-            shift_vx=float(shifts[2]) * resolution.speed, shift_vy=float(shifts[3]) * resolution.speed,
-        )  # fmt: skip
-        counters.random = int(random.integers(1, 1 << 62))
-        counters.best_ticks = len(self._inputs)
-        compiled(play_known)(self.start, run, self.goals.switch_slots, first, 0)
-        compiled(add_root)(self.start, self.memory, self.goals, resolution)
+        search.begin_along(run, self._inputs, settings.resolution, seed=seed, gold=self.gold)
         ended = MORE
-        while ended == MORE and int(counters.ticks) < ticks:
-            before = int(counters.ticks)
-            ended = compiled(expand_along)(
-                self.start, self.memory, self.goals, run, resolution, min(PART, ticks - before)
-            )
-            if over(int(counters.ticks) - before):
+        while ended == MORE and search.ticks < ticks:
+            before = search.ticks
+            ended = search.run(min(PART, ticks - before))
+            if over(search.ticks - before):
                 break
-        early, late = ended == EXHAUSTED and int(counters.ticks) < FEW_TICKS, int(counters.ticks) >= MANY_TICKS
-        self._reach = min(max(self._reach * (1.15 if early else 0.8 if late else 1.0), LEAST_REACH), MOST_REACH)
-        if counters.best_node < 0:
-            return None
+        early, late = ended == EXHAUSTED and search.ticks < FEW_TICKS, search.ticks >= MANY_TICKS
+        factor = self._delay_factor * (1.15 if early else 0.8 if late else 1.0)
+        self._delay_factor = min(max(factor, LEAST_DELAY_FACTOR), MOST_DELAY_FACTOR)
+        found = search.best()
         # A press is there where the key goes down; joined parts need it again.
-        return with_press_bits(self._inputs[:first] + self._path(int(counters.best_node)))
-
-    def _path(self, index: int) -> bytes:
-        nodes = self.memory.nodes
-        parts = []
-        while nodes[index].parent >= 0:
-            parts.append(self._action_inputs(int(nodes[index].action)))
-            index = int(nodes[index].parent)
-        return b"".join(reversed(parts))
-
-    def _action_inputs(self, action: int) -> bytes:
-        if action >> 2 & 3 != FOLLOWED:
-            return action_inputs(action)
-        return self._inputs[action >> 16 : (action >> 16) + (action >> 8 & 255)]
+        return with_press_bits(self._inputs[:first] + found[1]) if found else None
 
 
 class RunShortener:
@@ -190,7 +152,7 @@ class RunShortener:
     def compile(self, inputs: bytes) -> None:
         """Have all kernels compiled, with a run of the level."""
         self._spans.know(inputs)
-        self._spans.search(0, 1, draw_fineness(np.random.default_rng(0)), seed=0, ticks=1, over=lambda _: True)
+        self._spans.search(0, 1, draw_settings(np.random.default_rng(0)), seed=0, ticks=1, over=lambda _: True)
 
     def search_spans(self, inputs: bytes, ticks: int) -> bytes:
         """Search spans of a run, and those of the shorter ones that come of it; the shortest."""

@@ -9,12 +9,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.search.nodes import Counters, Entry, Resolution
+from ninja_game.search.nodes import Counters, Resolution, TableEntry
+from ninja_game.search.switches import open_mask
 from ninja_game.sim.kinds import LAUNCHER
 from ninja_game.sim.memory.declare import fast
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import JUMPING, LAUNCHER_FLIGHT, SLIDING
-from ninja_game.sim.traces import is_open
 
 MIX = 0x2545F4914F6CDD1D
 MAX_SWITCH_STATES = 512
@@ -22,7 +22,7 @@ NOT_MADE, WANTED = -1.0, -2.0
 """What a field has at point 0, outside the world, as long as it is not there."""
 
 
-class Goals(NamedTuple):
+class Goal(NamedTuple):
     """Where to go in a level, by switch state (heuristics.py). Masks, places and fields have MAX_SWITCH_STATES rows.
 
     A search is one for the exit, or one *leg*: it ends where another piece of gold is collected or a switch
@@ -57,25 +57,25 @@ def state_class(w: World) -> int:
 
 
 @fast
-def key_of(w: World, goals: Goals, switch_state: int, gold: int, resolution: Resolution) -> int:
+def key_of(w: World, goal: Goal, switch_state: int, gold: int, resolution: Resolution) -> int:
     """The key of a moment, never 0. ``gold``: a hash (16 bits) of what was collected, 0 where gold does not matter."""
     n = w.ninja
     x = int((n.x + resolution.shift_x) / resolution.cell) & 511
     y = int((n.y + resolution.shift_y) / resolution.cell) & 511
     vx = floor((n.x - n.prev_x + resolution.shift_vx) / resolution.speed) & 255
     vy = floor((n.y - n.prev_y + resolution.shift_vy) / resolution.speed) & 255
-    near = near_enemies(w, goals, resolution) if resolution.enemy_cell > 0.0 else 0
+    near = near_enemies(w, goal, resolution) if resolution.enemy_cell > 0.0 else 0
     key = x | y << 9 | vx << 18 | vy << 26 | state_class(w) << 34 | (switch_state & 511) << 37 | (gold & 0xFFFF) << 46
     return int((key ^ near) + 1)
 
 
 @fast
-def near_enemies(w: World, goals: Goals, resolution: Resolution) -> int:
+def near_enemies(w: World, goal: Goal, resolution: Resolution) -> int:
     """A hash of where the enemies near the ninja are, in coarse cells, and of what they do; 0 where there are none."""
     n = w.ninja
     mixed = 0
-    for k in range(len(goals.enemies)):
-        o = w.objects[goals.enemies[k]]
+    for k in range(len(goal.enemies)):
+        o = w.objects[goal.enemies[k]]
         # A rocket in flight matters from afar: it must be led somewhere.
         in_flight = o.kind == LAUNCHER and o.routine == LAUNCHER_FLIGHT
         if not in_flight and abs(o.x - n.x) + abs(o.y - n.y) > resolution.enemy_reach:
@@ -87,7 +87,7 @@ def near_enemies(w: World, goals: Goals, resolution: Resolution) -> int:
 
 
 @fast
-def find(table: Sequence[Entry], key: int) -> int:
+def find_entry(table: Sequence[TableEntry], key: int) -> int:
     """The slot of a key, or of the empty entry where it belongs. The table must have empty entries."""
     mask = len(table) - 1
     mixed = key * MIX
@@ -98,7 +98,7 @@ def find(table: Sequence[Entry], key: int) -> int:
 
 
 @fast
-def is_news(entry: Entry, tick: int, resolution: Resolution) -> bool:
+def is_new(entry: TableEntry, tick: int, resolution: Resolution) -> bool:
     """Is it worth going on from here? Yes for a new key, an earlier arrival, or (a few times) a much later one.
 
     Later arrivals matter where things move: a gap that is deadly now may be open in a second.
@@ -109,46 +109,36 @@ def is_news(entry: Entry, tick: int, resolution: Resolution) -> bool:
 
 
 @fast
-def open_mask(w: World, switch_slots: NDArray[np.int64]) -> int:
-    """What is open, a bit a switch: exits that are open, doors that are not as they began."""
-    mask = 0
-    for k in range(len(switch_slots)):
-        if is_open(w, switch_slots[k]):
-            mask |= 1 << k
-    return mask
-
-
-@fast
-def switch_state_of(w: World, goals: Goals, counters: Counters, guess: int) -> int:
+def switch_state_of(w: World, goal: Goal, counters: Counters, guess: int) -> int:
     """Index of the present switch state, -1: too many. One without a field wants it."""
-    mask = open_mask(w, goals.switch_slots)
+    mask = open_mask(w, goal.switch_slots)
     index = guess
-    if goals.masks[guess] != mask:
+    if goal.masks[guess] != mask:
         index = 0
-        while index < MAX_SWITCH_STATES and goals.masks[index] != mask and goals.masks[index] >= 0:
+        while index < MAX_SWITCH_STATES and goal.masks[index] != mask and goal.masks[index] >= 0:
             index += 1
         if index == MAX_SWITCH_STATES:
             return -1
-    if goals.fields[index, 0] == NOT_MADE:
-        goals.masks[index] = mask
-        goals.places[index, 0] = w.ninja.x
-        goals.places[index, 1] = w.ninja.y
-        goals.fields[index, 0] = WANTED
-        counters.wanted_fields += 1
+    goal.masks[index] = mask
+    if goal.fields[index, 0] == NOT_MADE:
+        goal.places[index, 0] = w.ninja.x
+        goal.places[index, 1] = w.ninja.y
+        goal.fields[index, 0] = WANTED
+        counters.fields_wanted += 1
     return index
 
 
 @fast
-def gold_hash(w: World, goals: Goals) -> int:
+def gold_hash(w: World, goal: Goal) -> int:
     """Sixteen bits that tell which pieces have been collected."""
     mixed = 0
-    for k in range(len(goals.gold_slots)):
-        if w.objects[goals.gold_slots[k]].taken:
+    for k in range(len(goal.gold_slots)):
+        if w.objects[goal.gold_slots[k]].taken:
             mixed ^= (k + 1) * MIX
     return (mixed >> 40) & 0xFFFF
 
 
 @fast
-def estimate(goals: Goals, switch_state: int, point: int, before: float) -> float:
+def estimate(goal: Goal, switch_state: int, point: int, before: float) -> float:
     """Ticks to the goal by the field of a switch state; ``before`` (the parent's) where that is not made yet."""
-    return float(goals.fields[switch_state, point]) if goals.fields[switch_state, 0] >= 0.0 else before
+    return float(goal.fields[switch_state, point]) if goal.fields[switch_state, 0] >= 0.0 else before

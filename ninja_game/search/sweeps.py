@@ -15,7 +15,7 @@ import numpy as np
 
 from ninja_game.backend.memories import compiled
 from ninja_game.search.best_first import Leg, Search
-from ninja_game.search.legs import Front, Moment, pieces_of
+from ninja_game.search.legs import Checkpoint, Frontier, pieces_of
 from ninja_game.search.nodes import Resolution, Start
 from ninja_game.search.tour import PieceTicks, short_tour
 from ninja_game.sim.inputs import pressed
@@ -73,7 +73,7 @@ class Shortener:
         self.seed = seed
         self.sweeps = 0
         self.legs = 0
-        self.levels: dict[int, dict[tuple[int, int], Front]] = {}
+        self.levels: dict[int, dict[tuple[int, int], Frontier]] = {}
         self.ticks = NEVER
         self.wanted = 0
         self.piece_ticks = PieceTicks(self.heuristics)
@@ -83,34 +83,34 @@ class Shortener:
     def add_run(self, run: bytes) -> None:
         """Add the moments of a run; it sets the bound and the order if it is the shortest."""
         start, heuristics = self.search.start, self.heuristics
-        start.work_words[:] = start.base
+        start.scratch[:] = start.initial
         world = start.worlds[1]
-        moment = self._moment(world, None, b"")
-        moments = [moment]
-        begun, last = 0, (moment.taken, moment.mask)
+        checkpoint = self._moment(world, None, b"")
+        checkpoints = [checkpoint]
+        begun, last = 0, (checkpoint.taken, checkpoint.mask)
         for tick, keys in enumerate(run[:-1], 1):
             compiled(play_on)(start, keys)
-            now = (heuristics.taken(world), heuristics.opened(world))
+            now = (heuristics.taken(world), heuristics.opened(start.worlds, 1))
             if now != last:
-                moment = self._moment(world, moment, run[begun:tick])
+                checkpoint = self._moment(world, checkpoint, run[begun:tick])
                 begun, last = tick, now
-                moments.append(moment)
+                checkpoints.append(checkpoint)
         if not self.wanted:
-            self.wanted = moments[-1].taken
-        order = [p for a, b in pairwise(moments) for p in pieces_of(b.taken & ~a.taken)]
+            self.wanted = checkpoints[-1].taken
+        order = [p for a, b in pairwise(checkpoints) for p in pieces_of(b.taken & ~a.taken)]
         if len(run) < self.ticks:
             self.ticks = len(run)
             self.order = [piece for piece in order if self.wanted >> piece & 1]
-        for moment in moments:
-            if moment.before:
-                self.piece_ticks.learn(moment.before, moment)
-            self._add(moment, self.order)
+        for checkpoint in checkpoints:
+            if checkpoint.before:
+                self.piece_ticks.learn(checkpoint.before, checkpoint)
+            self._add(checkpoint, self.order)
 
-    def _moment(self, world: object, before: Moment | None, inputs: bytes) -> Moment:
+    def _moment(self, world: object, before: Checkpoint | None, inputs: bytes) -> Checkpoint:
         ninja = world["ninja"]  # type: ignore[index]
-        return Moment(
-            self.search.start.work_words.copy(), int(world["tick"]), self.heuristics.taken(world),  # type: ignore[index]
-            self.heuristics.opened(world), (float(ninja["x"]), float(ninja["y"])),
+        return Checkpoint(
+            self.search.start.scratch.copy(), int(world["tick"]), self.heuristics.taken(world),  # type: ignore[index]
+            self.heuristics.opened(self.search.start.worlds, 1), (float(ninja["x"]), float(ninja["y"])),
             self.heuristics.routines(world), before=before, inputs=inputs,
         )  # fmt: skip
 
@@ -126,14 +126,14 @@ class Shortener:
         self.sweeps += 1
         level = first
         while level <= max(self.levels):
-            fronts = sorted(self.levels.get(level, {}).values(), key=self._value)
-            self.levels[level] = {(front.taken, front.mask): front for front in fronts[:FRONTS_KEPT]}
+            frontiers = sorted(self.levels.get(level, {}).values(), key=self._value)
+            self.levels[level] = {(frontier.taken, frontier.mask): frontier for frontier in frontiers[:FRONTS_KEPT]}
             led_on = 0
-            for front in fronts[: breadth + SPARE]:
-                if led_on == breadth or (front is not fronts[0] and self._value(front) > self.ticks * HOPE):
+            for frontier in frontiers[: breadth + SPARE]:
+                if led_on == breadth or (frontier is not frontiers[0] and self._value(frontier) > self.ticks * HOPE):
                     break
                 for effort in EFFORTS:
-                    found, ends = self._leg(front, resolution, effort, over)
+                    found, ends = self._leg(frontier, resolution, effort, over)
                     if found:
                         self.add_run(found)
                         return found
@@ -146,60 +146,62 @@ class Shortener:
         return None
 
     def _leg(
-        self, front: Front, resolution: Resolution, effort: int, over: Callable[[int], bool]
+        self, frontier: Frontier, resolution: Resolution, effort: int, over: Callable[[int], bool]
     ) -> tuple[bytes | None, int]:
         """Search from a front to the next piece, or to the exit: a run that is shorter than the best; ends found."""
         self.legs += 1
-        target = self._target(front)
-        roots = [moment.words for moment in front.moments]
+        target = self._target(frontier)
+        roots = [checkpoint.words for checkpoint in frontier.checkpoints]
         if target < 0:
-            leg = Leg(roots, 0, front.mask, front.count, 1, 0, self.heuristics.field)
+            leg = Leg(roots, 0, frontier.mask, frontier.count, 1, 0, self.heuristics.field)
         else:
             leg = Leg(
-                roots, front.count + 1, front.mask, NEVER, ENDS, ROLLOUTS, partial(self.piece_ticks.field, target)
+                roots, frontier.count + 1, frontier.mask, NEVER, ENDS, ROLLOUTS, partial(self.piece_ticks.field, target)
             )
         self.search.begin_leg(leg, resolution, seed=self.seed * 100_000 + self.legs, bound=self.ticks)
         budget = LEG_TICKS * (EXIT_FACTOR if target < 0 else effort)
         self.search.run_leg(budget, over, part=LEG_EXTRA)
         if target < 0:
             best = self.search.best()
-            return (front.moments[best[0]].run() + best[1] if best else None), 1
+            return (frontier.checkpoints[best[0]].run() + best[1] if best else None), 1
         ends = self.search.ends()
-        moments = [
-            Moment(
+        checkpoints = [
+            Checkpoint(
                 end.words, end.tick, end.taken, end.mask, end.place, end.routines + end.pace,
-                before=front.moments[end.root], inputs=end.inputs,
+                before=frontier.checkpoints[end.root], inputs=end.inputs,
             )
             for end in ends
         ]  # fmt: skip
-        if not any(moment.taken >> target & 1 for moment in moments):
-            self.piece_ticks.note_failure(front.moments[0], target)
-        for moment in moments:
-            self.piece_ticks.learn(front.moments[0], moment)
-            self._add(moment, front.tour)
-        return None, len(moments)
+        if not any(checkpoint.taken >> target & 1 for checkpoint in checkpoints):
+            self.piece_ticks.note_failure(frontier.checkpoints[0], target)
+        for checkpoint in checkpoints:
+            self.piece_ticks.learn(frontier.checkpoints[0], checkpoint)
+            self._add(checkpoint, frontier.tour)
+        return None, len(checkpoints)
 
-    def _add(self, moment: Moment, tour: list[int]) -> None:
-        key = (moment.taken, moment.mask)
-        fronts = self.levels.setdefault(moment.taken.bit_count() + moment.mask.bit_count(), {})
-        if key not in fronts:
-            fronts[key] = Front(*key, tour=[piece for piece in tour if not moment.taken >> piece & 1])
-        fronts[key].add(moment, WIDTH)
+    def _add(self, checkpoint: Checkpoint, tour: list[int]) -> None:
+        key = (checkpoint.taken, checkpoint.mask)
+        frontiers = self.levels.setdefault(checkpoint.taken.bit_count() + checkpoint.mask.bit_count(), {})
+        if key not in frontiers:
+            frontiers[key] = Frontier(*key, tour=[piece for piece in tour if not checkpoint.taken >> piece & 1])
+        frontiers[key].add(checkpoint, WIDTH)
 
-    def _value(self, front: Front) -> float:
+    def _value(self, frontier: Frontier) -> float:
         """Ticks so far, and about how many to come along the front's tour."""
-        between, start, home = self.piece_ticks.estimate(front.moments[0])
-        tour = front.tour
+        between, start, home = self.piece_ticks.estimate(frontier.checkpoints[0])
+        tour = frontier.tour
         if not tour:
-            return front.moments[0].tick + float(home[-1])
-        return front.moments[0].tick + float(start[tour[0]] + between[tour[:-1], tour[1:]].sum() + home[tour[-1]])
+            return frontier.checkpoints[0].tick + float(home[-1])
+        return frontier.checkpoints[0].tick + float(
+            start[tour[0]] + between[tour[:-1], tour[1:]].sum() + home[tour[-1]]
+        )
 
-    def _target(self, front: Front) -> int:
+    def _target(self, frontier: Frontier) -> int:
         """The piece to fetch next from a front, -1: the exit. Its tour is made shorter."""
-        left = [piece for piece in front.tour if not front.taken >> piece & 1]
+        left = [piece for piece in frontier.tour if not frontier.taken >> piece & 1]
         if not left:
             return -1
-        between, start, home = self.piece_ticks.estimate(front.moments[0])
+        between, start, home = self.piece_ticks.estimate(frontier.checkpoints[0])
         tour = short_tour(start[left], between[np.ix_(left, left)], home[left], range(len(left)))
-        front.tour = [left[k] for k in tour]
-        return front.tour[0]
+        frontier.tour = [left[k] for k in tour]
+        return frontier.tour[0]

@@ -145,7 +145,7 @@ Before each but the first, a run from switch to switch is looked for, as long.
 VARY = (
     Resolution(cell=8.0, speed=0.5, macro=8, weight=1.0),
     Resolution(cell=8.0, speed=0.4, macro=6, jitter=3, weight=1.1),
-    Resolution(cell=6.0, speed=0.35, macro=6, weight=1.0, slack=0.2, off_guide=0.3),
+    Resolution(cell=6.0, speed=0.35, macro=6, weight=1.0, slack=0.2, off_table=0.3),
     Resolution(cell=12.0, speed=0.4, macro=7, weight=1.0),
     Resolution(cell=10.0, speed=0.35, macro=9, weight=1.2),
     Resolution(cell=6.0, speed=0.5, macro=10, weight=1.1),
@@ -169,7 +169,7 @@ COOLING = (6.0, 4.0, 2.5, 1.2, 0.4)
 
 
 @dataclass(frozen=True)
-class Shares:
+class WorkPlan:
     """How a solver's work is divided: the part of it that only looks for other routes; ticks of the others."""
 
     vary_until: float = 0.25

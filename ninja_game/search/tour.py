@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.search.heuristics import Field, Heuristics, point_at
-from ninja_game.search.legs import Moment, pieces_of
+from ninja_game.search.legs import Checkpoint, pieces_of
 
 Distances = NDArray[np.float64]
 """Ticks from each stop (row) to each stop (column)."""
@@ -109,33 +109,33 @@ class PieceTicks:
         """Change all estimates at random by up to half of ``noise`` (a part of them), for other tours."""
         self._factors = 1.0 + noise * (random.random(self._factors.shape) - 0.5)
 
-    def learn(self, before: Moment, after: Moment) -> None:
+    def learn(self, before: Checkpoint, after: Checkpoint) -> None:
         """Learn from a leg how many ticks it is from one piece to the next."""
         new = list(pieces_of(after.taken & ~before.taken))
         if len(new) == 1 and before.mask == after.mask:
             row, ticks = _last_piece(before), max(1.0, float(after.tick - before.tick))
             self._measured[row, new[0]] = np.fmin(self._measured[row, new[0]], ticks)
 
-    def note_failure(self, before: Moment, piece: int) -> None:
+    def note_failure(self, before: Checkpoint, piece: int) -> None:
         """Note that a leg did not reach a piece: it counts as farther from now on."""
         row = _last_piece(before)
         known = np.nan_to_num(self._measured[row, piece], nan=0.0)
         self._measured[row, piece] = min(FAR, max(FAILED, 1.5 * known))
 
-    def estimate(self, moment: Moment) -> tuple[Distances, Distances, Distances]:
+    def estimate(self, checkpoint: Checkpoint) -> tuple[Distances, Distances, Distances]:
         """Ticks from each piece to each, from a moment to each piece, and to the exit from each (last: the moment)."""
-        mask, here = moment.mask, point_at(*moment.place)
+        mask, here = checkpoint.mask, point_at(*checkpoint.place)
         if mask not in self._distances:
             if len(self._distances) >= MASKS_KEPT:
                 self._distances.clear()
             self._distances[mask] = self._heuristics.tour_fields(mask)
         fields = self._distances[mask]
-        far = np.vstack([fields[:-1, self._points].T, fields[:-1, here]]).astype(float)
-        far = np.minimum(SLOWER * far + TURN, FAR)
-        row = _last_piece(moment)
+        by_fields = np.vstack([fields[:-1, self._points].T, fields[:-1, here]]).astype(float)
+        by_fields = np.minimum(SLOWER * by_fields + TURN, FAR)
+        row = _last_piece(checkpoint)
         known = np.vstack([self._measured[:-1], self._measured[row]])
         factors = np.vstack([self._factors[:-1], self._factors[row]])
-        ticks = np.where(np.isnan(known), far, known) * factors
+        ticks = np.where(np.isnan(known), by_fields, known) * factors
         home = SLOWER * np.append(fields[-1, self._points], fields[-1, here]).astype(float)
         return ticks[:-1], ticks[-1], np.minimum(home, FAR)
 
@@ -154,8 +154,8 @@ class PieceTicks:
         return self._fields[target, mask]
 
 
-def _last_piece(moment: Moment) -> int:
+def _last_piece(checkpoint: Checkpoint) -> int:
     """The piece collected last before a moment, -1 if there is none."""
-    while moment.before and moment.before.taken == moment.taken:
-        moment = moment.before
-    return max(pieces_of(moment.taken & ~(moment.before.taken if moment.before else 0)), default=-1)
+    while checkpoint.before and checkpoint.before.taken == checkpoint.taken:
+        checkpoint = checkpoint.before
+    return max(pieces_of(checkpoint.taken & ~(checkpoint.before.taken if checkpoint.before else 0)), default=-1)

@@ -26,6 +26,8 @@ KEY_LEFT, KEY_RIGHT, JUMP_HELD, JUMP_PRESSED = (int(key) for key in Input)
 ALL_KEYS = KEY_LEFT + KEY_RIGHT + JUMP_HELD + JUMP_PRESSED
 KEYS_DOWN = KEY_LEFT + KEY_RIGHT + JUMP_HELD
 _VALID = bytes(range(ALL_KEYS + 1))
+_DOWN = bytes(keys & KEYS_DOWN for keys in range(256))
+_HELD = bytes(JUMP_PRESSED if keys & JUMP_HELD else 0 for keys in range(256))
 
 
 @fast
@@ -37,19 +39,18 @@ def pressed(keys: int, held: int) -> int:
 
 def with_press_bits(inputs: Iterable[int]) -> bytes:
     """Inputs with JUMP_PRESSED in every tick in which the jump key goes down, and in no other."""
-    fixed = bytearray()
-    held = 0
-    for keys in inputs:
-        fixed.append(pressed(keys, held))
-        held = keys & JUMP_HELD
-    return bytes(fixed)
+    keys = inputs if isinstance(inputs, bytes) else bytes(list(inputs))
+    # All ticks at once, as one long number with a byte for each tick.
+    down = int.from_bytes(keys.translate(_DOWN), "little")
+    held = int.from_bytes(keys.translate(_HELD), "little")
+    return (down | held & ~(held << 8)).to_bytes(len(keys), "little")
 
 
 MAX_TICKS = 1_000_000
 """Longest run, almost seven hours: a slip in a number must not fill the memory."""
 
 
-def first_ticks(inputs: bytes, ticks: int) -> bytes:
+def fitted_inputs(inputs: bytes, ticks: int) -> bytes:
     """The inputs of the first ``ticks`` ticks; beyond them no key is down. Raises DemoError for more than a million."""
     if not 0 <= ticks <= MAX_TICKS:
         raise DemoError("a run of too many ticks", found=str(ticks)[:20], expected=f"0 to {MAX_TICKS}")
@@ -90,14 +91,14 @@ class Demo:
         Input k while k < length; then the last one once more, its press of jump too; then no key.
         """
         end = self.end
-        played = first_ticks(self.inputs, end)
-        return first_ticks(played + played[-1:], ticks)
+        played = fitted_inputs(self.inputs, end)
+        return fitted_inputs(played + played[-1:], ticks)
 
 
 def fitted_demo(inputs: bytes, length: float) -> Demo:
     """The demo with as many inputs as it plays: superfluous ones dropped, missing ones added (no key)."""
     demo = Demo(inputs, length)
-    return Demo(first_ticks(inputs, demo.end), length, max(0, demo.end - len(inputs)))
+    return Demo(fitted_inputs(inputs, demo.end), length, max(0, demo.end - len(inputs)))
 
 
 def check_inputs(inputs: bytes) -> None:

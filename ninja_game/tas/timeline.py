@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.backend.memories import open_memory
+from ninja_game.backend.memories import open_worlds
 from ninja_game.budget import tick_cost
 from ninja_game.errors import ArgumentError
 from ninja_game.runs.save_states import SaveStates
 from ninja_game.runs.trace import OBJECT_RECORD, event_names, ninja_columns, object_rows, switched_doors
-from ninja_game.sim.inputs import MAX_TICKS, first_ticks
+from ninja_game.sim.inputs import MAX_TICKS, fitted_inputs
 from ninja_game.sim.kinds import EXIT, KIND_OF
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES
@@ -70,11 +70,11 @@ class Timeline:
 
     def __init__(self, level: Level, inputs: bytes, *, body: Body = "circle", memory: str = "auto") -> None:
         self.level, self.body = level, body
-        self._memory = open_memory(memory, level, box=is_box(body))
-        self.memory = self._memory.name
-        self._seen = [self._memory.observe(id_ + 1) for id_ in range(self._memory.id_count)]
+        self._worlds = open_worlds(memory, level, box=is_box(body))
+        self.memory = self._worlds.name
+        self._seen = [self._worlds.observe(id_ + 1) for id_ in range(self._worlds.number("id_count"))]
         self.watched: tuple[int, ...] = ()
-        self._states: SaveStates[Any] = SaveStates(0, self._memory.save(), values=tick_cost(level))
+        self._states: SaveStates[Any] = SaveStates(0, self._worlds.save(), values=tick_cost(level))
         self._columns: dict[str, NDArray[Any]] = {
             **{name: np.zeros(0) for name in TRACED_PLACES},
             **{name: np.zeros(0, np.int32) for name in TRACED_NUMBERS},
@@ -100,7 +100,7 @@ class Timeline:
         """Other inputs. What they have in common with those before stays simulated. The first tick that differs."""
         # Behind the inputs no key is down: a run that grows by such ticks goes the same way.
         longest = max(len(self.inputs), len(inputs))
-        same = first_difference(first_ticks(self.inputs, longest), first_ticks(inputs, longest))
+        same = first_difference(fitted_inputs(self.inputs, longest), fitted_inputs(inputs, longest))
         self.inputs = inputs
         self._forget(min(same, len(self)))
         return same
@@ -131,12 +131,12 @@ class Timeline:
         first = self._states.nearest(self.simulated_until)[0]
         while self.simulated_until < stop:
             start, state = self._states.nearest(self.simulated_until)
-            if self._memory.tick != start or start == first:
-                self._memory.restore(state)
+            if self._worlds.tick() != start or start == first:
+                self._worlds.restore(state)
             end = min(stop, start + max(1, self._states.spacing))
             self._run(start, end)
             if self._states.wants(end):
-                self._states.keep(end, self._memory.save())
+                self._states.keep(end, self._worlds.save())
         return self.complete
 
     def ensure(self, tick: int) -> None:
@@ -146,8 +146,8 @@ class Timeline:
 
     def _run(self, first: int, last: int) -> None:
         """Simulate the ticks ``first`` … ``last`` - 1 and note what they show."""
-        inputs = first_ticks(self.inputs[first:last], last - first)
-        record = self._memory.trace(inputs, [id_ + 1 for id_ in self.watched], events=True)
+        inputs = fitted_inputs(self.inputs[first:last], last - first)
+        record = self._worlds.trace(inputs, [id_ + 1 for id_ in self.watched], events=True)
         for name, values in ninja_columns(record).items():
             self._columns[name][first:last] = values
         watched, objects = self._objects[first:last], object_rows(record, len(self.watched))
@@ -221,4 +221,4 @@ class Timeline:
     def save_state(self, tick: int) -> SaveState:
         """The nearest moment that is kept at or before the one after this many ticks, for ``Simulation.restore``."""
         at, state = self._states.nearest(min(tick, self.simulated_until, MAX_TICKS))
-        return SaveState(self.level, self.body, self.memory, first_ticks(self.inputs[:at], at), state)
+        return SaveState(self.level, self.body, self.memory, fitted_inputs(self.inputs[:at], at), state)

@@ -122,7 +122,7 @@ def test_replay_that_says_it_dies_is_good_when_it_does(tmp_path: Path) -> None:
 
 def test_unreadable_files_do_not_stop_the_rest(walk: Path, tmp_path: Path) -> None:
     broken = tmp_path / "broken.replay.txt"
-    broken.write_text("ninja-game replay 2\nnonsense\n")
+    broken.write_text("ninja-game replay 3\nnonsense\n")
     result = verify(tmp_path)
     assert result.exit_code == 2
     assert result.stderr.startswith(f"ninja-game: {broken}:2")

@@ -54,6 +54,7 @@ WORST: dict[str, Callable[[], str]] = {
     "a demo": lambda: f"{MEGABYTE // 8}:" + filled("1234567|")[:-1],
     "a demo of digits": lambda: "5:" + filled("9"),
     "a legacy demo": lambda: "A" + filled("R5L7"),
+    "packed legacy demos": lambda: filled("$n#a#c##A" + "\x96b" * 58 + "#\n"),
     "frames": lambda: filled("  30,R,J\n"),
     "no frames": lambda: filled("0\n"),
     "keys of a frame": lambda: "30" + filled(",R") + "!",
@@ -77,7 +78,7 @@ from ninja_game.runs.recording_reader import recordings_in
 
 level = parse_level(sys.argv[2])
 ways = (
-    lambda path: list(recordings_in([path], level)), load_levels,
+    lambda path: sum(1 for _ in recordings_in([path], level)), load_levels,
     lambda path: list(input_texts(load_replays(path, level=level)[:1000], "celeste")),
     lambda path: list(input_texts(load_replays(path, level=level)[:1000], "inputs")),
 )

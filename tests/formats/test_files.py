@@ -96,7 +96,7 @@ def test_text_in_any_usual_encoding(tmp_path: Path, encoding: str) -> None:
         (b"$a#b#c##", ":1: record 0 has no level string"),
         (b"$###" + DEMO.encode() + b"#", "recordings without their levels"),
         (b"ninja-game level 1\nhello", "some"),
-        (b"ninja-game replay 2\nhello", "not a header line"),
+        (b"ninja-game replay 3\nhello", "not a header line"),
     ],
 )  # fmt: skip
 def test_what_is_no_level_is_refused_with_the_files_name(tmp_path: Path, data: bytes, message: str) -> None:

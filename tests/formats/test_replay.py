@@ -7,8 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from ninja_game.errors import DemoError, ReplayError
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
@@ -39,10 +38,6 @@ end
 def test_a_replay_is_written_in_one_way() -> None:
     assert write_replay(REPLAY) == TEXT
     assert parse_replay(TEXT) == REPLAY
-
-
-def test_version_2_has_no_last_line_and_is_still_read() -> None:
-    assert parse_replay(TEXT.replace("replay 3", "replay 2").removesuffix("end\n")) == REPLAY
 
 
 def test_headers_may_come_in_any_order_with_comments_and_blank_lines() -> None:
@@ -127,7 +122,6 @@ def test_a_byte_that_is_no_input_is_refused() -> None:
         ("RJ*2", ".*9999999", "a.txt:11:7: the replay is too long; found 10000001 ticks; expected at most 1000000"),
         ("replay 3", "replay 4", "a.txt:1:1: unknown version of the replay format; found 4; expected 3; ~newer"),
         ("end\n", "", "a.txt:11: the replay is truncated; its last line is 'end'"),
-        ("replay 3", "replay 1", "a.txt:1:1: a replay written by an older version~; write 'ninja-game replay 2'"),
         ("ninja-game", "ninja", "a.txt:1:1: not a replay of ninja-game; found 'ninja replay 3'; expected 'ninja-game"),
         ("body: circle", "body: square", "a.txt:5:7: an unknown body; found 'square'; expected circle or box"),
         ("body: circle\n", "", "a.txt: an incomplete replay; expected a line with 'body'"),

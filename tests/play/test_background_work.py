@@ -13,7 +13,7 @@ from ninja_game.editor.background import NewestJob
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.load import load_replays
 from ninja_game.play.editor import session as editor_session
-from ninja_game.play.replay import film_job
+from ninja_game.play.replay import film
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.tas import opening
 from ninja_game.play.tas.tabs import lead_tab
@@ -90,7 +90,7 @@ def test_a_film_that_cannot_be_made_can_be_tried_again(
 ) -> None:
     screen = ReplayScreen(driver.app, [load_replays(RUN)[0]])
     driver.app.push(screen)
-    monkeypatch.setattr(film_job, "Film", raising(why))
+    monkeypatch.setattr(film, "Film", raising(why))
     for _ in range(2):
         driver.app.notify("")
         driver.press("e")

@@ -14,7 +14,7 @@ import pytest
 
 from ninja_game import ArgumentError, DemoError, Input, Simulation, parse_level, run_level, trace_level
 from ninja_game.backend.memories import compiled_available
-from ninja_game.runs import trace as run_trace
+from ninja_game.runs import trace
 from ninja_game.sim.inputs import MAX_TICKS, Demo
 from tests.support.memories import BOTH
 
@@ -89,7 +89,7 @@ def test_runs_that_are_too_long_are_refused_before_they_take_memory(monkeypatch:
         Demo(b"\2", 1.0).playback(10**12)
     with pytest.raises(DemoError, match="too many ticks"):
         run_level(LEVEL, bytes(MAX_TICKS + 1))
-    monkeypatch.setattr(run_trace, "MAX_CELLS", 10)
+    monkeypatch.setattr(trace, "MAX_CELLS", 10)
     with pytest.raises(ArgumentError, match="11 ticks of 1 objects"):
         trace_level(LEVEL, bytes(11))
 

@@ -21,7 +21,7 @@ from ninja_game.search.best_first import Leg, Search
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.engine import OTHER_ENDS
 from ninja_game.search.heuristics import Heuristics
-from ninja_game.search.legs import Front, Moment
+from ninja_game.search.legs import Checkpoint, Frontier
 from ninja_game.search.nodes import Resolution, open_start
 from ninja_game.search.route import NEVER, Route
 from ninja_game.search.solve import Progress, Task, solve
@@ -110,11 +110,11 @@ def test_the_same_seed_collects_gold_in_the_same_way() -> None:
 
 
 def test_a_front_keeps_the_earliest_moments_and_one_of_each_state_of_the_enemies() -> None:
-    front = Front(0, 0)
+    frontier = Frontier(0, 0)
     for tick in (5, 3, 9, 1, 7):
         routines = b"in flight" if tick == 9 else b"waiting"
-        front.add(Moment(np.zeros(1, np.int64), tick, 0, 0, (0.0, 0.0), routines), 3)
-    assert [moment.tick for moment in front.moments] == [1, 3, 9]
+        frontier.add(Checkpoint(np.zeros(1, np.int64), tick, 0, 0, (0.0, 0.0), routines), 3)
+    assert [checkpoint.tick for checkpoint in frontier.checkpoints] == [1, 3, 9]
 
 
 def test_doors_are_opened_one_by_one_also_when_the_exit_is_open() -> None:
@@ -125,14 +125,14 @@ def test_doors_are_opened_one_by_one_also_when_the_exit_is_open() -> None:
     route = Route(Search(start, heuristics, nodes=50_000), gold=0, seed=1)
     runs = [route.step(lambda _: False) for _ in range(4)]
     assert any(runs)
-    assert {mask for _, mask in route.fronts} >= {1, 3}
+    assert {mask for _, mask in route.frontiers} >= {1, 3}
 
 
 def test_a_piece_from_which_no_way_leads_to_others_comes_last() -> None:
     start = open_start(ONE_WAY, box=False)
     route = Route(Search(start, Heuristics(start.levels, start.worlds), nodes=50_000), gold=3, seed=1)
     route.urgency[1] = 1.0
-    assert route._target(next(iter(route.fronts.values()))) == 0
+    assert route._target(next(iter(route.frontiers.values()))) == 0
 
 
 def test_a_leg_to_a_certain_switch_does_not_end_at_another_on_the_way() -> None:
@@ -143,7 +143,7 @@ def test_a_leg_to_a_certain_switch_does_not_end_at_another_on_the_way() -> None:
 
     def ends(wanted: int) -> list[int]:
         field = partial(heuristics.field_to, (500.0, 566.0))
-        leg = Leg([start.base], NEVER, 0, NEVER, 4, 0, field, wanted)
+        leg = Leg([start.initial], NEVER, 0, NEVER, 4, 0, field, wanted)
         search.begin_leg(leg, Resolution(), seed=1, bound=0)
         search.run_leg(300_000, lambda _: False, part=1_000)
         return [end.mask & far for end in search.ends()]
@@ -160,7 +160,7 @@ def test_the_exit_is_opened_last() -> None:
     route = Route(Search(start, Heuristics(start.levels, start.worlds), nodes=50_000), gold=0, seed=1)
     for _ in range(2):
         assert not route.step(lambda _: False)
-    assert [route.fronts[0, mask].tries for mask in (0, 1)] == [2, 0]
+    assert [route.frontiers[0, mask].tries for mask in (0, 1)] == [2, 0]
 
 
 def test_gold_that_was_never_collected_is_told() -> None:
@@ -175,7 +175,7 @@ def test_a_run_may_go_from_switch_to_switch_without_gold() -> None:
     route = Route(search, gold=0, seed=1)
     runs = [route.step(lambda _: False) for _ in range(8)]
     assert verified_run(BEHIND_A_DOOR, next(filter(None, runs))).end_tick > 0
-    assert len({mask for _, mask in route.fronts}) > 1
+    assert len({mask for _, mask in route.frontiers}) > 1
 
 
 @pytest.fixture(scope="module")
@@ -205,8 +205,8 @@ def test_a_sweep_keeps_moments_of_different_velocities(first: Replay) -> None:
     """No enemy is there: only the velocities differ."""
     shortener = shortener_of(first)
     shortener.sweep(lambda _: False)
-    fronts = [front for fronts in shortener.levels.values() for front in fronts.values()]
-    assert max(len({moment.routines for moment in front.moments}) for front in fronts) > 5
+    frontiers = [frontier for frontiers in shortener.levels.values() for frontier in frontiers.values()]
+    assert max(len({checkpoint.routines for checkpoint in frontier.checkpoints}) for frontier in frontiers) > 5
 
 
 def test_a_leg_that_finds_nothing_gets_more_work(first: Replay, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -233,8 +233,8 @@ def test_a_search_forgets_those_before_it() -> None:
     """Also one that is guided, and so gets the table of the search before the last."""
     start = open_start(LINES, box=False)
 
-    def searched(search: Search, seed: int, *, guided: bool = False) -> tuple[object, ...]:
-        search.begin(Resolution(), seed=seed, bound=0, guided=guided)
+    def searched(search: Search, seed: int, *, backed_up: bool = False) -> tuple[object, ...]:
+        search.begin(Resolution(), seed=seed, bound=0, backed_up=backed_up)
         search.run(30_000)
         return search.best(), search.ticks, int(search.counters.entries)
 
@@ -242,7 +242,7 @@ def test_a_search_forgets_those_before_it() -> None:
     for search in (new, used):
         searched(search, 1)  # makes the fields
     for seed in (4, 5):
-        searched(used, seed, guided=True)
-    assert [searched(new, seed, guided=seed == 3) for seed in (2, 3)] == [
-        searched(used, seed, guided=seed == 3) for seed in (2, 3)
+        searched(used, seed, backed_up=True)
+    assert [searched(new, seed, backed_up=seed == 3) for seed in (2, 3)] == [
+        searched(used, seed, backed_up=seed == 3) for seed in (2, 3)
     ]

@@ -26,12 +26,13 @@ from ninja_game.search.local_search import (
     stretch,
 )
 from ninja_game.search.macros import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_inputs
-from ninja_game.search.nodes import UNKNOWN, Entry, Link, Resolution, back_up_values, open_start, zeroed
-from ninja_game.search.states import key_of, open_mask
+from ninja_game.search.nodes import UNKNOWN, Link, Resolution, TableEntry, back_up_values, open_start, zeroed
+from ninja_game.search.states import key_of
+from ninja_game.search.switches import open_mask
 from ninja_game.search.tour import short_tour
 from ninja_game.sim.inputs import KEY_RIGHT, with_press_bits
-from ninja_game.sim.memory.plain import PlainMemory
-from tests.support.own_fields import apart, own_fields_only
+from ninja_game.sim.memory.plain import PlainWorlds
+from tests.support.own_fields import own_fields_only
 
 OPEN = "0" * 713 + "|"
 CORRIDOR = ("0" * 10 + "1" * 12 + "0") * 10 + "0" * 23 * 21
@@ -89,18 +90,16 @@ def test_what_is_open_is_read_from_the_fields_that_exits_and_doors_have() -> Non
         "0" * 713
         + "|5^100,566!11^700,300,140,566!11^600,300,400,300!9^160,566,0,0,10,23,1,0,0!9^220,566,0,1,10,23,0,0,0"
     )
-    world = PlainMemory(parse_level_string(text), box=False)
+    world = PlainWorlds([parse_level_string(text)], box=False)
     heuristics = heuristics_of(text)
     with own_fields_only():
         assert open_mask(world.world(), heuristics.slots) == 0
-    assert heuristics.opened({"objects": apart(world.world().objects)}) == 0
     with own_fields_only():
         for _ in range(60):
             world.step(KEY_RIGHT)
         seen = open_mask(world.world(), heuristics.slots)
     # The first exit's switch, the locked door and the trap door were run through, in the order of Heuristics.switches.
     assert seen == 0b1101
-    assert heuristics.opened({"objects": apart(world.world().objects)}) == seen
 
 
 def test_a_one_way_platform_is_passed_from_its_back_only() -> None:
@@ -161,9 +160,9 @@ def test_random_mutations_leave_what_lies_before_and_make_keys_only() -> None:
 @pytest.mark.parametrize("memory", ["plain", "compiled"])
 def test_values_spread_backwards_from_the_exit(memory: str) -> None:
     """Three entries in a row, 5 and 7 ticks apart, the last one 3 ticks from the exit; a fourth leads nowhere."""
-    table, links = ([Entry() for _ in range(4)], [Link() for _ in range(3)])
+    table, links = ([TableEntry() for _ in range(4)], [Link() for _ in range(3)])
     if memory == "compiled":
-        table, links = zeroed(Entry, 4), zeroed(Link, 3)
+        table, links = zeroed(TableEntry, 4), zeroed(Link, 3)
     for link, (source, target, ticks) in zip(links, ((0, 1, 5), (1, 2, 7), (2, -1, 3)), strict=True):
         link.source, link.target, link.ticks = source, target, ticks
     settle = compiled(back_up_values) if memory == "compiled" else back_up_values
@@ -201,11 +200,11 @@ def key_after(text: str, ticks: int, resolution: Resolution) -> int:
     """The key of the moment after this many ticks without keys; the ninja stands still."""
     level = parse_level_string(text)
     start = open_start(level, box=False)
-    goals = Search(start, Heuristics(start.levels, start.worlds), nodes=100).goals
-    memory = PlainMemory(level, box=False)
+    goal = Search(start, Heuristics(start.levels, start.worlds), nodes=100).goal
+    memory = PlainWorlds([level], box=False)
     for _ in range(ticks):
         memory.step(0)
-    return key_of(memory.world(), goals, 0, 0, resolution)
+    return key_of(memory.world(), goal, 0, 0, resolution)
 
 
 def test_enemies_that_are_near_tell_moments_apart() -> None:
@@ -234,7 +233,7 @@ def test_a_tour_heeds_what_lies_only_downhill() -> None:
 
 
 def test_of_two_runs_to_the_exit_in_the_same_tick_the_deeper_one_scores_better() -> None:
-    world = PlainMemory(parse_level_string(OPEN + "5^100,300!11^400,300,200,300"), box=False).world()
+    world = PlainWorlds([parse_level_string(OPEN + "5^100,300!11^400,300,200,300")], box=False).world()
     exit_ = next(o for o in world.objects if o.kind == EXIT)
     exit_.is_open = 1
     world.tick = 100

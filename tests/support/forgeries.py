@@ -138,6 +138,6 @@ FORGERIES = {
     "practice": (replay(practice=True), "practice"),
     "a practice mark that is none": (replay(practice=True).replace("practice: yes", "practice: maybe"), "practice"),
     "two ends": (replay().replace("outcome:", "outcome: exit\noutcome:", 1), "given twice"),
-    "a format of yesterday": (replay().replace("replay 3", "replay 1", 1), "older version"),
+    "a format of yesterday": (replay().replace("replay 3", "replay 1", 1), "unknown version"),
     "a format of tomorrow": (replay().replace("replay 3", "replay 9", 1), "version"),
 }

@@ -407,7 +407,7 @@ def _daily(driver: MenuDriver) -> Iterator[str]:
 
 def _film(driver: MenuDriver) -> Iterator[str]:
     """A film that is being made of a replay."""
-    with patch("ninja_game.play.replay.film_job.beside", lambda *_: Thread()):
+    with patch("ninja_game.play.replay.film.beside", lambda *_: Thread()):
         screen = ReplayScreen(driver.app, [load_replays(bundled_replays()[1])[0]])
         driver.app.push(screen)
         driver.frames(40)

@@ -6,8 +6,7 @@ from random import Random
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
@@ -17,7 +16,7 @@ from ninja_game.runs import save_states
 from ninja_game.runs.save_states import SaveStates
 from ninja_game.runs.trace import trace_level
 from ninja_game.search.formula.names import FLAGS, NAMES, view_of
-from ninja_game.sim.inputs import MAX_TICKS, first_ticks, with_press_bits
+from ninja_game.sim.inputs import MAX_TICKS, fitted_inputs, with_press_bits
 from ninja_game.simulation import Simulation
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.timeline import AFTERMATH, Timeline
@@ -35,7 +34,7 @@ RUNS = {
 
 def check(timeline: Timeline) -> None:
     """Compare every row with a straight run."""
-    straight = trace_level(timeline.level, first_ticks(timeline.inputs, len(timeline)), memory="plain", events=True)
+    straight = trace_level(timeline.level, fitted_inputs(timeline.inputs, len(timeline)), memory="plain", events=True)
     valid = timeline.simulated_until
     for name in ("x", "y", "prev_x", "prev_y", "gold"):
         assert timeline.column(name).tobytes() == straight.ninja[name][:valid].tobytes(), name
@@ -106,7 +105,7 @@ def test_states_of_a_timeline_begin_simulations() -> None:
         world = Simulation(recording.level, memory="plain")
         world.restore(state)
         straight = Simulation(recording.level, memory="plain")
-        for keys in first_ticks(timeline.inputs, state.tick):
+        for keys in fitted_inputs(timeline.inputs, state.tick):
             straight.step_keys(keys)
         assert world.digest() == straight.digest()
 
@@ -114,7 +113,7 @@ def test_states_of_a_timeline_begin_simulations() -> None:
 def test_the_longest_run_has_states_too() -> None:
     timeline = Timeline(WALKED, bytes(MAX_TICKS), memory="plain")
     timeline.simulated_until = len(timeline)
-    timeline._states.keep(MAX_TICKS + 20, timeline._memory.save())
+    timeline._states.keep(MAX_TICKS + 20, timeline._worlds.save())
     assert timeline.save_state(10**9).tick <= MAX_TICKS
 
 
@@ -152,7 +151,7 @@ def test_watched_values_are_those_of_a_search(name: str, memory: str) -> None:
         formulas += [f"{what}({id_})" for what in FLAGS if kind in FLAGS[what]]
     watched = {text: parse_watch(text).values(timeline) for text in formulas}
     batch = Batch(recording.level, 1, memory="plain")
-    for tick, keys in enumerate(first_ticks(inputs, len(timeline))):
+    for tick, keys in enumerate(fitted_inputs(inputs, len(timeline))):
         batch.run([[keys]])
         view = view_of(batch)
         for text in formulas:

@@ -40,7 +40,7 @@ def archive(tmp_path: Path) -> Path:
     for number in range(RUNS):
         level = SPIKED if number % 7 == 0 else still if number % 3 else WALK
         write_records(folder / f"run-{number:03}.txt", (f"Run {number}", level, running(1500)))
-    (folder / "broken.txt").write_text("ninja-game replay 2\nnonsense\n")
+    (folder / "broken.txt").write_text("ninja-game replay 3\nnonsense\n")
     (folder / "walk.replay.txt").write_text(replay_of_walk())
     return folder
 

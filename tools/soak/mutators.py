@@ -26,7 +26,7 @@ NUMBERS = (
 )
 WORDS = (
     *("#", "$", "##", "|", "^", "!", ",", "*", ":", ";", "&userdata=", "%24", "%zz", "\n\n", "\r", "\r\n", "\t", "  "),
-    *("ninja-game level 1\n", "ninja-game replay 1\n", "ninja-game replay 2\n", "ninja-game replay 3\n", "inputs:\n"),
+    *("ninja-game level 1\n", "ninja-game replay 2\n", "ninja-game replay 3\n", "inputs:\n"),
     *("level-data:\n", "waypoints:\n", "end\n", "include part.inputs.txt\n", "include ../part\n", "level: level\n"),
     *("Read,part.inputs.txt\n", "Repeat 9\n", "EndRepeat\n", "***", "(R*9 ", ")*9", "R*1000000 ", "J!", "--- part\n"),
     *("[[episode]]\n", "number = 0\n", "a.b.c = 1\n", '"""', "'''", "{", "}", "[", "]", "null", "true", '"', "\\u0000"),

@@ -227,7 +227,7 @@ def draw(picture: Path, level: Level, paths: Sequence[tuple[str, Any]], keep: Se
 
     from ninja_game.files.writing import write_atomically
     from ninja_game.play.replay.paths import paths_picture
-    from ninja_game.play.ui.palette import PALETTES
+    from ninja_game.play.ui.theme import PALETTES
 
     surface = paths_picture(level, paths, PALETTES["classic"], 1584)
     data = io.BytesIO()

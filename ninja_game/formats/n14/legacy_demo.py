@@ -28,6 +28,7 @@ _CHAR_OF_PAIR = {
     f"{value:02o}": chr(_FIRST_PAIR + value + (_FIRST_PAIR + value >= _BACKSLASH)) for value in range(64)
 }  # fmt: skip
 
+_KEYS_OF_DIGIT = bytes.maketrans(b"01234567", bytes(range(8)))
 _DIGIT_OF_KEYS = bytes.maketrans(bytes(range(16)), b"0120456401204564")
 
 
@@ -41,7 +42,10 @@ def parse_legacy_demo(text: str, *, length: float | None = None) -> Demo:
     # Defect (b): a last 3 is dropped also when it was not padding, and what it leaves of a run with it.
     digits = _DIGIT_RUN.sub(_expanded, _digits_of_chars(text).removesuffix(_PADDING))
     _check_length(len(digits))
-    return fitted_demo(with_press_bits(map(int, digits)), float(len(digits)) if length is None else length)
+    return fitted_demo(
+        with_press_bits(digits.encode("ascii").translate(_KEYS_OF_DIGIT)),
+        float(len(digits)) if length is None else length,
+    )
 
 
 def _digits_of_chars(text: str) -> str:

@@ -18,16 +18,13 @@ from ninja_game.formats.replay.includes import included_beside
 from ninja_game.formats.replay.input_runs import Marker, is_marker_name, write_inputs
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.formats.replay.sections import Waypoint, read_level, read_waypoints
-from ninja_game.sim.inputs import MAX_TICKS, Demo, first_ticks
+from ninja_game.sim.inputs import MAX_TICKS, Demo, fitted_inputs
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import BODIES, Body
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 MAGIC = "ninja-game replay"
 VERSION = 3
-"""Version 1 had another digest: of the world's inner state. Version 2 had no last line."""
-OLDEST_VERSION = 2
-"""Still read."""
 LAST_LINE = "end"
 """Of a replay with claims, so that a cut one is noticed."""
 RULES_VERSION = 1
@@ -96,7 +93,7 @@ class Replay:
         """The input of each of the first ``ticks`` ticks."""
         if self.demo_length is not None:
             return Demo(self.inputs, self.demo_length).playback(ticks)
-        return first_ticks(self.inputs, ticks)
+        return fitted_inputs(self.inputs, ticks)
 
 
 _FIRST_LINE = re.compile(rf"{MAGIC} +([0-9]{{1,9}})[ \t]*")
@@ -114,10 +111,10 @@ def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Re
     level inside.
     """
     lines = [(number, line) for number, line in numbered_lines(text) if not line.startswith(";")]
-    version = _check_first_line(lines, file)
+    _check_first_line(lines, file)
     ended = lines[-1][1].rstrip() == LAST_LINE
     headers = Headers(lines[1:-1] if ended else lines[1:], file)
-    if version >= 3 and not ended and not headers.unclaimed:
+    if not ended and not headers.unclaimed:
         hint = f"its last line is '{LAST_LINE}'; where you have changed it by hand, `ninja-game record` writes it again"
         raise ReplayError("the replay is truncated", file, lines[-1][0], hint=hint)
     own, level_name, level_author = read_level(headers.section("level-data"), file)
@@ -155,20 +152,16 @@ def parse_replay(text: str, *, file: str = "", level: Level | None = None) -> Re
     return replay
 
 
-def _check_first_line(lines: Sequence[Line], file: str) -> int:
-    """The version that the first line tells. Raises ReplayError unless it says what this is."""
+def _check_first_line(lines: Sequence[Line], file: str) -> None:
+    """Raise ReplayError unless the first line says what this is, in the version that is read."""
     number, first = lines[0] if lines else (1, "")
     match = _FIRST_LINE.fullmatch(first)
     expected = f"'{MAGIC} {VERSION}' in the first line"
     if match is None:
         raise ReplayError("not a replay of ninja-game", file, number, 1, repr(first[:40]), expected)
-    if not OLDEST_VERSION <= int(match[1]) <= VERSION:
-        what, hint = "unknown version of the replay format", "a replay from a newer ninja-game needs a newer ninja-game"
-        if int(match[1]) == 1:
-            what = "a replay written by an older version of ninja-game, with a digest that is no longer used"
-            hint = f"write '{MAGIC} {OLDEST_VERSION}' in the first line and delete the line 'digest:'"
-        raise ReplayError(what, file, number, 1, match[1], str(VERSION), hint)
-    return int(match[1])
+    if int(match[1]) != VERSION:
+        hint = "a replay from a newer ninja-game needs a newer ninja-game"
+        raise ReplayError("unknown version of the replay format", file, number, 1, match[1], str(VERSION), hint)
 
 
 def _contradiction(replay: Replay) -> tuple[str, ReplayError] | None:

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, QUARTERS
-from ninja_game.play.input.commands import Command, key_text
-from ninja_game.play.input.events import InputEvent
-from ninja_game.play.input.scancodes import chord
+from ninja_game.play.input.bindings import InputEvent
+from ninja_game.play.input.keys import Command, chord, key_text
 
 COMMANDS = (
     Command("help", "This page", ("f1",)),

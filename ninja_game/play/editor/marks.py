@@ -16,8 +16,8 @@ from ninja_game.editor.records import BODY, SWITCH, has_switch, points
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.sheet import LevelMark
 from ninja_game.play.ui.canvas import Canvas, Colour, Point
-from ninja_game.play.ui.palette import Palette
-from ninja_game.play.view.sprites.draw_target import DrawTarget, is_near
+from ninja_game.play.ui.theme import Palette
+from ninja_game.play.view.sprites.drawing import DrawTarget, is_near
 from ninja_game.sim.level import Level
 
 MIDDLE = (396.0, 300.0)

@@ -18,8 +18,8 @@ from ninja_game.play.editor.properties import property_widgets, subject
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.toolbar import toolbar
 from ninja_game.play.editor.view import LAYOUT, EditorView
-from ninja_game.play.input.events import InputEvent
-from ninja_game.play.input.scancodes import chord
+from ninja_game.play.input.bindings import InputEvent
+from ninja_game.play.input.keys import chord
 from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_entry import TextEntry

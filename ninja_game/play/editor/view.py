@@ -12,8 +12,7 @@ from ninja_game.play.editor.overlay import Overlay
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.sheet import LevelSheet
 from ninja_game.play.ui.canvas import Colour, Point
-from ninja_game.play.ui.text_layout import wrapped
-from ninja_game.play.ui.theme import Area
+from ninja_game.play.ui.theme import Area, wrapped
 from ninja_game.play.ui.widgets import Widget
 
 if TYPE_CHECKING:

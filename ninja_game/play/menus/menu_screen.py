@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.input.events import InputEvent
-from ninja_game.play.input.held_key import HeldKey
-from ninja_game.play.input.scancodes import scancode_of
+from ninja_game.play.input.bindings import InputEvent
+from ninja_game.play.input.keys import HeldKey, scancode_of
 from ninja_game.play.screen import Screen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.list_view import ListView

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from ninja_game.play.input.commands import Command
-from ninja_game.play.input.events import InputEvent
-from ninja_game.play.input.scancodes import chord
+from ninja_game.play.input.bindings import InputEvent
+from ninja_game.play.input.keys import Command, chord
 
 COMMANDS = (
     Command("help", "This page", ("f1",)),

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.input.gamepad import Gamepads
-from ninja_game.play.input.held_key import HeldKey
+from ninja_game.play.input.keys import HeldKey
 from ninja_game.play.tas.controls import FIRST_REPEAT_MS, REPEATING
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.formats.recording import Recording
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.tas.borders import Borders
 from ninja_game.play.tas.editor import TasEditor

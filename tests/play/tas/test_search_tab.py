@@ -10,7 +10,7 @@ import numpy as np
 import pygame
 import pytest
 
-from ninja_game.play.input.scancodes import SCANCODES
+from ninja_game.play.input.keys import SCANCODES
 from ninja_game.play.tas.tabs import span_results
 from ninja_game.play.tas.tabs.search_tab import SearchTab
 from ninja_game.play.tas.tabs.span_results import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SpanResults

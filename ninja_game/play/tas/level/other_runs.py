@@ -13,7 +13,7 @@ from ninja_game.files.reading import LeftOut
 from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Form
 from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pygame
 
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.tas.controls import command_of
 from ninja_game.play.tas.editor import TasEditor

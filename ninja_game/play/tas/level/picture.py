@@ -11,7 +11,7 @@ from ninja_game.play.ui.canvas import Canvas, Point
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.ninja.ragdoll import Ragdoll
 from ninja_game.play.view.render_context import OffscreenContext
-from ninja_game.sim.inputs import first_ticks
+from ninja_game.sim.inputs import fitted_inputs
 from ninja_game.sim.memory.schema import World
 from ninja_game.simulation import SaveState, Simulation
 
@@ -111,7 +111,7 @@ class LevelPicture:
         moment = tick + 1
         if timeline.simulated_until < moment:
             return
-        run, inputs = self.run, first_ticks(timeline.inputs[:moment], moment)
+        run, inputs = self.run, fitted_inputs(timeline.inputs[:moment], moment)
         if run.inputs == inputs:
             return
         if self._view is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ninja_game.play.level.run_clock import RunClock
+from ninja_game.play.level.play import RunClock
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.level.picture import LevelPicture

@@ -7,7 +7,7 @@ from random import Random
 import pygame
 
 from ninja_game.play.ui.canvas import Point
-from ninja_game.play.ui.palette import Palette
+from ninja_game.play.ui.theme import Palette
 from ninja_game.play.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.sim.memory.schema import World
 from ninja_game.tas.timeline import Trajectory

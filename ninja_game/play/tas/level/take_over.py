@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.tas.controls import BY_PAD, COMMANDS
 from ninja_game.play.tas.level.playing import Playing
 from ninja_game.tas.timeline import AFTERMATH

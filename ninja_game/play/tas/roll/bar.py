@@ -7,8 +7,7 @@ import pygame
 from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.roll.columns import RollLayout
 from ninja_game.play.tas.roll.differences import compared, different_rows
-from ninja_game.play.ui.palette import mixed
-from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.theme import Theme, mixed
 from ninja_game.tas.input_track import InputTrack
 
 

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.tabs.plot import colour_of
-from ninja_game.play.ui.palette import Palette
-from ninja_game.sim.inputs import KEYS_DOWN, first_ticks
+from ninja_game.play.ui.theme import Palette
+from ninja_game.sim.inputs import KEYS_DOWN, fitted_inputs
 from ninja_game.tas.input_track import InputTrack
 
 PREVIEW, BEFORE = -1, -2
@@ -74,4 +74,4 @@ def different_rows(ours: bytes, theirs: bytes, ticks: int, height: int) -> list[
 def _keys(*runs: bytes) -> list[NDArray[np.uint8]]:
     """The keys that are down in each tick of the longest of some runs."""
     ticks = max(map(len, runs))
-    return [np.frombuffer(first_ticks(inputs, ticks), np.uint8) & np.uint8(KEYS_DOWN) for inputs in runs]
+    return [np.frombuffer(fitted_inputs(inputs, ticks), np.uint8) & np.uint8(KEYS_DOWN) for inputs in runs]

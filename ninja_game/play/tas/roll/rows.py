@@ -11,8 +11,7 @@ from ninja_game.play.tas.roll.columns import Place, RollLayout
 from ninja_game.play.tas.roll.event_words import EVENTS, STATES
 from ninja_game.play.tas.roll.facts import FLOOR, WALL_LEFT, WALL_RIGHT, RowFacts, Values
 from ninja_game.play.tas.roll.glyphs import Blit, Digits
-from ninja_game.play.ui.palette import Palette, mixed
-from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.theme import Palette, Theme, mixed
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT, pressed
 from ninja_game.sim.states import JUMPING
 

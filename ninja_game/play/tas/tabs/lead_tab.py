@@ -10,8 +10,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, Rows, Tab
-from ninja_game.play.ui.text_layout import counted
-from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.theme import Area, Theme, counted
 from ninja_game.play.ui.widgets import Choice
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.leads import LeadTable, lead_table

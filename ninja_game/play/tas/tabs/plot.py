@@ -10,8 +10,7 @@ import numpy as np
 import pygame
 
 from ninja_game.play.replay.paths import COLOURS
-from ninja_game.play.ui.palette import Palette
-from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.theme import Area, Palette, Theme
 
 if TYPE_CHECKING:
     from ninja_game.search.formula.language import Numbers

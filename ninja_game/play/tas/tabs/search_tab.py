@@ -13,8 +13,7 @@ from ninja_game.play.tas.editor import Span, TasEditor
 from ninja_game.play.tas.part import Commands
 from ninja_game.play.tas.tabs.span_results import SpanResults
 from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab, what_is_wrong
-from ninja_game.play.ui.text_layout import wrapped
-from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.theme import Area, Theme, wrapped
 from ninja_game.play.ui.widgets import Button, Choice
 from ninja_game.search.formula.language import FormulaError
 from ninja_game.search.formula.methods import fewest_ticks

@@ -9,7 +9,7 @@ import numpy as np
 
 from ninja_game.batch.thread_pool import cores
 from ninja_game.play.tas.editor import OtherRun, TasEditor
-from ninja_game.play.ui.text_layout import counted
+from ninja_game.play.ui.theme import counted
 from ninja_game.search.formula.background import SpanSearch
 from ninja_game.search.formula.methods import KEPT
 from ninja_game.search.formula.task import Found, SpanTask, score_in_words

@@ -1,0 +1,31 @@
+"""What is open in a level, a bit a switch: the one place that reads switches for searches and for goal distances."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.schema import World
+from ninja_game.sim.traces import is_open
+
+
+@fast
+def open_bits(w: World, slots: Any, first: int, last: int) -> int:
+    """The switch state of a world: bit k is set if the exit or door ``slots[first + k]`` is not as it began."""
+    mask = 0
+    for k in range(first, last):
+        if is_open(w, int(slots[k])):
+            mask |= 1 << (k - first)
+    return mask
+
+
+@fast
+def open_mask(w: World, slots: Any) -> int:
+    """The same of all slots."""
+    return open_bits(w, slots, 0, len(slots))
+
+
+@entry_point
+def open_mask_at(worlds: Any, index: int, slots: Any) -> int:
+    """The same of one of some worlds."""
+    return open_bits(worlds[index], slots, 0, len(slots))
