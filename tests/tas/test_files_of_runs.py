@@ -16,6 +16,7 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import parse_replay, write_replay
+from ninja_game.runs.archive import verify_all
 from ninja_game.runs.verify import Verdict
 from ninja_game.sim.inputs import fitted_inputs
 from ninja_game.tas.branches import Branches
@@ -23,7 +24,6 @@ from ninja_game.tas.files import OpenedRun, RunFile, branches_path, open_run, sa
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.journal import FOLDER, recovered
 from ninja_game.tas.session import Session
-from ninja_game.verification.verify_many import verify_all
 from tests.support.own_pack import PACK, instead_of_ours
 from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records
 from tests.support.strategies import tracks

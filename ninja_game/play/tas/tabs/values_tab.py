@@ -14,7 +14,7 @@ from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_ro
 from ninja_game.play.tas.tabs.watched import LANES, USUAL, Watched, shown_value, watched_values
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button
-from ninja_game.runs.splits import SPLIT_EVENTS
+from ninja_game.runs.compare import SPLIT_EVENTS
 from ninja_game.tas.watch import parse_watch
 
 LONGEST = 200
