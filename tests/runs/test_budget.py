@@ -23,10 +23,9 @@ from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
-from ninja_game.runs import comparison
-from ninja_game.runs.comparison import aligned
+from ninja_game.runs import compare
+from ninja_game.runs.compare import aligned, run_splits
 from ninja_game.runs.run import record_replay
-from ninja_game.runs.splits import run_splits
 from ninja_game.runs.trace import Difference, first_difference, trace_level, trace_recording
 from ninja_game.runs.verify import verify_recording
 from ninja_game.search.certificate import named_run, save_replay, verified_run
@@ -191,7 +190,7 @@ def test_the_run_of_a_search_is_verified_and_written_by_running_it_once(
 
 def test_runs_of_very_different_lengths_are_not_compared_place_by_place(monkeypatch: pytest.MonkeyPatch) -> None:
     np = pytest.importorskip("numpy")
-    monkeypatch.setattr(comparison, "MAX_TOGETHER", 100)
+    monkeypatch.setattr(compare, "MAX_TOGETHER", 100)
     assert aligned(np.zeros((90, 2)), np.zeros((10, 2))).tolist()[-1] == 9
     with pytest.raises(Exception, match="runs of 91 and 10 ticks are too long"):
         aligned(np.zeros((91, 2)), np.zeros((10, 2)))
