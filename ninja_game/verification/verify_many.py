@@ -1,7 +1,7 @@
 """Verification at scale: any number of recordings, on all cores or a cluster, resumable, in constant memory.
 
 >>> from pathlib import Path
->>> from ninja_game.files.resources import data_folder
+>>> from ninja_game.files.user_folder import data_folder
 >>> tally = Tally()
 >>> for result in verify_all([data_folder("levels") / "certificates"], jobs=2):
 ...     tally.add(result)
@@ -26,7 +26,7 @@ from typing import IO, Any, TypeAlias
 from ninja_game.backend.memories import choose_memory
 from ninja_game.batch.thread_pool import cores
 from ninja_game.budget import RUN_BUDGET
-from ninja_game.files.resources import bundled_levels
+from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.load import NamedLevel, load_levels
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.runs.recording_reader import Unreadable

@@ -13,8 +13,8 @@ from typing import NamedTuple
 from ninja_game import __version__
 from ninja_game.errors import DAMAGED, FileError
 from ninja_game.files.reading import read_utf8
-from ninja_game.files.resources import PACKAGE
 from ninja_game.files.tree import Tree, leads_below
+from ninja_game.files.user_folder import PACKAGE
 from ninja_game.web.site.bytecode import compiled
 from ninja_game.web.site.game_archive import game_archive, game_files, licence_of
 from ninja_game.web.site.pyodide_files import library_files, library_of, pyodide_files
