@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ninja_game.errors import ArgumentError
-from ninja_game.runs.splits import run_splits
+from ninja_game.runs.compare import run_splits
 from ninja_game.sim.kinds import GOLD
 from ninja_game.tas.session import Session
 

@@ -16,8 +16,7 @@ from unittest.mock import Mock
 import pytest
 
 from ninja_game.errors import FileError
-from ninja_game.files import user_folder as folders
-from ninja_game.files import writing
+from ninja_game.files import user_folder as folders, writing
 from ninja_game.files.locking import locked
 from ninja_game.files.reading import LeftOut, files_below, read_bytes, read_text, read_utf8, text_files
 from ninja_game.files.user_folder import data_folder, user_folder

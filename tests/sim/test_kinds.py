@@ -24,7 +24,7 @@ from ninja_game.sim.death import idle_event
 from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.kinds import INERT, KINDS, NINJA, NO_KIND, Kind
 from ninja_game.sim.memory.object_fields import Header, Object
-from ninja_game.sim.memory.plain import PlainMemory
+from ninja_game.sim.memory.plain import PlainWorlds
 from ninja_game.sim.objects import dispatch
 from ninja_game.sim.traces import is_traced, status_of
 from tests.support.crowded import crowded_inputs, crowded_level
@@ -126,8 +126,8 @@ def test_what_a_trace_shows_of_a_kind_is_documented(kind: Kind) -> None:
 
 @pytest.mark.parametrize("seed", range(12))
 def test_rules_and_traces_read_only_fields_that_an_object_s_kind_has(seed: int) -> None:
-    memory = PlainMemory(crowded_level(seed), box=bool(seed % 2))
-    slots = [slot for slot in range(1, memory.id_count + 1) if is_traced(memory.world(), slot)]
+    memory = PlainWorlds([crowded_level(seed)], box=bool(seed % 2))
+    slots = [slot for slot in range(1, memory.number("id_count") + 1) if is_traced(memory.world(), slot)]
     with own_fields_only():
         assert len(memory.trace(crowded_inputs(seed), slots, events=True).ninja)
         assert replay_digest(memory.world())

@@ -253,7 +253,7 @@ def _tabs(at: TasDriver) -> Iterator[str]:
         values._toggle(0)  # type: ignore[attr-defined]
     at.frames()
     yield "tas-values-fewer"
-    at.screen.show_tab(branches)
+    at.editor.show_tab(branches.name)
     at.frames()
     yield "tas-branches-empty"
     for name in ("first try", "second try"):
@@ -277,12 +277,12 @@ def _tabs(at: TasDriver) -> Iterator[str]:
             at.editor.edit(lambda _, first=first: first)  # type: ignore[misc]
             at.session.keep_branch("third try")
             at.editor.against = at.session.branches.all[1].track
-        at.screen.show_tab(lead)
+        at.editor.show_tab(lead.name)
         at.frames(20)
         lead._job.finish()
         at.frames(2)
         yield f"tas-lead-{name}"
-    at.screen.show_tab(search)
+    at.editor.show_tab(search.name)
     at.frames(2)
     yield "tas-search-empty"
     at.editor.select(100, 130)

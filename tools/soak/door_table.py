@@ -46,6 +46,15 @@ from ninja_game.player.backup import read_backup
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import read_settings, write_changes
 from ninja_game.player.store import Store
+from ninja_game.runs.checkpoint_log import CheckpointLog
+from ninja_game.runs.chunks import (
+    Chunk,
+    chunks_in,
+    results_as_text,
+    results_from_text,
+    self_contained,
+    verify_chunk,
+)
 from ninja_game.runs.recording_reader import recordings_of, records_of
 from ninja_game.runs.trace import RunTrace, first_difference, rows, trace_digests, trace_level
 from ninja_game.runs.trace_files import FiledTrace, read_csv, read_traces
@@ -55,15 +64,6 @@ from ninja_game.tas import journal
 from ninja_game.tas.files import branches_path, inputs_of_text, open_run, replay_of_track, runs_of_level
 from ninja_game.tas.session import Session
 from ninja_game.tas.watch import parse_watch
-from ninja_game.verification.checkpoint_log import CheckpointLog
-from ninja_game.verification.chunks import (
-    Chunk,
-    chunks_in,
-    results_as_text,
-    results_from_text,
-    self_contained,
-    verify_chunk,
-)
 from ninja_game.web.board.report import read_board
 from tests.support.samples import WALK, replay_of_walk
 from tools.soak.mutators import as_text

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pygame
 
-from ninja_game.play.tas.part import Part
+from ninja_game.play.tas.editor import TasPart
 from ninja_game.play.ui.theme import Theme
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 
-class Head(Part):
+class Head(TasPart):
     """The run's name and file, and whether it is saved."""
 
     slot = "head"
@@ -50,7 +50,7 @@ class Head(Part):
         theme.text(surface, words + seconds, right, 8, size=11, bold=True, colour=palette.on_tile, align="right")
 
 
-class Foot(Part):
+class Foot(TasPart):
     """Where the cursor is, what is selected, and a hint."""
 
     slot = "foot"

@@ -83,7 +83,7 @@ class LevelPointer:
         if button == pygame.BUTTON_MIDDLE:
             part.picture.camera.show_all()
         elif part.pointed is not None:
-            self._editor.ask_to_watch(proposal(part.pointed.id, KIND_NAMES.index(part.pointed.kind)))
+            part.ask_to_watch(proposal(part.pointed.id, KIND_NAMES.index(part.pointed.kind)))
 
     def _point(self, event: pygame.Event, at: Px) -> None:
         """Tell what is there; a click, or a drag, goes to the tick in which the ninja was nearest."""

@@ -18,8 +18,8 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Form
 from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen
 from ninja_game.play.tas.editor import OtherRun, TasEditor
-from ninja_game.play.tas.part import Commands
 from ninja_game.play.ui.widgets import Button, Widget
+from ninja_game.play.workspace.part import Commands
 from ninja_game.player.records import SavedReplay
 from ninja_game.tas.files import runs_of_level, same_level, track_of
 from ninja_game.tas.timeline import Timeline

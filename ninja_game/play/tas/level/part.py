@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pygame
 
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.replay.screen import SPEEDS
-from ninja_game.play.tas.controls import command_of
-from ninja_game.play.tas.editor import TasEditor
+from ninja_game.play.tas.controls import TABLE
+from ninja_game.play.tas.editor import TasEditor, TasPart
 from ninja_game.play.tas.level.mouse import LevelPointer
 from ninja_game.play.tas.level.other_runs import OtherRuns
 from ninja_game.play.tas.level.paths import (
@@ -25,23 +27,27 @@ from ninja_game.play.tas.level.picture import LevelPicture
 from ninja_game.play.tas.level.playing import Playing
 from ninja_game.play.tas.level.run_ghost import RunGhost
 from ninja_game.play.tas.level.take_over import TakeOver
-from ninja_game.play.tas.part import Commands, Part
 from ninja_game.play.tas.tabs.plot import colour_of
 from ninja_game.play.ui.canvas import Point
 from ninja_game.play.ui.theme import Theme
+from ninja_game.play.workspace.part import Commands
 from ninja_game.simulation import ObjectView
 
 LINE = 13.0
 """Height of what is written below the level, logical px."""
 
 
-class LevelPart(Part):
-    """The level, smaller than in the game. ``hover``: the tick to which a click goes; ``pointed``: the object there."""
+class LevelPart(TasPart):
+    """The level, smaller than in the game. ``hover``: the tick to which a click goes; ``pointed``: the object there.
+
+    ``ask_to_watch``: proposes a formula about it.
+    """
 
     slot = "level"
 
-    def __init__(self, editor: TasEditor) -> None:
+    def __init__(self, editor: TasEditor, ask_to_watch: Callable[[str], object]) -> None:
         super().__init__(editor)
+        self.ask_to_watch = ask_to_watch
         self.picture = LevelPicture(editor)
         self.playing = Playing(editor, self.picture)
         self.take_over = TakeOver(self.playing)
@@ -74,7 +80,7 @@ class LevelPart(Part):
 
     def meaning(self, event: InputEvent) -> str:
         """The command that an event means; '' for none."""
-        return self.take_over.meaning(event) if self.take_over.on else command_of(event)
+        return self.take_over.meaning(event) if self.take_over.on else TABLE.meaning(event)
 
     @property
     def ghosts(self) -> list[RunGhost]:

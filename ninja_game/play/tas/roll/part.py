@@ -7,8 +7,7 @@ from functools import partial
 import pygame
 
 from ninja_game.play.menus.panels import Menu
-from ninja_game.play.tas.editor import TasEditor
-from ninja_game.play.tas.part import Commands, Part
+from ninja_game.play.tas.editor import TasEditor, TasPart
 from ninja_game.play.tas.roll.bar import ScrollBar
 from ninja_game.play.tas.roll.columns import COLUMNS, RollLayout, layout_of
 from ninja_game.play.tas.roll.commands import RollCommands
@@ -17,12 +16,13 @@ from ninja_game.play.tas.roll.facts import row_facts
 from ninja_game.play.tas.roll.mouse import RollMouse
 from ninja_game.play.tas.roll.rows import RowSheet
 from ninja_game.play.ui.theme import Theme
+from ninja_game.play.workspace.part import Commands
 
 MARGIN = 4
 """The rows scroll with a cursor that moves in the first or the last of so many parts of the roll."""
 
 
-class Roll(Part):
+class Roll(TasPart):
     """One row per tick. ``top``: the first tick that is seen; ``hidden``: the names of columns that are not."""
 
     slot = "roll"

@@ -6,10 +6,10 @@ import pygame
 
 from ninja_game.play.menus.panels import Form, Question
 from ninja_game.play.tas.editor import TasEditor
-from ninja_game.play.tas.part import Commands
 from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button
+from ninja_game.play.workspace.part import Commands
 from ninja_game.tas.branches import Branch, Branches
 
 LONGEST = 60
@@ -63,7 +63,7 @@ class BranchesTab(Tab):
 
     def keep(self) -> None:
         """Keep the run as a branch, after asking for a name."""
-        self.editor.tab = self.name
+        self.editor.show_tab(self.name)
         session = self.editor.session
         end, outcome = session.timeline.end
         name = f"{outcome} {end}" if end >= 0 else f"branch {len(self.branches) + 1}"
@@ -86,7 +86,7 @@ class BranchesTab(Tab):
         """Show the lead over the chosen branch."""
         if self.chosen is not None:
             self.editor.against = self.branches.all[self.chosen].track
-            self.editor.tab = "Lead"
+            self.editor.show_tab("Lead")
 
     def rename(self) -> None:
         """Ask for another name."""

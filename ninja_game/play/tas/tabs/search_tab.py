@@ -10,11 +10,11 @@ import pygame
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.play.menus.panels import Menu
 from ninja_game.play.tas.editor import Span, TasEditor
-from ninja_game.play.tas.part import Commands
 from ninja_game.play.tas.tabs.span_results import SpanResults
 from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, EntryField, Rows, Tab, what_is_wrong
 from ninja_game.play.ui.theme import Area, Theme, wrapped
 from ninja_game.play.ui.widgets import Button, Choice
+from ninja_game.play.workspace.part import Commands
 from ninja_game.search.formula.language import FormulaError
 from ninja_game.search.formula.methods import fewest_ticks
 from ninja_game.search.formula.task import Found, SpanTask
@@ -98,7 +98,7 @@ class SearchTab(Tab):
     def ask(self) -> None:
         """Show this tab for the selected ticks, with the focus on the goal."""
         self.use_selection()
-        self.editor.tab = self.name
+        self.editor.show_tab(self.name)
         self.wants = self.goal
 
     def use_selection(self) -> None:

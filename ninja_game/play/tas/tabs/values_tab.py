@@ -7,14 +7,14 @@ import pygame
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.menus.panels import Form
 from ninja_game.play.tas.editor import TasEditor
-from ninja_game.play.tas.part import Commands
 from ninja_game.play.tas.tabs.object_list import ObjectList
 from ninja_game.play.tas.tabs.plot import TickRange, colour_of, draw_lane
 from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row, what_is_wrong
 from ninja_game.play.tas.tabs.watched import LANES, USUAL, Watched, shown_value, watched_values
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button
-from ninja_game.runs.splits import SPLIT_EVENTS
+from ninja_game.play.workspace.part import Commands
+from ninja_game.runs.compare import SPLIT_EVENTS
 from ninja_game.tas.watch import parse_watch
 
 LONGEST = 200
@@ -44,7 +44,6 @@ class ValuesTab(Tab):
         ]
         self._buttons = [Button(UNPLACED, text, action, hint=hint, size=SMALL) for text, action, hint in actions]
         self.widgets = [self.list, *self._buttons]
-        editor.ask_to_watch = self.ask
         self._made: tuple[object, ...] = ()
         self._cursor = 0
         self._grabbed: float | None = None
@@ -78,7 +77,7 @@ class ValuesTab(Tab):
 
     def ask(self, text: str = "") -> None:
         """Ask for a formula."""
-        self.editor.tab = self.name
+        self.editor.show_tab(self.name)
         fields = [("speed, x > 400, object_x(12) ...", text, LONGEST)]
         self.editor.app.push(Form(self.editor.app, "Watch a value", fields, "Watch", lambda texts: self.add(texts[0])))
 

@@ -17,7 +17,7 @@ from ninja_game.errors import FileError, FormatError
 from ninja_game.files.locking import lock
 from ninja_game.files.reading import what_it_is
 from ninja_game.formats.replay.text import RULES_VERSION
-from ninja_game.verification.chunks import Result, as_data, result_from_data
+from ninja_game.runs.chunks import Result, as_data, result_from_data
 
 HEADER = {"checkpoint-log": "ninja-game verify", "version": __version__, "rules": RULES_VERSION}
 

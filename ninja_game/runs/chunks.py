@@ -23,9 +23,9 @@ from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.recording_reader import Unreadable, recording_of_text, recordings_of, records_of, texts_in
 from ninja_game.runs.verify import NOT_RUN, Verdict, verify_recording
+from ninja_game.runs.workers import ClusterError
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import OUTCOME_NAMES
-from ninja_game.verification.workers import ClusterError
 
 RECORDS = 64
 """Records a chunk at most: enough that sending it is cheap beside running it."""

@@ -1,4 +1,4 @@
-"""What is between the parts of the TAS editor: a drag there gives one of them more room."""
+"""The splitters between the parts of the TAS editor: a drag gives one of them more room."""
 
 from __future__ import annotations
 
@@ -7,16 +7,17 @@ from contextlib import suppress
 
 import pygame
 
-from ninja_game.play.tas.editor import TasEditor
+from ninja_game.play.tas.editor import TasEditor, TasPart
 from ninja_game.play.tas.layout import LayoutPreferences, TasLayout, tas_canvas, tas_layout
-from ninja_game.play.tas.part import Commands, Part
 from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.widgets import Widget
+from ninja_game.play.workspace.part import Commands
 
 _TEXT_SCALES = (80, 90, 100, 110, 125, 140, 160, 180, 200, 240, 280, 320, 400)
 """Sizes of the letters that one can choose, percent."""
 
 
-class Borders(Part):
+class Splitters(TasPart):
     """``layout``: where everything is, once it ``fit``. ``parts``: what is to be placed.
 
     What was dragged, and the size of the letters, are settings.
@@ -24,7 +25,7 @@ class Borders(Part):
 
     layout: TasLayout
 
-    def __init__(self, editor: TasEditor, parts: Sequence[Part]) -> None:
+    def __init__(self, editor: TasEditor, parts: Sequence[TasPart]) -> None:
         super().__init__(editor)
         self._parts = parts
         self._known: tuple[object, ...] = ()
@@ -78,7 +79,7 @@ class Borders(Part):
         """Nothing."""
         return ()
 
-    def draw(self, surface: pygame.Surface, theme: Theme, *, whole: bool) -> list[pygame.Rect]:
+    def draw(self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool) -> list[pygame.Rect]:
         """Nothing: what is between the parts has been filled already."""
         return []
 

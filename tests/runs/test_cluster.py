@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
-from ninja_game.verification import verify_many as verification
-from ninja_game.verification.verify_many import verify_all, write_report
-from ninja_game.verification.workers import ClusterError
+from ninja_game.runs import archive as archives
+from ninja_game.runs.archive import verify_all, write_report
+from ninja_game.runs.workers import ClusterError
 from tests.support.samples import SPIKED, WALK, replay_of_walk, running, write_records
 
 distributed: Any = pytest.importorskip("distributed", reason="Dask distributed (extra 'cluster') is not installed")
@@ -48,7 +48,7 @@ def archive(tmp_path: Path) -> Path:
 def test_a_killed_worker_changes_nothing_in_the_report(
     cluster: Any, archive: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(verification, "JOB_WEIGHT", 2)
+    monkeypatch.setattr(archives, "JOB_WEIGHT", 2)
     here, there = BytesIO(), BytesIO()
     alone = list(write_report(verify_all([archive], memory="plain", jobs=1, processes=False), here))
     with distributed.Client(cluster.scheduler_address) as client:

@@ -1,4 +1,4 @@
-"""Verification at scale: any number of recordings, on all cores or a cluster, resumable, in constant memory.
+"""Archives: any number of recordings verified or traced, on all cores or a cluster, in order, in constant memory.
 
 >>> from pathlib import Path
 >>> from ninja_game.files.user_folder import data_folder
@@ -19,21 +19,20 @@ from contextlib import ExitStack
 from dataclasses import dataclass, field, replace
 from functools import partial
 from hashlib import sha256
-from itertools import chain
+from itertools import chain, islice
 from pathlib import Path
-from typing import IO, Any, TypeAlias
+from typing import IO, Any, NamedTuple, TypeAlias
 
 from ninja_game.backend.memories import choose_memory
 from ninja_game.batch.thread_pool import cores
 from ninja_game.budget import RUN_BUDGET
+from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.load import NamedLevel, load_levels
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
-from ninja_game.runs.recording_reader import Unreadable
-from ninja_game.runs.verify import judged
-from ninja_game.sim.level import Level
-from ninja_game.verification.checkpoint_log import CheckpointLog
-from ninja_game.verification.chunks import (
+from ninja_game.formats.recording import Recording
+from ninja_game.runs.checkpoint_log import CheckpointLog
+from ninja_game.runs.chunks import (
     Chunk,
     Result,
     chunks_as_text,
@@ -44,7 +43,12 @@ from ninja_game.verification.chunks import (
     self_contained,
     verify_chunk,
 )
-from ninja_game.verification.workers import ClusterError, WorkerLostError, Workers, in_order, workers
+from ninja_game.runs.recording_reader import Unreadable, recordings_in
+from ninja_game.runs.trace import trace_recording
+from ninja_game.runs.trace_files import FiledTrace
+from ninja_game.runs.verify import judged
+from ninja_game.runs.workers import ClusterError, WorkerLostError, Workers, in_order, workers
+from ninja_game.sim.level import Level
 
 JOB_WEIGHT = 64
 """Files or records a job."""
@@ -265,3 +269,70 @@ def write_report(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
         separator = b",\n"
         yield result
     out.write(b'\n], "summary": ' + json.dumps(tally.as_json()).encode() + b"}\n")
+
+
+TRACES = 32
+"""Recordings that a job traces: sending one costs more than a short run."""
+
+
+class Traced(NamedTuple):
+    """A trace, the file of its recording and the comment there."""
+
+    file: str
+    comment: str
+    trace: FiledTrace
+
+
+def trace_all(
+    paths: Iterable[Path],
+    *,
+    level: Level | None = None,
+    record: int | None = None,
+    jobs: int | None = None,
+    memory: str = "auto",
+    **options: Any,
+) -> Iterator[Traced | Unreadable]:
+    """A trace of every recording in files and folders, in order; what cannot be read is reported and stops nothing.
+
+    ``level``: what recordings that do not hold their level are played on; ``record``: only this one of each file.
+    ``jobs``: how many run at a time, by default one a core. ``memory`` and ``options`` as for ``trace_recording``.
+    """
+    found = recordings_in(paths, level)
+    rest = (item for item in found if record is None or isinstance(item, Unreadable) or item.record == record)
+    first = list(islice(rest, TRACES))
+    trace = partial(_trace, {"memory": memory, **options})
+    if len(first) < TRACES or jobs == 1:
+        # Few recordings are done before a second worker has started.
+        yield from map(trace, chain(first, rest))
+        return
+    # Compiled code leaves the interpreter's lock, plain code needs processes.
+    processes = choose_memory(memory) == "plain" or bool(options.get("events"))
+    with workers(jobs or cores(), processes=processes) as pool:
+        for job, results in in_order(pool, partial(_trace_job, trace), chain([first], _batches(rest))):
+            if isinstance(results, WorkerLostError):
+                yield Unreadable(f"{len(job)} recordings: {results}")
+            else:
+                yield from results
+
+
+def _batches(items: Iterator[Recording | Unreadable]) -> Iterator[list[Recording | Unreadable]]:
+    while batch := list(islice(items, TRACES)):
+        yield batch
+
+
+def _trace_job(
+    trace: Callable[[Recording | Unreadable], Traced | Unreadable], job: list[Recording | Unreadable]
+) -> list[Traced | Unreadable]:
+    return [trace(item) for item in job]
+
+
+def _trace(options: dict[str, Any], recording: Recording | Unreadable) -> Traced | Unreadable:
+    if isinstance(recording, Unreadable):
+        return recording
+    try:
+        run = trace_recording(recording, **options)
+    except NinjaGameError as error:
+        return Unreadable(str(error))
+    inputs = recording.replay.playback(len(run.ninja))
+    trace = FiledTrace(recording.record, recording.name, run, recording.file, inputs)
+    return Traced(recording.file, recording.comment, trace)

@@ -24,13 +24,10 @@ from ninja_game.files.beside import Beside
 from ninja_game.files.reading import files_below
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.runs.recording_reader import Unreadable, records_of
-from ninja_game.runs.verify import Verdict, judged
-from ninja_game.sim.level import Level
-from ninja_game.sim.loader import record_table
-from ninja_game.verification import verify_many as verification
-from ninja_game.verification.checkpoint_log import HEADER, CheckpointLog
-from ninja_game.verification.chunks import (
+from ninja_game.runs import archive as archives
+from ninja_game.runs.archive import Tally, verify_all, write_report
+from ninja_game.runs.checkpoint_log import HEADER, CheckpointLog
+from ninja_game.runs.chunks import (
     RECORDS,
     Chunk,
     Result,
@@ -43,8 +40,9 @@ from ninja_game.verification.chunks import (
     self_contained,
     verify_chunk,
 )
-from ninja_game.verification.verify_many import Tally, verify_all, write_report
-from ninja_game.verification.workers import (
+from ninja_game.runs.recording_reader import Unreadable, records_of
+from ninja_game.runs.verify import Verdict, judged
+from ninja_game.runs.workers import (
     JOB_SECONDS,
     WORKER_BYTES,
     ClusterError,
@@ -53,6 +51,8 @@ from ninja_game.verification.workers import (
     in_order,
     workers,
 )
+from ninja_game.sim.level import Level
+from ninja_game.sim.loader import record_table
 from tests.support.samples import (
     NO_NINJA,
     SPIKED,
@@ -119,7 +119,7 @@ def test_files_come_in_the_order_of_their_names_as_paths_have_it(archive: Path) 
 def test_results_do_not_depend_on_the_workers(
     options: dict[str, int], archive: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(verification, "JOB_WEIGHT", 2)
+    monkeypatch.setattr(archives, "JOB_WEIGHT", 2)
     options = {"processes": False, **options}
     assert list(verify_plainly([archive], **options)) == expected(archive)  # type: ignore[arg-type]
 
@@ -168,7 +168,7 @@ def test_a_folder_with_pipes_and_loops_is_verified_and_what_was_left_out_is_name
 def test_a_journal_lets_a_stopped_run_go_on_where_it_was(
     archive: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(verification, "JOB_WEIGHT", 1)
+    monkeypatch.setattr(archives, "JOB_WEIGHT", 1)
     path = tmp_path / "log"
     stopped = verify_plainly([archive], jobs=1, processes=False, resume=path)
     for _ in range(RECORDS + 3):
@@ -183,7 +183,7 @@ def test_a_journal_lets_a_stopped_run_go_on_where_it_was(
         ran.append(chunk.digest)
         return verify_chunk(chunk, *asked)
 
-    monkeypatch.setattr(verification, "verify_chunk", spy)
+    monkeypatch.setattr(archives, "verify_chunk", spy)
     assert list(verify_plainly([archive], jobs=1, processes=False, resume=path)) == expected(archive)
     assert len(ran) == 8 - done
     ran.clear()

@@ -14,11 +14,11 @@ from ninja_game.cli.main import cli
 from ninja_game.formats.load import NamedLevel, load_levels
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.recording import recording_of
+from ninja_game.runs.archive import verify_all
+from ninja_game.runs.chunks import Result
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.rules import LIFETIME
-from ninja_game.verification.chunks import Result
-from ninja_game.verification.verify_many import verify_all
 from tests.support.forgeries import (
     BELL,
     EASY,

@@ -13,8 +13,8 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.pack.pars import Pars
 from ninja_game.formats.replay.text import write_replay
+from ninja_game.runs.packs import lint
 from ninja_game.runs.run import record_replay
-from ninja_game.verification.pack_lint import lint
 from tests.support.own_pack import PACK
 
 FIRST = "00-0-first-steps"
