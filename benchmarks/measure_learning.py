@@ -19,14 +19,14 @@ from numpy.typing import NDArray
 
 from benchmarks.charts import Chart
 from benchmarks.measure_worlds import resident_bytes
-from ninja_game.batch.kernels import run_worlds
-from ninja_game.batch.worlds import make_worlds
+from ninja_game.backend.memories import open_worlds
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.levels import level_source
 from ninja_game.learn.single import NinjaEnv
 from ninja_game.learn.vector import NinjaVectorEnv
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED
 from ninja_game.sim.level import Level
+from ninja_game.sim.memory.kernels import run_worlds
 from ninja_game.simulation import Simulation
 
 FRAME_SKIP = 4
@@ -86,9 +86,8 @@ class Replay:
     """The same worlds through the same ticks by the bare kernel: all worlds, the ticks of one step a call."""
 
     def __init__(self, levels: Sequence[Level], begun: NDArray[np.intp]) -> None:
-        self._worlds = make_worlds("compiled", levels, len(begun), box=False)
+        self._worlds = open_worlds("compiled", levels, len(begun), box=False)
         self._kernel = self._worlds.kernel(run_worlds)
-        self._level_of = begun
         self._worlds.load(np.arange(len(begun)), begun)
         self._held = np.zeros(len(begun), np.uint8)
         self.seconds = 0.0
@@ -101,11 +100,10 @@ class Replay:
             rows = np.repeat(down[np.newaxis], FRAME_SKIP, axis=0)
             rows[0] |= np.where((down & JUMP_HELD).astype(bool) & (self._held == 0), JUMP_PRESSED, 0).astype(np.uint8)
             self._held = down & JUMP_HELD
-            where = self._worlds.maps, self._level_of, self._worlds.worlds
+            where = self._worlds.maps, self._worlds.level_of, self._worlds.worlds
             start = time.process_time()
             ticks += self._kernel(*where, rows, 0, len(down), 1)
             self.seconds += time.process_time() - start
-            self._level_of[over] = fresh
             self._held[over] = 0
             self._worlds.load(over, fresh)
         return ticks

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.learn.actions import ACTION_NAMES, DISCRETE_KEYS
-from ninja_game.learn.observations.state_vector import FIELDS, StateVector
+from ninja_game.learn.observations.vectors import FIELDS, StateVector
 from ninja_game.learn.worlds import EnvState, EnvWorlds
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import OUTCOME_EXIT, OUTCOME_RUNNING

@@ -26,13 +26,11 @@ from examples.starts import Starts
 from ninja_game.errors import NinjaGameError
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.levels import LevelSource, level_source
-from ninja_game.learn.observations.guide import Guide
-from ninja_game.learn.observations.local_tiles import LocalTiles
-from ninja_game.learn.observations.near_objects import KIND_NAMES, NearObjects
+from ninja_game.learn.observations.objects import KIND_NAMES, NearObjects
 from ninja_game.learn.observations.observation import Observation
 from ninja_game.learn.observations.part import Part
-from ninja_game.learn.observations.rays import Rays
-from ninja_game.learn.observations.state_vector import StateVector
+from ninja_game.learn.observations.surroundings import LocalTiles, Rays
+from ninja_game.learn.observations.vectors import Guide, StateVector
 from ninja_game.learn.rewards import DistanceShaping, ExitReward
 from ninja_game.learn.sticky import StickyActions
 from ninja_game.learn.worlds import EnvWorlds

@@ -18,10 +18,12 @@
 
 from __future__ import annotations
 
+from copy import deepcopy
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
-from ninja_game.backend.memories import open_memory
+from ninja_game.backend.memories import open_worlds
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.digest import differences, replay_digest, world_digest
 from ninja_game.sim.events import EVENT_NAMES
@@ -29,6 +31,7 @@ from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, KEY_LEFT, KEY_RIGHT, pres
 from ninja_game.sim.kinds import KIND_OF
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import BODIES, Body, MemoryName
+from ninja_game.sim.memory.plain import tile_map
 from ninja_game.sim.memory.schema import Event, TileMap, World
 from ninja_game.sim.states import CAUSE_NAMES, NO_CAUSE, OUTCOME_NAMES, STATE_NAMES
 
@@ -118,9 +121,12 @@ class Simulation:
     def __init__(self, level: Level, *, body: Body = "circle", memory: str = "plain") -> None:
         self.level = level
         self.body = body
-        self._memory = open_memory(memory, level, box=is_box(body))
+        self._worlds = open_worlds(memory, level, box=is_box(body))
         self._inputs = bytearray()
         self._kills: list[tuple[int, int, float, float]] = []
+
+    def __copy__(self) -> Simulation:
+        return deepcopy(self)
 
     def __repr__(self) -> str:
         return f"<Simulation in tick {self.tick}: {self.outcome}, {self.gold} gold, {self.body}, {self.memory}>"
@@ -128,17 +134,17 @@ class Simulation:
     @property
     def memory(self) -> MemoryName:
         """Which memory it is."""
-        return self._memory.name
+        return self._worlds.name
 
     @property
     def world(self) -> World:
         """The whole state as plain objects; of the plain memory the world itself, of the compiled one a copy."""
-        return self._memory.world()
+        return self._worlds.world()
 
-    @property
+    @cached_property
     def tiles(self) -> TileMap:
         """The level as the rules see it: tile ids by grid index."""
-        return self._memory.tiles
+        return tile_map(self.level)
 
     # --- time ---
 
@@ -146,18 +152,18 @@ class Simulation:
         """Start afresh from the loaded level, as at first."""
         self._inputs.clear()
         self._kills.clear()
-        self._memory.load()
+        self._worlds.load([0], [0])
 
     def step(self, *, left: bool = False, right: bool = False, jump: bool = False) -> None:
         """Advance one tick with these keys down. The jump triggers in the first sampled tick in which it is down."""
         down = (KEY_LEFT if left else 0) + (KEY_RIGHT if right else 0) + (JUMP_HELD if jump else 0)
-        self.step_keys(pressed(down, self._memory.jump_held) if jump else down)
+        self.step_keys(pressed(down, self._worlds.jump_held()) if jump else down)
 
     def step_keys(self, keys: int) -> None:
         """Advance one tick with these keys, a sum of ``Input`` flags. Raises ArgumentError for anything else."""
         if not 0 <= keys <= ALL_KEYS:
             raise ArgumentError(f"keys are {keys!r}; expected a sum of Input flags, 0 to {ALL_KEYS}")
-        self._memory.step(keys)
+        self._worlds.step(keys)
         self._inputs.append(keys)
 
     def kill(self, cause: int, dx: float, dy: float) -> None:
@@ -168,7 +174,7 @@ class Simulation:
         """
         if not 0 <= cause < len(CAUSE_NAMES):
             raise ArgumentError(f"cause is {cause!r}; expected 0 to {len(CAUSE_NAMES) - 1}, as in sim/states.py")
-        self._memory.kill(cause, dx, dy)
+        self._worlds.kill(cause, dx, dy)
         self._kills.append((self.tick, cause, dx, dy))
 
     # --- looking ---
@@ -176,52 +182,52 @@ class Simulation:
     @property
     def tick(self) -> int:
         """Ticks run so far."""
-        return self._memory.tick
+        return self._worlds.number("tick")
 
     @property
     def outcome(self) -> str:
         """The outcome: "exit" or "dead"; "running" while neither has."""
-        return OUTCOME_NAMES[self._memory.outcome]
+        return OUTCOME_NAMES[self._worlds.number("outcome")]
 
     @property
     def gold(self) -> int:
         """Pieces of gold collected."""
-        return self._memory.gold
+        return self._worlds.number("gold")
 
     @property
     def ninja(self) -> NinjaView:
         """The ninja."""
-        n = self._memory.ninja()
+        n = self._worlds.ninja()
         return NinjaView(n.x, n.y, n.prev_x, n.prev_y, STATE_NAMES[n.state], bool(n.in_air), bool(n.near_wall))
 
     @property
     def objects(self) -> list[ObjectView]:
         """All objects but ninjas and inert ones, in id order."""
-        return [seen for seen in map(self._seen, range(self._memory.id_count)) if seen]
+        return [seen for seen in map(self._seen, range(self._worlds.number("id_count"))) if seen]
 
     def object(self, id_: int) -> ObjectView:
         """One object by its id. Raises ArgumentError for an id that no object has, of a ninja or an inert object."""
-        seen = self._seen(id_) if 0 <= id_ < self._memory.id_count else None
+        seen = self._seen(id_) if 0 <= id_ < self._worlds.number("id_count") else None
         if seen is None:
             raise ArgumentError(f"there is no object {id_!r}; ids are those of the list 'objects'")
         return seen
 
     def _seen(self, id_: int) -> ObjectView | None:
         """The object of an id; None for a ninja or an inert object."""
-        kind, x, y, status = self._memory.observe(id_ + 1)
+        kind, x, y, status = self._worlds.observe(id_ + 1)
         return ObjectView(id_, KIND_OF[kind].name, x, y, status) if KIND_OF[kind].traced else None
 
     @property
     def events(self) -> list[EventView]:
         """What happened in the last tick, in order."""
-        return [_event_view(event) for event in self._memory.events()]
+        return [_event_view(event) for event in self._worlds.events()]
 
     # --- save-states and digests ---
 
     def save(self) -> SaveState:
         """This moment, to come back to. The state is never changed by later steps."""
         return SaveState(
-            self.level, self.body, self.memory, bytes(self._inputs), self._memory.save(), tuple(self._kills)
+            self.level, self.body, self.memory, bytes(self._inputs), self._worlds.save(), tuple(self._kills)
         )
 
     def restore(self, state: SaveState) -> None:
@@ -230,7 +236,7 @@ class Simulation:
             raise ArgumentError("this save-state is of another level, body or memory")
         self._inputs = bytearray(state.inputs)
         self._kills = list(state.kills)
-        self._memory.restore(state.data)
+        self._worlds.restore(state.data)
 
     def digest(self) -> str:
         """Sha256 (hex) of the whole state in canonical form: the same for both memories, not for other versions."""

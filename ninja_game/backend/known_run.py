@@ -10,13 +10,12 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable
 from hashlib import sha256
-from typing import Any
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.sim.level import TILES, Level, ObjectSpec
-from ninja_game.sim.memory.interface import Memory
+from ninja_game.sim.memory.interface import Worlds
 
 DIGEST = "a9b523980fd14511af830676f2ff771f63e63377f06c53930c18638b709954e3"
 """Of all runs, on every machine; `python3 tools/dev.py golden` writes it where a rule is meant to change."""
@@ -43,7 +42,7 @@ class KnownRunError(NinjaGameError):
     """The known run does not end as it must: nothing that this process computes can be believed."""
 
 
-def check_known_run(open_world: Callable[[Level, bool], Memory], memory: str) -> None:
+def check_known_run(open_world: Callable[[Level, bool], Worlds], memory: str) -> None:
     """Raises KnownRunError unless the known run ends as it must.
 
     ``open_world``: a new world in a level, with the box or not; ``memory``: what messages call it.
@@ -56,12 +55,12 @@ def check_known_run(open_world: Callable[[Level, bool], Memory], memory: str) ->
         )
 
 
-def known_digest(open_world: Callable[[Level, bool], Memory]) -> str:
+def known_digest(open_world: Callable[[Level, bool], Worlds]) -> str:
     """The digest of the known runs: of the ninja's places, and of all that the worlds show at the end."""
     level = Level(tuple(n % 34 * (n % 7 == 0) for n in range(TILES)), tuple(ObjectSpec(k, (*v,)) for k, *v in _OBJECTS))
     digest = sha256()
     for number in range(RUNS):
-        world: Any = open_world(level, number == RUNS - 1)
+        world = open_world(level, number == RUNS - 1)
         places = world.run(_keys(number)).places
         digest.update(struct.pack(f"<{len(places)}d", *places))
         digest.update(replay_digest(world.world()).encode())

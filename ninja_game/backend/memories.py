@@ -6,7 +6,7 @@ Before the first compiled world of a process is loaded, a known run must come ou
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache, partial
 from importlib.util import find_spec
 from threading import Lock
@@ -16,9 +16,9 @@ from ninja_game.backend.known_run import check_known_run
 from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.files.resources import how_to_install
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.interface import Memory, MemoryName
+from ninja_game.sim.memory.interface import MemoryName, Worlds
 from ninja_game.sim.memory.kernels import load_world
-from ninja_game.sim.memory.plain import PlainMemory
+from ninja_game.sim.memory.plain import PlainWorlds
 
 if TYPE_CHECKING:
     from ninja_game.sim.memory.compiler import Compiler
@@ -59,19 +59,20 @@ def choose_memory(memory: str) -> MemoryName:
     raise ArgumentError(f"memory is {memory!r}; expected 'plain', 'compiled' or 'auto'")
 
 
-def open_memory(memory: str, level: Level, *, box: bool) -> Memory:
-    """A new world in a level, in the memory of that name (as ``choose_memory`` takes it).
+def open_worlds(memory: str, levels: Level | Sequence[Level], count: int = 1, *, box: bool) -> Worlds:
+    """``count`` new worlds in one level or several, in the memory of that name (as ``choose_memory`` takes it).
 
     "checked" is the compiled memory where each index is checked: one out of range is an IndexError.
     Raises LevelError for a level that cannot be played, what ``choose_memory`` and ``compiled`` raise.
     """
+    several = [levels] if isinstance(levels, Level | str) else levels
     if choose_memory(memory) == "plain":
-        return PlainMemory(level, box=box)
-    make = partial(compiled, checked=memory == "checked")
+        return PlainWorlds(several, count, box=box)
+    make = partial(compiled, checked=True) if memory == "checked" else compiled
     make(load_world)  # the first time this imports Numba, which must come before NumPy
-    from ninja_game.sim.memory.compiled import CompiledMemory
+    from ninja_game.sim.memory.compiled import CompiledWorlds
 
-    return CompiledMemory(make, level, box=box)
+    return CompiledWorlds(make, several, count, box=box)
 
 
 def proven_memory(memory: str) -> str:
@@ -88,7 +89,7 @@ def proven_memory(memory: str) -> str:
 
 @cache
 def _prove_plain() -> None:
-    check_known_run(lambda level, box: PlainMemory(level, box=box), "plain")
+    check_known_run(lambda level, box: PlainWorlds([level], box=box), "plain")
 
 
 def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[..., R]:
@@ -103,9 +104,9 @@ def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[...,
         with _LOCK:
             make = _compiler(checked)
             if entry is load_world and (entry, checked) not in _KERNELS:
-                from ninja_game.sim.memory.compiled import CompiledMemory
+                from ninja_game.sim.memory.compiled import CompiledWorlds
 
-                check_known_run(lambda level, box: CompiledMemory(make, level, box=box), "compiled")
+                check_known_run(lambda level, box: CompiledWorlds(make, [level], box=box), "compiled")
             kernel = _KERNELS[entry, checked] = make(entry)
     return kernel
 

@@ -18,20 +18,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import deepcopy
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ninja_game.backend.memories import choose_memory
-from ninja_game.batch.thread_pool import cores
-from ninja_game.batch.worlds import Numbers, make_worlds
+from ninja_game.backend.memories import open_worlds
+from ninja_game.batch.thread_pool import cores, thread_pool
 from ninja_game.errors import ArgumentError
 from ninja_game.sim.digest import state_digest, world_digest
 from ninja_game.sim.inputs import ALL_KEYS, JUMP_HELD, JUMP_PRESSED, KEYS_DOWN
 from ninja_game.sim.kinds import KINDS
 from ninja_game.sim.level import Level
+from ninja_game.sim.memory.compiled import SLICE
 from ninja_game.sim.memory.declare import fields_of
 from ninja_game.sim.memory.layout import Records
 from ninja_game.sim.memory.schema import World
@@ -39,6 +41,9 @@ from ninja_game.sim.states import OUTCOME_NAMES
 from ninja_game.simulation import Body, is_box
 
 __all__ = ["OBJECT_FIELDS", "OUTCOME_NAMES", "Batch", "BatchState"]
+
+Numbers = NDArray[np.intp]
+"""Indices of worlds or levels."""
 
 WorldChoice: TypeAlias = int | slice | Sequence[int] | Sequence[bool] | NDArray[np.intp] | NDArray[np.bool_] | None
 """Worlds: by number, a slice of numbers, or one truth value for each world; None: all of them."""
@@ -96,20 +101,28 @@ class Batch:
             raise ArgumentError(f"{count} worlds in {len(self.levels)} levels; expected at least one of each")
         self.count = count
         self.body = body
-        self.memory = choose_memory(memory)
         self.threads = threads or cores()
-        self._worlds = make_worlds(self.memory, self.levels, count, box=is_box(body))
-        self._levels_now: Numbers = np.arange(count, dtype=np.intp) % len(self.levels)
-        self._look()
-        self.reset()
+        self._worlds = open_worlds(memory, self.levels, count, box=is_box(body))
+        self.memory = self._worlds.name
+        self._make_views()
 
     def __repr__(self) -> str:
         return f"<Batch of {self.count} worlds in {len(self.levels)} levels, {self.body}, {self.memory}>"
 
-    def _look(self) -> None:
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: vars(self)[name] for name in ("levels", "count", "body", "threads", "_worlds", "memory")}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        vars(self).update(state)
+        self._make_views()
+
+    def __copy__(self) -> Batch:
+        return deepcopy(self)
+
+    def _make_views(self) -> None:
         """Make the views, which can only be read."""
         self.records: Records = self._worlds.records.view()
-        self.levels_now: Numbers = self._levels_now.view()
+        self.levels_now: Numbers = np.asarray(self._worlds.level_of).view()
         self.records.flags.writeable = self.levels_now.flags.writeable = False
         ninja = self.records["ninja"]
         self.positions = pairs(ninja["x"])
@@ -156,7 +169,16 @@ class Batch:
             raise ArgumentError(f"inputs are {rows.min()} to {rows.max()}; expected sums of Input, 0 to {ALL_KEYS}")
         # Writable, since a kernel is compiled again for arrays that can only be read.
         keys = np.require(rows, np.uint8, ["C", "W"])
-        return self._worlds.run(self._pressed(keys) if press else keys, self._levels_now, stop, self.threads)
+        keys = self._pressed(keys) if press else keys
+        worlds, ticks = self._worlds, 0
+        # The interpreter has one lock; and between calls of a kernel Python sees Ctrl-C.
+        pool = thread_pool(self.threads if self.memory == "compiled" else 1)
+        at_once = max(1, 8 * SLICE // (worlds.slots * self.count))
+        for begin in range(0, len(keys), at_once):
+            part = keys[begin : begin + at_once]
+            work = partial(worlds.run_rows, part, stop=stop)
+            ticks += pool.share(work, self.count, len(part))
+        return ticks
 
     def _pressed(self, keys: NDArray[np.uint8]) -> NDArray[np.uint8]:
         """The keys with JUMP_PRESSED in every tick in which the jump key goes down, and in no other."""
@@ -170,25 +192,22 @@ class Batch:
     def reset(self, worlds: WorldChoice = None, levels: WorldChoice = None) -> None:
         """Start worlds afresh, in the levels that they have or in those given."""
         numbers = numbers_of(worlds, self.count, "worlds")
-        if levels is not None:
-            chosen = numbers_of(levels, len(self.levels), "levels")
-            if len(chosen) not in (1, len(numbers)):
-                raise ArgumentError(f"{len(chosen)} levels for {len(numbers)} worlds; expected one, or one for each")
-            self._levels_now[numbers] = chosen
-        self._worlds.load(numbers, self._levels_now[numbers])
+        chosen = self.levels_now[numbers] if levels is None else numbers_of(levels, len(self.levels), "levels")
+        if len(chosen) not in (1, len(numbers)):
+            raise ArgumentError(f"{len(chosen)} levels for {len(numbers)} worlds; expected one, or one for each")
+        self._worlds.load(numbers.tolist(), np.broadcast_to(chosen, numbers.shape).tolist())
 
     def save(self, worlds: WorldChoice = None) -> BatchState:
         """The states of worlds, to come back to."""
         numbers = numbers_of(worlds, self.count, "worlds")
-        return BatchState(self._levels_now[numbers], self._worlds.save(numbers), self._owner())
+        return BatchState(self.levels_now[numbers], self._worlds.save_many(numbers), self._owner())
 
     def restore(self, state: BatchState, worlds: WorldChoice = None) -> None:
         """Put saved states into worlds, the same or others, as many. Raises ArgumentError if they do not fit."""
         numbers = numbers_of(worlds, self.count, "worlds")
         if state.owner != self._owner() or len(state.levels) != len(numbers):
             raise ArgumentError(f"{len(state.levels)} saved worlds do not fit {len(numbers)} of this batch")
-        self._levels_now[numbers] = state.levels
-        self._worlds.restore(numbers, state.states, state.levels)
+        self._worlds.restore_many(state.states, numbers, state.levels)
 
     def copy(self, sources: WorldChoice, targets: WorldChoice) -> None:
         """Make worlds ``targets`` what worlds ``sources`` are, as many."""

@@ -18,83 +18,51 @@ except ModuleNotFoundError:
 
 if TYPE_CHECKING:
     from ninja_game.learn.demonstrations import (
-        Demonstration,
-        UnplayableRecordingError,
-        demonstration,
-        write_minari,
-        write_npz,
+        Demonstration as Demonstration,
+        UnplayableRecordingError as UnplayableRecordingError,
+        demonstration as demonstration,
+        write_minari as write_minari,
+        write_npz as write_npz,
     )
-    from ninja_game.learn.evaluation import Evaluation, LevelResult, evaluate
-    from ninja_game.learn.levels.curriculum import Curriculum
-    from ninja_game.learn.levels.origins import generated_levels, level_source
-    from ninja_game.learn.levels.source import LevelSource
-    from ninja_game.learn.observations.guide import Guide
-    from ninja_game.learn.observations.level_planes import LevelPlanes
-    from ninja_game.learn.observations.local_tiles import LocalTiles
-    from ninja_game.learn.observations.near_objects import NearObjects
-    from ninja_game.learn.observations.pixels import Pixels
-    from ninja_game.learn.observations.rays import Rays
-    from ninja_game.learn.observations.state_vector import StateVector
-    from ninja_game.learn.observations.time_left import TimeLeft
-    from ninja_game.learn.rewards import DeathPenalty, DistanceShaping, ExitReward, GoldReward, TimePenalty
-    from ninja_game.learn.single import NinjaEnv
-    from ninja_game.learn.sticky import StickyActions
-    from ninja_game.learn.vector import NinjaVectorEnv
-    from ninja_game.learn.worlds import EnvWorlds
+    from ninja_game.learn.evaluation import Evaluation as Evaluation, LevelResult as LevelResult, evaluate as evaluate
+    from ninja_game.learn.levels.curriculum import Curriculum as Curriculum
+    from ninja_game.learn.levels.origins import generated_levels as generated_levels, level_source as level_source
+    from ninja_game.learn.levels.source import LevelSource as LevelSource
+    from ninja_game.learn.observations.objects import LevelPlanes as LevelPlanes, NearObjects as NearObjects
+    from ninja_game.learn.observations.pixels import Pixels as Pixels
+    from ninja_game.learn.observations.surroundings import LocalTiles as LocalTiles, Rays as Rays
+    from ninja_game.learn.observations.vectors import Guide as Guide, StateVector as StateVector, TimeLeft as TimeLeft
+    from ninja_game.learn.rewards import (
+        DeathPenalty as DeathPenalty,
+        DistanceShaping as DistanceShaping,
+        ExitReward as ExitReward,
+        GoldReward as GoldReward,
+        TimePenalty as TimePenalty,
+    )
+    from ninja_game.learn.single import NinjaEnv as NinjaEnv
+    from ninja_game.learn.sticky import StickyActions as StickyActions
+    from ninja_game.learn.vector import NinjaVectorEnv as NinjaVectorEnv
+    from ninja_game.learn.worlds import EnvWorlds as EnvWorlds
 
 _NAMES = {
-    "demonstrations": ("Demonstration", "UnplayableRecordingError", "demonstration", "write_minari", "write_npz"),
-    "evaluation": ("Evaluation", "LevelResult", "evaluate"),
-    "levels.curriculum": ("Curriculum",),
-    "levels.origins": ("generated_levels", "level_source"),
-    "levels.source": ("LevelSource",),
-    "observations.guide": ("Guide",),
-    "observations.level_planes": ("LevelPlanes",),
-    "observations.local_tiles": ("LocalTiles",),
-    "observations.near_objects": ("NearObjects",),
-    "observations.pixels": ("Pixels",),
-    "observations.rays": ("Rays",),
-    "observations.state_vector": ("StateVector",),
-    "observations.time_left": ("TimeLeft",),
-    "rewards": ("DeathPenalty", "DistanceShaping", "ExitReward", "GoldReward", "TimePenalty"),
-    "single": ("NinjaEnv",),
-    "sticky": ("StickyActions",),
-    "vector": ("NinjaVectorEnv",),
-    "worlds": ("EnvWorlds",),
+    "demonstrations": "Demonstration UnplayableRecordingError demonstration write_minari write_npz",
+    "evaluation": "Evaluation LevelResult evaluate",
+    "levels.curriculum": "Curriculum",
+    "levels.origins": "generated_levels level_source",
+    "levels.source": "LevelSource",
+    "observations.objects": "LevelPlanes NearObjects",
+    "observations.pixels": "Pixels",
+    "observations.surroundings": "LocalTiles Rays",
+    "observations.vectors": "Guide StateVector TimeLeft",
+    "rewards": "DeathPenalty DistanceShaping ExitReward GoldReward TimePenalty",
+    "single": "NinjaEnv",
+    "sticky": "StickyActions",
+    "vector": "NinjaVectorEnv",
+    "worlds": "EnvWorlds",
 }
-_HOMES = {name: f"ninja_game.learn.{module}" for module, names in _NAMES.items() for name in names}
+_HOMES = {name: f"ninja_game.learn.{module}" for module, names in _NAMES.items() for name in names.split()}
 
-__all__ = [
-    "Curriculum",
-    "DeathPenalty",
-    "Demonstration",
-    "DistanceShaping",
-    "EnvWorlds",
-    "Evaluation",
-    "ExitReward",
-    "GoldReward",
-    "Guide",
-    "LevelPlanes",
-    "LevelResult",
-    "LevelSource",
-    "LocalTiles",
-    "NearObjects",
-    "NinjaEnv",
-    "NinjaVectorEnv",
-    "Pixels",
-    "Rays",
-    "StateVector",
-    "StickyActions",
-    "TimeLeft",
-    "TimePenalty",
-    "UnplayableRecordingError",
-    "demonstration",
-    "evaluate",
-    "generated_levels",
-    "level_source",
-    "write_minari",
-    "write_npz",
-]
+__all__ = list(_HOMES)
 
 
 ENVIRONMENTS: dict[str, dict[str, Any]] = {

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.batch.worlds import Numbers
+from ninja_game.batch.batch import Numbers
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.levels import LevelChoice, LevelSource
 

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from ninja_game.backend.memories import choose_memory
-from ninja_game.batch.worlds import Numbers, make_worlds
+from ninja_game.backend.memories import open_worlds
+from ninja_game.batch.batch import Numbers
 from ninja_game.learn.observations.part import Ragged, Setting, clamp
 from ninja_game.search.heuristics import POINTS, Heuristics, point_at
 from ninja_game.search.switches import open_bits
@@ -55,9 +55,7 @@ class GoalDistance:
     def _heuristics(self, number: int) -> Heuristics:
         """The fields of a level, which any memory makes alike: the fastest does."""
         if number not in self._made:
-            one = np.zeros(1, np.intp)
-            alone = make_worlds(choose_memory("auto"), [self._levels[number]], 1, box=False)
-            alone.load(one, one)
+            alone = open_worlds("auto", self._levels[number], box=False)
             self._made[number] = Heuristics(alone.maps, alone.records)
         return self._made[number]
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.batch.worlds import Numbers
+from ninja_game.batch.batch import Numbers
 from ninja_game.learn.goal_distance import FARTHEST, GoalDistance
 from ninja_game.learn.rewards import DistanceShaping
 

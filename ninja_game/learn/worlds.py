@@ -13,16 +13,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.backend.memories import choose_memory
-from ninja_game.batch.batch import WorldChoice, numbers_of
+from ninja_game.backend.memories import open_worlds
+from ninja_game.batch.batch import Numbers, WorldChoice, numbers_of
 from ninja_game.batch.thread_pool import cores, thread_pool
-from ninja_game.batch.worlds import Numbers, make_worlds
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import Keys
 from ninja_game.learn.draws import LevelSequences
@@ -106,8 +106,8 @@ class EnvWorlds:
         self.source = level_source(level)
         self.levels = self.source.levels
         self.count, self.body, self.frame_skip, self.time_limit = count, body, frame_skip, time_limit
-        self.memory, self.threads = choose_memory(memory), threads or cores()
-        self._worlds = make_worlds(self.memory, self.levels, count, box=is_box(body))
+        self._worlds = open_worlds(memory, self.levels, count, box=is_box(body))
+        self.memory, self.threads = self._worlds.name, threads or cores()
         self._changed = np.ones(count, np.bool_)
         fresh = [load_plain(level, is_box(body)) for level in self.levels]
         setting = Setting(self._worlds, fresh, self._changed, time_limit, self.memory == "compiled")
@@ -123,7 +123,7 @@ class EnvWorlds:
         self._advance = self._worlds.kernel(advance_worlds)
         self._everyone: Numbers = np.arange(count, dtype=np.intp)
         self._levels = LevelSequences(self.source, count)
-        self.levels_now: Numbers = np.zeros(count, np.intp)
+        self.levels_now: Numbers = np.asarray(self._worlds.level_of)
         self.rewards = np.zeros(count)
         self._facts = np.zeros((5, count), np.int64).T
         self.outcomes, self.ticks, self.gold, self.events, _ = self._facts.T
@@ -132,7 +132,23 @@ class EnvWorlds:
         # What the kernels take, first and last.
         self._places = (self._worlds.maps, self.levels_now, self._worlds.worlds)
         self._episodes = (frame_skip, time_limit, weights, self.rewards, self._facts, self._changed)
+        self._settings: dict[str, Any] = {
+            "level": self.source, "count": count, "observation": self.observation.parts, "flat": flat, "reward": terms,
+            "frame_skip": frame_skip, "time_limit": time_limit, "goal_distance": goal_distance, "body": body,
+            "memory": self.memory, "threads": threads,
+        }  # fmt: skip
         self.reset()
+
+    def __copy__(self) -> EnvWorlds:
+        return deepcopy(self)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _made_with, (self._settings,), (self.save(), self._levels, self._facts, self.rewards)
+
+    def __setstate__(self, state: tuple[EnvState, LevelSequences, NDArray[np.int64], NDArray[np.float64]]) -> None:
+        saved, self._levels, facts, rewards = state
+        self.restore(saved)
+        self._facts[:], self.rewards[:] = facts, rewards
 
     # --- time ---
 
@@ -200,8 +216,7 @@ class EnvWorlds:
         self._conclude()
 
     def _restart(self, numbers: Numbers, levels: LevelChoice | None = None) -> None:
-        self.levels_now[numbers] = self._levels.next(numbers, levels)
-        self._worlds.load(numbers, self.levels_now[numbers])
+        self._worlds.load(numbers.tolist(), self._levels.next(numbers, levels).tolist())
         self._facts[numbers] = 0
         self._look(numbers, None)
 
@@ -219,7 +234,7 @@ class EnvWorlds:
         """The states of worlds and of their episodes, to come back to."""
         numbers = numbers_of(worlds, self.count, "worlds")
         starts = self.goal.start[numbers] if self.goal else np.zeros(len(numbers))
-        saved = self._worlds.save(numbers), starts, self._facts[numbers]
+        saved = self._worlds.save_many(numbers), starts, self._facts[numbers]
         return EnvState(self.levels_now[numbers], *saved, self._owner())
 
     def restore(self, state: EnvState, worlds: WorldChoice = None) -> None:
@@ -230,8 +245,7 @@ class EnvWorlds:
         numbers = numbers_of(worlds, self.count, "worlds")
         if state.owner != self._owner() or len(state.levels) != len(numbers):
             raise ArgumentError(f"{len(state.levels)} saved worlds do not fit {len(numbers)} of these")
-        self.levels_now[numbers] = state.levels
-        self._worlds.restore(numbers, state.states, state.levels)
+        self._worlds.restore_many(state.states, numbers, state.levels)
         self._facts[numbers] = state.facts
         self._facts[numbers, EVENTS] = 0
         self._look(numbers, state.starts)
@@ -247,3 +261,8 @@ class EnvWorlds:
 
     def _owner(self) -> tuple[Any, ...]:
         return self.levels, self.body, self.memory, self.time_limit, self.goal is not None
+
+
+def _made_with(settings: dict[str, Any]) -> EnvWorlds:
+    """A function of its own, so that a copy has copies of the settings too: a source of levels may learn."""
+    return EnvWorlds(**settings)

@@ -11,16 +11,13 @@ import pygame
 from ninja_game.files.resources import data_folder
 from ninja_game.files.shown_text import shown_text
 from ninja_game.formats.recording import Recording
-from ninja_game.play.audio.output import AudioOutput
-from ninja_game.play.audio.player import AudioPlayer
+from ninja_game.play.audio.player import AudioOutput, AudioPlayer
 from ninja_game.play.boss import BossScreen
 from ninja_game.play.clipboard import write_export
-from ninja_game.play.input.bindings import Bindings
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import Bindings, InputEvent
 from ninja_game.play.screen import Screen, ScreenStack
 from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.palette import PALETTES, palette_named
-from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.theme import PALETTES, Theme, palette_named
 from ninja_game.play.window import Window, save_picture
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import Settings

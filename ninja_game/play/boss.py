@@ -6,7 +6,7 @@ from random import Random
 
 import pygame
 
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.screen import Screen
 from ninja_game.play.window import TITLE
 

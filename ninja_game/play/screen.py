@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.theme import Area, Theme
 

@@ -12,7 +12,7 @@ import pygame
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.writing import write_atomically
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
-from ninja_game.play.ui.palette import PALETTES
+from ninja_game.play.ui.theme import PALETTES
 from ninja_game.player.settings import Settings
 
 TITLE = "ninja-game"

@@ -15,7 +15,7 @@ from array import array
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from ninja_game.backend.memories import open_memory
+from ninja_game.backend.memories import open_worlds
 from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
@@ -120,22 +120,22 @@ def run_level(
     is not, ArgumentError for another body or memory, BudgetError for a run that is not over when its budget is.
     """
     check_inputs(inputs)
-    world = open_memory(memory, level, box=is_box(body))
+    world = open_worlds(memory, level, box=is_box(body))
     most = min(len(inputs), affordable_ticks(level, budget))
     records: list[RunRecord] = []
     in_time = True
-    while world.tick < most and not world.outcome:
+    while world.tick() < most and not world.outcome():
         # Up to the tick at which the lifetime would run out without more gold; nothing else can be too late.
-        deadline = LIFETIME + GOLD_BONUS * world.gold
-        in_time = in_time and world.tick < deadline
-        records.append(world.run(inputs[world.tick : min(most, deadline) if in_time else most]))
-    if not world.outcome and most < len(inputs):
+        deadline = LIFETIME + GOLD_BONUS * world.gold()
+        in_time = in_time and world.tick() < deadline
+        records.append(world.run(inputs[world.tick() : min(most, deadline) if in_time else most]))
+    if not world.outcome() and most < len(inputs):
         raise over_budget(level, len(inputs), budget)
-    in_time = in_time and world.tick - bool(world.outcome) < LIFETIME + GOLD_BONUS * world.gold
+    in_time = in_time and world.tick() - bool(world.outcome()) < LIFETIME + GOLD_BONUS * world.gold()
     places = _little_endian(array("d", b"".join(_bytes(each.places) for each in records))).tobytes()
     states = b"".join(_bytes(each.states) for each in records)
     end = replay_digest(world.world()) if digest else ""
-    return RunResult(OUTCOME_NAMES[world.outcome], world.gold, places, states, in_time, end)
+    return RunResult(OUTCOME_NAMES[world.outcome()], world.gold(), places, states, in_time, end)
 
 
 def _little_endian(numbers: array[float]) -> array[float]:

@@ -15,7 +15,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.backend.memories import open_memory
+from ninja_game.backend.memories import open_worlds
 from ninja_game.budget import NO_LIMIT, RUN_BUDGET, affordable_ticks, over_budget
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.recording import Recording
@@ -127,24 +127,24 @@ def _trace(
 ) -> RunTrace:
     """The trace of all inputs, or of those up to ``after`` ticks behind the first exit contact or death."""
     check_inputs(inputs)
-    world = open_memory(memory, level, box=is_box(body))
-    kinds = [world.observe(id_ + 1)[0] for id_ in range(world.id_count)] if with_objects else []
+    world = open_worlds(memory, level, box=is_box(body))
+    kinds = [world.observe(id_ + 1)[0] for id_ in range(world.number("id_count"))] if with_objects else []
     ids = tuple(id_ for id_, kind in enumerate(kinds) if KIND_OF[kind].traced)
     end, most, at_once = len(inputs), affordable_ticks(level, budget), BLOCK if after is not None else MAX_TICKS
     blocks: list[TraceRecord] = []
     over = after is None
-    while world.tick < end:
-        if world.tick == most or (over and end > most):
+    while world.tick() < end:
+        if world.tick() == most or (over and end > most):
             raise over_budget(level, end, budget)
-        block = inputs[world.tick : min(end, most, world.tick + at_once)]
-        if (world.tick + len(block)) * len(ids) > MAX_CELLS:
-            found = f"{world.tick + len(block)} ticks of {len(ids)} objects"
+        block = inputs[world.tick() : min(end, most, world.tick() + at_once)]
+        if (world.tick() + len(block)) * len(ids) > MAX_CELLS:
+            found = f"{world.tick() + len(block)} ticks of {len(ids)} objects"
             raise ArgumentError(f"the trace is too large: {found}; leave the objects out, or trace fewer ticks")
         blocks.append(world.trace(block, [id_ + 1 for id_ in ids], events=events))
-        if not over and world.outcome:
+        if not over and world.outcome():
             over = True
             last = int(np.argmax(ninja_columns(blocks[-1])["outcome"] != 0))
-            end = min(end, world.tick - len(block) + last + 1 + (after or 0))
+            end = min(end, world.tick() - len(block) + last + 1 + (after or 0))
     names = tuple(KIND_NAMES[kinds[id_]] for id_ in ids)
     ninja = [_ninja_rows(record) for record in blocks] or [np.empty(0, NINJA_RECORD)]
     objects = [object_rows(record, len(ids)) for record in blocks] or [np.empty((0, len(ids)), OBJECT_RECORD)]

@@ -123,7 +123,7 @@ class SpanSearches:
         factor = self._delay_factor * (1.15 if early else 0.8 if late else 1.0)
         self._delay_factor = min(max(factor, LEAST_DELAY_FACTOR), MOST_DELAY_FACTOR)
         found = search.best()
-        # A press is there where the key goes down; joined parts need it anew.
+        # A press is there where the key goes down; joined parts need it again.
         return with_press_bits(self._inputs[:first] + found) if found else None
 
 

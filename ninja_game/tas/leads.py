@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.input_runs import Marker
-from ninja_game.runs.comparison import Comparison, compare_runs, each_second
+from ninja_game.runs.compare import Comparison, compare_runs, each_second
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 _NAMES = {

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.backend.memories import open_memory
+from ninja_game.backend.memories import open_worlds
 from ninja_game.budget import tick_cost
 from ninja_game.errors import ArgumentError
 from ninja_game.runs.save_states import SaveStates
@@ -70,11 +70,11 @@ class Timeline:
 
     def __init__(self, level: Level, inputs: bytes, *, body: Body = "circle", memory: str = "auto") -> None:
         self.level, self.body = level, body
-        self._memory = open_memory(memory, level, box=is_box(body))
-        self.memory = self._memory.name
-        self._seen = [self._memory.observe(id_ + 1) for id_ in range(self._memory.id_count)]
+        self._worlds = open_worlds(memory, level, box=is_box(body))
+        self.memory = self._worlds.name
+        self._seen = [self._worlds.observe(id_ + 1) for id_ in range(self._worlds.number("id_count"))]
         self.watched: tuple[int, ...] = ()
-        self._states: SaveStates[Any] = SaveStates(0, self._memory.save(), values=tick_cost(level))
+        self._states: SaveStates[Any] = SaveStates(0, self._worlds.save(), values=tick_cost(level))
         self._columns: dict[str, NDArray[Any]] = {
             **{name: np.zeros(0) for name in TRACED_PLACES},
             **{name: np.zeros(0, np.int32) for name in TRACED_NUMBERS},
@@ -131,12 +131,12 @@ class Timeline:
         first = self._states.nearest(self.simulated_until)[0]
         while self.simulated_until < stop:
             start, state = self._states.nearest(self.simulated_until)
-            if self._memory.tick != start or start == first:
-                self._memory.restore(state)
+            if self._worlds.tick() != start or start == first:
+                self._worlds.restore(state)
             end = min(stop, start + max(1, self._states.spacing))
             self._run(start, end)
             if self._states.wants(end):
-                self._states.keep(end, self._memory.save())
+                self._states.keep(end, self._worlds.save())
         return self.complete
 
     def ensure(self, tick: int) -> None:
@@ -147,7 +147,7 @@ class Timeline:
     def _run(self, first: int, last: int) -> None:
         """Simulate the ticks ``first`` … ``last`` - 1 and note what they show."""
         inputs = fitted_inputs(self.inputs[first:last], last - first)
-        record = self._memory.trace(inputs, [id_ + 1 for id_ in self.watched], events=True)
+        record = self._worlds.trace(inputs, [id_ + 1 for id_ in self.watched], events=True)
         for name, values in ninja_columns(record).items():
             self._columns[name][first:last] = values
         watched, objects = self._objects[first:last], object_rows(record, len(self.watched))
@@ -199,7 +199,6 @@ class Timeline:
 
     @property
     def exits(self) -> list[tuple[float, float]]:
-        """Where the exits are, px."""
         return [(x, y) for kind, x, y, _ in self._seen if kind == EXIT]
 
     @property

@@ -15,7 +15,7 @@ from ninja_game.budget import PAGE_BUDGET
 from ninja_game.errors import BudgetError, NinjaGameError
 from ninja_game.formats.links.fragment import is_link, watched
 from ninja_game.play.app import App
-from ninja_game.play.input.scancodes import scancode_named
+from ninja_game.play.input.keys import scancode_named
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main import first_screen, watch_screen

@@ -9,7 +9,7 @@ from click.testing import CliRunner
 
 from ninja_game.backend import known_run, memories
 from ninja_game.backend.known_run import DIGEST, KnownRunError, known_digest
-from ninja_game.backend.memories import compiled_available, open_memory, proven_memory
+from ninja_game.backend.memories import compiled_available, open_worlds, proven_memory
 from ninja_game.cli.main import cli
 from ninja_game.sim.kinds import VALUE_COUNTS
 from ninja_game.sim.level import Level, ObjectSpec
@@ -28,7 +28,7 @@ def as_at_the_start(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.parametrize("memory", [*BOTH, pytest.param("checked", marks=BOTH[1].marks)])
 def test_the_known_run_has_its_digest_on_every_memory(memory: str) -> None:
     """After a change of a rule that is meant, `python3 tools/dev.py golden` writes the digest again."""
-    assert known_digest(lambda level, box: open_memory(memory, level, box=box)) == DIGEST
+    assert known_digest(lambda level, box: open_worlds(memory, level, box=box)) == DIGEST
 
 
 def test_the_known_run_has_every_kind_of_object() -> None:
@@ -62,7 +62,7 @@ def test_a_command_that_cannot_be_sure_says_so_and_ends(
 @pytest.mark.usefixtures("as_at_the_start")
 def test_the_checked_and_the_quick_kernels_live_side_by_side() -> None:
     level = Level(objects=(ObjectSpec(5, (100.0, 100.0)),))
-    quick, checked, plain = (open_memory(memory, level, box=False) for memory in ("compiled", "checked", "plain"))
+    quick, checked, plain = (open_worlds(memory, level, box=False) for memory in ("compiled", "checked", "plain"))
     keys = bytes([2] * 50)
     runs = [[bytes(memoryview(part)) for part in memory.run(keys)] for memory in (quick, checked, plain)]
     assert runs[0] == runs[1] == runs[2]

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from benchmarks.arena import RADIUS, brute_pairs, brute_queries, five_cell_pairs, loose_build, loose_move, loose_queries
 from benchmarks.normal_grid import normal_build, normal_move, normal_queries

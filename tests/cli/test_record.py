@@ -100,7 +100,7 @@ def test_demos_go_to_inputs_of_tools_and_back(form: str, suffix: str, tmp_path: 
 
 
 def test_an_included_file_is_sent_along_to_other_machines(idea: Path) -> None:
-    from ninja_game.verification.chunks import chunks_in, self_contained, verify_chunk
+    from ninja_game.runs.chunks import chunks_in, self_contained, verify_chunk
 
     (idea.parent / "part.txt").write_text("R*50\n")
     idea.write_text(LOOSE.replace("R*50", "include part.txt"))

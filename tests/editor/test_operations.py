@@ -5,11 +5,10 @@ from __future__ import annotations
 from itertools import product
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
+from ninja_game.document import History
 from ninja_game.editor.draft import Draft, Tiles
-from ninja_game.editor.history import History
 from ninja_game.editor.motion import CLOCKWISE, FLIP, HALF_TURN, MIRROR, SYMMETRIES, Motion
 from ninja_game.editor.records import (
     PROPERTIES,

@@ -7,8 +7,7 @@ import math
 import time
 
 import pytest
-from hypothesis import example, given, settings
-from hypothesis import strategies as st
+from hypothesis import example, given, settings, strategies as st
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.ascii.legend import SYMBOLS, TILE_CHARS, visible_parts

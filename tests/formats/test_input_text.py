@@ -8,8 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from ninja_game import ReplayError, parse_level, parse_replay, write_replay
 from ninja_game.formats.lines import numbered_lines

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from ninja_game.errors import LevelError
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file, write_level_file

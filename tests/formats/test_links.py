@@ -14,8 +14,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from ninja_game.errors import FormatError, LinkError, NinjaGameError
 from ninja_game.files.resources import bundled_levels, bundled_replays, data_folder
@@ -44,8 +43,7 @@ from ninja_game.formats.pack.files import PackFiles, is_pack
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.verify import verify_recording
-from tests.support.reference import levels as levels_of_reference
-from tests.support.reference import recordings, require_reference
+from tests.support.reference import levels as levels_of_reference, recordings, require_reference
 
 LEVEL = parse_level_string("1" * 23 + "0" * 690 + "|5^60,564!11^708,540,396,540!0^396.1000000001,NaN")
 LINK = level_link(LEVEL, name="a <b>hill</b>", author='"us" & them', comment="x\ny")

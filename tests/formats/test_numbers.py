@@ -9,8 +9,7 @@ from collections.abc import Iterator
 from decimal import Decimal
 
 import pytest
-from hypothesis import example, given
-from hypothesis import strategies as st
+from hypothesis import example, given, strategies as st
 
 from ninja_game.formats import numbers
 from ninja_game.formats.numbers import format_exact, format_number, parse_number

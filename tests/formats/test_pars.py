@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from ninja_game.errors import PackError
 from ninja_game.formats.pack.pars import MARGINS, Pars, parse_pars, write_pars

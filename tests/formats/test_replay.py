@@ -7,8 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from ninja_game.errors import DemoError, ReplayError
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string

@@ -16,8 +16,8 @@ from gymnasium.wrappers import (
     RecordEpisodeStatistics,
     RenderCollection,
     TimeLimit,
+    vector as vector_wrappers,
 )
-from gymnasium.wrappers import vector as vector_wrappers
 
 from ninja_game.learn import ENVIRONMENTS
 from ninja_game.learn.single import NinjaEnv

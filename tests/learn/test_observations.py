@@ -6,23 +6,18 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from ninja_game import Level, parse_level
 from ninja_game.backend.memories import compiled_available
 from ninja_game.errors import ArgumentError
 from ninja_game.learn.actions import DISCRETE_KEYS
-from ninja_game.learn.observations.guide import DIRECTIONS, Guide
-from ninja_game.learn.observations.level_planes import PLANES, LevelPlanes
-from ninja_game.learn.observations.local_tiles import LocalTiles
-from ninja_game.learn.observations.near_objects import COLUMNS, NearObjects
+from ninja_game.learn.observations.objects import OBJECT_COLUMNS, PLANES, LevelPlanes, NearObjects
 from ninja_game.learn.observations.observation import PARTS, Observation
 from ninja_game.learn.observations.part import Part
 from ninja_game.learn.observations.pixels import SHADES, SOLID_SHADE, Pixels
-from ninja_game.learn.observations.rays import Rays
-from ninja_game.learn.observations.state_vector import FIELDS, StateVector
-from ninja_game.learn.observations.time_left import TimeLeft
+from ninja_game.learn.observations.surroundings import LocalTiles, Rays
+from ninja_game.learn.observations.vectors import DIRECTIONS, FIELDS, Guide, StateVector, TimeLeft
 from ninja_game.learn.worlds import EnvWorlds
 from ninja_game.sim.kinds import DOOR, GOLD
 from tests.support.learning import FLOOR, LEVELS, playable_levels, random_actions, same
@@ -134,14 +129,14 @@ def test_rays_end_at_walls_and_closed_doors() -> None:
 def test_near_objects_are_the_nearest_that_are_left_with_what_they_do() -> None:
     level = parse_level(FLOOR + "|5^100,566!0^120,566!8^400,100,1!11^700,566,650,566!2^100,400,0,-1")
     rows = seen(level, NearObjects(8, normalised=False))
-    found = [dict(zip(COLUMNS, row.tolist(), strict=True)) for row in rows]
-    names = [next((name for name in COLUMNS if each[name] == 1.0), "") for each in found]
+    found = [dict(zip(OBJECT_COLUMNS, row.tolist(), strict=True)) for row in rows]
+    names = [next((name for name in OBJECT_COLUMNS if each[name] == 1.0), "") for each in found]
     assert names == ["gold", "launch pad", "exit switch", "thwump", "exit", "", "", ""]
     assert (found[0]["dx"], found[1]["face_y"], found[3]["face_y"], found[3]["moment"]) == (20.0, -1.0, 1.0, 0.0)
     later = seen(level, NearObjects(1, normalised=False), [2, 2, 2, 2])
-    assert later[0, COLUMNS.index("launch pad")] == 1.0
+    assert later[0, OBJECT_COLUMNS.index("launch pad")] == 1.0
     only = seen(level, NearObjects(2, kinds=("thwump",)))
-    assert only[:, COLUMNS.index("thwump")].tolist() == [1.0, 0.0]
+    assert only[:, OBJECT_COLUMNS.index("thwump")].tolist() == [1.0, 0.0]
 
 
 def test_planes_show_what_is_there() -> None:

@@ -16,8 +16,8 @@ from ninja_game import load_level, record_replay
 from ninja_game.errors import ArgumentError
 from ninja_game.files.resources import bundled_levels
 from ninja_game.learn import ENVIRONMENTS
-from ninja_game.learn.observations.local_tiles import LocalTiles
 from ninja_game.learn.observations.observation import PARTS
+from ninja_game.learn.observations.surroundings import LocalTiles
 from ninja_game.learn.rewards import REWARD_TERMS
 from ninja_game.learn.single import NinjaEnv
 from ninja_game.sim.events import EVENT_NAMES

@@ -111,7 +111,7 @@ def test_saved_worlds_go_on_in_other_worlds_as_they_would_have(memory: str) -> N
 
 @pytest.mark.parametrize("normalised", [True, False])
 def test_observations_stay_in_their_space(normalised: bool) -> None:
-    from ninja_game.learn.observations.state_vector import StateVector
+    from ninja_game.learn.observations.vectors import StateVector
 
     worlds = make(3, observation=StateVector(normalised=normalised))
     worlds.reset(levels=[0, 1, 2])

@@ -14,8 +14,8 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.levels.warnings import level_warnings
+from ninja_game.runs.packs import make_pars
 from ninja_game.sim.kinds import GOLD
-from ninja_game.verification.pack_checks import make_pars
 
 OURS = Pack(data_folder("levels"))
 LEVELS = OURS.files.levels

@@ -11,7 +11,7 @@ import pytest
 
 from ninja_game.files.resources import data_folder
 from ninja_game.formats.pack.pack import Pack
-from ninja_game.verification.verify_many import Tally, verify_all
+from ninja_game.runs.archive import Tally, verify_all
 from tests.support.memories import BOTH
 from tools.measure.level_figures import alike, common_motifs
 from tools.measure.level_reference import ROWS

@@ -13,7 +13,7 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App, build_app
-from ninja_game.play.audio.output import AudioOutput
+from ninja_game.play.audio.player import AudioOutput
 from ninja_game.play.boss import BossScreen
 from ninja_game.play.main import first_screen, main, run_app
 from ninja_game.play.menus.pause import PausePanel

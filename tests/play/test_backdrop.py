@@ -9,10 +9,10 @@ import pytest
 
 from ninja_game.formats.load import load_replays
 from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.palette import CLASSIC
+from ninja_game.play.ui.theme import CLASSIC
 from ninja_game.play.view.sprites.backdrop import Backdrop
+from ninja_game.play.view.sprites.drawing import SpriteBook
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
-from ninja_game.play.view.sprites.sprite_book import SpriteBook
 from ninja_game.sim.events import EXIT_OPENED
 from ninja_game.sim.kinds import SWITCH
 from ninja_game.simulation import Simulation

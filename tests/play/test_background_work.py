@@ -13,7 +13,7 @@ from ninja_game.editor.background import NewestJob
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.load import load_replays
 from ninja_game.play.editor import session as editor_session
-from ninja_game.play.replay import film_job
+from ninja_game.play.replay import film
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.tas import opening
 from ninja_game.play.tas.tabs import lead_tab
@@ -90,7 +90,7 @@ def test_a_film_that_cannot_be_made_can_be_tried_again(
 ) -> None:
     screen = ReplayScreen(driver.app, [load_replays(RUN)[0]])
     driver.app.push(screen)
-    monkeypatch.setattr(film_job, "Film", raising(why))
+    monkeypatch.setattr(film, "Film", raising(why))
     for _ in range(2):
         driver.app.notify("")
         driver.press("e")
@@ -133,7 +133,7 @@ def test_runs_that_cannot_be_compared_say_why(tmp_path: Path, why: str, monkeypa
     monkeypatch.setattr(lead_tab, "lead_table", raising(why))
     at = TasDriver(tmp_path, RUN)
     try:
-        at.screen.show_tab(at.screen.tabs[2])
+        at.editor.show_tab("Lead")
         until(at, lambda: at.screen.tabs[2].summary not in ("", "comparing ..."))  # type: ignore[attr-defined]
         assert at.screen.tabs[2].summary == why  # type: ignore[attr-defined]
     finally:

@@ -10,10 +10,8 @@ import pytest
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.glyphs import GLYPHS
 from ninja_game.play.ui.lettering import Lettering
-from ninja_game.play.ui.palette import CLASSIC
 from ninja_game.play.ui.stroke_font import StrokeFont, glyph
-from ninja_game.play.ui.text_layout import wrapped
-from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.theme import CLASSIC, Theme, wrapped
 
 
 @pytest.fixture(autouse=True)

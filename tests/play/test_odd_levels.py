@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.play.ui.palette import PALETTES
+from ninja_game.play.ui.theme import PALETTES
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import OVERLAY_ACTIONS, Overlays
 from ninja_game.play.view.render_context import OffscreenContext

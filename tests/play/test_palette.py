@@ -6,12 +6,10 @@ import pygame
 import pytest
 
 from ninja_game.play.level.hud import trough
-from ninja_game.play.ui.palette import CLASSIC, PALETTES, ROLES, Palette, palette_named
-from ninja_game.play.view.effects import particle_shapes
-from ninja_game.play.view.sprites import moving_sprites as moving
-from ninja_game.play.view.sprites import static_sprites as static
-from ninja_game.play.view.sprites.drawing import Drawing, SpriteKey
-from ninja_game.play.view.sprites.sprite_book import SpriteBook
+from ninja_game.play.ui.theme import CLASSIC, PALETTES, ROLES, Palette, palette_named
+from ninja_game.play.view.effects import particles
+from ninja_game.play.view.sprites import moving_sprites as moving, static_sprites as static
+from ninja_game.play.view.sprites.drawing import Drawing, SpriteBook, SpriteKey
 from ninja_game.player.settings import DEFAULT_PALETTE, Settings
 
 AT_REST = (
@@ -78,11 +76,11 @@ def test_every_drawing_can_be_made(palette: Palette) -> None:
         *AT_REST, static.gold(), static.one_way(), static.exit_door(5), static.exit_switch(1), static.door(2, 0),
         static.door_switch(1, 0), static.launch_pad(3), static.launcher_base(2), static.crosshair(3),
         static.gold_streak(2), static.lightning(1), moving.bounce_block(1), moving.barrel(1, 4), moving.eye(2),
-        moving.rocket(1), moving.flame(3), moving.impact_burst(4), particle_shapes.puff("dust", 3, 1),
-        particle_shapes.fireball(2, 1), particle_shapes.burst_star(3), particle_shapes.muzzle(1),
+        moving.rocket(1), moving.flame(3), moving.impact_burst(4), particles.puff("dust", 3, 1),
+        particles.fireball(2, 1), particles.burst_star(3), particles.muzzle(1),
     )  # fmt: skip
     all_drawings = {
-        value for module in (static, moving, particle_shapes) for value in vars(module).values()
+        value for module in (static, moving, particles) for value in vars(module).values()
         if isinstance(value, Drawing)
     }  # fmt: skip
     assert {key.drawing for key in examples} == all_drawings

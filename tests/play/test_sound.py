@@ -13,8 +13,16 @@ import pygame
 import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.play.audio.player import AudioPlayer, _has_loop
-from ninja_game.play.audio.table import BY_DEATH, BY_EVENT, CORPSE, LOOPS, OTHER_DEATH, loop_levels
+from ninja_game.play.audio.player import (
+    BY_DEATH,
+    BY_EVENT,
+    CORPSE,
+    LOOPS,
+    OTHER_DEATH,
+    AudioPlayer,
+    _has_loop,
+    loop_levels,
+)
 from ninja_game.sim import states
 from ninja_game.sim.events import DIED, EVENT_NAMES
 from ninja_game.sim.kinds import DRONE, FLOOR_GUARD, LAUNCHER

@@ -8,10 +8,9 @@ from pathlib import Path
 import pygame
 import pytest
 
-from ninja_game.play.input.scancodes import SCANCODES
+from ninja_game.play.input.keys import SCANCODES
 from ninja_game.play.menus.panels import Form
-from ninja_game.play.ui.edited_text import EditedText
-from ninja_game.play.ui.text_entry import TextEntry
+from ninja_game.play.ui.text_entry import EditedText, TextEntry
 from tests.support.menu_driver import MenuDriver
 
 CTRL, SHIFT, ALT = pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT, pygame.KMOD_RALT

@@ -8,9 +8,7 @@ from pathlib import Path
 from unittest.mock import Mock
 
 import pytest
-from hypothesis import given
-from hypothesis import settings as hypothesis_settings
-from hypothesis import strategies as st
+from hypothesis import given, settings as hypothesis_settings, strategies as st
 
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import MOST_INPUTS, RULES, Settings

@@ -13,7 +13,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game import run_level
-from ninja_game.backend.memories import open_memory
+from ninja_game.backend.memories import open_worlds
 from ninja_game.budget import PAGE_BUDGET, RUN_BUDGET, affordable_ticks, tick_cost
 from ninja_game.cli.main import cli
 from ninja_game.errors import BudgetError
@@ -23,17 +23,16 @@ from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
-from ninja_game.runs import comparison
-from ninja_game.runs.comparison import aligned
+from ninja_game.runs import compare
+from ninja_game.runs.compare import aligned, run_splits
 from ninja_game.runs.run import record_replay
-from ninja_game.runs.splits import run_splits
 from ninja_game.runs.trace import Difference, first_difference, trace_level, trace_recording
 from ninja_game.runs.verify import verify_recording
 from ninja_game.search.certificate import named_run, save_replay, verified_run
 from ninja_game.sim.inputs import MAX_DEMO_TICKS, Demo
 from ninja_game.sim.kinds import NO_KIND
 from ninja_game.sim.level import Level, ObjectSpec
-from ninja_game.sim.memory.interface import Memory
+from ninja_game.sim.memory.interface import Worlds
 from ninja_game.web.services import PageServices
 from tests.support.heavy import heavy_level
 from tests.support.memories import BOTH
@@ -142,15 +141,15 @@ def test_the_costliest_run_takes_seconds_of_the_processor(tmp_path: Path) -> Non
 @pytest.fixture
 def ticks_run(monkeypatch: pytest.MonkeyPatch) -> Callable[[], int]:
     """How many ticks have been simulated for whole runs and traces."""
-    opened: list[Memory] = []
+    opened: list[Worlds] = []
 
-    def opening(*words: Any, **options: Any) -> Memory:
-        opened.append(open_memory(*words, **options))
+    def opening(*words: Any, **options: Any) -> Worlds:
+        opened.append(open_worlds(*words, **options))
         return opened[-1]
 
     for module in ("run", "trace"):
-        monkeypatch.setattr(f"ninja_game.runs.{module}.open_memory", opening)
-    return lambda: sum(memory.tick for memory in opened)
+        monkeypatch.setattr(f"ninja_game.runs.{module}.open_worlds", opening)
+    return lambda: sum(memory.tick() for memory in opened)
 
 
 GOLD_AT_THE_START = "0" * 713 + "|5^100,566!0^104,566!0^108,566"
@@ -191,7 +190,7 @@ def test_the_run_of_a_search_is_verified_and_written_by_running_it_once(
 
 def test_runs_of_very_different_lengths_are_not_compared_place_by_place(monkeypatch: pytest.MonkeyPatch) -> None:
     np = pytest.importorskip("numpy")
-    monkeypatch.setattr(comparison, "MAX_TOGETHER", 100)
+    monkeypatch.setattr(compare, "MAX_TOGETHER", 100)
     assert aligned(np.zeros((90, 2)), np.zeros((10, 2))).tolist()[-1] == 9
     with pytest.raises(Exception, match="runs of 91 and 10 ticks are too long"):
         aligned(np.zeros((91, 2)), np.zeros((10, 2)))

@@ -7,16 +7,23 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from ninja_game import ArgumentError, parse_level
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording, parse_replays
 from ninja_game.formats.replay.text import Replay
-from ninja_game.runs.comparison import NEAR, aligned, compare_runs, each_second
+from ninja_game.runs.compare import (
+    NEAR,
+    aligned,
+    best_run,
+    compare_runs,
+    each_second,
+    run_splits,
+    split_table,
+    sum_of_best,
+)
 from ninja_game.runs.run import run_level
-from ninja_game.runs.splits import best_run, run_splits, split_table, sum_of_best
 from tests.support.samples import SPIKED, WALK_END, replay_of_walk
 
 LEVEL = "0" * 713 + "|5^100,566!11^200,564,170,564!0^140,566"

@@ -31,7 +31,7 @@ from ninja_game.search.states import key_of
 from ninja_game.search.switches import open_mask
 from ninja_game.search.tour import short_tour
 from ninja_game.sim.inputs import KEY_RIGHT, with_press_bits
-from ninja_game.sim.memory.plain import PlainMemory
+from ninja_game.sim.memory.plain import PlainWorlds
 from tests.support.own_fields import own_fields_only
 
 OPEN = "0" * 713 + "|"
@@ -90,7 +90,7 @@ def test_what_is_open_is_read_from_the_fields_that_exits_and_doors_have() -> Non
         "0" * 713
         + "|5^100,566!11^700,300,140,566!11^600,300,400,300!9^160,566,0,0,10,23,1,0,0!9^220,566,0,1,10,23,0,0,0"
     )
-    world = PlainMemory(parse_level_string(text), box=False)
+    world = PlainWorlds([parse_level_string(text)], box=False)
     heuristics = heuristics_of(text)
     with own_fields_only():
         assert open_mask(world.world(), heuristics.slots) == 0
@@ -201,7 +201,7 @@ def key_after(text: str, ticks: int, resolution: Resolution) -> int:
     level = parse_level_string(text)
     start = open_start(level, box=False)
     goal = Search(start, Heuristics(start.levels, start.worlds), nodes=100).goal
-    memory = PlainMemory(level, box=False)
+    memory = PlainWorlds([level], box=False)
     for _ in range(ticks):
         memory.step(0)
     return key_of(memory.world(), goal, 0, 0, resolution)
@@ -233,7 +233,7 @@ def test_a_tour_heeds_what_lies_only_downhill() -> None:
 
 
 def test_of_two_runs_to_the_exit_in_the_same_tick_the_deeper_one_scores_better() -> None:
-    world = PlainMemory(parse_level_string(OPEN + "5^100,300!11^400,300,200,300"), box=False).world()
+    world = PlainWorlds([parse_level_string(OPEN + "5^100,300!11^400,300,200,300")], box=False).world()
     exit_ = next(o for o in world.objects if o.kind == EXIT)
     exit_.is_open = 1
     world.tick = 100

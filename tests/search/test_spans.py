@@ -7,7 +7,7 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.plain import PlainMemory
+from ninja_game.sim.memory.plain import PlainWorlds
 
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
@@ -38,7 +38,7 @@ def never(_: int) -> bool:
 
 def test_a_moment_of_the_run_is_noted_and_is_most_like_itself() -> None:
     run = searches(bytes([2] * 300)).run._replace(place_price=1.2, speed_price=8.0)
-    memory, ticks = PlainMemory(LEVEL, box=False), len(run.keys)
+    memory, ticks = PlainWorlds([LEVEL], box=False), len(run.keys)
     for tick in range(ticks):
         w = memory.world()
         n = w.ninja
@@ -51,7 +51,7 @@ def test_a_moment_of_the_run_is_noted_and_is_most_like_itself() -> None:
 
 def test_what_lacks_gold_or_is_far_from_the_run_is_not_like_it() -> None:
     with_gold, without = searches(gold=1), searches()
-    w = PlainMemory(LEVEL, box=False).world()
+    w = PlainWorlds([LEVEL], box=False).world()
     w.tick = 100
     w.ninja.x = float(with_gold.run.moves[100][0])
     assert nearest(with_gold.run, w, 0) == (-1, UNREACHED)

@@ -6,8 +6,7 @@ import math
 from functools import cache
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from ninja_game import parse_level, run_level
 from ninja_game.backend.memories import compiled_available
@@ -15,7 +14,7 @@ from ninja_game.backend.numba_import import import_numba
 from ninja_game.errors import LevelError
 from ninja_game.sim.kinds import GOLD, NINJA
 from ninja_game.sim.level import TILES, Level, ObjectSpec
-from ninja_game.sim.memory.compiled import CompiledMemory
+from ninja_game.sim.memory.compiled import CompiledWorlds
 from ninja_game.sim.memory.compiler import Compiler
 from ninja_game.simulation import Simulation
 from tests.support.memories import BOTH
@@ -78,5 +77,5 @@ tiles = st.lists(st.integers(-5, 50), min_size=TILES, max_size=TILES).map(tuple)
 def test_no_hostile_level_leads_out_of_bounds(
     ids: tuple[int, ...], records: list[ObjectSpec], keys: bytes, box: bool
 ) -> None:
-    world = CompiledMemory(checked(), Level(ids, (NINJA_SPEC, *records)), box=box)
+    world = CompiledWorlds(checked(), [Level(ids, (NINJA_SPEC, *records))], box=box)
     world.run(bytes(key & 15 for key in keys))

@@ -15,16 +15,16 @@ import pytest
 from ninja_game.formats.ascii.legend import SYMBOLS
 from ninja_game.formats.ascii.object_forms import FORMS
 from ninja_game.levels.picture import COLOURS
-from ninja_game.play.audio.table import BY_DEATH, BY_EVENT, OTHER_DEATH
-from ninja_game.play.view.sprites.draw_moving import PAINTERS
-from ninja_game.play.view.sprites.static_sprite_state import static_sprites_of
+from ninja_game.play.audio.player import BY_DEATH, BY_EVENT, OTHER_DEATH
+from ninja_game.play.view.sprites.moving_sprites import PAINTERS
+from ninja_game.play.view.sprites.static_sprites import static_sprites_of
 from ninja_game.player.statistics import KILLERS
 from ninja_game.sim import events, kinds
 from ninja_game.sim.death import idle_event
 from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.kinds import INERT, KINDS, NINJA, NO_KIND, Kind
 from ninja_game.sim.memory.object_fields import Header, Object
-from ninja_game.sim.memory.plain import PlainMemory
+from ninja_game.sim.memory.plain import PlainWorlds
 from ninja_game.sim.objects import dispatch
 from ninja_game.sim.traces import is_traced, status_of
 from tests.support.crowded import crowded_inputs, crowded_level
@@ -126,8 +126,8 @@ def test_what_a_trace_shows_of_a_kind_is_documented(kind: Kind) -> None:
 
 @pytest.mark.parametrize("seed", range(12))
 def test_rules_and_traces_read_only_fields_that_an_object_s_kind_has(seed: int) -> None:
-    memory = PlainMemory(crowded_level(seed), box=bool(seed % 2))
-    slots = [slot for slot in range(1, memory.id_count + 1) if is_traced(memory.world(), slot)]
+    memory = PlainWorlds([crowded_level(seed)], box=bool(seed % 2))
+    slots = [slot for slot in range(1, memory.number("id_count") + 1) if is_traced(memory.world(), slot)]
     with own_fields_only():
         assert len(memory.trace(crowded_inputs(seed), slots, events=True).ninja)
         assert replay_digest(memory.world())

@@ -9,7 +9,7 @@ import pytest
 from ninja_game.backend.memories import compiled_available
 from ninja_game.backend.numba_import import import_numba
 from ninja_game.sim.events import emit
-from ninja_game.sim.memory.compiled import CompiledMemory
+from ninja_game.sim.memory.compiled import CompiledWorlds
 from ninja_game.sim.memory.compiler import Compiler
 from ninja_game.sim.memory.declare import ENTRY_POINTS, REGISTERED, entry_point, f8, fields_of, struct_base
 from ninja_game.sim.memory.layout import (
@@ -17,9 +17,9 @@ from ninja_game.sim.memory.layout import (
     STATE_START,
     TILE_MAP,
     WORLD,
+    bytes_of,
     dtype_of,
     new_worlds,
-    state_view,
     used_bytes,
 )
 from ninja_game.sim.memory.object_fields import Header, Object
@@ -70,9 +70,10 @@ def test_worlds_are_packed_by_what_they_use() -> None:
     assert WORLD.itemsize == used_bytes(CAPACITY)
     worlds["slots_used"] = 70
     worlds[1]["ninja"]["x"] = 5.0
-    assert not state_view(worlds, 0).any() or worlds[0]["ninja"]["x"] == 0.0
-    assert len(state_view(worlds, 1)) == used_bytes(70) - STATE_START
-    state_view(worlds, 2)[:] = state_view(worlds, 1)
+    states = bytes_of(worlds)
+    assert states.shape == (3, worlds.strides[0] - STATE_START)
+    assert len(bytes_of(new_worlds(2, CAPACITY))) == 2
+    states[2] = states[1]
     assert worlds[2]["ninja"]["x"] == 5.0
     assert worlds[0]["ninja"]["x"] == 0.0
 
@@ -85,13 +86,13 @@ def test_a_median_level_fits_in_64_kib() -> None:
 def test_no_index_is_ever_out_of_range() -> None:
     checked = Compiler(import_numba(), checked=True)
     for seed in range(60):
-        memory = CompiledMemory(checked, crowded_level(seed), box=seed % 2 == 1)
-        memory.trace(crowded_inputs(seed, 150), range(1, memory.id_count + 1), events=True)
+        memory = CompiledWorlds(checked, [crowded_level(seed)], box=seed % 2 == 1)
+        memory.trace(crowded_inputs(seed, 150), range(1, memory.number("id_count") + 1), events=True)
 
 
 @needs_numba
 def test_checked_kernels_refuse_an_index_out_of_range() -> None:
-    memory = CompiledMemory(Compiler(import_numba(), checked=True), crowded_level(0), box=False)
+    memory = CompiledWorlds(Compiler(import_numba(), checked=True), [crowded_level(0)], box=False)
     with pytest.raises(IndexError):
         memory.observe(CAPACITY)
 
@@ -109,5 +110,5 @@ def test_entry_points_are_registered_rules_with_names_of_their_own() -> None:
 @needs_numba
 def test_a_rule_is_compiled_once_whatever_constants_its_callers_write() -> None:
     compiler = Compiler(import_numba())
-    CompiledMemory(compiler, crowded_level(0), box=False).kill(0, 0.0, 0.0)
+    CompiledWorlds(compiler, [crowded_level(0)], box=False).kill(0, 0.0, 0.0)
     assert len(compiler._twin(emit).signatures) == 1

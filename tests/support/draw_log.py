@@ -19,10 +19,9 @@ from ninja_game.play.editor.view import EditorView
 from ninja_game.play.menus.thumbnails import Thumbnails
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.lettering import Lettering
-from ninja_game.play.ui.palette import ROLES, Palette
+from ninja_game.play.ui.theme import ROLES, Palette
 from ninja_game.play.view.sprites.backdrop import Backdrop
-from ninja_game.play.view.sprites.draw_target import DrawTarget
-from ninja_game.play.view.sprites.drawing import SpriteKey
+from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteKey
 
 
 def _at(*values: float) -> str:
@@ -145,7 +144,7 @@ class DrawLog:
 
     def _desk(self, view: EditorView, *_: Any, **__: Any) -> str:
         """The level with its marks is painted again, too."""
-        view._look = ()
+        view._laid_out = ()
         return ""
 
     def _text(self, _: Any, surface: Any, text: str, x: float, y: float, size: float, colour: Any,

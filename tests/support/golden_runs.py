@@ -17,7 +17,7 @@ from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay
 from ninja_game.runs.trace import trace_digests, trace_level
 from ninja_game.sim.level import Level
-from ninja_game.sim.memory.plain import PlainMemory
+from ninja_game.sim.memory.plain import PlainWorlds
 from ninja_game.simulation import Body, Simulation
 from tests.support.crowded import TICKS, crowded_inputs, crowded_level
 from tests.support.own_pack import PACK
@@ -166,7 +166,7 @@ def write_golden_files() -> None:
         new = replace(run, level_name=old.replay.level_name, level_author=old.replay.level_author)
         if new != old.replay:
             path.write_text(write_replay(new), "utf-8")
-    digest = known_digest(lambda level, box: PlainMemory(level, box=box))
+    digest = known_digest(lambda level, box: PlainWorlds([level], box=box))
     if digest != DIGEST:
         module = ROOT / "ninja_game" / "backend" / "known_run.py"
         module.write_text(module.read_text("utf-8").replace(DIGEST, digest), "utf-8")

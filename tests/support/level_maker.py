@@ -10,7 +10,7 @@ from ninja_game.editor.draft import Draft
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.view import LAYOUT
-from ninja_game.play.input.scancodes import SCANCODES
+from ninja_game.play.input.keys import SCANCODES
 from ninja_game.play.menus.panels import Menu
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import Level, ObjectSpec

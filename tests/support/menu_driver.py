@@ -11,7 +11,7 @@ from ninja_game.files.resources import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.play.app import build_app
 from ninja_game.play.input.bindings import Bindings
-from ninja_game.play.input.scancodes import SCANCODES
+from ninja_game.play.input.keys import SCANCODES
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.settings.screen import PAGES, SettingsScreen
 from ninja_game.play.screen import Screen

@@ -13,10 +13,8 @@ import pygame
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App, build_app
-from ninja_game.play.audio.output import AudioOutput
-from ninja_game.play.input.actions import MENU_KEYS
-from ninja_game.play.input.bindings import Bindings
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.audio.player import AudioOutput
+from ninja_game.play.input.bindings import MENU_KEYS, Bindings, InputEvent
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.player.catalogue import Entry

@@ -10,7 +10,7 @@ import pygame
 
 from ninja_game.formats.recording import Recording
 from ninja_game.play.app import build_app
-from ninja_game.play.input.scancodes import SCANCODES
+from ninja_game.play.input.keys import SCANCODES
 from ninja_game.play.tas.screen import TasScreen
 from ninja_game.play.ui.widgets import Widget
 from ninja_game.simulation import Simulation

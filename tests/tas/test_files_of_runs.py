@@ -8,15 +8,15 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
-from ninja_game.editor.files import OccupiedError, digest_of
+from ninja_game.document import OccupiedError, digest_of_file
 from ninja_game.errors import ArgumentError, FileError, NinjaGameError, ReplayError
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import parse_replay, write_replay
+from ninja_game.runs.archive import verify_all
 from ninja_game.runs.verify import Verdict
 from ninja_game.sim.inputs import fitted_inputs
 from ninja_game.tas.branches import Branches
@@ -24,7 +24,6 @@ from ninja_game.tas.files import OpenedRun, RunFile, branches_path, open_run, sa
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.journal import FOLDER, recovered
 from ninja_game.tas.session import Session
-from ninja_game.verification.verify_many import verify_all
 from tests.support.own_pack import PACK, instead_of_ours
 from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records
 from tests.support.strategies import tracks
@@ -148,7 +147,7 @@ def test_a_journal_knows_no_file_but_a_run_that_is_there(tmp_path: Path) -> None
     journal = edited_and_lost(path, tmp_path)
     first, _, rest = journal.read_text("utf-8").partition("\n")
     for place, home in ((path, path), (other, None), (tmp_path / "missing", None), (tmp_path, None)):
-        said = json.loads(first) | {"path": str(place), "digest": digest_of(other)}
+        said = json.loads(first) | {"path": str(place), "digest": digest_of_file(other)}
         journal.write_text(f"{json.dumps(said)}\n{rest}", "utf-8")
         (found,) = recovered(tmp_path)
         assert found.opened.file.path == home

@@ -6,8 +6,7 @@ from random import Random
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from ninja_game.batch.batch import Batch
 from ninja_game.errors import ArgumentError
@@ -114,7 +113,7 @@ def test_states_of_a_timeline_begin_simulations() -> None:
 def test_the_longest_run_has_states_too() -> None:
     timeline = Timeline(WALKED, bytes(MAX_TICKS), memory="plain")
     timeline.simulated_until = len(timeline)
-    timeline._states.keep(MAX_TICKS + 20, timeline._memory.save())
+    timeline._states.keep(MAX_TICKS + 20, timeline._worlds.save())
     assert timeline.save_state(10**9).tick <= MAX_TICKS
 
 

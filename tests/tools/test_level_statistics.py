@@ -8,8 +8,7 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.sim.kinds import GOLD
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from tests.support.reference import levels as reference_levels
-from tests.support.reference import recordings, require_reference
+from tests.support.reference import levels as reference_levels, recordings, require_reference
 from tools.measure import level_statistics
 from tools.measure.level_figures import (
     ALL_VARIANTS,

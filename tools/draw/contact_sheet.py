@@ -19,16 +19,13 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 import pygame
 
 from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.palette import PALETTES, Palette
-from ninja_game.play.ui.theme import Theme
-from ninja_game.play.view.effects import particle_shapes
+from ninja_game.play.ui.theme import PALETTES, Palette, Theme
+from ninja_game.play.view.effects import particles
 from ninja_game.play.view.ninja.dances import DANCES
 from ninja_game.play.view.ninja.figure import ninja_sprite
 from ninja_game.play.view.ninja.pose import FALL, FLOAT, LEAP, RISE, SKID, SLIDE, STAND, Pose, run_pose
-from ninja_game.play.view.sprites import moving_sprites as moving
-from ninja_game.play.view.sprites import static_sprites as static
-from ninja_game.play.view.sprites.drawing import SpriteKey
-from ninja_game.play.view.sprites.sprite_book import SpriteBook
+from ninja_game.play.view.sprites import moving_sprites as moving, static_sprites as static
+from ninja_game.play.view.sprites.drawing import SpriteBook, SpriteKey
 from tests.support.game_screens import run_tour
 from tests.support.menu_driver import MenuDriver
 from tools import ROOT
@@ -89,9 +86,9 @@ THINGS: list[Shown] = [
     drone("laser drone", 1), drone("laser, charging", 1, heat=5, mood=2), drone("laser, firing", 1, heat=8, mood=2),
     drone("chaingun drone", 2), drone("chaingun, firing", 2, heat=8, mood=2),
     one("laser burst", moving.impact_burst(8)), one("lightning", static.lightning(0)),
-    one("fireball", particle_shapes.fireball(2, 0)), one("fireball, late", particle_shapes.fireball(6, 1).faded(5)),
-    one("explosion", particle_shapes.burst_star(3)), one("muzzle flash", particle_shapes.muzzle(1)),
-    one("dust", particle_shapes.puff("dust", 2, 0)), one("smoke", particle_shapes.puff("smoke", 5, 1).faded(6)),
+    one("fireball", particles.fireball(2, 0)), one("fireball, late", particles.fireball(6, 1).faded(5)),
+    one("explosion", particles.burst_star(3)), one("muzzle flash", particles.muzzle(1)),
+    one("dust", particles.puff("dust", 2, 0)), one("smoke", particles.puff("smoke", 5, 1).faded(6)),
 ]  # fmt: skip
 """Every thing in every state that looks different."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ninja_game.formats.ascii.legend import TILE_CHARS, TILE_FAMILIES, TILE_OF_CHAR
-from ninja_game.play.view.sprites.tile_shapes import outline
+from ninja_game.play.view.sprites.tile_sheet import outline
 from tools import ROOT
 from tools.draw.svg import FAINT, SOLID, Picture
 
@@ -29,8 +29,3 @@ def picture() -> Picture:
         for column, character in enumerate(characters):
             draw_cell(drawn, TILE_OF_CHAR[character], LEFT + column * STEP_X, TOP + row * STEP_Y)
     return drawn
-
-
-if __name__ == "__main__":
-    picture().save(PICTURE)
-    print(PICTURE.relative_to(ROOT))

@@ -24,7 +24,7 @@ from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.play.replay.paths import draw_path
 from ninja_game.play.ui.canvas import WIDTH, Canvas
-from ninja_game.play.ui.palette import PALETTES
+from ninja_game.play.ui.theme import PALETTES
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.runs.run import run_level
 from ninja_game.sim.rules import TICKS_PER_SECOND

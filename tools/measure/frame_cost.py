@@ -26,7 +26,7 @@ from ninja_game.formats.load import load_levels
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.app import App, build_app
-from ninja_game.play.audio.output import AudioOutput
+from ninja_game.play.audio.player import AudioOutput
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.sim.level import Level

@@ -40,12 +40,21 @@ from ninja_game.formats.recording import parse_replays, record_of
 from ninja_game.formats.replay.text import parse_replay, write_replay
 from ninja_game.formats.tas_lines import write_celeste, write_libtas
 from ninja_game.levels.warnings import level_warnings
-from ninja_game.play.ui.edited_text import EditedText
 from ninja_game.play.ui.stroke_font import StrokeFont
+from ninja_game.play.ui.text_entry import EditedText
 from ninja_game.player.backup import read_backup
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings_file import read_settings, write_changes
 from ninja_game.player.store import Store
+from ninja_game.runs.checkpoint_log import CheckpointLog
+from ninja_game.runs.chunks import (
+    Chunk,
+    chunks_in,
+    results_as_text,
+    results_from_text,
+    self_contained,
+    verify_chunk,
+)
 from ninja_game.runs.recording_reader import recordings_of, records_of
 from ninja_game.runs.trace import RunTrace, first_difference, rows, trace_digests, trace_level
 from ninja_game.runs.trace_files import FiledTrace, read_csv, read_traces
@@ -55,15 +64,6 @@ from ninja_game.tas import journal
 from ninja_game.tas.files import branches_path, inputs_of_text, open_run, replay_of_track, runs_of_level
 from ninja_game.tas.session import Session
 from ninja_game.tas.watch import parse_watch
-from ninja_game.verification.checkpoint_log import CheckpointLog
-from ninja_game.verification.chunks import (
-    Chunk,
-    chunks_in,
-    results_as_text,
-    results_from_text,
-    self_contained,
-    verify_chunk,
-)
 from ninja_game.web.board.report import read_board
 from tests.support.samples import WALK, replay_of_walk
 from tools.soak.mutators import as_text

@@ -25,7 +25,7 @@ from ninja_game.backend.numba_import import import_numba
 from ninja_game.batch.batch import Batch
 from ninja_game.sim.kinds import GOLD, LAUNCH_PAD, NINJA, VALUE_COUNTS
 from ninja_game.sim.level import TILES, Level, ObjectSpec
-from ninja_game.sim.memory.compiled import CompiledMemory
+from ninja_game.sim.memory.compiled import CompiledWorlds
 from ninja_game.sim.memory.compiler import Compiler
 from ninja_game.sim.memory.schema import MAX_EVENTS
 from ninja_game.simulation import BODIES, Simulation
@@ -69,9 +69,9 @@ def out_of_range(count: int, seed: int) -> Iterator[str]:
     for number in range(seed, seed + count):
         rng = random.Random(number)
         try:
-            world = CompiledMemory(checked, hostile_level(rng), box=rng.random() < 0.3)
+            world = CompiledWorlds(checked, [hostile_level(rng)], box=rng.random() < 0.3)
             keys = bytes(rng.choices(range(16), k=rng.choice((4, 12, 40))))
-            world.trace(keys, range(1, world.id_count + 1), events=True)
+            world.trace(keys, range(1, world.number("id_count") + 1), events=True)
         except Exception as error:  # noqa: BLE001 - this is what is searched
             yield f"hostile level {number}: {error!r}"
 

@@ -25,7 +25,7 @@ def command(ctx: click.Context, pack: Path) -> None:
       ninja-game levels lint my-pack.zip
     """
     from ninja_game.formats.pack.pack import Pack
-    from ninja_game.verification.pack_lint import lint
+    from ninja_game.runs.packs import lint
 
     opened = Pack(pack)
     found = list(lint(opened))

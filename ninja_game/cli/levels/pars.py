@@ -28,7 +28,7 @@ def command(pack: Path) -> None:
     from ninja_game.formats.pack.pack import Pack
     from ninja_game.formats.pack.pars import MARGINS, write_pars
     from ninja_game.player.scoring import seconds_text
-    from ninja_game.verification.pack_checks import make_pars
+    from ninja_game.runs.packs import make_pars
 
     opened = Pack(pack)
     made = dict(with_progress(make_pars(opened), "level"))

@@ -16,7 +16,7 @@ from ninja_game.cli.runs.splits import draw, format_option, picture_option, titl
 
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
-    from ninja_game.runs.comparison import Comparison, Lead
+    from ninja_game.runs.compare import Comparison, Lead
 
 COLUMNS = ("at", "x", "y", "tick", "other", "ahead")
 
@@ -46,7 +46,7 @@ def command(
       ninja-game compare demos.txt demos.txt --record 3 --against-record 5 --picture both.png
     """
     from ninja_game.formats.load import load_replays
-    from ninja_game.runs.comparison import compare_runs
+    from ninja_game.runs.compare import compare_runs
 
     level = level_given(level_path)
     ours = choose(load_replays(first, level=level), "recordings", first, record)
@@ -73,7 +73,7 @@ def _cells(lead: Lead) -> tuple[str, float, float, int, int, int]:
 
 def _show(found: Comparison, ours: Recording, theirs: Recording) -> None:
     """The comparison for people."""
-    from ninja_game.runs.comparison import each_second
+    from ninja_game.runs.compare import each_second
 
     for letter, name, positions in zip("AB", titles([ours, theirs]), found.positions, strict=True):
         click.echo(f"{letter}: {name}, {len(positions)} ticks")

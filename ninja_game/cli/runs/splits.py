@@ -18,7 +18,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
-    from ninja_game.runs.splits import RunSplits, SplitRow
+    from ninja_game.runs.compare import RunSplits, SplitRow
     from ninja_game.sim.level import Level
 
 WIDTH = 160
@@ -81,7 +81,7 @@ def command(
       ninja-game splits my-runs/ --against best.replay.txt --no-gold
       ninja-game splits demos.txt --format csv > splits.csv
     """
-    from ninja_game.runs.splits import SPLIT_EVENTS, run_splits
+    from ninja_game.runs.compare import SPLIT_EVENTS, run_splits
 
     level, events = level_given(level_path), [name for name in SPLIT_EVENTS if gold or name != "gold-taken"]
     found, unreadable = readable(files, level)
@@ -127,7 +127,7 @@ Table = tuple["list[RunSplits]", "list[SplitRow]"]
 
 
 def _table(group: Sequence[RunSplits], given: Sequence[RunSplits]) -> Table:
-    from ninja_game.runs.splits import best_run, split_table
+    from ninja_game.runs.compare import best_run, split_table
 
     best = next((run for run in given if run.level_digest == group[0].level_digest), None) or best_run(group)
     runs = [best, *(run for run in group if run is not best)]
@@ -150,7 +150,7 @@ def _show(tables: Sequence[Table]) -> None:
     from rich.console import Console
     from rich.table import Table as RichTable
 
-    from ninja_game.runs.splits import sum_of_best
+    from ninja_game.runs.compare import sum_of_best
 
     console = Console(highlight=False, markup=False, width=None if sys.stdout.isatty() else WIDTH)
     for runs, rows in tables:
@@ -183,7 +183,7 @@ def _behind(tick: int | None, best: int | None) -> str:
 
 def _as_json(runs: Sequence[RunSplits], rows: Sequence[SplitRow]) -> dict[str, Any]:
     """A table for programs."""
-    from ninja_game.runs.splits import sum_of_best
+    from ninja_game.runs.compare import sum_of_best
 
     return {
         "level_digest": runs[0].level_digest,
@@ -227,7 +227,7 @@ def draw(picture: Path, level: Level, paths: Sequence[tuple[str, Any]], keep: Se
 
     from ninja_game.files.writing import write_atomically
     from ninja_game.play.replay.paths import paths_picture
-    from ninja_game.play.ui.palette import PALETTES
+    from ninja_game.play.ui.theme import PALETTES
 
     surface = paths_picture(level, paths, PALETTES["classic"], 1584)
     data = io.BytesIO()

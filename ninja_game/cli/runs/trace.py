@@ -26,9 +26,9 @@ from ninja_game.cli.run_options import (
 from ninja_game.files.shown_text import shown_text
 
 if TYPE_CHECKING:
+    from ninja_game.runs.archive import Traced
     from ninja_game.runs.trace import RunTrace
     from ninja_game.runs.trace_files import FiledTrace
-    from ninja_game.verification.archive_tracing import Traced
 
 MOST_TICKS = 1_000_000
 """Longest trace that can be asked for: almost seven hours."""
@@ -125,7 +125,7 @@ class Traces:
     """The traces of all recordings, one after the other; what cannot be read is reported on stderr and counted."""
 
     def __init__(self, files: Sequence[Path], **options: Any) -> None:
-        from ninja_game.verification.archive_tracing import trace_all
+        from ninja_game.runs.archive import trace_all
 
         self.items = with_progress(trace_all(files, **options), "trace")
         self.count = 0

@@ -16,9 +16,9 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
+    from ninja_game.runs.archive import Tally
+    from ninja_game.runs.chunks import Result
     from ninja_game.runs.verify import Verdict
-    from ninja_game.verification.chunks import Result
-    from ninja_game.verification.verify_many import Tally
 
 FAILED = 1
 
@@ -83,8 +83,8 @@ def command(
       ninja-game verify archive/ -q --cluster tcp://10.0.0.5:8786
     """
     from ninja_game.formats.load import load_levels
+    from ninja_game.runs.archive import Tally, verify_all
     from ninja_game.runs.recording_reader import Unreadable
-    from ninja_game.verification.verify_many import Tally, verify_all
 
     tally = Tally()
     processes = None if workers is None else workers == "processes"
@@ -109,7 +109,7 @@ def _reported(results: Iterable[Result], report: Path, files: Sequence[Path], st
     """The same results, written to a report as they pass."""
     from ninja_game.files.writing import open_atomically
     from ninja_game.formats.links.fragment import is_link
-    from ninja_game.verification.verify_many import write_report
+    from ninja_game.runs.archive import write_report
 
     out = stack.enter_context(open_atomically(report, keep=[file for file in files if not is_link(file)]))
     return write_report(results, out) if report.suffix.lower() == ".json" else _write_table(results, out)
@@ -117,8 +117,8 @@ def _reported(results: Iterable[Result], report: Path, files: Sequence[Path], st
 
 def _write_table(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
     """The same results, written as a table as they pass."""
+    from ninja_game.runs.archive import Tally
     from ninja_game.runs.recording_reader import Unreadable
-    from ninja_game.verification.verify_many import Tally
 
     tally = Tally()
     for result in results:

@@ -1,6 +1,6 @@
 """Parts put together: one space, one memory that is written again and again, one call for some worlds.
 
->>> from ninja_game.learn.observations.state_vector import StateVector
+>>> from ninja_game.learn.observations.vectors import StateVector
 >>> Observation(StateVector()).space.shape
 (30,)
 """
@@ -15,15 +15,11 @@ from gymnasium.spaces import Box, Dict, Space
 from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
-from ninja_game.learn.observations.guide import Guide
-from ninja_game.learn.observations.level_planes import LevelPlanes
-from ninja_game.learn.observations.local_tiles import LocalTiles
-from ninja_game.learn.observations.near_objects import NearObjects
+from ninja_game.learn.observations.objects import LevelPlanes, NearObjects
 from ninja_game.learn.observations.part import Array, Part, Setting
 from ninja_game.learn.observations.pixels import Pixels
-from ninja_game.learn.observations.rays import Rays
-from ninja_game.learn.observations.state_vector import StateVector
-from ninja_game.learn.observations.time_left import TimeLeft
+from ninja_game.learn.observations.surroundings import LocalTiles, Rays
+from ninja_game.learn.observations.vectors import Guide, StateVector, TimeLeft
 
 PARTS: dict[str, type[Part]] = {
     part.name: part for part in (StateVector, LocalTiles, Rays, NearObjects, LevelPlanes, Pixels, TimeLeft, Guide)

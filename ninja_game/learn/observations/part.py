@@ -11,8 +11,8 @@ import numpy as np
 from gymnasium.spaces import Box
 from numpy.typing import NDArray
 
-from ninja_game.batch.worlds import Kernel, R, Worlds
 from ninja_game.sim.memory.declare import fast
+from ninja_game.sim.memory.interface import Kernel, R, Worlds
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import TileMap, World
 

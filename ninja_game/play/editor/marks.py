@@ -16,8 +16,8 @@ from ninja_game.editor.records import BODY, SWITCH, has_switch, points
 from ninja_game.levels.findings import Finding
 from ninja_game.play.editor.sheet import LevelMark
 from ninja_game.play.ui.canvas import Canvas, Colour, Point
-from ninja_game.play.ui.palette import Palette
-from ninja_game.play.view.sprites.draw_target import DrawTarget, is_near
+from ninja_game.play.ui.theme import Palette
+from ninja_game.play.view.sprites.drawing import DrawTarget, is_near
 from ninja_game.sim.level import Level
 
 MIDDLE = (396.0, 300.0)
@@ -64,7 +64,6 @@ def _rects(canvas: Canvas, a: Point, b: Point) -> Iterator[pygame.Rect]:
 
 
 def line_mark(canvas: Canvas, colour: Colour, a: Point, b: Point, width: float = 0) -> LevelMark:
-    """A straight line."""
     return LevelMark(lambda target: target.line(colour, *a, *b, width), tuple(_rects(canvas, a, b)))
 
 
@@ -98,7 +97,6 @@ def sign_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
 
 
 def finding_points(level: Level, finding: Finding) -> list[Point]:
-    """Where a finding is, px."""
     places = [(24.0 * column + 12.0, 24.0 * row + 12.0) for column, row in finding.cells]
     for number in finding.records:
         found = points(level.objects[number]) if number < len(level.objects) else {}

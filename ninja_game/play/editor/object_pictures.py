@@ -12,17 +12,15 @@ from ninja_game.editor.draft import Cell, cell_of
 from ninja_game.editor.records import BODY, points, word
 from ninja_game.errors import LevelError
 from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.palette import Palette
+from ninja_game.play.ui.theme import Palette
 from ninja_game.play.view.ninja.figure import REACH, paint_figure
 from ninja_game.play.view.ninja.pose import STAND
 from ninja_game.play.view.sprites import static_sprites
-from ninja_game.play.view.sprites.draw_moving import draw_moving
-from ninja_game.play.view.sprites.draw_target import DrawTarget, is_near
-from ninja_game.play.view.sprites.drawing import SpriteKey, drawing
+from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook, SpriteKey, drawing, is_near
+from ninja_game.play.view.sprites.moving_sprites import draw_moving
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
 from ninja_game.play.view.sprites.sketch import Sketch
-from ninja_game.play.view.sprites.sprite_book import SpriteBook
-from ninja_game.play.view.sprites.static_sprite_state import PlacedSprite, door_place, static_sprites_of
+from ninja_game.play.view.sprites.static_sprites import PlacedSprite, door_place, static_sprites_of
 from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, Level, ObjectSpec, well_formed
 from ninja_game.sim.states import TRAP
@@ -80,7 +78,6 @@ class _Noted(DrawTarget):
         self.sprites: list[PlacedSprite] = []
 
     def sprite(self, key: SpriteKey, x: float, y: float) -> None:
-        """Note it."""
         self.sprites.append((key, x, y))
 
 

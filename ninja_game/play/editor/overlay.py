@@ -12,9 +12,8 @@ from ninja_game.editor.tools import DRAGGED, EditorTools
 from ninja_game.play.editor.palette_view import tile_icon
 from ninja_game.play.editor.sheet import LevelSheet, joined
 from ninja_game.play.ui.canvas import Canvas, Colour
-from ninja_game.play.ui.palette import Palette
-from ninja_game.play.view.sprites.draw_target import DrawTarget, is_near
-from ninja_game.play.view.sprites.drawing import drawing
+from ninja_game.play.ui.theme import Palette
+from ninja_game.play.view.sprites.drawing import DrawTarget, drawing, is_near
 from ninja_game.play.view.sprites.sketch import Sketch
 from ninja_game.sim.kinds import EXIT, NINJA
 

@@ -21,14 +21,12 @@ from ninja_game.editor.motion import TILE_IDS
 from ninja_game.editor.records import BODY, points
 from ninja_game.editor.tools import EditorTools
 from ninja_game.play.editor.object_pictures import ObjectPictures
-from ninja_game.play.input.commands import key_label_of
+from ninja_game.play.input.keys import key_label_of
 from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.palette import PALETTES
-from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.theme import PALETTES, Area, Theme
 from ninja_game.play.ui.widgets import Widget
-from ninja_game.play.view.sprites.draw_target import DrawTarget
-from ninja_game.play.view.sprites.sprite_book import SpriteBook
-from ninja_game.play.view.sprites.tile_shapes import tile_picture
+from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook
+from ninja_game.play.view.sprites.tile_sheet import tile_picture
 from ninja_game.sim.level import ObjectSpec
 
 TILE, OBJECT, BLOCK = 17.0, 28.0, 42.5
@@ -68,7 +66,6 @@ class PaletteView(Widget):
         )
 
     def click(self, x: float, y: float) -> bool:
-        """Take what is there."""
         what = self._at(x, y)
         if what is not None:
             self.tools.pick_up(what.record if isinstance(what, ObjectType) else what)
@@ -94,7 +91,6 @@ class PaletteView(Widget):
             tools.pick_up(TILE_ORDER[(place + by) % len(TILE_ORDER)])
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """All of it; what is in hand has a frame."""
         canvas, palette = theme.canvas, theme.palette
         x, y, w, h = self.area
         canvas.fill_rect(surface, palette.panel, x - 4, y - 4, w + 6, h + 4, 3)

@@ -10,9 +10,8 @@ import pygame
 from ninja_game.editor.draft import Draft
 from ninja_game.play.editor.object_pictures import ObjectPictures, ObjectSprites
 from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.palette import Palette
-from ninja_game.play.view.sprites.draw_target import DrawTarget
-from ninja_game.play.view.sprites.sprite_book import SpriteBook
+from ninja_game.play.ui.theme import Palette
+from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook
 from ninja_game.play.view.sprites.tile_sheet import TileSheet
 from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
@@ -60,7 +59,6 @@ class LevelSheet:
         self._dirty: list[pygame.Rect] = []
 
     def show(self, draft: Draft) -> None:
-        """Show a draft."""
         before, self.draft = self.draft, draft
         if before is None:
             static = TileMap()

@@ -10,7 +10,7 @@ import pygame
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.lab.figures.catalogue import FIGURES
 from ninja_game.play.lab.sheet import FIGURE, Sheet
-from ninja_game.play.replay.film_files import write_gif
+from ninja_game.play.replay.film import write_gif
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.view.render_context import OffscreenContext
 from ninja_game.play.window import save_picture

@@ -10,11 +10,10 @@ import pygame
 from ninja_game.play.lab.figure import Figure
 from ninja_game.play.lab.figures.catalogue import FIGURES
 from ninja_game.play.lab.sheet import FIGURE, Sheet
-from ninja_game.play.level.run_clock import RunClock
+from ninja_game.play.level.play import RunClock
 from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
 from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.text_layout import wrapped
-from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.theme import Area, Theme, wrapped
 from ninja_game.play.ui.widgets import Button, Choice, Slider, Widget
 
 if TYPE_CHECKING:

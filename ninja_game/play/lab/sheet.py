@@ -10,9 +10,8 @@ from typing import NamedTuple
 import pygame
 
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas, Colour, Point
-from ninja_game.play.ui.palette import Palette
-from ninja_game.play.ui.theme import Area, Theme
-from ninja_game.play.view.sprites.tile_shapes import outline
+from ninja_game.play.ui.theme import Area, Palette, Theme
+from ninja_game.play.view.sprites.tile_sheet import outline
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS, UNIT_X, UNIT_Y
 from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.rules import CELL, HALF, INTERESTING, OFF

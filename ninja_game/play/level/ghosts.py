@@ -9,7 +9,7 @@ import pygame
 from ninja_game.budget import TURN_WORK, tick_cost
 from ninja_game.play.replay.playback import Playback
 from ninja_game.play.ui.canvas import Point
-from ninja_game.play.ui.palette import Palette
+from ninja_game.play.ui.theme import Palette
 from ninja_game.play.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.player.level_context import GhostRun
 from ninja_game.sim.level import Level

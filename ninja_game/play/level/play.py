@@ -7,14 +7,58 @@ from random import Random
 from typing import TYPE_CHECKING
 
 from ninja_game.play.level.ghosts import Ghost
-from ninja_game.play.level.hud import followed
-from ninja_game.play.level.practice import REWIND_TICKS, SLOW_TICK_MS, PracticeTools
-from ninja_game.play.level.run_clock import RunClock
+from ninja_game.play.replay.playback import Playback
 from ninja_game.play.view.level_view import LevelView
-from ninja_game.player.attempt import Attempt
+from ninja_game.player.attempt import Attempt, Moment
 from ninja_game.player.level_context import LevelContext
 from ninja_game.player.statistics import SELF, killer_of
 from ninja_game.sim.kinds import GOLD
+from ninja_game.sim.rules import LIFETIME, TICK_MS
+
+_FILL_SHARE = 0.05
+"""Share of what the bar lacks that fills in per picture, at least; always so before play starts."""
+
+
+LONGEST_MS = 2000
+"""More than this in one picture is a stall: it counts as one tick and is not caught up."""
+
+
+def followed(shown: float, true: float, *, filling: bool) -> float:
+    """The lifetime to show in the next picture: it follows the true one softly, so that gold fills in."""
+    share = _FILL_SHARE if filling else (1 - max(0.0, shown) / LIFETIME) ** 2
+    return shown + (true - shown) * min(1.0, max(_FILL_SHARE, share))
+
+
+class RunClock:
+    """Counts real time and says how many ticks are due; the remainder is kept.
+
+    >>> clock = RunClock()
+    >>> [clock.ticks_due(ms) for ms in (24, 1, 60, 5000)]
+    [0, 1, 2, 1]
+    """
+
+    def __init__(self) -> None:
+        self.remainder = 0
+        self.tick_ms = TICK_MS
+
+    def reset(self) -> None:
+        """Start afresh: when play starts, on unpausing, on starting a replay."""
+        self.remainder = 0
+
+    def ticks_due(self, real_ms: int, tick_ms: int = TICK_MS) -> int:
+        """How many ticks to run now that ``real_ms`` have passed; ``tick_ms``: real ms a tick."""
+        self.tick_ms = tick_ms
+        time = real_ms + self.remainder
+        if time > LONGEST_MS:
+            time = tick_ms
+        due, self.remainder = divmod(time, tick_ms)
+        return due
+
+    @property
+    def fraction(self) -> float:
+        """How much of the next tick has passed, 0…1: where between two ticks to draw."""
+        return min(1.0, self.remainder / self.tick_ms)
+
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
@@ -213,3 +257,52 @@ class LevelPlay:
         elif self.phase in {Phase.DEAD, Phase.PASSED}:
             self.after_end += 1
             self.changed = self.changed or self.after_end == DEATH_PAUSE + 1
+
+
+SLOW_TICK_MS = 100
+"""A tick in slow motion: a quarter of the speed."""
+REWIND_TICKS = 2
+"""Ticks back for each tick's time that the rewind key is held."""
+_SPACING = 10
+"""Ticks between save-states, at first."""
+
+
+class PracticeTools:
+    """The tools of one level screen. ``attempt``: what they act on."""
+
+    def __init__(self, attempt: Attempt) -> None:
+        self.attempt = attempt
+        self.saved: Moment | None = None
+        self.slow = False
+        self.rewinding = False
+        self.stepping = False
+        self.restarted()
+
+    def restarted(self) -> None:
+        """The attempt began again; a quick-save stays good."""
+        self.playback = Playback(self.attempt.simulation, self.attempt.inputs, spacing=_SPACING)
+        self.rewinding = self.stepping = False
+
+    def on_tick(self) -> None:
+        """Call it after every tick."""
+        self.playback.note()
+
+    def quick_save(self) -> None:
+        """Keep this moment."""
+        self.saved = self.attempt.save()
+
+    def quick_load(self) -> bool:
+        """Go back to the kept moment; whether there is one."""
+        if self.saved is None:
+            return False
+        self.attempt.restore(self.saved)
+        self.playback.forget_after(self.attempt.simulation.tick)
+        return True
+
+    def rewind(self, ticks: int) -> None:
+        """Go back in time."""
+        attempt = self.attempt
+        target = max(0, attempt.simulation.tick - ticks)
+        self.playback.seek(target)
+        self.playback.forget_after(target)
+        attempt.rewound()

@@ -12,9 +12,8 @@ from ninja_game.formats.links.making import replay_link
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.input.events import InputEvent
-from ninja_game.play.level.hud import Hud
-from ninja_game.play.level.hud_text import hud_view
+from ninja_game.play.input.bindings import InputEvent
+from ninja_game.play.level.hud import Hud, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
 from ninja_game.play.menus.episodes.passed import EpisodePassed
 from ninja_game.play.menus.pause import PausePanel

@@ -16,15 +16,14 @@ from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
 from ninja_game.play.clipboard import copy_level_link
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.level_card import all_gold_and_medal, draw_pars, where_from
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.play.menus.watch_replay import watch
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_entry import TextEntry
-from ninja_game.play.ui.text_layout import counted, unreadable
-from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.theme import Area, Theme, counted, unreadable
 from ninja_game.play.ui.widgets import Button, Choice, Widget
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.marks import Mark

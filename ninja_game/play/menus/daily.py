@@ -17,7 +17,7 @@ from ninja_game.generator import daily
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.level_card import draw_pars, time_and_par
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
-from ninja_game.play.ui.text_layout import counted, wrapped
+from ninja_game.play.ui.theme import counted, wrapped
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelRun

@@ -10,7 +10,7 @@ import pygame
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.text_entry import TextEntry
-from ninja_game.play.ui.text_layout import wrapped
+from ninja_game.play.ui.theme import wrapped
 from ninja_game.play.ui.widgets import Button, Widget
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from ninja_game.play.clipboard import copy_level_link
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.menus.help.screen import HelpScreen
 from ninja_game.play.menus.panels import Panel
 from ninja_game.play.menus.settings.screen import SettingsScreen

@@ -18,13 +18,12 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question
 from ninja_game.play.menus.watch_replay import watch, watch_recording
 from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.text_layout import unreadable
-from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.theme import Area, Theme, unreadable
 from ninja_game.play.ui.widgets import Widget
 from ninja_game.player.records import SavedReplay
 from ninja_game.player.saving import forget_replay

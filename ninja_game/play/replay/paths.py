@@ -9,8 +9,7 @@ import pygame
 from numpy.typing import NDArray
 
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
-from ninja_game.play.ui.palette import Palette
-from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.theme import Palette, Theme
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND

@@ -13,13 +13,12 @@ from ninja_game.formats.links.making import replay_link
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.level.hud import Hud
-from ninja_game.play.level.run_clock import RunClock
-from ninja_game.play.replay.film_job import FilmJob
-from ninja_game.play.replay.playback import Playback
-from ninja_game.play.replay.seek_bar import ReplayBar
+from ninja_game.play.level.play import RunClock
+from ninja_game.play.replay.film import FilmJob
+from ninja_game.play.replay.playback import Playback, ReplayBar
 from ninja_game.play.screen import Screen
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays

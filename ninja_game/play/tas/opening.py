@@ -12,7 +12,7 @@ from ninja_game.backend.kernel_cache import before_compiling
 from ninja_game.backend.memories import compiled_available, is_compiled
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.formats.recording import Recording
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.screen import Screen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.runtime import beside
@@ -94,7 +94,6 @@ class OpeningScreen(Screen):
 
     @property
     def explanation(self) -> str:
-        """What takes so long."""
         if self._waited_ms < PATIENCE_MS:
             return ""
         seconds = f"{self._waited_ms // 1000} s"
@@ -122,7 +121,6 @@ class OpeningScreen(Screen):
             self.app.replace(screen)
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """Two lines, when they are others than before."""
         shown = f"Opening {self._name} ...\n{self.explanation}"
         if shown == self._shown and not self.redraw:
             return []

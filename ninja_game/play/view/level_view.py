@@ -9,18 +9,16 @@ from typing import TYPE_CHECKING, Protocol
 import pygame
 
 from ninja_game.play.ui.canvas import Point
-from ninja_game.play.ui.palette import Palette
+from ninja_game.play.ui.theme import Palette
 from ninja_game.play.view.effects.effects import Effects
 from ninja_game.play.view.effects.particles import Particles
-from ninja_game.play.view.ninja.appearance import draw_ghost, draw_ninja, draw_ragdoll
-from ninja_game.play.view.ninja.ninja_animation import NinjaAnimation
+from ninja_game.play.view.ninja.ninja_animation import NinjaAnimation, draw_ghost, draw_ninja, draw_ragdoll
 from ninja_game.play.view.ninja.ragdoll import Ragdoll
 from ninja_game.play.view.render_context import RenderContext
 from ninja_game.play.view.sprites.backdrop import Backdrop
-from ninja_game.play.view.sprites.draw_moving import draw_moving
-from ninja_game.play.view.sprites.draw_target import DrawTarget
+from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook
+from ninja_game.play.view.sprites.moving_sprites import draw_moving
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
-from ninja_game.play.view.sprites.sprite_book import SpriteBook
 from ninja_game.sim.events import DIED
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import DEAD

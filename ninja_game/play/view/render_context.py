@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from ninja_game.play.audio.output import AudioOutput
+from ninja_game.play.audio.player import AudioOutput
 from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.palette import palette_named
-from ninja_game.play.ui.theme import Theme
+from ninja_game.play.ui.theme import Theme, palette_named
 from ninja_game.player.settings import Settings
 
 

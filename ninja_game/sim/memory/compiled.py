@@ -3,19 +3,37 @@
 from __future__ import annotations
 
 from collections import namedtuple
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.sim.level import Level
-from ninja_game.sim.loader import grid_tiles, record_table
+from ninja_game.sim.loader import RecordTable, grid_tiles, record_table
 from ninja_game.sim.memory.declare import fields_of
-from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES, MemoryName, RunRecord, TraceRecord
-from ninja_game.sim.memory.kernels import kill_ninja, load_world, observe_object, run_world, step_world, trace_world
-from ninja_game.sim.memory.layout import TILE_MAP, Records, new_worlds, plain_copy, state_view
-from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, TileMap, World
+from ninja_game.sim.memory.interface import (
+    TRACED_NUMBERS,
+    TRACED_PLACES,
+    Kernel,
+    MemoryName,
+    R,
+    RunRecord,
+    TraceRecord,
+    Worlds,
+)
+from ninja_game.sim.memory.kernels import (
+    kill_ninja,
+    load_world,
+    observe_object,
+    run_world,
+    run_worlds,
+    step_world,
+    trace_world,
+)
+from ninja_game.sim.memory.layout import TILE_MAP, Records, bytes_of, new_worlds, plain_copy
+from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, World
 
 Compile = Callable[[Callable[..., Any]], Callable[..., Any]]
 """Gives the compiled twin of an entry point (``memories.compiled``)."""
@@ -30,93 +48,96 @@ _EventRow: Any = namedtuple("_EventRow", [field.name for field in fields_of(Even
 def load_worlds(compiled: Compile, levels: Sequence[Level], *, box: bool) -> tuple[NDArray[np.void], Records]:
     """Levels, and a new world in each, as arrays of records. Raises LevelError as ``record_table`` does."""
     tables = [record_table(level) for level in levels]
-    maps = np.zeros(len(levels), TILE_MAP)
     worlds = new_worlds(len(levels), max(table.slots for table in tables))
+    return _loaded(compiled, levels, tables, worlds, 0, box), worlds
+
+
+def _loaded(
+    compiled: Compile, levels: Sequence[Level], tables: Sequence[RecordTable], worlds: Records, first: int, box: bool
+) -> NDArray[np.void]:
+    """Make new worlds of zeroed ones from ``first`` on, one in each level; the maps of the levels."""
+    maps = np.zeros(len(levels), TILE_MAP)
     for number, (level, table) in enumerate(zip(levels, tables, strict=True)):
-        here = slice(number, number + 1)
-        maps[number]["tiles"] = grid_tiles(level)
+        map_, world = maps[number : number + 1], worlds[first + number : first + number + 1]
+        map_[0]["tiles"] = grid_tiles(level)
         kinds, counts = np.array(table.kinds, np.int64), np.array(table.counts, np.int64)
         values = np.array(table.values, np.float64).reshape(-1, 9)
-        compiled(load_world)(maps[here], worlds[here], 0, kinds, counts, values, int(box))
-    return maps, worlds
+        compiled(load_world)(map_, world, 0, kinds, counts, values, int(box))
+    return maps
 
 
-class CompiledMemory:
-    """A world of one NumPy record: fast for many ticks."""
+class CompiledWorlds(Worlds):
+    """Worlds of NumPy records in one block: fast for many ticks. Raises LevelError as ``record_table`` does.
+
+    Every level is loaded once; a fresh world is a copy of bytes.
+    """
 
     name: MemoryName = "compiled"
 
-    def __init__(self, compiled: Compile, level: Level, *, box: bool) -> None:
+    def __init__(self, compiled: Compile, levels: Iterable[Level], count: int = 1, *, box: bool) -> None:
+        self.levels, self.count, self._box = tuple(levels), count, box
         self._compiled = compiled
         self._step, self._observe = compiled(step_world), compiled(observe_object)
-        self._levels, self._worlds = load_worlds(compiled, [level], box=box)
-        self.tiles = TileMap()
-        self.tiles.tiles = grid_tiles(level)
-        worlds = self._worlds
-        self._state = state_view(worlds, 0)
-        self._fresh = self._state.copy()
-        self._tick, self._outcome, self._gold = worlds["tick"], worlds["outcome"], worlds["gold"]
-        self._ninja, self._events, self._event_count = worlds["ninja"], worlds["events"][0], worlds["event_count"]
-        self._jump_held = worlds["ninja"]["jump_held"]
-        self.id_count = int(worlds["id_count"][0])
-        self._ticks_at_once = max(1, SLICE // int(worlds["slots_used"][0]))
+        tables = [record_table(level) for level in self.levels]
+        self.slots = max(table.slots for table in tables)
+        # Behind the worlds lies a new one in each level, and one more: an array of one counts as contiguous, which is
+        # another type and another compile.
+        self.worlds: Records = new_worlds(count + len(tables) + 1, self.slots)
+        self.maps = _loaded(compiled, self.levels, tables, self.worlds, count, box)
+        self.records, self.fresh = self.worlds[:count], self.worlds[count:]
+        self._all_states = bytes_of(self.worlds)
+        self.states: NDArray[np.uint8] = self._all_states[:count]
+        self._numbers = {field: self.records[field] for field in ("tick", "outcome", "gold", "id_count")}
+        self._ninja, self._events, self._event_count = (self.records[f] for f in ("ninja", "events", "event_count"))
+        self._jump_held = self._ninja["jump_held"]
+        self._ticks_at_once = max(1, SLICE // self.slots)
+        self.level_of = np.zeros(count, np.intp)
+        self.load(range(count), np.arange(count) % len(tables))
 
-    def load(self) -> None:
-        """Start afresh from the level."""
-        self.restore(self._fresh)
+    def __reduce__(self) -> tuple[Any, ...]:
+        state = self.states.copy(), self.level_of.copy(), self._events.copy(), self._event_count.copy()
+        return partial(CompiledWorlds, self._compiled, box=self._box), (self.levels, self.count), state
 
-    @property
-    def tick(self) -> int:
-        """Ticks run."""
-        return int(self._tick[0])
+    def __setstate__(self, state: tuple[Any, ...]) -> None:
+        self.states[:], self.level_of[:], self._events[:], self._event_count[:] = state
 
-    @property
-    def outcome(self) -> int:
-        """The outcome, by number."""
-        return int(self._outcome[0])
+    def kernel(self, entry: Kernel[R]) -> Kernel[R]:
+        return self._compiled(entry)
 
-    @property
-    def gold(self) -> int:
-        """Pieces of gold collected."""
-        return int(self._gold[0])
+    def number(self, field: str, index: int = 0) -> int:
+        return int(self._numbers[field][index])
 
-    @property
-    def jump_held(self) -> int:
-        """Whether the jump key was down in the last sampled tick."""
-        return int(self._jump_held[0])
+    def jump_held(self, index: int = 0) -> int:
+        return int(self._jump_held[index])
 
-    def step(self, keys: int) -> None:
-        """One tick."""
-        self._step(self._levels, self._worlds, 0, keys)
+    def step(self, keys: int, index: int = 0) -> None:
+        self._step(self.maps, self.level_of[index], self.worlds, index, keys)
 
-    def kill(self, cause: int, dx: float, dy: float) -> None:
-        """Kill the ninja where it is."""
-        self._compiled(kill_ninja)(self._worlds, 0, cause, dx, dy)
+    def kill(self, cause: int, dx: float, dy: float, index: int = 0) -> None:
+        self._compiled(kill_ninja)(self.worlds, index, cause, dx, dy)
 
-    def run(self, inputs: bytes) -> RunRecord:
-        """Run until the first exit contact or death, or to the end."""
+    def run(self, inputs: bytes, index: int = 0) -> RunRecord:
         keys = np.frombuffer(inputs, np.uint8)
         places, states = np.empty(2 * len(keys)), np.empty(len(keys), np.uint8)
-        kernel = self._compiled(run_world)
+        kernel, level = self._compiled(run_world), self.level_of[index]
         ticks = 0
         for first, last in self._slices(len(keys)):
             here = places[2 * first : 2 * last], states[first:last]
-            ticks += kernel(self._levels, self._worlds, 0, keys[first:last], *here)
-            if ticks < last or self.outcome:
+            ticks += kernel(self.maps, level, self.worlds, index, keys[first:last], *here)
+            if ticks < last or self.number("outcome", index):
                 break
         return RunRecord(places[: 2 * ticks], states[:ticks])
 
-    def trace(self, inputs: bytes, slots: Sequence[int], *, events: bool) -> TraceRecord:
-        """Run all of ``inputs`` and record everything."""
+    def trace(self, inputs: bytes, slots: Sequence[int], *, events: bool, index: int = 0) -> TraceRecord:
         keys, columns = np.frombuffer(inputs, np.uint8), np.array(slots, np.int64)
         ticks, width = len(keys), MAX_EVENTS if events else 0
         widths = (len(TRACED_PLACES), len(TRACED_NUMBERS), 2 * len(columns), len(columns), len(columns), width)
         kinds = (np.float64, np.int32, np.float64, np.int32, np.uint8, np.uint8)
         record = TraceRecord(*(np.zeros(ticks * wide, kind) for wide, kind in zip(widths, kinds, strict=True)))
-        kernel = self._compiled(trace_world)
+        kernel, level = self._compiled(trace_world), self.level_of[index]
         for first, last in self._slices(ticks):
             here = [part[first * wide : last * wide] for part, wide in zip(record, widths, strict=True)]
-            kernel(self._levels, self._worlds, 0, keys[first:last], columns, *here)
+            kernel(self.maps, level, self.worlds, index, keys[first:last], columns, *here)
         return record
 
     def _slices(self, ticks: int) -> Iterator[tuple[int, int]]:
@@ -124,28 +145,40 @@ class CompiledMemory:
         for first in range(0, ticks, self._ticks_at_once):
             yield first, min(first + self._ticks_at_once, ticks)
 
-    def save(self) -> NDArray[np.uint8]:
-        """The state as bytes."""
-        return self._state.copy()
+    def save(self, index: int = 0) -> NDArray[np.uint8]:
+        state: NDArray[np.uint8] = self.states[index]
+        return state.copy()
 
-    def restore(self, state: NDArray[np.uint8]) -> None:
-        """Go back to a state of the same level."""
-        self._state[:] = state
-        self._event_count[0] = 0
+    def restore(self, state: NDArray[np.uint8], index: int = 0) -> None:
+        self.states[index] = state
+        self._event_count[index] = 0
 
-    def ninja(self) -> Any:
-        """The ninja's fields."""
-        return _NinjaRow(*self._ninja[0].item())
+    def ninja(self, index: int = 0) -> Any:
+        return _NinjaRow(*self._ninja[index].item())
 
-    def events(self) -> list[Any]:
-        """The events' fields."""
-        return [_EventRow(*row) for row in self._events[: int(self._event_count[0])].tolist()]
+    def events(self, index: int = 0) -> list[Any]:
+        return [_EventRow(*row) for row in self._events[index, : int(self._event_count[index])].tolist()]
 
-    def observe(self, slot: int) -> tuple[int, float, float, int]:
-        """Kind, x, y and status of the object in a slot."""
-        seen: tuple[int, float, float, int] = self._observe(self._worlds, 0, slot)
+    def observe(self, slot: int, index: int = 0) -> tuple[int, float, float, int]:
+        seen: tuple[int, float, float, int] = self._observe(self.worlds, index, slot)
         return seen
 
-    def world(self) -> World:
-        """A copy of the world as plain objects."""
-        return plain_copy(self._worlds, 0)
+    def world(self, index: int = 0) -> World:
+        return plain_copy(self.records, index)
+
+    def load(self, which: Iterable[int], levels: Iterable[int]) -> None:
+        for index, number in zip(which, levels, strict=True):
+            self.restore(self._all_states[self.count + number], index)
+            self.level_of[index] = number
+
+    def save_many(self, which: Any) -> NDArray[np.uint8]:
+        states: NDArray[np.uint8] = self.states[which]
+        return states
+
+    def restore_many(self, states: Any, which: Any, levels: Any) -> None:
+        """A state holds its level's objects."""
+        self.states[which], self.level_of[which], self._event_count[which] = states, levels, 0
+
+    def run_rows(self, inputs: Any, first: int, last: int, *, stop: bool) -> int:
+        ticks: int = self._compiled(run_worlds)(self.maps, self.level_of, self.worlds, inputs, first, last, int(stop))
+        return ticks

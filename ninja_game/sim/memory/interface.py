@@ -1,11 +1,17 @@
-"""What the plain and the compiled memory have in common: one world in one level."""
+"""What the plain and the compiled memory have in common: worlds in levels, one or thousands."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, Literal, NamedTuple, Protocol
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
 
-from ninja_game.sim.memory.schema import TileMap, World
+from ninja_game.sim.level import Level
+from ninja_game.sim.memory.schema import World
+
+R = TypeVar("R")
+Kernel: TypeAlias = Callable[..., R]
+"""An entry point, or its compiled twin."""
 
 MemoryName = Literal["plain", "compiled"]
 Body = Literal["circle", "box"]
@@ -40,64 +46,112 @@ class TraceRecord(NamedTuple):
     events: Any
 
 
-class Memory(Protocol):
-    """One world in one level: loaded, run, saved and looked at, at the same cost whatever the level's size.
+class Worlds(ABC):
+    """``count`` worlds in some levels, world i at first in level i modulo the number of levels.
 
-    ``name``: "plain" or "compiled". ``tiles``: the level as the rules see it.
+    Methods of a single world take its ``index``; those of several take ``which``, an array or list of indices.
+    ``name``: "plain" or "compiled". ``level_of`` (count,): which of ``levels`` each world plays, a buffer to be read.
+    ``maps``, ``worlds``, ``fresh``: the levels, the worlds, and a new world in each level, which nobody changes, as
+    kernels take them: arrays of records, or lists of plain objects.
+
+    Copies and pickles are worlds of their own: equal, events and all, and going on alike.
     """
 
     name: MemoryName
-    tiles: TileMap
+    levels: Sequence[Level]
+    count: int
+    slots: int
+    """Slots for objects in each world: what the level with the most objects needs."""
+    level_of: Any
+    maps: Any
+    worlds: Any
+    fresh: Any
+    records: Any
+    """The worlds as NumPy records (count,), in one block; of the plain memory as they were after the last ``run_rows``,
+    ``load`` or ``restore_many``, without events."""
+    states: Any
+    """The records as a matrix of bytes, one row per world, without events."""
 
-    @property
-    def tick(self) -> int:
+    @abstractmethod
+    def kernel(self, entry: Kernel[R]) -> Kernel[R]:
+        """The form of an entry point that takes ``maps`` and ``worlds``: its compiled twin, or itself."""
+
+    # --- one world ---
+
+    @abstractmethod
+    def number(self, field: str, index: int = 0) -> int:
+        """A number of a world, by its field in the schema: tick, outcome, gold or id_count."""
+
+    def tick(self, index: int = 0) -> int:
         """Ticks run."""
+        return self.number("tick", index)
 
-    @property
-    def outcome(self) -> int:
+    def outcome(self, index: int = 0) -> int:
         """The outcome, by number (sim/states.py)."""
+        return self.number("outcome", index)
 
-    @property
-    def gold(self) -> int:
+    def gold(self, index: int = 0) -> int:
         """Pieces of gold collected."""
+        return self.number("gold", index)
 
-    @property
-    def jump_held(self) -> int:
+    @abstractmethod
+    def jump_held(self, index: int = 0) -> int:
         """Whether the jump key was down in the last sampled tick."""
 
-    @property
-    def id_count(self) -> int:
-        """How many objects have an id."""
-
-    def load(self) -> None:
-        """Start afresh from the level."""
-
-    def step(self, keys: int) -> None:
+    @abstractmethod
+    def step(self, keys: int, index: int = 0) -> None:
         """One tick. ``keys``: a sum of ``Input`` flags, not checked."""
 
-    def kill(self, cause: int, dx: float, dy: float) -> None:
+    @abstractmethod
+    def kill(self, cause: int, dx: float, dy: float, index: int = 0) -> None:
         """Kill the ninja where it is; (dx, dy) is its corpse's impulse, px/tick."""
 
-    def run(self, inputs: bytes) -> RunRecord:
+    @abstractmethod
+    def run(self, inputs: bytes, index: int = 0) -> RunRecord:
         """Run until the tick of the first exit contact or death, or to the end of ``inputs``."""
 
-    def trace(self, inputs: bytes, slots: Sequence[int], *, events: bool) -> TraceRecord:
+    @abstractmethod
+    def trace(self, inputs: bytes, slots: Sequence[int], *, events: bool, index: int = 0) -> TraceRecord:
         """Run all of ``inputs`` and record the ninja, the objects in ``slots`` and, if asked for, the events."""
 
-    def save(self) -> Any:
+    @abstractmethod
+    def save(self, index: int = 0) -> Any:
         """The state, unchanged by what happens later; without the events of the last tick."""
 
-    def restore(self, state: Any) -> None:
+    @abstractmethod
+    def restore(self, state: Any, index: int = 0) -> None:
         """Go back to a state that ``save`` gave in the same level; nothing has happened in its last tick."""
 
-    def ninja(self) -> Any:
+    @abstractmethod
+    def ninja(self, index: int = 0) -> Any:
         """The ninja, with the fields of the schema; to be read at once, it may change with the next tick."""
 
-    def events(self) -> Sequence[Any]:
+    @abstractmethod
+    def events(self, index: int = 0) -> Sequence[Any]:
         """The events of the last tick, with the fields of the schema; to be read at once."""
 
-    def observe(self, slot: int) -> tuple[int, float, float, int]:
-        """Kind, x, y (px) and status of the object in a slot."""
+    @abstractmethod
+    def observe(self, slot: int, index: int = 0) -> tuple[int, float, float, int]:
+        """Kind, x, y (px) and status of the object in a slot, as traces show them."""
 
-    def world(self) -> World:
+    @abstractmethod
+    def world(self, index: int = 0) -> World:
         """The whole state as plain objects: of the plain memory the world itself, of the compiled one a copy."""
+
+    # --- several worlds ---
+
+    @abstractmethod
+    def load(self, which: Any, levels: Any) -> None:
+        """Start worlds afresh, each in the level of that number."""
+
+    @abstractmethod
+    def save_many(self, which: Any) -> Any:
+        """The states of worlds, unchanged by what happens later; without events."""
+
+    @abstractmethod
+    def restore_many(self, states: Any, which: Any, levels: Any) -> None:
+        """Put worlds back to states that ``save_many`` gave for as many, in the levels that those had."""
+
+    @abstractmethod
+    def run_rows(self, inputs: Any, first: int, last: int, *, stop: bool) -> int:
+        """Run worlds ``first`` … ``last`` - 1 for all rows of ``inputs`` (ticks, count), as ``run_worlds``."""

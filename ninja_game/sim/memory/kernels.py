@@ -1,7 +1,7 @@
 """What memories are called for: worlds loaded, stepped, run and traced, without coming back to Python each tick.
 
 These functions take arrays of worlds and an index, never a single record: that is what Numba passes quickly. The plain
-memory calls the same functions with lists of one. Results go into flat arrays of numbers, which both write quickly.
+memory calls the same functions with lists. Results go into flat arrays of numbers, which both write quickly.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ def load_world(
 
 
 @entry_point
-def step_world(levels: Sequence[TileMap], worlds: Sequence[World], index: int, keys: int) -> None:
-    """One tick of one world."""
-    step(levels[index], worlds[index], keys)
+def step_world(levels: Sequence[TileMap], number: int, worlds: Sequence[World], index: int, keys: int) -> None:
+    """One tick of world ``index`` in level ``number``."""
+    step(levels[number], worlds[index], keys)
 
 
 @entry_point
@@ -57,13 +57,20 @@ def observe_object(worlds: Sequence[World], index: int, slot: int) -> tuple[int,
 
 @entry_point
 def run_world(
-    levels: Sequence[TileMap], worlds: Sequence[World], index: int, inputs: Sequence[int], places: Any, states: Any
+    levels: Sequence[TileMap],
+    number: int,
+    worlds: Sequence[World],
+    index: int,
+    inputs: Sequence[int],
+    places: Any,
+    states: Any,
 ) -> int:
     """Run until the tick of the first exit contact or death, or to the end of ``inputs``; the number of ticks run.
 
+    World ``index`` runs in level ``number``.
     ``places`` (x, y of each tick in turn, px) and ``states`` (one a tick) receive the ninja's after each tick.
     """
-    level = levels[index]
+    level = levels[number]
     w = worlds[index]
     n = w.ninja
     for tick in range(len(inputs)):
@@ -78,7 +85,7 @@ def run_world(
 
 @entry_point
 def count_ticks(levels: Sequence[TileMap], worlds: Sequence[World], index: int, inputs: Sequence[int]) -> int:
-    """Run like ``run_world``, without a record: only the number of ticks run."""
+    """Run world ``index`` in level ``index`` like ``run_world``, without a record: only the number of ticks run."""
     level = levels[index]
     w = worlds[index]
     for tick in range(len(inputs)):
@@ -91,6 +98,7 @@ def count_ticks(levels: Sequence[TileMap], worlds: Sequence[World], index: int, 
 @entry_point
 def trace_world(
     levels: Sequence[TileMap],
+    number: int,
     worlds: Sequence[World],
     index: int,
     inputs: Sequence[int],
@@ -104,11 +112,12 @@ def trace_world(
 ) -> None:
     """Run all of ``inputs``, whatever happens, and record everything after each tick.
 
+    World ``index`` runs in level ``number``.
     ``ninja``: TRACED_PLACES of each tick in turn; ``numbers``: TRACED_NUMBERS. ``places``: x, y of each object in
     ``slots``; ``statuses``: one of each; ``switched``: 1 for a door that is not as it began. ``events``:
     MAX_EVENTS numbers a tick, each event's plus 1, 0 behind the last; nothing is recorded in an empty array.
     """
-    level = levels[index]
+    level = levels[number]
     w = worlds[index]
     n = w.ninja
     count = len(slots)
@@ -138,3 +147,30 @@ def trace_world(
         if len(events):
             for k in range(w.event_count):
                 events[MAX_EVENTS * tick + k] = w.events[k].kind + 1
+
+
+@entry_point
+def run_worlds(
+    levels: Sequence[TileMap],
+    level_of: Any,
+    worlds: Sequence[World],
+    inputs: Any,
+    first: int,
+    last: int,
+    stop: int,
+) -> int:
+    """Run worlds ``first`` … ``last`` - 1, each for all rows of ``inputs`` (ticks x worlds); the number of ticks run.
+
+    ``level_of``: which level each world plays. ``stop``: leave worlds alone whose exit contact or death has been. World
+    after world, not tick after tick: so a world stays in the processor's cache while its ticks run.
+    """
+    ticks = 0
+    for index in range(first, last):
+        level = levels[level_of[index]]
+        w = worlds[index]
+        for tick in range(len(inputs)):
+            if stop and w.outcome:
+                break
+            step(level, w, int(inputs[tick, index]))
+            ticks += 1
+    return ticks

@@ -12,7 +12,8 @@ import mmap
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.sim.memory.declare import Field, fields_of, setter_of
+from ninja_game.sim.kinds import KINDS
+from ninja_game.sim.memory.declare import Field, fields_of, getter_of, setter_of
 from ninja_game.sim.memory.object_fields import Header, Object
 from ninja_game.sim.memory.schema import Event, Ninja, TileMap, World
 
@@ -44,7 +45,7 @@ def dtype_of(cls: type) -> np.dtype[np.void]:
 
 
 def _overlaid(fields: list[Field]) -> np.dtype[np.void]:
-    """Thing's layout: each field at the lowest place that is free in all the kinds that have it."""
+    """The layout of ``Object``: each field at the lowest place that is free in all the kinds that have it."""
     kinds = [{field.name for field in fields_of(base)} for base in Object.__bases__]
     header = {field.name for field in fields_of(Header)}
     taken: list[set[int]] = [set() for _ in kinds]
@@ -87,6 +88,10 @@ STATE_START = WORLD.fields["event_count"][1]  # type: ignore[index]
 OBJECTS_START = WORLD.fields["objects"][1]  # type: ignore[index]
 
 _set_ninja, _set_event, _set_object = (setter_of(fields_of(cls)) for cls in (Ninja, Event, Object))
+_SCALARS = [field.name for field in fields_of(World) if isinstance(field.type, str) and not field.length]
+_get_ninja = getter_of(fields_of(Ninja))
+_KIND_FIELDS = {kind.number: [field.name for field in fields_of(kind.fields)] for kind in KINDS}
+_GET_KIND = {kind.number: getter_of(fields_of(kind.fields)) for kind in KINDS}
 
 
 def used_bytes(objects: int) -> int:
@@ -102,7 +107,7 @@ def new_worlds(count: int, objects: int) -> Records:
     a tick meets a handful of places of a world, and small pages would make most of them misses of the address cache.
     """
     stride = _align(used_bytes(objects), 64)
-    block = mmap.mmap(-1, (count - 1) * stride + WORLD.itemsize)
+    block = mmap.mmap(-1, (count - 1) * stride + max(stride, WORLD.itemsize))
     if hasattr(mmap, "MADV_HUGEPAGE"):
         huge = count * stride // HUGE_PAGE * HUGE_PAGE
         block.madvise(mmap.MADV_NOHUGEPAGE, huge)
@@ -111,13 +116,12 @@ def new_worlds(count: int, objects: int) -> Records:
     return np.ndarray((count,), WORLD, block, 0, (stride,))
 
 
-def state_view(worlds: Records, index: int) -> NDArray[np.uint8]:
-    """The bytes of one world without its events, as a view: save-states and copies between worlds are copies of it.
+def bytes_of(worlds: Records) -> NDArray[np.uint8]:
+    """The states of worlds as a matrix of bytes, one row per world, without their events; a view.
 
-    ``worlds`` is an array from ``new_worlds``, not a slice of one.
+    Save-states and copies between worlds are copies of rows. ``worlds``: an array from ``new_worlds``, not a slice.
     """
-    used = used_bytes(int(worlds["slots_used"][index]))
-    return np.ndarray((used - STATE_START,), np.uint8, worlds.base, index * worlds.strides[0] + STATE_START)
+    return np.ndarray((len(worlds), worlds.strides[0]), np.uint8, worlds.base)[:, STATE_START:]
 
 
 def plain_copy(worlds: Records, index: int) -> World:
@@ -136,3 +140,18 @@ def plain_copy(worlds: Records, index: int) -> World:
         _set_object(o, values)
         w.objects.append(o)
     return w
+
+
+def write_plain(w: World, worlds: Records, index: int) -> None:
+    """Write plain objects, but events, into one record of an array: of each object the fields that its kind has."""
+    record = worlds[index]
+    for name in _SCALARS:
+        record[name] = getattr(w, name)
+    record["ninja"] = _get_ninja(w.ninja)
+    record["heads"], record["edges"] = w.heads, w.edges
+    objects = record["objects"]
+    room = (worlds.strides[0] - OBJECTS_START) // OBJECT.itemsize
+    objects[1:room] = np.zeros((), OBJECT)
+    for slot in range(1, w.slots_used):
+        o = w.objects[slot]
+        objects[_KIND_FIELDS[o.kind]][slot] = _GET_KIND[o.kind](o)

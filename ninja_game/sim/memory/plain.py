@@ -1,17 +1,27 @@
-"""The plain memory: load a level into ordinary Python objects, save and restore a world of them."""
+"""The plain memory: worlds of ordinary Python objects. It starts at once, and anybody may look into it."""
 
 from __future__ import annotations
 
 from array import array
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from functools import cached_property, partial
 from typing import Any
 
 from ninja_game.sim.collision.tiles import set_edges
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import grid_tiles, populate, record_table
 from ninja_game.sim.memory.declare import fields_of, getter_of, setter_of
-from ninja_game.sim.memory.interface import TRACED_NUMBERS, TRACED_PLACES, MemoryName, RunRecord, TraceRecord
-from ninja_game.sim.memory.kernels import kill_ninja, observe_object, run_world, trace_world
+from ninja_game.sim.memory.interface import (
+    TRACED_NUMBERS,
+    TRACED_PLACES,
+    Kernel,
+    MemoryName,
+    R,
+    RunRecord,
+    TraceRecord,
+    Worlds,
+)
+from ninja_game.sim.memory.kernels import kill_ninja, observe_object, run_world, run_worlds, trace_world
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import MAX_EVENTS, Event, Ninja, TileMap, World
 from ninja_game.sim.world import step
@@ -20,11 +30,17 @@ PlainState = tuple[tuple[Any, ...], tuple[Any, ...], list[int], list[int], list[
 """A save-state of a plain world: its scalars, the ninja, cell heads, edges, objects. Never changed once made."""
 
 
+def tile_map(data: Level) -> TileMap:
+    """A level as the rules see it."""
+    level = TileMap()
+    level.tiles = grid_tiles(data)
+    return level
+
+
 def load_plain(data: Level, box: bool) -> tuple[TileMap, World]:
     """A level and a new world in it. Raises LevelError as ``record_table`` does."""
     table = record_table(data)
-    level = TileMap()
-    level.tiles = grid_tiles(data)
+    level = tile_map(data)
     w = World()
     w.objects += [Object() for _ in range(table.slots - 1)]
     set_edges(level, w)
@@ -37,6 +53,7 @@ WORLD_SCALARS = [field for field in fields_of(World) if field.length == 0 and is
 _get_scalars, _set_scalars = getter_of(WORLD_SCALARS), setter_of(WORLD_SCALARS)
 _get_ninja, _set_ninja = getter_of(fields_of(Ninja)), setter_of(fields_of(Ninja))
 _get_object, _set_object = getter_of(fields_of(Object)), setter_of(fields_of(Object))
+_get_event, _set_event = getter_of(fields_of(Event)), setter_of(fields_of(Event))
 
 
 def save_plain(w: World) -> PlainState:
@@ -57,91 +74,132 @@ def restore_plain(w: World, state: PlainState) -> None:
     w.event_count = 0
 
 
-class PlainMemory:
-    """A world of plain Python objects: it starts at once, and anybody may look into it."""
+class PlainWorlds(Worlds):
+    """Worlds of plain Python objects. Raises LevelError as ``record_table`` does."""
 
     name: MemoryName = "plain"
 
-    def __init__(self, level: Level, *, box: bool) -> None:
-        self._level = level
-        self._box = box
-        self.load()
+    def __init__(self, levels: Iterable[Level], count: int = 1, *, box: bool) -> None:
+        self.levels, self.count, self._box = tuple(levels), count, box
+        self._shown: Any = None
+        loaded = [load_plain(level, box) for level in self.levels]
+        self.maps = [tiles for tiles, _ in loaded]
+        self.slots = max(len(w.objects) for _, w in loaded)
+        self.level_of = array("q", [index % len(loaded) for index in range(count)])
+        self.worlds: list[World] = [w for _, w in loaded[:count]]
+        self.worlds += [load_plain(self.levels[number], box)[1] for number in self.level_of[len(loaded) :]]
 
-    def load(self) -> None:
-        """Start afresh from the level."""
-        self.tiles, self._world = load_plain(self._level, self._box)
+    def __reduce__(self) -> tuple[Any, ...]:
+        events = [[_get_event(event) for event in self.events(index)] for index in range(self.count)]
+        state = self.save_many(range(self.count)), self.level_of.tolist(), events
+        return partial(PlainWorlds, box=self._box), (self.levels, self.count), state
 
-    @property
-    def tick(self) -> int:
-        """Ticks run."""
-        return self._world.tick
+    def __setstate__(self, state: tuple[Any, ...]) -> None:
+        states, levels, events = state
+        self.restore_many(states, range(self.count), levels)
+        for w, happened in zip(self.worlds, events, strict=True):
+            w.event_count = len(happened)
+            for event, values in zip(w.events, happened, strict=False):
+                _set_event(event, values)
 
-    @property
-    def outcome(self) -> int:
-        """The outcome, by number."""
-        return self._world.outcome
+    @cached_property
+    def fresh(self) -> list[World]:
+        return [load_plain(level, self._box)[1] for level in self.levels]
 
-    @property
-    def gold(self) -> int:
-        """Pieces of gold collected."""
-        return self._world.gold
+    @cached_property
+    def _fresh_states(self) -> list[PlainState]:
+        return [save_plain(w) for w in self.fresh]
 
-    @property
-    def jump_held(self) -> int:
-        """Whether the jump key was down in the last sampled tick."""
-        return self._world.ninja.jump_held
+    @cached_property
+    def records(self) -> Any:
+        from ninja_game.sim.memory.layout import new_worlds
 
-    @property
-    def id_count(self) -> int:
-        """How many objects have an id."""
-        return self._world.id_count
+        self._shown = new_worlds(self.count, self.slots)
+        for index in range(self.count):
+            self._show(index)
+        return self._shown
 
-    def step(self, keys: int) -> None:
-        """One tick."""
-        step(self.tiles, self._world, keys)
+    @cached_property
+    def states(self) -> Any:
+        from ninja_game.sim.memory.layout import bytes_of
 
-    def kill(self, cause: int, dx: float, dy: float) -> None:
-        """Kill the ninja where it is."""
-        kill_ninja([self._world], 0, cause, dx, dy)
+        return bytes_of(self.records)
 
-    def run(self, inputs: bytes) -> RunRecord:
-        """Run until the first exit contact or death, or to the end."""
+    def _show(self, index: int) -> None:
+        """Copy a world into its record, once somebody looks at those."""
+        if self._shown is not None:
+            from ninja_game.sim.memory.layout import write_plain
+
+            write_plain(self.worlds[index], self._shown, index)
+
+    def kernel(self, entry: Kernel[R]) -> Kernel[R]:
+        return entry
+
+    def number(self, field: str, index: int = 0) -> int:
+        value: int = getattr(self.worlds[index], field)
+        return value
+
+    def jump_held(self, index: int = 0) -> int:
+        return self.worlds[index].ninja.jump_held
+
+    def step(self, keys: int, index: int = 0) -> None:
+        step(self.maps[self.level_of[index]], self.worlds[index], keys)
+
+    def kill(self, cause: int, dx: float, dy: float, index: int = 0) -> None:
+        kill_ninja(self.worlds, index, cause, dx, dy)
+
+    def run(self, inputs: bytes, index: int = 0) -> RunRecord:
         places, states = _zeros("d", 2 * len(inputs)), bytearray(len(inputs))
-        ticks = run_world([self.tiles], [self._world], 0, inputs, places, states)
+        ticks = run_world(self.maps, self.level_of[index], self.worlds, index, inputs, places, states)
         return RunRecord(places[: 2 * ticks], states[:ticks])
 
-    def trace(self, inputs: bytes, slots: Sequence[int], *, events: bool) -> TraceRecord:
-        """Run all of ``inputs`` and record everything."""
+    def trace(self, inputs: bytes, slots: Sequence[int], *, events: bool, index: int = 0) -> TraceRecord:
         ticks, rows = len(inputs), len(inputs) * len(slots)
         happened = bytearray(MAX_EVENTS * ticks if events else 0)
         ninja, numbers = _zeros("d", len(TRACED_PLACES) * ticks), _zeros("i", len(TRACED_NUMBERS) * ticks)
         record = TraceRecord(ninja, numbers, _zeros("d", 2 * rows), _zeros("i", rows), bytearray(rows), happened)
-        trace_world([self.tiles], [self._world], 0, inputs, slots, *record)
+        trace_world(self.maps, self.level_of[index], self.worlds, index, inputs, slots, *record)
         return record
 
-    def save(self) -> PlainState:
-        """The state as tuples."""
-        return save_plain(self._world)
+    def save(self, index: int = 0) -> PlainState:
+        return save_plain(self.worlds[index])
 
-    def restore(self, state: PlainState) -> None:
-        """Go back to a state of the same level."""
-        restore_plain(self._world, state)
+    def restore(self, state: PlainState, index: int = 0) -> None:
+        restore_plain(self.worlds[index], state)
 
-    def ninja(self) -> Ninja:
-        """The ninja."""
-        return self._world.ninja
+    def ninja(self, index: int = 0) -> Ninja:
+        return self.worlds[index].ninja
 
-    def events(self) -> list[Event]:
-        """The events of the last tick."""
-        return self._world.events[: self._world.event_count]
+    def events(self, index: int = 0) -> list[Event]:
+        w = self.worlds[index]
+        return w.events[: w.event_count]
 
-    def observe(self, slot: int) -> tuple[int, float, float, int]:
-        """Kind, x, y and status of the object in a slot."""
-        return observe_object([self._world], 0, slot)
+    def observe(self, slot: int, index: int = 0) -> tuple[int, float, float, int]:
+        return observe_object(self.worlds, index, slot)
 
-    def world(self) -> World:
-        """The world itself."""
-        return self._world
+    def world(self, index: int = 0) -> World:
+        return self.worlds[index]
+
+    def load(self, which: Iterable[int], levels: Sequence[int]) -> None:
+        self.restore_many([self._fresh_states[number] for number in levels], which, levels)
+
+    def save_many(self, which: Iterable[int]) -> list[PlainState]:
+        return [save_plain(self.worlds[index]) for index in which]
+
+    def restore_many(self, states: Iterable[PlainState], which: Iterable[int], levels: Iterable[int]) -> None:
+        """A world of another level is made again."""
+        for state, index, number in zip(states, which, levels, strict=True):
+            if self.level_of[index] != number:
+                self.worlds[index] = load_plain(self.levels[number], self._box)[1]
+                self.level_of[index] = number
+            restore_plain(self.worlds[index], state)
+            self._show(index)
+
+    def run_rows(self, inputs: Any, first: int, last: int, *, stop: bool) -> int:
+        ticks = run_worlds(self.maps, self.level_of, self.worlds, inputs, first, last, int(stop))
+        for index in range(first, last):
+            self._show(index)
+        return ticks
 
 
 def _zeros(code: str, count: int) -> array[Any]:

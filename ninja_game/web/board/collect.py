@@ -11,9 +11,9 @@ from ninja_game.files.reading import LeftOut, decoded, files_below, read_bytes
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import holds_recordings
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay, write_replay
+from ninja_game.runs.chunks import Chunk
 from ninja_game.runs.recording_reader import records_of
 from ninja_game.sim.level import Level
-from ninja_game.verification.chunks import Chunk
 
 MOST_BYTES = 2**20
 """Of a file: a hundred times a long run."""

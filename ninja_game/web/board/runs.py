@@ -10,11 +10,11 @@ from pathlib import Path
 
 from ninja_game.formats.replay.text import Replay
 from ninja_game.player.catalogue import Entry
+from ninja_game.runs.archive import verify_all
+from ninja_game.runs.chunks import Chunk, Result
 from ninja_game.runs.recording_reader import Unreadable
 from ninja_game.runs.run import run_level
 from ninja_game.runs.verify import Verdict
-from ninja_game.verification.chunks import Chunk, Result
-from ninja_game.verification.verify_many import verify_all
 from ninja_game.web.board.collect import Sent, sent_below
 from ninja_game.web.board.copies import Course, course_of, nearest
 from ninja_game.web.board.players import Players, player_named

@@ -14,9 +14,8 @@ from ninja_game.formats.load import load_levels
 from ninja_game.play.editor import object_pictures
 from ninja_game.play.editor.object_pictures import ObjectPictures, ObjectSprites
 from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.palette import PALETTES
-from ninja_game.play.view.sprites.draw_target import DrawTarget
-from ninja_game.play.view.sprites.sprite_book import SpriteBook
+from ninja_game.play.ui.theme import PALETTES
+from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook
 from ninja_game.sim.level import ObjectSpec
 from tests.support.level_maker import ROOM, Maker
 

@@ -15,7 +15,7 @@ from ninja_game.formats.pack.pack import Pack
 from ninja_game.generator import daily
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.daily import DailyScreen
-from ninja_game.verification.pack_checks import certificate
+from ninja_game.runs.packs import certificate
 from tests.support.menu_driver import MenuDriver
 from tests.support.waiting import LONGEST
 

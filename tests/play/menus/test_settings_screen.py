@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from ninja_game.play.input.actions import ACTIONS
+from ninja_game.play.input.bindings import ACTIONS
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.settings.capture import Conflict, clash
 from ninja_game.play.menus.settings.rebinding import SLOTS

@@ -75,7 +75,7 @@ def test_the_other_run_is_chosen(at: TasDriver, tab: LeadTab) -> None:
 
 
 def test_a_run_that_cannot_be_compared_says_so(at: TasDriver, tab: LeadTab, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ninja_game.runs.comparison.MAX_PAIRS", 10)
+    monkeypatch.setattr("ninja_game.runs.compare.MAX_PAIRS", 10)
     at.wait(lambda: tab.is_current, "an answer")
     assert "too long" in tab.summary
     assert tab.table is None

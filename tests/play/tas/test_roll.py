@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from ninja_game.formats.replay.input_runs import Marker
-from ninja_game.play.input.scancodes import SCANCODES
+from ninja_game.play.input.keys import SCANCODES
 from ninja_game.play.tas.roll.part import MARGIN
 from ninja_game.tas.input_track import InputTrack
 from tests.support.tas_driver import TasDriver

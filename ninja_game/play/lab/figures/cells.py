@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from ninja_game.play.lab.figure import Control, Figure, choice, room_world
 from ninja_game.play.lab.sheet import CORNER, Sheet
 from ninja_game.play.lab.watching import watch
-from ninja_game.play.view.hit_shapes import hit_shapes
-from ninja_game.play.view.overlays import touched_cells
+from ninja_game.play.view.overlays import hit_shapes, touched_cells
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW
 from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.grid import cell_at

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.episodes.cells import LEFT, LOOKS, MOST_HIGH, TOP, WIDE, Cells, draw_look
 from ninja_game.play.menus.level_card import all_gold_and_medal, time_and_par
@@ -16,8 +16,7 @@ from ninja_game.play.menus.settings.screen import PRACTICE_HINT
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.medals import MEDALS, draw_all_gold, draw_medal
-from ninja_game.play.ui.text_layout import counted, unreadable
-from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.theme import Area, Theme, counted, unreadable
 from ninja_game.play.ui.widgets import Choice, Widget
 from ninja_game.player.catalogue import Episode, EpisodeSet
 from ninja_game.player.marks import Mark, has_all_gold, tally, worst_medal

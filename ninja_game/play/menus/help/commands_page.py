@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.input.commands import Command, key_text
 from ninja_game.play.input.gamepad import pad_label
+from ninja_game.play.input.keys import Command, key_text
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.ui.canvas import WIDTH
-from ninja_game.play.ui.text_layout import wrapped
+from ninja_game.play.ui.theme import wrapped
 from ninja_game.play.ui.widgets import Button, Widget
 
 if TYPE_CHECKING:

@@ -7,16 +7,14 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.input.actions import ACTIONS
-from ninja_game.play.input.bindings import MOVES
-from ninja_game.play.level.run_clock import RunClock
+from ninja_game.play.input.bindings import ACTIONS, MOVES
+from ninja_game.play.level.play import RunClock
 from ninja_game.play.menus.help.pages import Page, read_pages
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.replay.playback import Playback
 from ninja_game.play.ui.canvas import HEIGHT, Canvas
 from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.text_layout import wrapped
-from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.theme import Area, Theme, wrapped
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.simulation import Simulation

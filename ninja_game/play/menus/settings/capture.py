@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.input.actions import ACTIONS
-from ninja_game.play.input.events import InputEvent
+from ninja_game.play.input.bindings import ACTIONS, InputEvent
 from ninja_game.play.input.gamepad import pad_label
-from ninja_game.play.input.scancodes import key_label
+from ninja_game.play.input.keys import key_label
 from ninja_game.play.menus.panels import Panel
 from ninja_game.play.screen import Screen
 

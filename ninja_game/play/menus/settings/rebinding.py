@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pygame
 
-from ninja_game.play.input.actions import ACTIONS
+from ninja_game.play.input.bindings import ACTIONS
 from ninja_game.play.menus.settings.capture import Capture, Conflict, clash, input_label
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.theme import Area, Theme

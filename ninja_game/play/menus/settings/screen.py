@@ -11,9 +11,8 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.settings.rebinding import BindingTable, binding_widgets
 from ninja_game.play.ui.canvas import WIDTH
 from ninja_game.play.ui.list_view import ListView
-from ninja_game.play.ui.palette import NINJA_COLOURS, PALETTES
 from ninja_game.play.ui.text_entry import TextEntry
-from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.theme import NINJA_COLOURS, PALETTES, Area, Theme
 from ninja_game.play.ui.widgets import Choice, Label, Slider, Widget
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
 

@@ -10,8 +10,7 @@ import numpy as np
 import pygame
 
 from ninja_game.play.replay.paths import COLOURS
-from ninja_game.play.ui.palette import Palette
-from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.theme import Area, Palette, Theme
 
 if TYPE_CHECKING:
     from ninja_game.search.formula.language import Numbers
@@ -42,7 +41,6 @@ class TickRange:
         return self.left + self.width * (tick - self.first) / (self.last - self.first)
 
     def tick(self, x: float) -> float:
-        """The tick at a place."""
         return self.first + (self.last - self.first) * (x - self.left) / self.width
 
     def fit(self, length: float) -> None:
@@ -53,7 +51,6 @@ class TickRange:
         self.move(0.0)
 
     def show_all(self) -> None:
-        """Show all ticks."""
         self.first, self.last = 0.0, self.length
 
     def zoom(self, x: float, steps: int) -> None:

@@ -7,8 +7,7 @@ from math import cos, hypot, pi, radians, sin
 from random import Random
 
 from ninja_game.play.view.effects.particles import Particle, Particles
-from ninja_game.sim import events as ev
-from ninja_game.sim import states
+from ninja_game.sim import events as ev, states
 from ninja_game.sim.collision.rays import ray_tiles
 from ninja_game.sim.kinds import DRONE, LAUNCHER
 from ninja_game.sim.memory.schema import Event, TileMap, World

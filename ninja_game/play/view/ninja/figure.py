@@ -5,7 +5,7 @@ from __future__ import annotations
 import pygame
 
 from ninja_game.play.ui.canvas import Point
-from ninja_game.play.ui.palette import Palette, mixed
+from ninja_game.play.ui.theme import Palette, mixed
 from ninja_game.play.view.ninja.pose import Pose
 from ninja_game.play.view.sprites.sketch import Sketch, Sprite
 

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from random import Random
 from typing import NamedTuple
 
 from ninja_game.play.ui.canvas import Point
-from ninja_game.play.view.ninja.box_contact import Box, tile_pushes
-from ninja_game.play.view.ninja.corpse_contacts import thing_pushes
 from ninja_game.play.view.ninja.pose import Pose
+from ninja_game.sim import kinds
+from ninja_game.sim.collision import tiles
+from ninja_game.sim.grid import cell_at
+from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import TileMap, World
-from ninja_game.sim.states import EXPLOSIVE, FALL
+from ninja_game.sim.rules import BLOCK_HALF, DOWN, LEFT, OFF, RIGHT, SOLID, STRIDE, THWUMP_HALF, UP
+from ninja_game.sim.states import EXPLOSIVE, FALL, WEAPON_ZAP
 
 GRAVITY = 0.15
 _LOSS_NORMAL, _LOSS_TANGENT = 1.4, 0.15
@@ -41,6 +44,17 @@ STICKS = (
     Stick(SHOULDER, NEAR_HAND, 8.0, 4.8, 0.2),
 )
 TRUNK = 2
+
+
+class Box:
+    """A box with a centre that moves when it is pushed, px."""
+
+    __slots__ = ("half", "x", "y")
+
+    def __init__(self, x: float, y: float, half: float) -> None:
+        self.x = x
+        self.y = y
+        self.half = half
 
 
 class VerletParticle(Box):
@@ -195,3 +209,161 @@ class Ragdoll:
         dx, dy = sx - px, sy - py
         length = (dx * dx + dy * dy) ** 0.5 or 1.0
         return sx + dx / length * 3.4, sy + dy / length * 3.4
+
+
+_PAD_KICK, _ZAP_KICK, _GUARD_KICK, _THWUMP_KICK = 6.0, 5.0, 6.0, 4.0
+
+
+def thing_pushes(world: World, box: Box) -> Iterator[tuple[float, float, float]]:
+    """Normals of the objects that a box touches, and how hard (px/tick) they kick it; it is pushed out as they come."""
+    for slot in range(1, world.id_count + 1):
+        o = world.objects[slot]
+        if o.kind in CONTACTS and abs(o.x - box.x) < 26 and abs(o.y - box.y) < 26:
+            half, kick = CONTACTS[o.kind]
+            if o.kind == kinds.LAUNCH_PAD:
+                yield from _pad(o, box)
+            elif o.kind == kinds.ONE_WAY:
+                yield from _one_way(o, box)
+            elif o.kind != kinds.DRONE or o.weapon == WEAPON_ZAP:
+                yield from _square(o, box, half, kick)
+
+
+def _square(o: Object, box: Box, half: float, kick: float) -> Iterator[tuple[float, float, float]]:
+    dx, dy = box.x - o.x, box.y - o.y
+    ox, oy = half + box.half - abs(dx), half + box.half - abs(dy)
+    if ox <= 0 or oy <= 0:
+        return
+    live = kick
+    if oy < ox:
+        sign = -1.0 if dy < 0 else 1.0
+        box.y += sign * oy
+        if o.kind == kinds.THWUMP:
+            live = kick if sign == o.face_y else 0.0
+        yield 0.0, sign, live
+    else:
+        sign = -1.0 if dx < 0 else 1.0
+        box.x += sign * ox
+        if o.kind == kinds.THWUMP:
+            live = kick if sign == o.face_x else 0.0
+        yield sign, 0.0, live
+
+
+def _pad(o: Object, box: Box) -> Iterator[tuple[float, float, float]]:
+    dx, dy = o.x - box.x, o.y - box.y
+    if dx * dx + dy * dy < (6 + box.half) ** 2:
+        length = (o.face_x * o.face_x + o.face_y * o.face_y) ** 0.5 or 1.0
+        yield o.face_x / length, o.face_y / length, _PAD_KICK
+
+
+def _one_way(o: Object, box: Box) -> Iterator[tuple[float, float, float]]:
+    """Only from its face, and only near it."""
+    dx, dy = box.x - o.x, box.y - o.y
+    across = abs(dy) if o.face_x else abs(dx)
+    depth = 12 + box.half - (dx * o.face_x + dy * o.face_y)
+    if across < 12 + box.half and 0 < depth < 6:
+        box.x += depth * o.face_x
+        box.y += depth * o.face_y
+        yield o.face_x, o.face_y, 0.0
+
+
+CONTACTS = {
+    kinds.BOUNCE_BLOCK: (BLOCK_HALF, 0.0),
+    kinds.THWUMP: (THWUMP_HALF, _THWUMP_KICK),
+    kinds.LAUNCH_PAD: (6.0, _PAD_KICK),
+    kinds.ONE_WAY: (12.0, 0.0),
+    kinds.FLOOR_GUARD: (6.0, _GUARD_KICK),
+    kinds.DRONE: (9.0, _ZAP_KICK),
+}
+"""Half size (px) and kick of each kind that the corpse can touch."""
+
+
+Push = tuple[float, float, float, float]
+"""By how much a box is pushed (px), and the surface's normal."""
+
+
+def tile_pushes(level: TileMap, world: World, box: Box) -> Iterator[Push]:
+    """Push a box out of tiles and closed doors; each push is done when it is given."""
+    cell = cell_at(box.x, box.y)
+    if not cell:
+        return
+    cx, cy, half = tiles.CENTRE_X[cell], tiles.CENTRE_Y[cell], box.half
+    if level.tiles[cell]:
+        dx, dy = box.x - cx, box.y - cy
+        ox, oy = 12 + half - abs(dx), 12 + half - abs(dy)
+        a, b = (ox if dx >= 0 else -ox, 0.0) if ox < oy else (0.0, oy if dy >= 0 else -oy)
+        yield from _narrow(level, box, cell, a, b)
+    free = True
+    dy = box.y - cy
+    oy = abs(dy) + half - 12
+    if oy > 0:
+        side = UP if dy < 0 else DOWN
+        sign = 1.0 if dy < 0 else -1.0
+        for push in _side(level, world, box, cell, side, 0.0, oy * sign):
+            free = False
+            yield push
+    dx = box.x - cx
+    ox = abs(dx) + half - 12
+    if ox > 0:
+        side = LEFT if dx < 0 else RIGHT
+        sign = 1.0 if dx < 0 else -1.0
+        for push in _side(level, world, box, cell, side, ox * sign, 0.0):
+            free = False
+            yield push
+    if free and ox > 0 and oy > 0:
+        beside = cell + (1 if dx > 0 else -1)
+        corner = beside + (STRIDE if dy > 0 else -STRIDE)
+        a, b = (-ox if dx > 0 else ox, 0.0) if ox < oy else (0.0, -oy if dy > 0 else oy)
+        yield from _narrow(level, box, corner, a, b)
+
+
+def _side(level: TileMap, world: World, box: Box, cell: int, side: int, a: float, b: float) -> Iterator[Push]:
+    """Over one edge of the own cell: a solid edge pushes back, an interesting one asks the tile behind it."""
+    edge = world.edges[4 * cell + side]
+    if edge == SOLID:
+        yield _push(box, a, b, (a > 0) - (a < 0), (b > 0) - (b < 0))
+    elif edge != OFF:
+        yield from _narrow(level, box, cell + (1, STRIDE, -1, -STRIDE)[side], a, b)
+
+
+def _push(box: Box, a: float, b: float, nx: float, ny: float) -> Push:
+    box.x += a
+    box.y += b
+    return a, b, nx, ny
+
+
+def _narrow(level: TileMap, box: Box, cell: int, a: float, b: float) -> Iterator[Push]:
+    """One tile: out along its surface, or along the axis (a, b) if that is shorter."""
+    tile = level.tiles[cell]
+    shape = tiles.SHAPE[tile]
+    if shape in {tiles.EMPTY, tiles.UNDEFINED}:
+        return
+    m = (a * a + b * b) ** 0.5
+    axis = a, b, (a > 0) - (a < 0), (b > 0) - (b < 0)
+    sx, sy = tiles.SIGN_X[tile], tiles.SIGN_Y[tile]
+    kx, ky = box.x - sx * box.half, box.y - sy * box.half
+    if shape == tiles.FULL:
+        yield _push(box, *axis)
+        return
+    if shape in {tiles.CONCAVE, tiles.CONVEX}:
+        out = _round_push(shape, kx, ky, tiles.CENTRE_X[cell], tiles.CENTRE_Y[cell], sx, sy)
+    else:
+        nx, ny = (sx, sy) if shape == tiles.HALF_TILE else (tiles.NORMAL_X[tile], tiles.NORMAL_Y[tile])
+        dx, dy = kx - tiles.CENTRE_X[cell] - tiles.ANCHOR_X[tile], ky - tiles.CENTRE_Y[cell] - tiles.ANCHOR_Y[tile]
+        depth = dx * nx + dy * ny
+        out = (-depth, nx, ny) if depth < 0 else None
+    if out is not None:
+        depth, nx, ny = out
+        yield _push(box, *(axis if m < depth else (nx * depth, ny * depth, nx, ny)))
+
+
+def _round_push(
+    shape: int, kx: float, ky: float, cx: float, cy: float, sx: float, sy: float
+) -> tuple[float, float, float] | None:
+    """Depth and normal in a quarter arc; a depth without end where only the axis will do."""
+    sign = 1.0 if shape == tiles.CONCAVE else -1.0
+    dx, dy = sign * (cx + sign * sx * 12 - kx), sign * (cy + sign * sy * 12 - ky)
+    if shape == tiles.CONVEX and (sx * dx < 0 or sy * dy < 0):
+        return float("inf"), 0.0, 0.0
+    length = (dx * dx + dy * dy) ** 0.5
+    depth = sign * (length - 24)
+    return (depth, dx / length, dy / length) if depth > 0 and length > 0 else None

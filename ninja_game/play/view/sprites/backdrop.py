@@ -5,12 +5,11 @@ from __future__ import annotations
 import pygame
 
 from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.palette import Palette
-from ninja_game.play.view.sprites.draw_target import is_near
+from ninja_game.play.ui.theme import Palette
+from ninja_game.play.view.sprites.drawing import SpriteBook, is_near
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
 from ninja_game.play.view.sprites.sketch import Sprite
-from ninja_game.play.view.sprites.sprite_book import SpriteBook
-from ninja_game.play.view.sprites.static_sprite_state import SETTLED_TICKS, PlacedSprite, static_sprites_of
+from ninja_game.play.view.sprites.static_sprites import SETTLED_TICKS, PlacedSprite, static_sprites_of
 from ninja_game.play.view.sprites.tile_sheet import TileSheet
 from ninja_game.sim.kinds import GOLD, MINE
 from ninja_game.sim.memory.schema import TileMap, World

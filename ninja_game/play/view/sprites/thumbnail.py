@@ -8,14 +8,13 @@ import pygame
 
 from ninja_game.errors import LevelError
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
-from ninja_game.play.ui.palette import PALETTES, Palette
+from ninja_game.play.ui.theme import PALETTES, Palette
 from ninja_game.play.view.ninja.figure import ninja_sprite
 from ninja_game.play.view.ninja.pose import STAND
 from ninja_game.play.view.sprites.backdrop import Backdrop
-from ninja_game.play.view.sprites.draw_moving import draw_moving
-from ninja_game.play.view.sprites.draw_target import DrawTarget
+from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook
+from ninja_game.play.view.sprites.moving_sprites import draw_moving
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
-from ninja_game.play.view.sprites.sprite_book import SpriteBook
 from ninja_game.sim.level import Level
 from ninja_game.sim.loader import grid_tiles
 from ninja_game.sim.memory.schema import TileMap

@@ -1,0 +1,307 @@
+"""The objects: those nearest to the ninja, and all of a level in planes of its cells."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+from gymnasium.spaces import Box
+
+from ninja_game.errors import ArgumentError
+from ninja_game.learn.observations.part import Part, Ragged, Setting, clamp
+from ninja_game.learn.observations.surroundings import FINE, solidity
+from ninja_game.learn.observations.vectors import MAX_SPEED
+from ninja_game.sim import kinds
+from ninja_game.sim.collision.tiles import COLUMN as GRID_COLUMN, ROW as GRID_ROW, UNIT_X, UNIT_Y
+from ninja_game.sim.grid import cell_at
+from ninja_game.sim.kinds import EXIT, INERT, KINDS, NINJA
+from ninja_game.sim.level import COLUMNS, ROWS, TILES
+from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import World
+from ninja_game.sim.rules import CHASE_PACE, GRID_COLUMNS, GRID_ROWS, GUARD_SPEED, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.states import (
+    DRONE_MOVE,
+    GUARD_CHASE,
+    LAUNCHER_FLIGHT,
+    LAUNCHER_IDLE,
+    THWUMP_MOVE,
+    TRAP,
+)
+
+MOST_ROUTINES = 3.0
+"""The highest number of a drone's or a turret's routine."""
+
+
+@fast
+def is_there(w: World, o: Object) -> bool:
+    """Whether there is anything left of an object."""
+    if o.kind == kinds.GOLD:
+        return o.taken == 0
+    if o.kind == kinds.MINE:
+        return o.exploded == 0
+    if o.kind == kinds.SWITCH:
+        return w.objects[o.partner].is_open == 0
+    return True
+
+
+@fast
+def place_of(o: Object) -> tuple[float, float]:
+    """Where an object is, px: of a launcher its rocket in flight, of a door its switch (automatic: its middle)."""
+    if o.kind == kinds.LAUNCHER and o.routine != LAUNCHER_FLIGHT:
+        return o.base_x, o.base_y
+    return o.x, o.y
+
+
+@fast
+def velocity_of(o: Object) -> tuple[float, float]:
+    """How it moves, px/tick, as far as it tells: what has no speed of its own is at rest."""
+    if o.kind == kinds.BOUNCE_BLOCK:
+        return o.x - o.prev_x, o.y - o.prev_y
+    if o.kind == kinds.THWUMP and o.routine == THWUMP_MOVE:
+        return o.sign * o.face_x * o.speed, o.sign * o.face_y * o.speed
+    if o.kind == kinds.FLOOR_GUARD and o.routine == GUARD_CHASE and o.updating:
+        return o.facing * GUARD_SPEED, 0.0
+    if o.kind == kinds.LAUNCHER and o.routine == LAUNCHER_FLIGHT:
+        return o.speed * o.heading_x, o.speed * o.heading_y
+    if o.kind == kinds.DRONE and o.routine == DRONE_MOVE and o.updating and 0 <= o.direction <= 3:
+        speed = o.speed * CHASE_PACE if o.chasing else o.speed
+        return UNIT_X[o.direction] * speed, UNIT_Y[o.direction] * speed
+    return 0.0, 0.0
+
+
+@fast
+def face_of(o: Object) -> tuple[float, float]:
+    """The way it faces: a normal, the way a drone goes or a thwump falls; of a turret the way to its crosshair.
+
+    All are about unit vectors but the last: that is a share of the world's width.
+    """
+    if o.kind == kinds.LAUNCH_PAD or o.kind == kinds.ONE_WAY or o.kind == kinds.THWUMP:
+        return o.face_x, o.face_y
+    if o.kind == kinds.DRONE and 0 <= o.direction <= 3:
+        return UNIT_X[o.direction], UNIT_Y[o.direction]
+    if o.kind == kinds.TURRET:
+        return (o.aim_x - o.x) / WORLD_WIDTH, (o.aim_y - o.y) / WORLD_WIDTH
+    return 0.0, 0.0
+
+
+@fast
+def moment_of(o: Object) -> float:
+    """What it is doing, one number.
+
+    Exit: 1 open. Door: 1 closed. Thwump: 1 falls, -1 rises. Guard: 1 runs. Bounce block: 1 moves. Rocket: 1 flies,
+    1/2 before. Drone: 1/3 before it fires, 2/3 firing, 1 after. Turret: 1/3 aims, 2/3 before it fires, 1 after. Else 0.
+    """
+    kind = o.kind
+    if kind == kinds.EXIT:
+        return float(o.is_open)
+    if kind == kinds.DOOR:
+        return float(o.switched) if o.mechanism == TRAP else 1.0 - o.switched
+    if kind == kinds.THWUMP:
+        return o.sign if o.routine == THWUMP_MOVE else 0.0
+    if kind == kinds.FLOOR_GUARD:
+        return 1.0 if o.routine == GUARD_CHASE and o.updating else 0.0
+    if kind == kinds.BOUNCE_BLOCK:
+        return float(o.updating)
+    if kind == kinds.LAUNCHER:
+        return 1.0 if o.routine == LAUNCHER_FLIGHT else 0.0 if o.routine == LAUNCHER_IDLE else 0.5
+    if kind == kinds.DRONE or kind == kinds.TURRET:
+        return float(o.routine) / MOST_ROUTINES if o.updating else 0.0
+    return 0.0
+
+
+OBSERVED = tuple(kind for kind in KINDS if kind.number not in {NINJA, INERT})
+KIND_NAMES = tuple(kind.name for kind in OBSERVED)
+OBJECT_COLUMNS = (*KIND_NAMES, "dx", "dy", "vx", "vy", "face_x", "face_y", "moment")
+"""Of each object: its kind, a flag each; the way from the ninja, px; its velocity, px/tick."""
+DX = len(KIND_NAMES)
+MOST_OBJECTS = 64
+
+
+@dataclass(frozen=True)
+class NearObjects(Part):
+    """The ``count`` objects nearest to the ninja, nearest first, float32 (count, 20): ``OBJECT_COLUMNS``, else 0.
+
+    What is gone is not seen: gold taken, mines exploded, the switch of an open exit. ``kinds``: which kinds are looked
+    at, by name (of ``KIND_NAMES``); all of them without.
+    """
+
+    name: ClassVar[str] = "objects"
+
+    count: int = 8
+    kinds: tuple[str, ...] = KIND_NAMES
+
+    def __post_init__(self) -> None:
+        if self.count not in range(1, MOST_OBJECTS + 1):
+            raise ArgumentError(f"the count of near objects is {self.count!r}; expected 1 to {MOST_OBJECTS}")
+        if not self.kinds or not set(self.kinds) <= set(KIND_NAMES):
+            raise ArgumentError(f"the kinds of near objects are {self.kinds!r:.60}; expected some of {KIND_NAMES}")
+
+    @property
+    def box(self) -> Box:
+        """Float32 (count, 20)."""
+        low, high, _ = self._range()
+        return Box(np.tile(low, (self.count, 1)), np.tile(high, (self.count, 1)), dtype=np.float32)
+
+    def _range(self) -> Any:
+        """Lowest and highest value and divisor of each column."""
+        ways, speeds = [WORLD_WIDTH, WORLD_HEIGHT], [MAX_SPEED] * 2
+        highest = np.array([1.0] * DX + ways + speeds + [1.0] * 3)
+        lowest = np.where(np.arange(len(OBJECT_COLUMNS)) < DX, 0.0, -highest)
+        divisors = np.array([1.0] * DX + [WORLD_WIDTH] * 2 + speeds + [1.0] * 3)
+        divisors = divisors if self.normalised else np.ones(len(OBJECT_COLUMNS))
+        return (lowest / divisors).astype(np.float32), (highest / divisors).astype(np.float32), divisors
+
+    @property
+    def kernel(self) -> Callable[..., None]:
+        """``observe_objects``."""
+        return observe_objects
+
+    def tables(self, setting: Setting) -> tuple[Any, ...]:
+        """How many; factors and limits; each level's objects, their columns; room for the nearest of each world."""
+        low, high, divisors = self._range()
+        columns = {kind.number: place for place, kind in enumerate(OBSERVED) if kind.name in self.kinds}
+        objects = [[(o.slot, columns[o.kind]) for _, o in found] for found in setting.objects(*columns)]
+        room = [[0] * (setting.count * self.count)] * 2
+        return (
+            self.count,
+            *(setting.table(values, np.float64) for values in (1.0 / divisors, low, high)),
+            *Ragged(objects).columns(setting, 2),
+            *(setting.table(values, np.float64) for values in room),
+        )
+
+
+@entry_point
+def observe_objects(
+    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    count: int, factors: Any, lows: Any, highs: Any, starts: Any, slots: Any, columns: Any,
+    nearest: Any, distances: Any,
+) -> None:  # fmt: skip
+    """Find the nearest objects of some worlds, by insertion, and write them."""
+    for k in range(first, last):
+        index = which[k]
+        level = level_of[index]
+        w = worlds[index]
+        n = w.ninja
+        base = index * count
+        found = 0
+        for object_ in range(starts[level], starts[level + 1]):
+            o = w.objects[int(slots[object_])]
+            if is_there(w, o):
+                x, y = place_of(o)
+                distance = (x - n.x) * (x - n.x) + (y - n.y) * (y - n.y)
+                if found < count or distance < distances[base + count - 1]:
+                    found = min(found + 1, count)
+                    place = base + found - 1
+                    while place > base and distance < distances[place - 1]:
+                        distances[place] = distances[place - 1]
+                        nearest[place] = nearest[place - 1]
+                        place -= 1
+                    distances[place] = distance
+                    nearest[place] = object_
+        width = len(factors)
+        for j in range(offset, offset + count * width):
+            out[index, j] = 0.0
+        for rank in range(found):
+            object_ = int(nearest[base + rank])
+            o = w.objects[int(slots[object_])]
+            at = offset + rank * width
+            x, y = place_of(o)
+            vx, vy = velocity_of(o)
+            face_x, face_y = face_of(o)
+            out[index, at + int(columns[object_])] = 1.0
+            out[index, at + DX] = clamp((x - n.x) * factors[DX], lows[DX], highs[DX])
+            out[index, at + DX + 1] = clamp((y - n.y) * factors[DX + 1], lows[DX + 1], highs[DX + 1])
+            out[index, at + DX + 2] = clamp(vx * factors[DX + 2], lows[DX + 2], highs[DX + 2])
+            out[index, at + DX + 3] = clamp(vy * factors[DX + 3], lows[DX + 3], highs[DX + 3])
+            out[index, at + DX + 4] = clamp(face_x, -1.0, 1.0)
+            out[index, at + DX + 5] = clamp(face_y, -1.0, 1.0)
+            out[index, at + DX + 6] = moment_of(o)
+
+
+PLANES = ("solid", *KIND_NAMES, "ninja")
+"""How much of a cell is solid; where objects of each kind are; where the ninja is."""
+HIGHEST = 255
+CLOSED_EXIT = 128
+
+
+@dataclass(frozen=True)
+class LevelPlanes(Part):
+    """The level's 31 x 23 cells in a plane for each of ``PLANES``: uint8 (15, 23, 31); normalised: float32, 0 to 1.
+
+    255 (1.0): there is one in this cell, by its middle; a closed exit is 128 (0.5). What is gone is not seen (as by
+    ``NearObjects``). Of a locked or trap door its switch is seen.
+    """
+
+    name: ClassVar[str] = "planes"
+
+    @property
+    def box(self) -> Box:
+        """(15, 23, 31)."""
+        shape = (len(PLANES), ROWS, COLUMNS)
+        return Box(0.0, 1.0, shape, np.float32) if self.normalised else Box(0, HIGHEST, shape, np.uint8)
+
+    @property
+    def kernel(self) -> Callable[..., None]:
+        """``observe_planes``."""
+        return observe_planes
+
+    def tables(self, setting: Setting) -> tuple[Any, ...]:
+        """The solid plane of each level; each level's objects and their planes; the values."""
+        solid = [
+            solidity(setting, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE)
+            .reshape(GRID_ROWS, FINE, GRID_COLUMNS, FINE)
+            .mean((1, 3))[1:-1, 1:-1]
+            for number in range(len(setting.fresh))
+        ]
+        shades = np.rint(np.array(solid) * HIGHEST)
+        factor = 1.0 / HIGHEST if self.normalised else 1
+        values: Any = np.float64 if self.normalised else np.int64
+        planes = {kind.number: 1 + place for place, kind in enumerate(OBSERVED)}
+        objects = [[(o.slot, planes[o.kind]) for _, o in found] for found in setting.objects(*planes)]
+        return (
+            setting.table((shades * factor).ravel(), values),
+            *Ragged(objects).columns(setting, 2),
+            HIGHEST * factor,
+            CLOSED_EXIT * factor,
+        )
+
+
+@entry_point
+def observe_planes(
+    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    solid: Any, starts: Any, slots: Any, planes: Any, highest: Any, closed: Any,
+) -> None:  # fmt: skip
+    """Write the planes of some worlds."""
+    for k in range(first, last):
+        index = which[k]
+        level = level_of[index]
+        w = worlds[index]
+        for j in range(TILES):
+            out[index, offset + j] = solid[level * TILES + j]
+        for j in range(offset + TILES, offset + len(PLANES) * TILES):
+            out[index, j] = 0
+        for number in range(starts[level], starts[level + 1]):
+            o = w.objects[int(slots[number])]
+            if is_there(w, o):
+                x, y = place_of(o)
+                cell = interior_cell(x, y)
+                if cell >= 0:
+                    is_closed = o.kind == EXIT and not o.is_open
+                    out[index, offset + int(planes[number]) * TILES + cell] = closed if is_closed else highest
+        cell = interior_cell(w.ninja.x, w.ninja.y)
+        if cell >= 0:
+            out[index, offset + (len(PLANES) - 1) * TILES + cell] = highest
+
+
+@fast
+def interior_cell(x: float, y: float) -> int:
+    """Index of the level's cell that holds a place, row by row; -1 for the border and outside."""
+    cell = cell_at(x, y)
+    column = GRID_COLUMN[cell]
+    row = GRID_ROW[cell]
+    if 1 <= column <= COLUMNS and 1 <= row <= ROWS:
+        return (row - 1) * COLUMNS + column - 1
+    return -1

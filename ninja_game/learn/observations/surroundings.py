@@ -1,0 +1,231 @@
+"""What is solid round the ninja: the cells of a square, and rays."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import cos, pi, sin
+from typing import Any, ClassVar
+
+import numpy as np
+from gymnasium.spaces import Box
+from numpy.typing import NDArray
+
+from ninja_game.errors import ArgumentError
+from ninja_game.learn.observations.part import Part, Setting, clamp
+from ninja_game.sim.collision.rays import cast, solid_at
+from ninja_game.sim.collision.tiles import FULL, SHAPE
+from ninja_game.sim.kinds import DOOR
+from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.rules import CELL, GRID_COLUMNS, GRID_ROWS, STRIDE, WORLD_HEIGHT, WORLD_WIDTH
+
+FINE = 8
+"""Points across a cell by which distances are measured: their error is below 3 px, the points' distance."""
+
+
+def solidity(
+    setting: Setting, number: int, across: int, down: int, spacing: tuple[float, float] | None = None
+) -> NDArray[np.uint8]:
+    """A level in (down, across) points, each in the middle of its share of the world, or so many px apart; 1: solid."""
+    points = np.zeros((down, across), np.uint8)
+    wide, high = spacing or (WORLD_WIDTH / across, WORLD_HEIGHT / down)
+    setting.kernel(mark_solid)(setting.maps, number, wide, high, points)
+    return points
+
+
+@entry_point
+def mark_solid(maps: Any, number: int, wide: float, high: float, points: Any) -> None:
+    """Mark the points that are solid, ``wide`` and ``high`` px apart."""
+    for row in range(len(points)):
+        for column in range(len(points[row])):
+            if solid_at(maps[number], (column + 0.5) * wide, (row + 0.5) * high):
+                points[row, column] = 1
+
+
+def surface_distances(setting: Setting, number: int, reach: float) -> NDArray[np.float64]:
+    """Of every cell (25, 33) how far its centre is from the nearest surface, px, at most ``reach``; within below 0.
+
+    What is outside the world counts as solid.
+    """
+    spacing = WORLD_WIDTH / GRID_COLUMNS / FINE
+    margin = int(reach / spacing)
+    points = np.pad(solidity(setting, number, GRID_COLUMNS * FINE, GRID_ROWS * FINE), margin, constant_values=1)
+    centres = solidity(setting, number, GRID_COLUMNS, GRID_ROWS)
+    offsets = (np.arange(2 * margin) - margin + 0.5) * spacing
+    far = np.sqrt(offsets * offsets + (offsets * offsets)[:, np.newaxis])
+    distances = np.full((GRID_ROWS, GRID_COLUMNS), reach)
+    for row, column in np.ndindex(*distances.shape):
+        top, left = row * FINE + FINE // 2, column * FINE + FINE // 2
+        within = centres[row, column]
+        others = far[points[top : top + 2 * margin, left : left + 2 * margin] != within]
+        nearest = min(reach, others.min()) if others.size else reach
+        distances[row, column] = -nearest if within else nearest
+    return distances
+
+
+FORMS = ("distance", "one-hot")
+TILE_KINDS = len(SHAPE)
+FULL_TILE = SHAPE.index(FULL)
+BIGGEST = 31
+REACH = 48.0
+"""px; distances are cut off there."""
+
+
+@dataclass(frozen=True)
+class LocalTiles(Part):
+    """``size`` x ``size`` cells, the ninja's in the middle; rows from top to bottom. What is outside counts as solid.
+
+    ``form``: "distance", float32 (size, size): from the cell's centre to the nearest surface, px, below 0 within
+    something solid, at most 48; or "one-hot", uint8 (size, size, 36): which tile it is, by its id (docs/rules/world.md
+    §2.2; 34: malformed half, 35: undefined). Doors and objects play no part.
+    """
+
+    name: ClassVar[str] = "tiles"
+
+    size: int = 9
+    form: str = "distance"
+
+    def __post_init__(self) -> None:
+        if self.size not in range(1, BIGGEST + 1, 2):
+            raise ArgumentError(f"the size of local tiles is {self.size!r}; expected an odd number up to {BIGGEST}")
+        if self.form not in FORMS:
+            raise ArgumentError(f"the form of local tiles is {self.form!r}; expected one of {FORMS}")
+
+    @property
+    def box(self) -> Box:
+        """Float32 (size, size), or uint8 (size, size, 36)."""
+        if self.form == "one-hot":
+            return Box(0, 1, (self.size, self.size, TILE_KINDS), np.uint8)
+        reach = 1.0 if self.normalised else REACH
+        return Box(-reach, reach, (self.size, self.size), np.float32)
+
+    @property
+    def kernel(self) -> Callable[..., None]:
+        """By its form."""
+        return observe_distances if self.form == "distance" else observe_tiles
+
+    def tables(self, setting: Setting) -> tuple[Any, ...]:
+        """Of each level a padded picture: distances, or tile ids; the width and height of a picture, and the size."""
+        margin = self.size // 2
+        height, width = GRID_ROWS + 2 * margin, GRID_COLUMNS + 2 * margin
+        maps = [tiles for tiles, _ in setting.fresh]
+        pictures = np.full((len(maps), height, width), FULL_TILE if self.form == "one-hot" else -1.0)
+        for number, (picture, tiles) in enumerate(zip(pictures, maps, strict=True)):
+            inner = picture[margin : height - margin, margin : width - margin]
+            if self.form == "one-hot":
+                inner[:] = np.reshape(tiles.tiles, (-1, STRIDE))[1 : GRID_ROWS + 1, 1 : GRID_COLUMNS + 1]
+            else:
+                inner[:] = surface_distances(setting, number, REACH) / REACH
+        if not self.normalised and self.form == "distance":
+            pictures *= REACH
+        dtype: Any = np.int64 if self.form == "one-hot" else np.float32
+        return setting.table(pictures.ravel(), dtype), width, height, self.size
+
+
+@entry_point
+def observe_distances(
+    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    pictures: Any, width: int, height: int, size: int,
+) -> None:  # fmt: skip
+    """Copy the part of the level's picture round the ninja."""
+    for k in range(first, last):
+        index = which[k]
+        n = worlds[index].ninja
+        start = level_of[index] * width * height + corner(n.x, n.y, width)
+        at = offset
+        for _ in range(size):
+            for column in range(size):
+                out[index, at + column] = pictures[start + column]
+            start += width
+            at += size
+
+
+@entry_point
+def observe_tiles(
+    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    pictures: Any, width: int, height: int, size: int,
+) -> None:  # fmt: skip
+    """Mark the tile of each cell round the ninja."""
+    for k in range(first, last):
+        index = which[k]
+        n = worlds[index].ninja
+        start = level_of[index] * width * height + corner(n.x, n.y, width)
+        for j in range(offset, offset + size * size * TILE_KINDS):
+            out[index, j] = 0
+        at = offset
+        for _ in range(size):
+            for column in range(size):
+                out[index, at + pictures[start + column]] = 1
+                at += TILE_KINDS
+            start += width
+
+
+@fast
+def corner(x: float, y: float, width: int) -> int:
+    """Where in a padded picture the square round the cell of a place begins; places outside count as at the rim."""
+    column = int(clamp(x / CELL, 0.0, GRID_COLUMNS - 1.0))
+    row = int(clamp(y / CELL, 0.0, GRID_ROWS - 1.0))
+    return row * width + column
+
+
+MOST_RAYS = 360
+
+
+@dataclass(frozen=True)
+class Rays(Part):
+    """``count`` rays, evenly round from the right by way of down: the distance to what stops each, px.
+
+    They are the world's own rays: tiles and solid edges, such as closed doors, stop them, objects do not. ``reach``:
+    px, the farthest that is seen.
+    """
+
+    name: ClassVar[str] = "rays"
+
+    count: int = 16
+    reach: float = WORLD_WIDTH / 2
+
+    def __post_init__(self) -> None:
+        if self.count not in range(1, MOST_RAYS + 1) or not self.reach > 0.0:
+            found = f"{self.count!r} rays of {self.reach!r} px"
+            raise ArgumentError(f"found {found}; expected 1 to {MOST_RAYS} rays of more than 0 px")
+
+    @property
+    def box(self) -> Box:
+        """Float32 (count,)."""
+        return Box(0.0, 1.0 if self.normalised else self.reach, (self.count,), np.float32)
+
+    @property
+    def kernel(self) -> Callable[..., None]:
+        """``observe_rays``."""
+        return observe_rays
+
+    def tables(self, setting: Setting) -> tuple[Any, ...]:
+        """The directions, to 12 digits, so that every machine has the same; the reach; the factor; where edges change.
+
+        In a level without doors the edges never change: those of a new world lie nearer than those of each world.
+        """
+        angles = [2.0 * pi * k / self.count for k in range(self.count)]
+        directions = [setting.table([round(f(angle), 12) for angle in angles], np.float64) for f in (cos, sin)]
+        doors = [int(bool(found)) for found in setting.objects(DOOR)]
+        factor = 1.0 / self.reach if self.normalised else 1.0
+        return *directions, float(self.reach), factor, setting.worlds.fresh, setting.table(doors, np.int64)
+
+
+@entry_point
+def observe_rays(
+    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    dx: Any, dy: Any, reach: float, factor: float, fresh: Any, doors: Any,
+) -> None:  # fmt: skip
+    """Follow the rays of some worlds."""
+    for k in range(first, last):
+        index = which[k]
+        number = level_of[index]
+        level = maps[number]
+        w = worlds[index] if doors[number] else fresh[number]
+        x = worlds[index].ninja.x
+        y = worlds[index].ninja.y
+        for j in range(len(dx)):
+            stopped, hit_x, hit_y = cast(level, w, x, y, dx[j], dy[j])
+            # A hit may lie behind the start, within a tile: that is no way at all.
+            length = (hit_x - x) * dx[j] + (hit_y - y) * dy[j] if stopped else reach
+            out[index, offset + j] = clamp(length, 0.0, reach) * factor

@@ -1,0 +1,336 @@
+"""Vectors of numbers: the ninja's state, the time left, the way by the distance field."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+from gymnasium.spaces import Box
+
+from ninja_game.learn.goal_distance import FARTHEST, point_within
+from ninja_game.learn.observations.part import Part, Ragged, Setting, clamp
+from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y
+from ninja_game.sim.grid import cell_at
+from ninja_game.sim.kinds import EXIT, GOLD
+from ninja_game.sim.memory.declare import entry_point, fast
+from ninja_game.sim.memory.schema import World
+from ninja_game.sim.rules import CELL, HALF, LONGEST_JUMP, ROOT2, WORLD_HEIGHT, WORLD_WIDTH
+from ninja_game.sim.states import JUMPING, STATE_NAMES
+
+MAX_SPEED = 24.0
+"""px/tick; a ninja is seldom faster than 10."""
+
+_FLAG, _SIGN = (0.0, 1.0, 1.0), (-1.0, 1.0, 1.0)
+_DX, _DY = (-WORLD_WIDTH, WORLD_WIDTH, WORLD_WIDTH), (-WORLD_HEIGHT, WORLD_HEIGHT, WORLD_WIDTH)
+
+FIELDS: dict[str, tuple[float, float, float]] = {
+    "x": (0.0, WORLD_WIDTH, WORLD_WIDTH),
+    "y": (0.0, WORLD_HEIGHT, WORLD_WIDTH),
+    "cell_x": (0.0, CELL, CELL),
+    "cell_y": (0.0, CELL, CELL),
+    "vx": (-MAX_SPEED, MAX_SPEED, MAX_SPEED),
+    "vy": (-MAX_SPEED, MAX_SPEED, MAX_SPEED),
+    "in_air": _FLAG,
+    "near_wall": _FLAG,
+    "wall_x": _SIGN,
+    "floor_x": _SIGN,
+    "floor_y": _SIGN,
+    "jump_held": _FLAG,
+    "jump_ticks": (0.0, float(LONGEST_JUMP), float(LONGEST_JUMP)),
+    "exit_there": _FLAG,
+    "exit_open": _FLAG,
+    "exit_dx": _DX,
+    "exit_dy": _DY,
+    "switch_dx": _DX,
+    "switch_dy": _DY,
+    "gold_there": _FLAG,
+    "gold_dx": _DX,
+    "gold_dy": _DY,
+    **dict.fromkeys(STATE_NAMES, _FLAG),
+}
+"""What its values are, in order: lowest, highest, and what normalising divides by; px, px/tick, ticks, flags.
+
+``cell_x``, ``cell_y``: the place within the cell; ``wall_x``: the normal of a near wall; ``floor_x``, ``floor_y``: of
+the floor one stands on; ``…_dx``, ``…_dy``: from the ninja to there; the last eight: which state it is in.
+"""
+
+_NAMES = tuple(FIELDS)
+FIRST_EXIT, FIRST_GOLD, FIRST_STATE = (_NAMES.index(name) for name in ("exit_there", "gold_there", STATE_NAMES[0]))
+FAR = 1.0e18
+"""px², farther than anything."""
+MOST_EXITS = 60
+"""Exits of a level that are looked at: its first."""
+
+
+@dataclass(frozen=True)
+class StateVector(Part):
+    """Place, velocity and flags of the ninja, the way to the exit, to its switch and to the nearest gold: ``FIELDS``.
+
+    Of several exits it is the nearest open one; while none is open, the one whose switch is nearest. Once the exit is
+    open its switch is at (0, 0).
+    """
+
+    name: ClassVar[str] = "state"
+
+    @property
+    def box(self) -> Box:
+        """Float32 (30,)."""
+        low, high, scale = np.array(list(FIELDS.values()), np.float64).T
+        divided = scale if self.normalised else np.ones(len(FIELDS))
+        return Box((low / divided).astype(np.float32), (high / divided).astype(np.float32), dtype=np.float32)
+
+    @property
+    def kernel(self) -> Callable[..., None]:
+        """``observe_state``."""
+        return observe_state
+
+    def tables(self, setting: Setting) -> tuple[Any, ...]:
+        """Factors and limits of the values; slots and places of exits and gold; what is known of each world.
+
+        That is which exits are open, in bits, and which gold was nearest. As long as nothing has changed, a world's
+        objects, which lie far away in memory, need not be asked.
+        """
+        box = self.box
+        factors = [1.0 / scale if self.normalised else 1.0 for _, _, scale in FIELDS.values()]
+        exits = Ragged([[exit_row(w, o.slot) for w, o in found] for found in setting.objects(EXIT)])
+        gold = Ragged([[(o.slot, o.x, o.y) for _, o in found] for found in setting.objects(GOLD)])
+        return (
+            *(setting.table(values, np.float64) for values in (factors, box.low, box.high)),
+            *exits.columns(setting, 5),
+            *gold.columns(setting, 3),
+            setting.changed,
+            *(setting.table([0] * setting.count, np.int64) for _ in range(2)),
+        )
+
+
+def exit_row(w: World, slot: int) -> tuple[float, ...]:
+    """Slot and place of an exit, place of its switch."""
+    o = w.objects[slot]
+    switch = w.objects[o.partner]
+    return slot, o.x, o.y, switch.x, switch.y
+
+
+@entry_point
+def observe_state(
+    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    factors: Any, lows: Any, highs: Any,
+    exit_starts: Any, exits: Any, exit_x: Any, exit_y: Any, switch_x: Any, switch_y: Any,
+    gold_starts: Any, gold: Any, gold_x: Any, gold_y: Any,
+    changed: Any, opened: Any, nearest: Any,
+) -> None:  # fmt: skip
+    """Write the state vector of some worlds."""
+    for k in range(first, last):
+        index = which[k]
+        level = level_of[index]
+        w = worlds[index]
+        n = w.ninja
+        observe_ninja(w, out, index, offset, factors, lows, highs)
+        for j in range(offset + FIRST_EXIT, offset + FIRST_STATE):
+            out[index, j] = 0.0
+        start = exit_starts[level]
+        end = exit_starts[level + 1]
+        if changed[index]:
+            opened[index] = open_exits(w, exits, start, end)
+        chosen = choose_exit(n.x, n.y, opened[index], exit_x, exit_y, switch_x, switch_y, start, end)
+        is_open = chosen >= 0 and (opened[index] >> (chosen - start)) & 1
+        if chosen >= 0:
+            out[index, offset + FIRST_EXIT] = 1.0
+            out[index, offset + FIRST_EXIT + 1] = 1.0 if is_open else 0.0
+            put(out, index, offset, FIRST_EXIT + 2, factors, lows, highs, exit_x[chosen] - n.x)
+            put(out, index, offset, FIRST_EXIT + 3, factors, lows, highs, exit_y[chosen] - n.y)
+            if not is_open:
+                put(out, index, offset, FIRST_EXIT + 4, factors, lows, highs, switch_x[chosen] - n.x)
+                put(out, index, offset, FIRST_EXIT + 5, factors, lows, highs, switch_y[chosen] - n.y)
+        start = gold_starts[level]
+        end = gold_starts[level + 1]
+        guess = nearest[index]
+        if changed[index] and not (start <= guess < end and not w.objects[int(gold[guess])].taken):
+            guess = -1
+        if changed[index] or guess >= 0:
+            nearest[index] = nearest_gold(w, gold, gold_x, gold_y, start, end, guess)
+        chosen = nearest[index]
+        if chosen >= 0:
+            out[index, offset + FIRST_GOLD] = 1.0
+            put(out, index, offset, FIRST_GOLD + 1, factors, lows, highs, gold_x[chosen] - n.x)
+            put(out, index, offset, FIRST_GOLD + 2, factors, lows, highs, gold_y[chosen] - n.y)
+
+
+@fast
+def put(out: Any, index: int, offset: int, j: int, factors: Any, lows: Any, highs: Any, value: float) -> None:
+    """Write value j: times its factor, within its limits."""
+    out[index, offset + j] = clamp(value * factors[j], lows[j], highs[j])
+
+
+@fast
+def observe_ninja(w: World, out: Any, index: int, offset: int, factors: Any, lows: Any, highs: Any) -> None:
+    """The first 13 values and the state."""
+    n = w.ninja
+    cell = cell_at(n.x, n.y)
+    put(out, index, offset, 0, factors, lows, highs, n.x)
+    put(out, index, offset, 1, factors, lows, highs, n.y)
+    put(out, index, offset, 2, factors, lows, highs, n.x - (CENTRE_X[cell] - HALF))
+    put(out, index, offset, 3, factors, lows, highs, n.y - (CENTRE_Y[cell] - HALF))
+    put(out, index, offset, 4, factors, lows, highs, n.x - n.prev_x)
+    put(out, index, offset, 5, factors, lows, highs, n.y - n.prev_y)
+    out[index, offset + 6] = float(n.in_air)
+    out[index, offset + 7] = float(n.near_wall)
+    put(out, index, offset, 8, factors, lows, highs, n.wall_x if n.near_wall else 0.0)
+    put(out, index, offset, 9, factors, lows, highs, 0.0 if n.in_air else n.floor_x)
+    put(out, index, offset, 10, factors, lows, highs, 0.0 if n.in_air else n.floor_y)
+    out[index, offset + 11] = float(n.jump_held)
+    put(out, index, offset, 12, factors, lows, highs, float(n.jump_timer) if n.state == JUMPING else 0.0)
+    for state in range(8):
+        out[index, offset + FIRST_STATE + state] = 1.0 if n.state == state else 0.0
+
+
+@fast
+def open_exits(w: World, exits: Any, start: int, end: int) -> int:
+    """Which exits of a level are open, a bit each; of more than there are bits, the first."""
+    opened = 0
+    for k in range(start, min(end, start + MOST_EXITS)):
+        if w.objects[int(exits[k])].is_open:
+            opened |= 1 << (k - start)
+    return opened
+
+
+@fast
+def choose_exit(
+    x: float, y: float, opened: int, exit_x: Any, exit_y: Any, switch_x: Any, switch_y: Any, start: int, end: int
+) -> int:
+    """The exit that counts for a ninja at a place, -1: none."""
+    best = FAR
+    chosen = -1
+    chosen_open = 0
+    for k in range(start, min(end, start + MOST_EXITS)):
+        is_open = (opened >> (k - start)) & 1
+        dx = (exit_x[k] if is_open else switch_x[k]) - x
+        dy = (exit_y[k] if is_open else switch_y[k]) - y
+        distance = dx * dx + dy * dy
+        better = distance < best if is_open == chosen_open else is_open == 1
+        if better or chosen < 0:
+            best = distance
+            chosen = k
+            chosen_open = is_open
+    return chosen
+
+
+@fast
+def nearest_gold(w: World, gold: Any, gold_x: Any, gold_y: Any, start: int, end: int, guess: int) -> int:
+    """The nearest piece that is left, the first of those equally near; -1: none.
+
+    The level's table is near in memory, the world's objects are not: they are asked last. With a good ``guess``, a
+    piece that is left (or -1), such as the last nearest one, hardly any is asked.
+    """
+    x = w.ninja.x
+    y = w.ninja.y
+    best = FAR
+    chosen = guess
+    if guess >= 0:
+        dx = gold_x[guess] - x
+        dy = gold_y[guess] - y
+        best = dx * dx + dy * dy
+    for k in range(start, end):
+        dx = gold_x[k] - x
+        dy = gold_y[k] - y
+        distance = dx * dx + dy * dy
+        if (distance < best or (distance == best and k < chosen)) and not w.objects[int(gold[k])].taken:
+            best = distance
+            chosen = k
+    return chosen
+
+
+LONGEST = 1_000_000.0
+"""Ticks."""
+
+
+@dataclass(frozen=True)
+class TimeLeft(Part):
+    """Ticks until the episode is truncated, float32 (1,); normalised: as a share of the time limit."""
+
+    name: ClassVar[str] = "time"
+
+    @property
+    def box(self) -> Box:
+        """Float32 (1,)."""
+        return Box(0.0, 1.0 if self.normalised else LONGEST, (1,), np.float32)
+
+    @property
+    def kernel(self) -> Callable[..., None]:
+        """``observe_time``."""
+        return observe_time
+
+    def tables(self, setting: Setting) -> tuple[Any, ...]:
+        """The time limit, the factor, the highest value."""
+        return setting.time_limit, 1.0 / setting.time_limit if self.normalised else 1.0, float(self.box.high[0])
+
+
+@entry_point
+def observe_time(
+    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    time_limit: int, factor: float, highest: float,
+) -> None:  # fmt: skip
+    """Write the time left of some worlds."""
+    for k in range(first, last):
+        index = which[k]
+        out[index, offset] = clamp((time_limit - worlds[index].tick) * factor, 0.0, highest)
+
+
+RADII = (24.0, 60.0)
+"""px."""
+_SIDES = ((1.0, 0.0), (1.0 / ROOT2, 1.0 / ROOT2), (0.0, 1.0), (-1.0 / ROOT2, 1.0 / ROOT2))
+DIRECTIONS = [*_SIDES, *((-x, -y) for x, y in _SIDES)]
+"""From the right by way of down."""
+FAR_TICKS = 1000.0
+"""Ticks to the exit that count as 1."""
+
+
+@dataclass(frozen=True)
+class Guide(Part):
+    """The way by the solver's distance field of the present switch state, float32 (17,).
+
+    For each of eight directions (from the right by way of down), 24 px off and then 60 px off: by how many ticks one is
+    nearer to the exit there, a px of the way, -1 to 1. Last: ticks to the exit; normalised: in 1000 ticks, at most 1.
+    """
+
+    name: ClassVar[str] = "guide"
+    needs_goal: ClassVar[bool] = True
+
+    @property
+    def box(self) -> Box:
+        """Float32 (17,)."""
+        slopes = len(RADII) * len(DIRECTIONS)
+        low = np.array([-1.0] * slopes + [0.0], np.float32)
+        return Box(low, np.array([1.0] * slopes + [1.0 if self.normalised else FARTHEST], np.float32), dtype=np.float32)
+
+    @property
+    def kernel(self) -> Callable[..., None]:
+        """``observe_guide``."""
+        return observe_guide
+
+    def tables(self, setting: Setting) -> tuple[Any, ...]:
+        """The ways to the points, px; the fields and each world's; the last value's factor and highest."""
+        ways = [(radius * x, radius * y, 1.0 / radius) for radius in RADII for x, y in DIRECTIONS]
+        columns = [setting.table(column, np.float64) for column in zip(*ways, strict=True)]
+        highest = float(self.box.high[-1])
+        return *columns, setting.goal.fields, setting.goal.rows, 1.0 / FAR_TICKS if self.normalised else 1.0, highest
+
+
+@entry_point
+def observe_guide(
+    maps: Any, level_of: Any, worlds: Any, which: Any, first: int, last: int, out: Any, offset: int,
+    dx: Any, dy: Any, share: Any, fields: Any, rows: Any, factor: float, highest: float,
+) -> None:  # fmt: skip
+    """Look round in the fields of some worlds; those whose field is not known yet are looked at again."""
+    for k in range(first, last):
+        index = which[k]
+        row = rows[index]
+        x = worlds[index].ninja.x
+        y = worlds[index].ninja.y
+        # Compiled, `float` of a float32 stays one, and the difference below would be rounded to that.
+        here = np.float64(fields[row, point_within(x, y)])
+        for j in range(len(dx)):
+            there = np.float64(fields[row, point_within(x + dx[j], y + dy[j])])
+            out[index, offset + j] = clamp((here - there) * share[j], -1.0, 1.0)
+        out[index, offset + len(dx)] = clamp(here * factor, 0.0, highest)

@@ -1,0 +1,153 @@
+"""Keys by their place on the keyboard (scancode): names for files, labels for people.
+
+A binding is a place, so that a player with another layout keeps the same fingers. What is printed on that key is learnt
+from the layout: SDL tells it with every press.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Generic, NamedTuple, TypeVar
+
+import pygame
+
+PREFIX = "KSCAN_"
+
+SCANCODES: dict[str, int] = {}
+"""Scancode by name: SDL's names in small letters, such as ``left``, ``a``, ``lshift``, ``kp_plus``."""
+
+_OF_KEYCODE: dict[int, int] = {}
+
+for _name in dir(pygame):
+    if _name.startswith(PREFIX):
+        _code = getattr(pygame, _name)
+        _rest = _name.removeprefix(PREFIX)
+        SCANCODES[_rest.lower()] = _code
+        for _constant in (f"K_{_rest}", f"K_{_rest.lower()}"):
+            if hasattr(pygame, _constant):
+                _OF_KEYCODE[getattr(pygame, _constant)] = _code
+
+SCANCODE_LIMIT = 512
+"""SDL's keys have smaller scancodes than this."""
+
+_NAMES = {code: name for name, code in sorted(SCANCODES.items(), key=lambda item: -len(item[0]))}
+_UNNAMED = re.compile(r"scancode-([0-9]{1,3})")
+
+LABELS = {
+    "lshift": "Shift", "rshift": "Right Shift", "lctrl": "Ctrl", "rctrl": "Right Ctrl", "lalt": "Alt",
+    "ralt": "Right Alt", "return": "Enter", "kp_enter": "Keypad Enter", "escape": "Esc", "backspace": "Backspace",
+    "pageup": "Page Up", "pagedown": "Page Down", "left": "Left", "right": "Right", "up": "Up", "down": "Down",
+    "capslock": "Caps Lock", "comma": "Comma", "period": "Period", "minus": "Minus", "equals": "Equals",
+    "leftbracket": "[", "rightbracket": "]", "semicolon": "Semicolon", "apostrophe": "Apostrophe",
+
+    "slash": "/", "backslash": "\\", "grave": "Backtick",
+    "lgui": "Left Meta", "rgui": "Right Meta",
+}  # fmt: skip
+
+_learnt: dict[int, str] = {}
+
+
+def scancode_of(event: pygame.Event) -> int:
+    """The scancode of a key event; of a made-up event without one, that of its key on a US keyboard."""
+    return getattr(event, "scancode", 0) or _OF_KEYCODE.get(event.key, 0)
+
+
+def key_name(scancode: int) -> str:
+    """The name of a key in files."""
+    return _NAMES.get(scancode, f"scancode-{scancode}")
+
+
+def chord(event: pygame.Event) -> str:
+    """A key press by name, with ``ctrl+`` and ``shift+``. With Ctrl letters count by what is printed on the key."""
+    name = key_name(scancode_of(event))
+    modifiers = getattr(event, "mod", 0)
+    ctrl = "ctrl+" if modifiers & (pygame.KMOD_CTRL | pygame.KMOD_META) else ""
+    if ctrl and event.key and 97 <= event.key <= 122:
+        name = chr(event.key)
+    return ctrl + ("shift+" if modifiers & pygame.KMOD_SHIFT else "") + name
+
+
+def scancode_named(name: str) -> int | None:
+    """The key that a name means; None if none."""
+    unnamed = _UNNAMED.fullmatch(name)
+    if unnamed:
+        return int(unnamed[1]) if int(unnamed[1]) < SCANCODE_LIMIT else None
+    return SCANCODES.get(name)
+
+
+def learn_label(event: pygame.Event) -> None:
+    """Remember what the layout prints on a key that was pressed."""
+    scancode = scancode_of(event)
+    if key_name(scancode) not in LABELS and (label := pygame.key.name(event.key)):
+        _learnt[scancode] = label.capitalize() if len(label) > 1 else label.upper()
+
+
+def key_label(name: str) -> str:
+    """What to call a key when talking to the player.
+
+    >>> key_label("lshift"), key_label("kp_plus"), key_label("f5")
+    ('Shift', 'Keypad plus', 'F5')
+    """
+    scancode = scancode_named(name)
+    if scancode in _learnt:
+        return _learnt[scancode]
+    if name in LABELS:
+        return LABELS[name]
+    return name.replace("kp_", "keypad ").replace("kp", "keypad ").capitalize()
+
+
+class Command(NamedTuple):
+    """``keys``: names of keys, with ``ctrl+`` and ``shift+`` before them; ``pad``: inputs of a standard gamepad."""
+
+    name: str
+    label: str
+    keys: tuple[str, ...] = ()
+    pad: str = ""
+
+
+def key_text(command: Command) -> str:
+    """What to press for a command, for people; '' for nothing."""
+    return "+".join(map(key_label_of, command.keys[0].split("+"))) if command.keys else ""
+
+
+def key_label_of(name: str) -> str:
+    """What a key is called."""
+    return {"ctrl": "Ctrl", "delete": "Del", "minus": "-", "equals": "="}.get(name) or key_label(
+        {"shift": "lshift"}.get(name, name)
+    )
+
+
+T = TypeVar("T")
+
+LONGEST_STEP_MS = 50
+"""More than this in one picture is a stall, which is not a long press: the release may be waiting behind it."""
+
+
+class HeldKey(Generic[T]):
+    """``what``: what the key that is held does, if it is one that repeats; else None."""
+
+    def __init__(self) -> None:
+        self.what: T | None = None
+        self._key = self._again_in = self._every = 0
+
+    def begin(self, what: T, scancode: int = 0, *, first: int, every: int) -> None:
+        """It was done; its key is down. It comes again after ``first`` ms, then every so many ms."""
+        self.what, self._key, self._again_in, self._every = what, scancode, first, every
+
+    def end(self) -> None:
+        """Nothing repeats."""
+        self.what = None
+
+    def follow(self, event: pygame.Event) -> None:
+        """It ends when its key is released."""
+        if event.type == pygame.KEYUP and scancode_of(event) == self._key:
+            self.end()
+
+    def due(self, real_ms: int) -> list[T]:
+        """What is to be done after so much more real time, once for each time."""
+        self._again_in -= min(real_ms, LONGEST_STEP_MS)
+        found = []
+        while self.what is not None and self._again_in <= 0:
+            self._again_in += self._every
+            found.append(self.what)
+        return found

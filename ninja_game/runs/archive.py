@@ -1,0 +1,338 @@
+"""Archives: any number of recordings verified or traced, on all cores or a cluster, in order, in constant memory.
+
+>>> from pathlib import Path
+>>> from ninja_game.files.resources import data_folder
+>>> tally = Tally()
+>>> for result in verify_all([data_folder("levels") / "certificates"], jobs=2):
+...     tally.add(result)
+>>> tally.failed, tally.unreadable
+(0, 0)
+"""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import CancelledError
+from contextlib import ExitStack
+from dataclasses import dataclass, field, replace
+from functools import partial
+from hashlib import sha256
+from itertools import chain, islice
+from pathlib import Path
+from typing import IO, Any, NamedTuple, TypeAlias
+
+from ninja_game.backend.memories import choose_memory
+from ninja_game.batch.thread_pool import cores
+from ninja_game.budget import RUN_BUDGET
+from ninja_game.errors import NinjaGameError
+from ninja_game.files.resources import bundled_levels
+from ninja_game.formats.load import NamedLevel, load_levels
+from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
+from ninja_game.formats.recording import Recording
+from ninja_game.runs.checkpoint_log import CheckpointLog
+from ninja_game.runs.chunks import (
+    Chunk,
+    Result,
+    chunks_as_text,
+    chunks_from_text,
+    chunks_in,
+    results_as_text,
+    results_from_text,
+    self_contained,
+    verify_chunk,
+)
+from ninja_game.runs.recording_reader import Unreadable, recordings_in
+from ninja_game.runs.trace import trace_recording
+from ninja_game.runs.trace_files import FiledTrace
+from ninja_game.runs.verify import judged
+from ninja_game.runs.workers import ClusterError, WorkerLostError, Workers, in_order, workers
+from ninja_game.sim.level import Level
+
+JOB_WEIGHT = 64
+"""Files or records a job."""
+
+Job: TypeAlias = tuple[Chunk, ...]
+Done: TypeAlias = Iterable[tuple[Job, list[list[Result]] | WorkerLostError]]
+
+
+def verify_all(
+    paths: Iterable[Path],
+    *,
+    memory: str = "auto",
+    jobs: int | None = None,
+    processes: bool | None = None,
+    cluster: str = "",
+    resume: Path | None = None,
+    levels: Sequence[NamedLevel] = (),
+    strict: bool = False,
+    chunks: Iterable[Chunk] = (),
+    budget: int = RUN_BUDGET,
+) -> Iterator[Result]:
+    """A verdict on every recording in files and folders, then in ``chunks``, in order.
+
+    What cannot be read is said and stops nothing.
+
+    ``jobs``: how many run at a time, by default as many as there are cores. ``processes``: on processes instead of
+    threads; by default where the interpreter's lock would be in the way, on the plain memory. ``cluster``: address of a
+    Dask scheduler whose workers do it instead. ``resume``: a checkpoint log; what it has is not run again.
+    ``levels``: those that count, by default the game's own where it matters; a single one is also the level of
+    recordings that do not hold theirs. ``strict``: what docs/verification.md demands must hold too.
+    ``budget``: of each run (``ninja_game.budget``).
+
+    Results never depend on who computed them, nor on workers that died meanwhile. Where only some levels count, runs on
+    others are not simulated. Raises ClusterError, FormatError for a file that is not a checkpoint log, KnownRunError
+    and MemoryUnavailableError where nothing can be judged, OSError.
+    """
+    counting = levels or [level for path in bundled_levels() for level in load_levels(path)]
+    names = {level_digest(each.level): each.name or f"{each.file}:{each.record}" for each in counting}
+    asked = Asked(
+        memory, levels[0].level if len(levels) == 1 else None, (*names,) if levels or strict else None, budget
+    )
+    for result in _verify_all(chain(chunks_in(paths), chunks), asked, jobs, processes, cluster, resume):
+        if isinstance(result, Unreadable):
+            yield result
+        else:
+            yield judged(result, names, only_these=bool(levels), strict=strict)
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What results depend on besides their chunks: ``verify_chunk``'s arguments."""
+
+    memory: str
+    level: Level | None
+    counting: tuple[str, ...] | None
+    budget: int
+
+    def context(self) -> str:
+        """A text that is another one where results may be; both memories give the same."""
+        level = level_digest(self.level) if self.level else ""
+        return json.dumps([self.memory == "both", level, self.counting and sorted(self.counting), self.budget])
+
+    def as_text(self) -> str:
+        """The same for another machine."""
+        level = write_level_string(self.level, exact=True) if self.level else ""
+        return json.dumps([self.memory, level, self.counting, self.budget])
+
+    @classmethod
+    def from_text(cls, text: str) -> Asked:
+        """What ``as_text`` wrote."""
+        memory, level, counting, budget = json.loads(text)
+        return cls(memory, parse_level_string(level) if level else None, counting, budget)
+
+
+def _verify_all(
+    chunks: Iterable[Chunk],
+    asked: Asked,
+    jobs: int | None,
+    processes: bool | None,
+    cluster: str,
+    resume: Path | None,
+) -> Iterator[Result]:
+    """The results as the recordings alone give them."""
+    if processes is None:
+        processes = asked.memory == "both" or choose_memory(asked.memory) == "plain"
+    with ExitStack() as stack:
+        log = stack.enter_context(CheckpointLog(resume)) if resume else None
+        if cluster or log is not None:  # an empty log counts as false
+            chunks = (self_contained(chunk, asked.level) for chunk in chunks)
+        batches = batched(chunks, log, asked.context())
+        # Few recordings are done before a second worker has started.
+        first = next(batches, ())
+        second = next(batches, ())
+        if not cluster and not second:
+            yield from _record_results(zip([first], [_verify(asked, first)], strict=True), log)
+            return
+        pool: Workers = stack.enter_context(workers(jobs or cores(), processes=processes, cluster=cluster))
+        all_jobs = chain(filter(None, (first, second)), batches)
+        try:
+            if cluster:
+                run = partial(_verify_text, asked.as_text())
+                done = _isolate_failing(pool, run, all_jobs, chunks_as_text, results_from_text)
+            else:
+                done = _isolate_failing(pool, partial(_verify, asked), all_jobs, tuple, lambda found, _: list(found))
+            yield from _record_results(done, log)
+        except (CancelledError, ConnectionError) as error:
+            if not cluster:
+                raise
+            hint = f"; --resume {resume} goes on where this stopped" if resume else ""
+            raise ClusterError(f"the scheduler at {cluster} is gone ({type(error).__name__}){hint}") from None
+
+
+def batched(chunks: Iterable[Chunk], log: CheckpointLog | None, context: str = "") -> Iterator[Job]:
+    """Chunks in jobs of some weight, neighbours together. What the checkpoint log has counts as no work."""
+    batch: list[Chunk] = []
+    weight = 0
+    for chunk in chunks:
+        batch.append(chunk if log is None else _looked_up(chunk, log, context))
+        weight += 0 if batch[-1].done else chunk.weight
+        if weight >= JOB_WEIGHT or len(batch) >= 16 * JOB_WEIGHT:
+            yield tuple(batch)
+            batch, weight = [], 0
+    if batch:
+        yield tuple(batch)
+
+
+def _looked_up(chunk: Chunk, log: CheckpointLog, context: str) -> Chunk:
+    """The chunk with its key in the checkpoint log; without its text if its results are there."""
+    key = sha256(f"{context}{chunk.digest}".encode()).hexdigest()
+    return Chunk(chunk.file, key=key, done=True) if key in log else replace(chunk, key=key)
+
+
+def _verify(asked: Asked, job: Job) -> list[list[Result]]:
+    """Verdicts on every chunk of a job that is not done yet."""
+    counting = None if asked.counting is None else frozenset(asked.counting)
+    return [
+        [] if chunk.done else verify_chunk(chunk, asked.memory, asked.level, counting, asked.budget) for chunk in job
+    ]
+
+
+def _verify_text(asked: str, job: str) -> str:
+    """The same on another machine: nothing but text goes there and comes back."""
+    return results_as_text(_verify(Asked.from_text(asked), tuple(chunks_from_text(job))))
+
+
+def _isolate_failing(
+    pool: Workers,
+    function: Callable[[Any], Any],
+    jobs: Iterator[Job],
+    send: Callable[[Job], Any],
+    read: Callable[[Any, Job], list[list[Result]]],
+) -> Done:
+    """All jobs with their results; one that kills its workers is done again chunk by chunk, to find the one chunk.
+
+    ``send``, ``read``: what turns a job and its results into what travels, and back.
+    """
+    for job, found in in_order(pool, function, jobs, send):
+        if isinstance(found, WorkerLostError) and len(job) > 1:
+            yield from _isolate_failing(pool, function, ((chunk,) for chunk in job), send, read)
+        else:
+            yield job, found if isinstance(found, WorkerLostError) else read(found, job)
+
+
+def _record_results(done: Done, log: CheckpointLog | None) -> Iterator[Result]:
+    """The results of all jobs, noted in the checkpoint log as they come; what it has already is taken from it."""
+    for job, found in done:
+        if isinstance(found, WorkerLostError):
+            yield from (Unreadable(f"{chunk.file}: {found}") for chunk in job)
+            continue
+        for chunk, results in zip(job, found, strict=True):
+            if log is not None and chunk.done:
+                yield from log[chunk.key]
+                continue
+            if log is not None:
+                log.add(chunk.key, results)
+            yield from results
+
+
+@dataclass
+class Tally:
+    """Results, counted; of what failed nothing is kept but the number."""
+
+    recordings: int = 0
+    ticks: int = 0
+    gold: int = 0
+    failed: int = 0
+    unreadable: int = 0
+    outcomes: Counter[str] = field(default_factory=Counter)
+
+    def add(self, result: Result) -> None:
+        """Count a result."""
+        if isinstance(result, Unreadable):
+            self.unreadable += 1
+            return
+        self.recordings += 1
+        self.ticks += result.ticks
+        self.gold += result.gold
+        self.failed += not result.good
+        self.outcomes[result.outcome] += 1
+
+    def as_json(self) -> dict[str, Any]:
+        """The counts for programs."""
+        return vars(self) | {"outcomes": dict(sorted(self.outcomes.items()))}
+
+
+def write_report(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
+    """The same results, written to ``out`` as they pass: one JSON object with ``results`` and ``summary``.
+
+    Nothing in it depends on time, machine or number of workers: equal recordings give equal reports.
+    """
+    tally = Tally()
+    out.write(b'{"results": [')
+    separator = b"\n"
+    for result in results:
+        tally.add(result)
+        fields = {"unreadable": result.message} if isinstance(result, Unreadable) else result.as_json()
+        out.write(separator + json.dumps(fields).encode())
+        separator = b",\n"
+        yield result
+    out.write(b'\n], "summary": ' + json.dumps(tally.as_json()).encode() + b"}\n")
+
+
+TRACES = 32
+"""Recordings that a job traces: sending one costs more than a short run."""
+
+
+class Traced(NamedTuple):
+    """A trace, the file of its recording and the comment there."""
+
+    file: str
+    comment: str
+    trace: FiledTrace
+
+
+def trace_all(
+    paths: Iterable[Path],
+    *,
+    level: Level | None = None,
+    record: int | None = None,
+    jobs: int | None = None,
+    memory: str = "auto",
+    **options: Any,
+) -> Iterator[Traced | Unreadable]:
+    """A trace of every recording in files and folders, in order; what cannot be read is reported and stops nothing.
+
+    ``level``: what recordings that do not hold their level are played on; ``record``: only this one of each file.
+    ``jobs``: how many run at a time, by default one a core. ``memory`` and ``options`` as for ``trace_recording``.
+    """
+    found = recordings_in(paths, level)
+    rest = (item for item in found if record is None or isinstance(item, Unreadable) or item.record == record)
+    first = list(islice(rest, TRACES))
+    trace = partial(_trace, {"memory": memory, **options})
+    if len(first) < TRACES or jobs == 1:
+        # Few recordings are done before a second worker has started.
+        yield from map(trace, chain(first, rest))
+        return
+    # Compiled code leaves the interpreter's lock, plain code needs processes.
+    processes = choose_memory(memory) == "plain" or bool(options.get("events"))
+    with workers(jobs or cores(), processes=processes) as pool:
+        for job, results in in_order(pool, partial(_trace_job, trace), chain([first], _batches(rest))):
+            if isinstance(results, WorkerLostError):
+                yield Unreadable(f"{len(job)} recordings: {results}")
+            else:
+                yield from results
+
+
+def _batches(items: Iterator[Recording | Unreadable]) -> Iterator[list[Recording | Unreadable]]:
+    while batch := list(islice(items, TRACES)):
+        yield batch
+
+
+def _trace_job(
+    trace: Callable[[Recording | Unreadable], Traced | Unreadable], job: list[Recording | Unreadable]
+) -> list[Traced | Unreadable]:
+    return [trace(item) for item in job]
+
+
+def _trace(options: dict[str, Any], recording: Recording | Unreadable) -> Traced | Unreadable:
+    if isinstance(recording, Unreadable):
+        return recording
+    try:
+        run = trace_recording(recording, **options)
+    except NinjaGameError as error:
+        return Unreadable(str(error))
+    inputs = recording.replay.playback(len(run.ninja))
+    trace = FiledTrace(recording.record, recording.name, run, recording.file, inputs)
+    return Traced(recording.file, recording.comment, trace)

@@ -1,0 +1,193 @@
+"""Recordings cut into chunks that can be verified anywhere: some files, or some records of a large one.
+
+A chunk carries its text, so that it can be sent to a machine that does not see the files, as JSON. Files that a text
+takes in are read where the chunk is verified, unless ``self_contained`` has put them inside first.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Container, Iterable, Iterator, Sequence
+from contextlib import nullcontext
+from dataclasses import asdict, dataclass, field, replace
+from hashlib import sha256
+from pathlib import Path
+from typing import Any, get_args, get_type_hints
+
+from ninja_game.backend.known_run import KnownRunError
+from ninja_game.backend.memories import MemoryUnavailableError
+from ninja_game.budget import RUN_BUDGET
+from ninja_game.errors import DAMAGED, NinjaGameError
+from ninja_game.files.beside import Beside, known_files
+from ninja_game.formats.n14.level_file import LevelRecord
+from ninja_game.formats.recording import Recording
+from ninja_game.runs.recording_reader import Unreadable, recording_of_text, recordings_of, records_of, texts_in
+from ninja_game.runs.verify import NOT_RUN, Verdict, verify_recording
+from ninja_game.runs.workers import ClusterError
+from ninja_game.sim.level import Level
+from ninja_game.sim.states import OUTCOME_NAMES
+
+RECORDS = 64
+"""Records a chunk at most: enough that sending it is cheap beside running it."""
+
+Result = Verdict | Unreadable
+
+
+@dataclass(frozen=True)
+class Chunk:
+    """A file, or records ``first`` … of one.
+
+    ``text``: of the whole file, if ``records`` is empty; ``beside``: all files that it takes in, None while they are
+    read where they are needed; ``problem``: why the file cannot be read, '' if it can;
+    ``named``: whether the caller named the file, or it was found in a folder; ``key``: by which the checkpoint log
+    knows it, ``done``: whether that has its results.
+    """
+
+    file: str
+    first: int = 0
+    text: str = field(default="", repr=False)
+    beside: dict[str, Beside] | None = field(default=None, repr=False)
+    records: tuple[LevelRecord, ...] = field(default=(), repr=False)
+    problem: str = ""
+    named: bool = True
+    key: str = ""
+    done: bool = False
+
+    @property
+    def weight(self) -> int:
+        """About how much work it is."""
+        return len(self.records) or 1
+
+    @property
+    def digest(self) -> str:
+        """Sha256 (hex) of its content and its file's name: of everything in it that its results tell of."""
+        return sha256(json.dumps(asdict(self)).encode()).hexdigest()
+
+
+def chunks_in(paths: Iterable[Path]) -> Iterator[Chunk]:
+    """All chunks of files and folders, in order, each read when it is asked for."""
+    for found in texts_in(paths):
+        if isinstance(found, Unreadable):
+            yield Chunk("", problem=found.message)
+            continue
+        file, text, named = found
+        records = records_of(text, file)
+        if not records:
+            yield Chunk(file, text=text, named=named)
+        for first in range(0, len(records), RECORDS):
+            yield Chunk(file, first, records=tuple(records[first : first + RECORDS]), named=named)
+
+
+def self_contained(chunk: Chunk, level: Level | None = None) -> Chunk:
+    """The same chunk with all files inside that its text takes in; what is wrong with it stays as it is."""
+    beside: dict[str, Beside] = {}
+    if not chunk.records and not chunk.problem:
+        with known_files(beside, no_more=False):
+            list(recording_of_text(chunk.text, chunk.file, level, named=chunk.named))
+    return replace(chunk, beside=beside)
+
+
+def verify_chunk(
+    chunk: Chunk,
+    memory: str = "auto",
+    level: Level | None = None,
+    counting: Container[str] | None = None,
+    budget: int = RUN_BUDGET,
+) -> list[Result]:
+    """A verdict on every recording of a chunk, in order; what cannot be read is said and stops nothing.
+
+    ``level``: what recordings that do not hold theirs are played on; the rest as for ``verify_recording``.
+    Raises KnownRunError, MemoryUnavailableError where nothing can be judged.
+    """
+    if chunk.problem:
+        return [Unreadable(chunk.problem)]
+    with nullcontext() if chunk.beside is None else known_files(chunk.beside, no_more=True):
+        if chunk.records:
+            recordings = recordings_of(chunk.records, chunk.file, level)
+        else:
+            recordings = recording_of_text(chunk.text, chunk.file, level, named=chunk.named)
+        return [_result(recording, memory, counting, budget) for recording in recordings]
+
+
+def _result(recording: Recording | Unreadable, memory: str, counting: Container[str] | None, budget: int) -> Result:
+    if isinstance(recording, Unreadable):
+        return recording
+    try:
+        return verify_recording(recording, memory, counting, budget)
+    except (KnownRunError, MemoryUnavailableError):
+        raise
+    except NinjaGameError as error:
+        return Unreadable(str(error))
+
+
+# --- as plain data ---
+
+
+def chunks_as_text(chunks: Sequence[Chunk]) -> str:
+    """Chunks as JSON, for another machine."""
+    return json.dumps([asdict(chunk) for chunk in chunks])
+
+
+def chunks_from_text(text: str) -> list[Chunk]:
+    """The chunks that ``chunks_as_text`` wrote."""
+    return [
+        Chunk(
+            **fields
+            | {"records": tuple(LevelRecord(**record) for record in fields["records"])}
+            | {"beside": {name: Beside(*each) for name, each in (fields["beside"] or {}).items()}}
+        )
+        for fields in json.loads(text)
+    ]
+
+
+def results_as_text(results: Sequence[Sequence[Result]]) -> str:
+    """The results of several chunks as JSON."""
+    return json.dumps([[as_data(result) for result in each] for each in results])
+
+
+def results_from_text(text: object, chunks: Sequence[Chunk]) -> list[list[Result]]:
+    """The results that ``results_as_text`` wrote of these chunks. Raises ClusterError for anything else."""
+    try:
+        found = [[result_from_data(data) for data in each] for each in json.loads(str(text))]
+        if len(found) != len(chunks):
+            raise ValueError(f"{len(found)} answers to {len(chunks)} questions")
+        for chunk, results in zip(chunks, found, strict=True):
+            # A text that was found in a folder may hold levels alone.
+            wanted = 0 if chunk.done else 1 if chunk.problem else len(chunk.records) or int(chunk.named)
+            if len(results) != wanted and (chunk.records or len(results) < wanted):
+                raise ValueError(f"{len(results)} results of {wanted}")
+        return found
+    except DAMAGED as error:
+        raise ClusterError(f"a worker of the cluster answers with something else than results ({error})") from None
+
+
+def as_data(result: Result) -> dict[str, Any]:
+    """A result as a dictionary of plain values."""
+    return asdict(result)
+
+
+LARGEST = 2**53
+"""Numbers of a result are smaller."""
+OUTCOMES = (*OUTCOME_NAMES, NOT_RUN)
+
+_TYPES = {name: hint for name, hint in get_type_hints(Verdict).items() if name != "problems"}
+
+
+def result_from_data(data: object) -> Result:
+    """The result that ``as_data`` gave, also after a way through JSON. Raises ValueError for anything else."""
+    if isinstance(data, dict) and data.keys() == {"message"} and isinstance(data["message"], str):
+        return Unreadable(data["message"])
+    if not isinstance(data, dict) or data.keys() != {*_TYPES, "problems"}:
+        raise ValueError("not the fields of a result")
+    for name, kind in _TYPES.items():
+        value = data[name]
+        if isinstance(value, int) and abs(value) >= LARGEST:
+            raise ValueError(f"{name} is out of range")
+        if not isinstance(value, kind) or (isinstance(value, bool) and bool not in (kind, *get_args(kind))):
+            raise ValueError(f"{name} is {value!r}"[:80])
+    if data["outcome"] not in OUTCOMES:
+        raise ValueError(f"outcome is {data['outcome']!r}"[:80])
+    problems = data["problems"]
+    if not isinstance(problems, (list, tuple)) or not all(isinstance(problem, str) for problem in problems):
+        raise ValueError("problems are not a list of texts")
+    return Verdict(**(data | {"problems": tuple(problems)}))

@@ -1,0 +1,286 @@
+"""Runs side by side: the ticks at which they take gold, touch switches and doors and end, and who leads where."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget
+from ninja_game.errors import ArgumentError
+from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.formats.recording import Recording
+from ninja_game.runs.recording_reader import named_errors
+from ninja_game.sim.rules import CELL, TICKS_PER_SECOND
+from ninja_game.simulation import Simulation
+
+SPLIT_EVENTS = ("gold-taken", "exit-opened", "lock-opened", "trap-closed", "door-opened", "won", "died")
+"""The events that are splits (`ninja_game/sim/events.py`)."""
+
+Key = tuple[str, int | None, int]
+"""What makes splits of two runs the same: event, id of the object, and which occurrence of it, from 0."""
+
+
+class Split(NamedTuple):
+    """Something that a run reaches: tick, event, id of its object (None: the ninja's own), place in px.
+
+    ``number``: how often the same has happened before in this run; automatic doors open again and again.
+    """
+
+    tick: int
+    event: str
+    object_id: int | None
+    number: int
+    x: float
+    y: float
+
+    @property
+    def key(self) -> Key:
+        """What it has in common with the same split of another run."""
+        return self.event, self.object_id, self.number
+
+    def __str__(self) -> str:
+        again = f", time {self.number + 1}" if self.number else ""
+        return self.event if self.object_id is None else f"{self.event} {self.object_id}{again}"
+
+
+@dataclass(frozen=True)
+class RunSplits:
+    """The splits of a run in order, until its end as ``verify`` has it.
+
+    ``positions``: float64 (ticks, 2), px, the ninja after each tick.
+    """
+
+    recording: Recording = field(repr=False)
+    outcome: str
+    gold: int
+    splits: tuple[Split, ...]
+    positions: NDArray[np.float64] = field(repr=False)
+
+    @property
+    def ticks(self) -> int:
+        """Ticks run."""
+        return len(self.positions)
+
+    @property
+    def level_digest(self) -> str:
+        """The digest of the level: only runs of one level have a table together."""
+        return level_digest(self.recording.level)
+
+    @property
+    def by_key(self) -> dict[Key, Split]:
+        """The splits by what they have in common with those of other runs."""
+        return {split.key: split for split in self.splits}
+
+
+def run_splits(recording: Recording, events: Sequence[str] = SPLIT_EVENTS, budget: int = RUN_BUDGET) -> RunSplits:
+    """Run a recording on the plain memory and note its splits, of these events only.
+
+    Raises, naming file and record, LevelError for a level that cannot be played, BudgetError for a run that is not over
+    when its ``budget`` of work is.
+    """
+    with named_errors(recording):
+        run = Simulation(recording.level, body=recording.body)
+    splits: list[Split] = []
+    positions: list[tuple[float, float]] = []
+    counts: dict[tuple[str, int | None], int] = {}
+    for keys in recording.inputs[: affordable_ticks(recording.level, budget)]:
+        run.step_keys(keys)
+        positions.append((run.ninja.x, run.ninja.y))
+        for event in run.events:
+            if event.name in events:
+                number = counts.get((event.name, event.object_id), 0)
+                counts[event.name, event.object_id] = number + 1
+                # Who killed is told by traces; runs that die share the split.
+                id_ = None if event.name == "died" else event.object_id
+                splits.append(Split(run.tick - 1, event.name, id_, number, event.x, event.y))
+        if run.outcome != "running":
+            break
+    if run.outcome == "running" and run.tick < recording.ticks:
+        with named_errors(recording):
+            raise over_budget(recording.level, recording.ticks, budget)
+    places = np.array(positions, np.float64).reshape(-1, 2)
+    return RunSplits(recording, run.outcome, run.gold, tuple(splits), places)
+
+
+class SplitRow(NamedTuple):
+    """A row of a table: a split, its tick in each run (None: not reached), and the shortest way to it in ticks.
+
+    ``best_segment``: the fewest ticks that any run needs from the split of the row before; None where no run goes
+    from that one to this one.
+    """
+
+    split: Split
+    ticks: tuple[int | None, ...]
+    best_segment: int | None
+
+
+def best_run(runs: Sequence[RunSplits]) -> RunSplits:
+    """The run that the others are measured against: the shortest of those that reach the exit, else the longest."""
+    passed = [run for run in runs if run.outcome == "exit"]
+    return min(passed, key=lambda run: run.ticks) if passed else max(runs, key=lambda run: run.ticks)
+
+
+def split_table(runs: Sequence[RunSplits], best: RunSplits) -> list[SplitRow]:
+    """A row for each split of ``best``, in its order; then for those that only other runs reach, by their tick."""
+    others = {split.key: split for run in runs for split in sorted(run.splits, reverse=True)}
+    known = best.by_key
+    order = [*best.splits, *sorted(split for key, split in others.items() if key not in known)]
+    indexed = [run.by_key for run in runs]
+    segments = _shortest_segments([best, *runs])
+    before: Key | None = None
+    rows = []
+    for split in order:
+        ticks = tuple(splits[split.key].tick if split.key in splits else None for splits in indexed)
+        rows.append(SplitRow(split, ticks, segments.get((before, split.key)) if split.key in known else None))
+        before = split.key
+    return rows
+
+
+def sum_of_best(rows: Sequence[SplitRow]) -> int:
+    """The tick at which a run would end that goes every segment as fast as the fastest of them.
+
+    A hint, not a lower bound: the speed with which a run leaves a segment is part of the next one.
+    """
+    return sum(row.best_segment for row in rows if row.best_segment is not None) - 1
+
+
+def _shortest_segments(runs: Sequence[RunSplits]) -> dict[tuple[Key | None, Key], int]:
+    """The fewest ticks between each two splits that follow one another in some run; None is the start."""
+    shortest: dict[tuple[Key | None, Key], int] = {}
+    for run in runs:
+        points = [(None, -1), *((split.key, split.tick) for split in run.splits)]
+        for (before, start), (key, end) in pairwise(points):
+            assert key is not None  # noqa: S101 - only the start has none
+            shortest[before, key] = min(end - start, shortest.get((before, key), end - start))
+    return shortest
+
+
+NEAR = CELL
+"""How far apart two runs may be at the same place, px: a cell."""
+
+MAX_PAIRS = 100_000_000
+"""Most pairs of ticks that are looked at: two runs of four minutes."""
+
+MAX_TOGETHER = 60_000
+"""Most ticks of both: each costs some work by itself."""
+
+
+class Lead(NamedTuple):
+    """How far one run is ahead of the other at a place (px): their ticks there.
+
+    ``at``: the split that both reach there, or "" where it is only a place.
+    """
+
+    at: str
+    x: float
+    y: float
+    tick: int
+    other: int
+
+    @property
+    def ahead(self) -> int:
+        """Ticks by which the first run is there earlier; negative where it is later."""
+        return self.other - self.tick
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """What two runs of a level have in common.
+
+    ``first_keys``: the first tick with other keys; ``first_place``: the first tick after which the ninja is at another
+    place, or the shorter run is over; None where there is no such tick. ``splits``: the lead at each split that both
+    reach; ``places``: the lead wherever the second run passes within NEAR px of the first, tick by tick of the first.
+    ``positions``: of both, float64 (ticks, 2), px.
+    """
+
+    first_keys: int | None
+    first_place: int | None
+    splits: tuple[Lead, ...]
+    places: tuple[Lead, ...] = field(repr=False)
+    positions: tuple[NDArray[np.float64], NDArray[np.float64]] = field(repr=False)
+
+
+def compare_runs(ours: Recording, theirs: Recording, budget: int = RUN_BUDGET) -> Comparison:
+    """Compare two recordings of one level, each until its end as ``verify`` has it.
+
+    Raises ArgumentError for recordings of different levels, and for runs that are too long to be compared place by
+    place; what ``run_splits`` raises.
+    """
+    if level_digest(ours.level) != level_digest(theirs.level):
+        raise ArgumentError(f"{ours.file} and {theirs.file} are recordings of different levels")
+    here, there = run_splits(ours, budget=budget), run_splits(theirs, budget=budget)
+    first_keys = _first_unequal(*(np.frombuffer(each.inputs, np.uint8) for each in (ours, theirs)))
+    first_place = _first_unequal(here.positions, there.positions)
+    other_splits = there.by_key
+    splits = tuple(
+        Lead(str(split), split.x, split.y, split.tick, other_splits[split.key].tick)
+        for split in here.splits
+        if split.key in other_splits
+    )
+    partner = aligned(here.positions, there.positions)
+    places = tuple(
+        Lead("", x, y, tick, other)
+        for tick, ((x, y), other) in enumerate(zip(here.positions.tolist(), partner.tolist(), strict=True))
+        if other >= 0
+    )
+    return Comparison(first_keys, first_place, splits, places, (here.positions, there.positions))
+
+
+def each_second(places: tuple[Lead, ...]) -> list[Lead]:
+    """Of the leads tick by tick, those at the end of every second of the first run."""
+    return [lead for lead in places if (lead.tick + 1) % TICKS_PER_SECOND == 0]
+
+
+def aligned(ours: NDArray[np.float64], theirs: NDArray[np.float64]) -> NDArray[np.intp]:
+    """For each position of one run, float64 (ticks, 2), the tick at which the other is at the same place; -1: nowhere.
+
+    Dynamic time warping: of all ways to go through both runs in step, forwards only, the one whose sum of distances is
+    smallest. Raises ArgumentError for more than MAX_PAIRS pairs of ticks, or MAX_TOGETHER ticks.
+    """
+    n, m = len(ours), len(theirs)
+    if n * m > MAX_PAIRS or n + m > MAX_TOGETHER:
+        raise ArgumentError(f"runs of {n} and {m} ticks are too long to be compared place by place")
+    came_from = np.zeros((n, m), np.uint8)
+    # Costs of the last two diagonals, by the tick of ours plus one; all paths begin in front of both first ticks.
+    costs, last, before = (np.full(n + 1, np.inf) for _ in range(3))
+    before[0] = 0.0
+    for diagonal in range(n + m - 1):
+        i = np.arange(max(0, diagonal - m + 1), min(n, diagonal + 1))
+        j = diagonal - i
+        ways = np.stack([before[i], last[i], last[i + 1]])
+        came_from[i, j] = way = np.argmin(ways, axis=0)
+        costs[i + 1] = ways[way, np.arange(len(i))] + np.hypot(*(ours[i] - theirs[j]).T)
+        # What the oldest holds beyond the next diagonal is never read, but for the place in front of the first ticks.
+        before[0] = np.inf
+        costs, last, before = before, costs, last
+    return _nearest_on_path(came_from, ours, theirs)
+
+
+def _nearest_on_path(
+    came_from: NDArray[np.uint8], ours: NDArray[np.float64], theirs: NDArray[np.float64]
+) -> NDArray[np.intp]:
+    """Follow the cheapest path back; of each of our ticks the nearest of those that it is paired with."""
+    i, j = (size - 1 for size in came_from.shape)
+    partner = np.full(len(ours), -1)
+    smallest = np.full(len(ours), NEAR)
+    while i >= 0 and j >= 0:
+        distance = float(np.hypot(*(ours[i] - theirs[j])))
+        if distance <= smallest[i]:
+            partner[i], smallest[i] = j, distance
+        way = came_from[i, j]
+        i, j = i - (way != 2), j - (way != 1)
+    return partner
+
+
+def _first_unequal(ours: NDArray[np.generic], theirs: NDArray[np.generic]) -> int | None:
+    """The first index at which two arrays differ, or at which only one has an element; None for equal ones."""
+    shared = min(len(ours), len(theirs))
+    unequal = (ours[:shared] != theirs[:shared]).reshape(shared, -1).any(axis=1)
+    if unequal.any():
+        return int(np.argmax(unequal))
+    return None if len(ours) == len(theirs) else shared

@@ -1,0 +1,195 @@
+"""Packs: their certificates, the pars that are made of them, and what is odd about a pack, for its maker."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import PurePath
+
+from ninja_game.batch.difficulty import TRIES, difficulty
+from ninja_game.errors import NinjaGameError, ReplayError
+from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.formats.pack.files import CERTIFICATES, INDEX, PARS
+from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
+from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.pack.pars import Pars, parse_pars
+from ninja_game.formats.recording import Recording, parse_replays
+from ninja_game.levels.findings import PackFinding, in_pack
+from ninja_game.levels.warnings import level_findings
+from ninja_game.runs.verify import Verdict, verify_recording
+from ninja_game.sim.kinds import GOLD
+from ninja_game.sim.level import Level
+
+DIGITS = 16
+"""How much of a digest the table of pars keeps."""
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """A replay that shows what can be done in a level. ``kind``: "exit", or "gold" for one with all gold."""
+
+    place: str
+    kind: str
+    level: Level
+    recording: Recording
+
+    @cached_property
+    def verdict(self) -> Verdict:
+        """The result. Raises LevelError for a level that cannot be played."""
+        return verify_recording(self.recording)
+
+    @property
+    def problems(self) -> list[str]:
+        """Why it certifies nothing; empty where it does."""
+        verdict = self.verdict
+        if verdict.level_digest != level_digest(self.level):
+            return ["it is a run of another level, or the level was changed after it"]
+        problems = list(verdict.problems)
+        if verdict.outcome != "exit" and not problems:
+            problems.append(f"it does not reach the exit: {verdict.outcome}")
+        allowed = verdict.body == "circle" and verdict.possible_by_keyboard and verdict.in_time
+        if not allowed or verdict.practice:
+            problems.append("a player could not do this: body, keys, lifetime or practice (see `verify --strict`)")
+        gold = sum(record.kind == GOLD for record in self.level.objects)
+        if self.kind == "gold" and verdict.gold < gold:
+            problems.append(f"it takes {verdict.gold} of {gold} pieces of gold")
+        return problems
+
+
+def certificate(pack: Pack, file: str, kind: str) -> Certificate | None:
+    """The certificate of a level file, None where there is none.
+
+    Raises ReplayError, or another NinjaGameError, where it cannot be read.
+    """
+    name = pack.certificate(file, kind)
+    if name is None:
+        return None
+    place = pack.files.place(name)
+    recordings = parse_replays(pack.files.text(name), file=place)
+    if len(recordings) != 1:
+        raise ReplayError("a certificate is one replay", place, found=f"{len(recordings)} recordings")
+    return Certificate(place, kind, pack.levels[file].level, recordings[0])
+
+
+def make_pars(pack: Pack, *, tries: int = TRIES) -> Iterator[tuple[str, Pars]]:
+    """The pars of every level file with a sound certificate to the exit, one after another.
+
+    What is in the pack's table and still right is not measured again. ``tries``: as ``difficulty`` has them, 0 for no
+    difficulty. Raises what ``certificate`` raises.
+    """
+    known = parse_pars(pack.files.text(PARS), file=pack.files.place(PARS)) if PARS in pack.files.names else {}
+    for file, named in pack.levels.items():
+        run, rich = certificate(pack, file, "exit"), certificate(pack, file, "gold")
+        if run is None or run.problems:
+            continue
+        pars = Pars(
+            level_digest(named.level)[:DIGITS],
+            run.verdict.xy_sha256[:DIGITS],
+            run.verdict.end_tick,
+            rich.verdict.end_tick if rich and not rich.problems else None,
+        )
+        before = known.get(file)
+        if before and (before.level, before.run) == (pars.level, pars.run) and before.difficulty is not None:
+            measured: float | None = before.difficulty
+        elif tries == 0:
+            measured = None
+        else:
+            inputs = run.recording.inputs[: run.verdict.ticks]
+            measured = round(difficulty(named.level, inputs, tries=tries), 2)
+        yield file, Pars(pars.level, pars.run, pars.exit, pars.gold, measured)
+
+
+KINDS = ("exit", "gold")
+
+
+def lint(pack: Pack) -> Iterator[PackFinding]:
+    """Every finding; none for a proper pack."""
+    in_episodes = {level.file for levels in pack.episodes.values() for level in levels}
+    yield from (in_pack("unreadable", why=problem) for problem in pack.problems)
+    yield from _about_index(pack)
+    for file, named in pack.levels.items():
+        if named.file not in in_episodes:
+            yield in_pack("single-level", pack.files.place(file))
+    yield from _about_levels(pack)
+    sound = True
+    for finding in _about_certificates(pack):
+        sound = False
+        yield finding
+    if sound:
+        yield from _about_pars(pack)
+
+
+def _about_index(pack: Pack) -> Iterator[PackFinding]:
+    place, index = pack.files.place(INDEX), pack.index
+    if not index.author:
+        yield in_pack("no-author", place)
+    used = {episode.number // EPISODES_PER_COLUMN for episode in index.episodes}
+    if used and index.columns and max(used) >= len(index.columns):
+        yield in_pack("column-without-name", place, column=max(used), needed=max(used) + 1)
+    names: dict[str, int] = {}
+    for episode in index.episodes:
+        where, number = f"{place}:{episode.line}", episode.number
+        if not episode.name:
+            yield in_pack("episode-name", where, number=number)
+        elif episode.name in names:
+            yield in_pack("same-episode-name", where, number=number, other=names[episode.name])
+        names[episode.name] = number
+        if episode not in pack.episodes:
+            yield in_pack("empty-episode", where, number=number)
+    if not index.episodes:
+        yield in_pack("no-episodes", place)
+
+
+def _about_levels(pack: Pack) -> Iterator[PackFinding]:
+    names: dict[str, str] = {}
+    levels: dict[str, str] = {}
+    places: dict[str, str] = {}
+    for file, named in pack.levels.items():
+        place = pack.files.place(file)
+        if named.form == "ascii" and named.name == PurePath(file).stem:
+            yield in_pack("no-name", place)
+        if not named.author:
+            yield in_pack("no-author", place)
+        digest = level_digest(named.level)
+        for code, key, seen in (("same-name", named.name, names), ("same-content", digest, levels)):
+            if key in seen:
+                yield in_pack(code, place, other=seen[key])
+            seen.setdefault(key, file)
+        if file[:2].isdecimal() and file[2:3] == "-" and file[4:5] == "-":
+            if file[:4] in places:
+                yield in_pack("same-place", place, number=file[:4], other=places[file[:4]])
+            places.setdefault(file[:4], file)
+        for finding in level_findings(named.level):
+            yield PackFinding(place, finding.code, finding.sentence)
+
+
+def _about_certificates(pack: Pack) -> Iterator[PackFinding]:
+    named = {pack.certificate(file, kind) for file in pack.levels for kind in KINDS}
+    for name in pack.files.names:
+        if name.startswith(CERTIFICATES) and name not in named:
+            yield in_pack("stray-certificate", pack.files.place(name))
+    for file in pack.levels:
+        for kind in KINDS:
+            try:
+                found = certificate(pack, file, kind)
+                if found:
+                    yield from (in_pack("certificate", found.place, why=problem) for problem in found.problems)
+                elif kind == "exit":
+                    yield in_pack("no-certificate", pack.files.place(file))
+            except NinjaGameError as error:
+                yield in_pack("unreadable", why=error)
+
+
+def _about_pars(pack: Pack) -> Iterator[PackFinding]:
+    place = pack.files.place(PARS)
+    if PARS not in pack.files.names:
+        yield in_pack("no-pars", place)
+        return
+    try:
+        known = parse_pars(pack.files.text(PARS), file=place)
+    except NinjaGameError as error:
+        yield in_pack("unreadable", why=error)
+        return
+    if known != dict(make_pars(pack, tries=0)):
+        yield in_pack("old-pars", place)

@@ -1,1 +1,0 @@
-"""Archives of recordings of any size, verified and traced by many processes."""

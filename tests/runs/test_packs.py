@@ -1,0 +1,127 @@
+"""Packs are judged: what is odd has a line with its place, and the table of pars is what the certificates say."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from ninja_game.cli.main import cli
+from ninja_game.formats.load import load_replays
+from ninja_game.formats.pack.pack import Pack
+from ninja_game.formats.pack.pars import Pars
+from ninja_game.formats.replay.text import write_replay
+from ninja_game.runs.packs import lint
+from ninja_game.runs.run import record_replay
+from tests.support.own_pack import PACK
+
+FIRST = "00-0-first-steps"
+
+
+@pytest.fixture(name="pack")
+def copy_of_the_pack(tmp_path: Path) -> Path:
+    return Path(shutil.copytree(PACK, tmp_path / "pack"))
+
+
+def findings(pack: Path) -> list[str]:
+    return [str(finding).replace(f"{pack}/", "") for finding in lint(Pack(pack))]
+
+
+def change(path: Path, old: str, new: str) -> None:
+    text = path.read_text("utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new), "utf-8")
+
+
+def test_nothing_is_odd_about_the_pack_of_the_tests(pack: Path) -> None:
+    assert findings(pack) == []
+    result = CliRunner().invoke(cli, ["levels", "lint", str(pack)])
+    assert (result.exit_code, result.output) == (0, "test pack: 2 episodes, 8 levels, nothing odd\n")
+
+
+def test_index_is_looked_at(pack: Path) -> None:
+    change(pack / "pack.toml", 'author = "the ninja-game developers"\n', "")
+    change(pack / "pack.toml", '"01-2-the-works.txt"', '"gone.txt"')
+    with (pack / "pack.toml").open("a") as index:
+        index.write('[[episode]]\nnumber = 12\nname = "Learning to fall"\n')
+    assert findings(pack) == [
+        "gone.txt: not there",
+        "pack.toml: no author",
+        "pack.toml: column 1 has episodes and no name; expected 2 names in columns",
+        "pack.toml:15: episode 12 has the name of episode 0",
+        "pack.toml:15: episode 12 has no levels; expected files 12-….txt",
+        "01-2-the-works.txt: in no episode; it can be played as a single level",
+    ]
+    result = CliRunner().invoke(cli, ["levels", "lint", str(pack)])
+    assert result.exit_code == 1
+    assert "6 findings" in result.output
+    assert "pack.toml: no author. Name one. [no-author]\n" in result.output
+
+
+def test_levels_are_looked_at(pack: Path) -> None:
+    shutil.copy(pack / f"{FIRST}.txt", pack / "00-1-again.txt")
+    (pack / "00-1-mind-the-gap.txt").unlink()
+    change(pack / "00-2-the-chimney.txt", "author: the ninja-game team\n", "")
+    (pack / "00-3-rolling-hills.txt").write_text("ninja-game level 1\nnonsense")
+    found = findings(pack)
+    for expected in (
+        "00-1-again.txt: the same name as 00-0-first-steps.txt",
+        "00-1-again.txt: the same content as 00-0-first-steps.txt",
+        "00-1-again.txt: no certificate, so nobody knows whether it can be passed",
+        "00-2-the-chimney.txt: no author",
+    ):
+        assert expected in found
+    assert any("00-1-mind-the-gap.exit.replay.txt: of no level here" in finding for finding in found)
+    assert any(finding.startswith("00-3-rolling-hills.txt:2:") for finding in found)
+
+
+def test_two_levels_of_one_place_are_named(pack: Path) -> None:
+    (pack / "00-4-other.txt").write_text((pack / "01-0-springtime.txt").read_text().replace("...o", "....", 1))
+    assert "00-4-other.txt: the place 00-4 is that of 00-4-locksmith.txt too" in findings(pack)
+
+
+def test_certificates_are_run(pack: Path) -> None:
+    certificates = pack / "certificates"
+    change(pack / "00-1-mind-the-gap.txt", "@", ".")
+    (certificates / "00-2-the-chimney.exit.replay.txt").write_text("nonsense")
+    shutil.copy(certificates / f"{FIRST}.exit.replay.txt", certificates / f"{FIRST}.gold.replay.txt")
+    short = load_replays(certificates / "01-0-springtime.exit.replay.txt")[0]
+    (certificates / "01-0-springtime.exit.replay.txt").write_text(
+        write_replay(record_replay(short.level, short.replay.playback(100), ticks=100))
+    )
+    found = findings(pack)
+    for expected in (
+        "certificates/00-0-first-steps.gold.replay.txt: it takes 1 of 5 pieces of gold",
+        "certificates/00-1-mind-the-gap.exit.replay.txt: it is a run of another level, or the level was changed after",
+        "certificates/01-0-springtime.exit.replay.txt: it does not reach the exit: running",
+    ):
+        assert any(finding.startswith(expected) for finding in found)
+    assert any(finding.startswith("certificates/00-2-the-chimney.exit.replay.txt") for finding in found)
+
+
+def test_pars_are_made_by_a_command_and_told_when_they_are_stale(pack: Path) -> None:
+    before = Pack(pack).pars
+    (pack / "pars.toml").unlink()
+    assert findings(pack) == ["pars.toml: no table of par times"]
+    result = CliRunner().invoke(cli, ["levels", "pars", str(pack)])
+    assert result.exit_code == 0
+    assert "8 levels with pars, 0 without a sound certificate" in result.output
+    assert Pack(pack).pars == before
+    assert findings(pack) == []
+    change(pack / "pars.toml", "exit = 156", "exit = 150")
+    assert findings(pack) == ["pars.toml: made from other levels or certificates"]
+
+
+def test_pars_of_a_changed_level_count_no_more(pack: Path) -> None:
+    assert isinstance(Pack(pack).pars[f"{FIRST}.txt"], Pars)
+    change(pack / f"{FIRST}.txt", "ooo", "oo.")
+    assert f"{FIRST}.txt" not in Pack(pack).pars
+
+
+def test_pack_that_cannot_be_read_ends_with_its_line(pack: Path) -> None:
+    change(pack / "pack.toml", "number = 1\n", "number = 0\n")
+    result = CliRunner().invoke(cli, ["levels", "lint", str(pack)])
+    assert result.exit_code == 2
+    assert "pack.toml:12: episode 0 is there twice; found line 8 too" in result.output
