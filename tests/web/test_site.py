@@ -20,13 +20,13 @@ from click.testing import CliRunner
 from ninja_game.cli.main import cli
 from ninja_game.errors import FileError, NinjaGameError
 from ninja_game.web.site import build, pyodide_files
-from ninja_game.web.site.serve import site_server
+from ninja_game.web.site.build import site_server
 
 
 @pytest.fixture
 def pyodide(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder with stand-ins for Pyodide's files, small ones, that count as the right version; no Node.js."""
-    monkeypatch.setattr("ninja_game.web.site.bytecode.shutil.which", lambda _: None)
+    monkeypatch.setattr("ninja_game.web.site.game_archive.shutil.which", lambda _: None)
     folder = tmp_path / "pyodide"
     folder.mkdir()
     library = io.BytesIO()
