@@ -54,7 +54,6 @@ class TasDocument(DocumentCommands):
         self._recover = recover
 
     def commands(self) -> Commands:
-        """By name."""
         return {"menu": self.menu, "help": self.help, "save": self.save, "save_as": self.save_as}
 
     def help(self) -> None:
@@ -62,7 +61,6 @@ class TasDocument(DocumentCommands):
         self.app.push(HelpPage(self.app, "The TAS editor", HELP, COMMANDS))
 
     def menu(self) -> None:
-        """The file menu."""
         rows: list[Row] = [
             ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
             ("Open another run...", lambda: self._run("open_other"), "Beside this one: Ctrl+O"),
