@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ninja_game.backend.known_run import check_known_run
 from ninja_game.errors import ArgumentError, NinjaGameError
-from ninja_game.files.resources import how_to_install
+from ninja_game.files.user_folder import how_to_install
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import MemoryName, Worlds
 from ninja_game.sim.memory.kernels import load_world

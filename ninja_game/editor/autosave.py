@@ -78,7 +78,6 @@ class RecoveredDraft:
     file: Path
 
     def forget(self) -> None:
-        """Remove what was kept."""
         forget(self.file)
 
 

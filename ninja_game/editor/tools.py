@@ -72,7 +72,6 @@ class EditorTools:
 
     @property
     def draft(self) -> Draft:
-        """The level as it is now."""
         return self.history.draft
 
     @property
@@ -147,7 +146,6 @@ class EditorTools:
         self.move(*self.pointer)
 
     def release(self) -> None:
-        """The button goes up."""
         if self._doing == "drop" and has_switch(self._dropped()):
             self._switchless = placed(self.record, *self._pressed_at, self.snap)
             self._doing = ""

@@ -55,12 +55,10 @@ class Session:
 
     @property
     def track(self) -> InputTrack:
-        """The run as it is now."""
         return self.history.draft
 
     @property
     def name(self) -> str:
-        """What to call the run."""
         return self.about.name or "run"
 
     @property
@@ -101,7 +99,6 @@ class Session:
         self._follow(ticks)
 
     def end(self) -> None:
-        """The stroke ends."""
         self.history.end()
         self._note()
         self._stroke_noted = False

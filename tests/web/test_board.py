@@ -17,7 +17,7 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.errors import FileError
-from ninja_game.files.resources import bundled_replays, data_folder
+from ninja_game.files.user_folder import bundled_replays, data_folder
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.replay.text import parse_replay, write_replay
@@ -27,8 +27,7 @@ from ninja_game.web.board.ranking import FASTEST, HIGHEST, Ranking
 from ninja_game.web.board.report import DATE
 from ninja_game.web.board.runs import Judged, Key, judge
 from ninja_game.web.pages.exhibition import exhibition
-from ninja_game.web.pages.frame import POLICY
-from ninja_game.web.pages.html import tag
+from ninja_game.web.pages.frame import POLICY, tag
 from tests.support.forgeries import FORGERIES, GOLD_LATER, WALKING, record, replay
 from tests.support.samples import SPIKED, WALK, WALK_END
 

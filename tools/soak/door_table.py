@@ -44,7 +44,7 @@ from ninja_game.play.ui.stroke_font import StrokeFont
 from ninja_game.play.ui.text_entry import EditedText
 from ninja_game.player.backup import read_backup
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.settings_file import read_settings, write_changes
+from ninja_game.player.settings import read_settings, write_changes
 from ninja_game.player.store import Store
 from ninja_game.runs.checkpoint_log import CheckpointLog
 from ninja_game.runs.chunks import (
@@ -191,7 +191,7 @@ def _loaded(path: Path) -> list[Any]:
 
 
 def _run(path: Path) -> None:
-    """A run as the bench opens it: beside itself, and in all notations that can say it."""
+    """A run as the TAS editor opens it: next to itself, and in all notations that can say it."""
     opened = open_run(path, level=LEVEL)
     runs_of_level(path, opened.recording)
     if len(opened.track) <= LONGEST_RUN:

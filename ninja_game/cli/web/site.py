@@ -36,7 +36,7 @@ def command(out: Path | None, pyodide: Path | None, serve: bool, port: int) -> N
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from platformdirs import user_cache_path
 
-    from ninja_game.files.resources import data_folder
+    from ninja_game.files.user_folder import data_folder
     from ninja_game.web.pages.exhibition import exhibition
     from ninja_game.web.pages.gallery import write_gallery
     from ninja_game.web.site.build import build_site
@@ -56,7 +56,7 @@ def command(out: Path | None, pyodide: Path | None, serve: bool, port: int) -> N
 
 
 def _serve(folder: Path, port: int) -> None:
-    from ninja_game.web.site.serve import site_server
+    from ninja_game.web.site.build import site_server
 
     with site_server(folder, port) as server:
         click.echo(f"http://127.0.0.1:{server.server_port}/ (Ctrl-C ends it)")

@@ -46,7 +46,6 @@ class EditorCommands(DocumentCommands):
         self._finding = -1
 
     def run(self, name: str) -> None:
-        """Do what a command says."""
         tools = self.session.tools
         if name in TOOLS:
             tools.finish()
@@ -78,14 +77,12 @@ class EditorCommands(DocumentCommands):
         }  # fmt: skip
 
     def next_symmetry(self) -> None:
-        """Another symmetry."""
         names = list(SYMMETRIES)
         tools = self.session.tools
         tools.finish()
         tools.symmetry = names[(names.index(tools.symmetry) + 1) % len(names)]
 
     def choose_all(self) -> None:
-        """Select everything."""
         tools = self.session.tools
         tools.finish()
         tools.tool, tools.selection = "select", everything(tools.draft)
@@ -152,7 +149,6 @@ class EditorCommands(DocumentCommands):
 
     @property
     def _levels(self) -> Path:
-        """The player's."""
         return self.app.player.folder / "levels"
 
     def own_path(self) -> Path | None:
@@ -192,7 +188,6 @@ class EditorCommands(DocumentCommands):
         self.app.push(Form(self.app, "About the level", fields, "OK", on_accept))
 
     def open(self) -> None:
-        """Choose a level to edit."""
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))
 
     def edit_entry(self, entry: Entry) -> None:
@@ -216,5 +211,4 @@ class EditorCommands(DocumentCommands):
             self.ask_about_recovered(name, lambda: self.edit(found.source, found), found.forget, about=about)
 
     def new(self) -> None:
-        """An empty level."""
         self.unless_unsaved(lambda: self.edit(new_source(self.app.settings.name)))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.menus.browser import Browser
-from ninja_game.play.menus.help.commands_page import HelpPage
+from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Entry
 
@@ -26,7 +26,6 @@ class LevelChoice(Browser):
         self.list.hint = "Enter opens the level in the editor"
 
     def build(self) -> Sequence[Widget]:
-        """The list and its search; no buttons to play."""
         return [*list(super().build())[:3], Button((436, 470, 320, 32), "Edit", lambda: self._play(self.list.index))]
 
     def _play(self, index: int, *, practice: bool = False) -> None:

@@ -49,7 +49,6 @@ class ToolButton(Button):
         self.name, self.tools, self.grid = name, tools, grid
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """Its text in a panel."""
         tools, (x, y, w, h) = self.tools, self.area
         lit = self.name == tools.tool or (self.name == "symmetry" and tools.symmetry != "off")
         theme.row(surface, self.area, chosen=lit, focused=lit, radius=3)
@@ -69,7 +68,6 @@ class EditorPart(Part):
         self.session: EditorSession = view.session
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """The ground."""
         theme.canvas.fill_rect(surface, theme.palette.tile, *self.area)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
@@ -96,7 +94,6 @@ class Toolbar(EditorPart):
         self.widgets = buttons
 
     def render_key(self) -> tuple[object, ...]:
-        """What the buttons show."""
         tools = self.session.tools
         history = tools.history.can_undo, tools.history.can_redo
         return tools.tool, tools.symmetry, self.view.grid, tools.snap, history
@@ -113,7 +110,6 @@ class Palette(EditorPart):
         self.widgets = [palette]
 
     def render_key(self) -> tuple[object, ...]:
-        """What is in hand."""
         tools = self.session.tools
         return tools.objects, tools.tile, tools.record
 
@@ -135,7 +131,6 @@ class Properties(EditorPart):
         self._subject: tuple[object, ...] = ()
 
     def refresh(self) -> None:
-        """Have the rows of what the part is about now."""
         about = subject(self.session.tools)
         if about != self._subject:
             self._subject = about
@@ -143,12 +138,10 @@ class Properties(EditorPart):
             self.widgets = property_widgets(self.session.tools, (x + 6, y + 5, w - 12, h - 9))
 
     def render_key(self) -> tuple[object, ...]:
-        """What it is about, and its values."""
         tools = self.session.tools
         return self._subject, tools.tile, tools.subject, tools.selection
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """A darker ground."""
         super().paint(surface, theme)
         x, y, w, h = self.area
         theme.canvas.fill_rect(surface, theme.palette.background, x + 2, y, w - 6, h - 7, 3)
@@ -168,17 +161,14 @@ class Findings(EditorPart):
         self.widgets = [self.list]
 
     def render_key(self) -> tuple[object, ...]:
-        """The findings."""
         return (id(self._shown),)
 
     def update(self, real_ms: int) -> None:
-        """Take those of the last examination."""
         if self._shown is not self.session.findings:
             self._shown = self.session.findings
             self.list.fill(self._shown)
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """A panel."""
         super().paint(surface, theme)
         theme.canvas.fill_rect(surface, theme.palette.panel, *self.area, 3)
 
@@ -195,13 +185,11 @@ class FilePart(EditorPart):
     area = LAYOUT.file
 
     def render_key(self) -> tuple[object, ...]:
-        """Name, file, saved, and what the solver says."""
         session, certifier = self.session, self.session.certifier
         solver = certifier.text, certifier.busy, certifier.share, certifier.run is None
         return session.name, session.source.path, session.is_saved, solver, certifier.is_stale(session.draft.level)
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """A panel with a few lines."""
         super().paint(surface, theme)
         canvas, palette, session = theme.canvas, theme.palette, self.session
         x, y, w, h = self.area
@@ -239,11 +227,9 @@ class StatusLine(EditorPart):
         return self.view.hint or _TOOL_HINTS[tool]
 
     def render_key(self) -> tuple[object, ...]:
-        """The pointer and the text."""
         return self.session.tools.pointer, self._text()
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """One line."""
         super().paint(surface, theme)
         tools, colour, top = self.session.tools, theme.palette.on_tile, self.area[1] + 5
         (column, row), (x, y) = tools.cell, tools.pointer

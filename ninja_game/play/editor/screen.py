@@ -49,15 +49,12 @@ class EditorScreen(WorkspaceScreen):
 
     @property
     def parts(self) -> Sequence[Part]:
-        """The level, and all around it."""
         return self._parts
 
     def run(self, name: str) -> None:
-        """Do what a command says."""
         self.commands.run(name)
 
     def hint(self, text: str) -> None:
-        """In the status line."""
         self.view.hint = text
 
     def follow_parts(self) -> None:

@@ -69,7 +69,6 @@ class EditorSession:
 
     @property
     def draft(self) -> Draft:
-        """The level as it is now."""
         return self.tools.draft
 
     @property
@@ -79,7 +78,6 @@ class EditorSession:
 
     @property
     def name(self) -> str:
-        """What to call the level."""
         return self.draft.name or (self.source.path.stem if self.source.path else "") or "New level"
 
     @property
@@ -107,7 +105,6 @@ class EditorSession:
             self._checks.ask(self.draft.level)
 
     def close(self) -> None:
-        """The level is left: nothing of it is kept."""
         self.certifier.stop()
         self.autosave.close()
 

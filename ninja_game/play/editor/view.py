@@ -67,7 +67,6 @@ class EditorView(Part):
         self._marked = ()
 
     def next_grid(self) -> None:
-        """Another grid."""
         self.grid = GRIDS[(GRIDS.index(self.grid) + 1) % len(GRIDS)]
         self.sheet.show_grid(self.grid.lines())
 
@@ -102,7 +101,6 @@ class EditorView(Part):
         return True
 
     def mouse_left(self) -> None:
-        """Nothing would be drawn."""
         self.hovering = False
 
     # --- drawing ---
@@ -118,7 +116,6 @@ class EditorView(Part):
     def draw(
         self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool
     ) -> list[pygame.Rect]:  # fmt: skip
-        """Draw what has changed; the px that did."""
         if self._laid_out != self._layout_key():
             self._lay_out()
             whole = True

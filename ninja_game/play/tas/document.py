@@ -11,12 +11,11 @@ from time import localtime, strftime
 from typing import TYPE_CHECKING
 
 from ninja_game.files.locking import forget
-from ninja_game.files.resources import data_folder
 from ninja_game.files.shown_text import file_stem
-from ninja_game.files.user_folder import REPLAYS, free_path
+from ninja_game.files.user_folder import REPLAYS, data_folder, free_path
 from ninja_game.formats.links.making import replay_link
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.menus.help.commands_page import HelpPage
+from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import Form, Menu, Row, nothing
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.tas.controls import COMMANDS
@@ -55,7 +54,6 @@ class TasDocument(DocumentCommands):
         self._recover = recover
 
     def commands(self) -> Commands:
-        """By name."""
         return {"menu": self.menu, "help": self.help, "save": self.save, "save_as": self.save_as}
 
     def help(self) -> None:
@@ -63,7 +61,6 @@ class TasDocument(DocumentCommands):
         self.app.push(HelpPage(self.app, "The TAS editor", HELP, COMMANDS))
 
     def menu(self) -> None:
-        """The file menu."""
         rows: list[Row] = [
             ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
             ("Open another run...", lambda: self._run("open_other"), "Beside this one: Ctrl+O"),

@@ -67,7 +67,6 @@ class TasEditor:
 
     @property
     def track(self) -> InputTrack:
-        """The run as it is now."""
         return self.session.track
 
     @property

@@ -17,12 +17,10 @@ class Head(TasPart):
     slot = "head"
 
     def render_key(self) -> tuple[object, ...]:
-        """Name, file, saved, outcome."""
         session = self.editor.session
         return session.about.name, session.file.path, session.is_saved, session.timeline.end, session.journal.problem
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """One line."""
         session, palette, right = self.editor.session, theme.palette, self.area[2] - 8
         theme.canvas.fill_rect(surface, palette.tile, *self.area)
         end, outcome = session.timeline.end
@@ -69,7 +67,6 @@ class Foot(TasPart):
         )
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """One line."""
         editor, palette, (_, y, w, _) = self.editor, theme.palette, self.area
         theme.canvas.fill_rect(surface, palette.tile, *self.area)
         first, last = editor.selection

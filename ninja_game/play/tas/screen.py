@@ -12,9 +12,9 @@ from ninja_game.play.tas.controls import TABLE
 from ninja_game.play.tas.document import TasDocument
 from ninja_game.play.tas.editor import TasEditor, TasPart
 from ninja_game.play.tas.head import Foot, Head
+from ninja_game.play.tas.layout import Splitters
 from ninja_game.play.tas.level.part import LevelPart
 from ninja_game.play.tas.roll.part import Roll
-from ninja_game.play.tas.splitters import Splitters
 from ninja_game.play.tas.tabs.branches_tab import BranchesTab
 from ninja_game.play.tas.tabs.lead_tab import LeadTab
 from ninja_game.play.tas.tabs.search_tab import SearchTab
@@ -62,12 +62,10 @@ class TasScreen(WorkspaceScreen):
 
     @property
     def tab(self) -> Tab:
-        """The tab that is shown."""
         return self.strip.shown
 
     @property
     def parts(self) -> Sequence[TasPart]:
-        """Those that are shown."""
         return [self.head, self.level, self.roll, self.tab, self.strip, self.foot_line, self.splitters]
 
     @property
@@ -78,18 +76,15 @@ class TasScreen(WorkspaceScreen):
         return self.editor.theme
 
     def commands(self) -> Commands:
-        """What commands do, by name."""
         own = dict(self.document.commands())
         for part in (*self.parts, *self.tabs):
             own.update(part.commands())
         return own
 
     def run(self, name: str) -> None:
-        """Do what a command says."""
         self.commands()[name]()
 
     def hint(self, text: str) -> None:
-        """In the line below."""
         self.editor.hint = text
 
     def _recover(self, found: RecoveredRun) -> None:

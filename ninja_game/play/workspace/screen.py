@@ -38,11 +38,9 @@ class WorkspaceScreen(MenuScreen):
 
     @property
     def parts(self) -> Sequence[Part]:
-        """All that draws itself."""
         raise NotImplementedError
 
     def run(self, name: str) -> None:
-        """Do what a command says."""
         raise NotImplementedError
 
     def hint(self, text: str) -> None:
@@ -50,7 +48,6 @@ class WorkspaceScreen(MenuScreen):
         raise NotImplementedError
 
     def build(self) -> Sequence[Widget]:
-        """The widgets of all parts."""
         return [widget for part in self.parts for widget in part.widgets]
 
     def follow_parts(self) -> None:
@@ -66,7 +63,6 @@ class WorkspaceScreen(MenuScreen):
         self.await_text()
 
     def enter(self) -> None:
-        """Nothing has the focus: keys are commands."""
         super().enter()
         self.focus = self._grabbed = None
         self.await_text()
@@ -126,7 +122,7 @@ class WorkspaceScreen(MenuScreen):
         self.follow_parts()
 
     def edit_by_key(self, event: InputEvent) -> bool:
-        """A key that is no command but edits; whether it did."""
+        """Take a key that edits without a command; whether it did."""
         return False
 
     def _give_mouse(self, raw: pygame.Event) -> None:
@@ -156,13 +152,11 @@ class WorkspaceScreen(MenuScreen):
     # --- time and picture ---
 
     def update(self, real_ms: int) -> None:
-        """What is held is done again; parts go on."""
         super().update(real_ms)
         for command in self.held.due(real_ms):
             self.run(command)
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """What has changed."""
         theme, whole = self.theme, self.redraw
         if whole:
             surface.fill(theme.palette.tile)

@@ -41,17 +41,14 @@ class BranchesTab(Tab):
         self.widgets: list[Rows | Button] = [self.list, *self._buttons]
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
-        """The tree above the buttons."""
         self.list.area = x + 4, y + 20, w - 8, h - 43
         put_in_a_row(x + 4, y + h - 20, self._buttons, (46, 58, 58, 56, 46))
 
     def commands(self) -> Commands:
-        """Keeping."""
         return {"branch": self.keep}
 
     @property
     def branches(self) -> Branches:
-        """The run's."""
         return self.editor.session.branches
 
     @property
@@ -89,7 +86,6 @@ class BranchesTab(Tab):
             self.editor.show_tab("Lead")
 
     def rename(self) -> None:
-        """Ask for another name."""
         number = self.chosen
         if number is None:
             return
@@ -111,14 +107,12 @@ class BranchesTab(Tab):
     # --- picture ---
 
     def refresh(self) -> None:
-        """Have the tree as it is now."""
         self.tree = list(self.branches.in_tree())
         self.list.fill(self.tree)
         for button in self._for_one:
             button.enabled = bool(self.tree)
 
     def render_key(self) -> tuple[object, ...]:
-        """Branches, the run and its end."""
         session = self.editor.session
         tree = tuple(self.branches.all), self.branches.current
         return tree, session.track, session.timeline.end, self.list.over
@@ -134,7 +128,6 @@ class BranchesTab(Tab):
             theme.text(surface, text, at, y - 13, size=8, colour=theme.palette.faint)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
-        """Name, end, gold, the difference to the run."""
         number, depth = self.tree[index]
         branch, palette = self.branches.all[number], theme.palette
         x, y, w, h = area

@@ -33,7 +33,6 @@ class Tab(TasPart):
     name: ClassVar[str] = ""
 
     def place(self, area: Area) -> None:
-        """Be there, with the widgets."""
         super().place(area)
         self.arrange(*area)
 
@@ -42,7 +41,6 @@ class Tab(TasPart):
         raise NotImplementedError
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """Its background."""
         theme.panel(surface, *self.area)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
@@ -53,7 +51,6 @@ class Tab(TasPart):
         return False
 
     def mouse_left(self) -> None:
-        """No row is under the mouse."""
         self._leave_lists(-1, -1)
 
     def _leave_lists(self, x: float, y: float) -> None:
@@ -73,7 +70,6 @@ class TabName(Button):
         self._editor = tab.editor
 
     def draw_base(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """Its panel."""
         theme.row(surface, self.area, chosen=focused or self.text == self._editor.tab, focused=focused)
 
 
@@ -88,7 +84,6 @@ class TabStrip(TasPart):
         self.widgets = [TabName(tab) for tab in tabs]
 
     def commands(self) -> Commands:
-        """The next tab."""
         return {"next_tab": self.show_next}
 
     def show_next(self) -> None:
@@ -98,11 +93,9 @@ class TabStrip(TasPart):
 
     @property
     def shown(self) -> Tab:
-        """The tab that is shown."""
         return next(tab for tab in self.tabs if tab.name == self.editor.tab)
 
     def place(self, area: Area) -> None:
-        """Be there, with the names in equal widths."""
         super().place(area)
         x, y, w, h = area
         width = w / len(self.widgets)
@@ -110,11 +103,9 @@ class TabStrip(TasPart):
             name.area = x + number * width, y, width - 4, h
 
     def render_key(self) -> tuple[object, ...]:
-        """Which tab is shown."""
         return (self.editor.tab,)
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """The names are widgets."""
         theme.canvas.fill_rect(surface, theme.palette.tile, *self.area)
 
 
@@ -158,7 +149,6 @@ class EntryField(TextEntry):
         self._enter = enter
 
     def confirm(self) -> bool:
-        """Do it."""
         self._enter()
         return True
 
