@@ -53,7 +53,7 @@ FAILED = 1
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per recording, for programs.")
 @click.option("--quiet", "-q", is_flag=True, help="Only recordings that fail, and the summary.")
 @click.pass_context
-def command(
+def verify(
     ctx: click.Context,
     /,
     files: Sequence[Path],
