@@ -23,7 +23,7 @@ OURS = {
     "files/locking": "holds locks", "files/writing": "writes", "play/audio/player": "silences a library",
     "play/lab/figure": "the program's own figures", "play/menus/help/pages": "its own help",
     "learn/levels/curriculum": "its own levels", "sim/memory/declare": "its own code, made from its own rules",
-    "web/site/bytecode": "its own code", "web/site/compiling": "its own code", "web/site/game_archive": "its own files",
+    "web/site/compiling": "its own code", "web/site/game_archive": "its own files",
     "web/sounds": "its own sounds",
 }  # fmt: skip
 """Modules that read only what is part of the program, or nothing."""

@@ -53,7 +53,7 @@ USES = {
     "demonstrations": ("fast", "learn", "minari"),
 }  # fmt: skip
 """The extras that commands of the game use; those that are not here use Numba."""
-DRAWINGS = ("draw.how_it_works", "draw.legend", "draw.screens")
+DRAWINGS = ("draw.how_it_works", "draw.screens")
 PICTURE_TESTS = ("tests/play/test_recorded_screens.py", "tests/play/test_pictures.py", "tests/play/test_sound.py")
 
 

@@ -32,7 +32,6 @@ _RULER = re.compile(r";[\s\d]*")
 
 
 def ascii_text(draft: Draft) -> str:
-    """A draft as a new text."""
     name, author, comment, teaches = draft.about
     return write_ascii_level(draft.level, name=name, author=author, comment=comment, teaches=teaches)
 

@@ -3,42 +3,35 @@
 from __future__ import annotations
 
 import json
-import os
-import secrets
 import time
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from ninja_game.document import RecoveryFile, recovered_from
 from ninja_game.editor.ascii_text import ascii_text
 from ninja_game.editor.background import NewestJob
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import Source, draft_of, new_source, open_source
-from ninja_game.errors import DAMAGED, NinjaGameError
-from ninja_game.files.locking import LOCK_SUFFIX, forget, hold, left_behind
+from ninja_game.errors import NinjaGameError
+from ninja_game.files.locking import forget
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.named_level import parse_levels
 
-FOLDER = "editing"
+FOLDER, SUFFIX = "editing", ".json"
 """In the player's folder."""
 
 SPACING = 0.4
 """Seconds from one autosave to the next, at least."""
 
 
-class Autosave:
-    """Keeps the newest draft of one document. Works in a thread of its own; ``problem``: why it cannot, or ''.
-
-    ``file``: an autosave of an editor that has died, to continue with.
-    """
+class Autosave(RecoveryFile):
+    """Keeps the newest draft of one document, in a thread of its own."""
 
     def __init__(self, folder: Path, file: Path | None = None) -> None:
-        self.problem = ""
-        self._folder = folder / FOLDER
-        self._file = file or self._folder / f"{secrets.token_hex(6)}.json"
-        self._handle: int | None = None
+        super().__init__(folder / FOLDER, SUFFIX, file)
         self._job: NewestJob[tuple[Draft, Source] | None, None] = NewestJob(self._work)
         self._kept: Draft | None = None
         self._asked_at = 0.0
@@ -59,51 +52,41 @@ class Autosave:
         self._job.finish()
 
     def _work(self, job: tuple[Draft, Source] | None) -> None:
-        try:
-            if job is None:
-                with suppress(OSError):
-                    self._file.unlink(missing_ok=True)
-                return
-            if self._handle is None:
-                self._folder.mkdir(parents=True, exist_ok=True)
-                self._handle = hold(self._file.with_suffix(LOCK_SUFFIX))
+        if job is None:
+            with suppress(OSError):
+                self.file.unlink(missing_ok=True)
+            return
+        with self.reporting():
+            self.lock()
             draft, source = job
             path = str(source.path.absolute()) if source.path else ""
             kept = {"path": path, "digest": source.digest, "level": ascii_text(draft)}
-            write_atomically(self._file, json.dumps(kept, indent=1))
-            self.problem = ""
-        except (OSError, NinjaGameError) as error:
-            self.problem = f"What you edit cannot be kept safe: {getattr(error, 'strerror', '') or error}"
+            write_atomically(self.file, json.dumps(kept, indent=1))
 
     def close(self, *, keep: bool = False) -> None:
         """End. ``keep``: what is kept stays, to be found by the next editor."""
         self._job.finish()
-        if self._handle is not None:
-            os.close(self._handle)
-            self._handle = None
-        if not keep:
-            forget(self._file)
+        super().close(keep=keep)
 
 
 @dataclass(frozen=True)
-class Recovered:
-    """A draft whose editor has died, where it was at home, and the file in which it was kept."""
+class RecoveredDraft:
+    """A draft whose program has died, the file that it came from, and the one in which it was kept."""
 
     draft: Draft
     source: Source
     file: Path
 
     def forget(self) -> None:
-        """Remove what was kept."""
         forget(self.file)
 
 
-def recovered(folder: Path) -> Iterator[Recovered]:
+def recovered(folder: Path) -> Iterator[RecoveredDraft]:
     """What editors that have died were editing, the newest first; those of running editors are left out."""
-    return left_behind(folder / FOLDER, "*.json", _read, DAMAGED)
+    return recovered_from(folder / FOLDER, SUFFIX, _read)
 
 
-def _read(file: Path) -> Recovered:
+def _read(file: Path) -> RecoveredDraft:
     """What an autosave holds; its path counts only for a level that is still there. Raises what ``recovered`` names."""
     kept = json.loads(read_utf8(file))
     draft = draft_of(parse_levels(kept["level"])[0])
@@ -112,4 +95,4 @@ def _read(file: Path) -> Recovered:
         with suppress(OSError, NinjaGameError):
             # Where somebody else has changed it since, saving will ask.
             source = replace(open_source(Path(kept["path"])), digest=str(kept["digest"]))
-    return Recovered(draft, source, file)
+    return RecoveredDraft(draft, source, file)

@@ -36,12 +36,10 @@ class NewestJob(Generic[Job, Result]):
 
     @property
     def idle(self) -> bool:
-        """Whether all is done."""
         with self._news:
             return not self._busy
 
     def finish(self, seconds: float = 10.0) -> None:
-        """Wait until all is done."""
         with self._news:
             self._news.wait_for(lambda: not self._busy, seconds)
 

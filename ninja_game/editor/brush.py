@@ -45,7 +45,6 @@ _TILE_NAMES = (
 
 
 def tile_name(tile: int) -> str:
-    """What a tile is called."""
     return _TILE_NAMES[tile] if tile in TILE_IDS else f"odd tile {tile}"
 
 

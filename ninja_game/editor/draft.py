@@ -25,7 +25,6 @@ class Draft:
 
     @property
     def objects(self) -> tuple[ObjectSpec, ...]:
-        """The records, in order."""
         return self.level.objects
 
     @property
@@ -46,7 +45,6 @@ class Draft:
         return replace(self, level=Level(tuple(ids), self.objects)) if tiles else self
 
     def with_objects(self, objects: tuple[ObjectSpec, ...]) -> Draft:
-        """Other records."""
         return replace(self, level=Level(self.level.tiles, objects))
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from hashlib import sha256
 from pathlib import Path
 
+from ninja_game.document import check_free, digest_of, digest_of_file
 from ninja_game.editor.ascii_text import ascii_text, updated_text
 from ninja_game.editor.draft import Draft
-from ninja_game.errors import LevelError, NinjaGameError
+from ninja_game.errors import LevelError
 from ninja_game.files.reading import read_bytes
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.links.fragment import is_link
@@ -19,13 +19,9 @@ from ninja_game.sim.level import Level
 SUFFIX = ".txt"
 
 
-class OccupiedError(NinjaGameError):
-    """A file that saving would replace, and that was not made by this document's last save."""
-
-
 @dataclass(frozen=True)
 class Source:
-    """Where a draft is at home. ``path``: None if it has no file of its own yet. ``text``: what the file says.
+    """The file that a draft came from and is saved to. ``path``: None if it has none yet. ``text``: what the file says.
 
     ``draft``: the one that the file holds; ``digest``: of its bytes; ``windows``: whether lines end as on Windows.
     """
@@ -58,7 +54,7 @@ def open_source(path: Path, record: int = 0) -> Source:
     draft = draft_of(named)
     if linked or not named.ascii:
         return Source(draft)
-    return Source(draft, path, text, _digest(data), b"\r\n" in data)
+    return Source(draft, path, text, digest_of(data), b"\r\n" in data)
 
 
 def draft_of(named: NamedLevel) -> Draft:
@@ -73,36 +69,15 @@ def save(source: Source, draft: Draft, path: Path, *, replacing: bool = False) -
     ``replacing``; FileError, OSError for what cannot be written.
     """
     own = source.path is not None and path == source.path
-    there = digest_of(path)
+    there = digest_of_file(path)
     if own and draft == source.draft and there == source.digest:
         return source
     check_free(path, there, source.digest if own else None, replacing=replacing)
     text = updated_text(source.text, source.draft, draft) if own and source.text else ascii_text(draft)
     data = (text.replace("\n", "\r\n") if own and source.windows else text).encode("utf-8", "replace")
-    if _digest(data) != there:
+    if digest_of(data) != there:
         write_atomically(path, data)
-    return Source(draft, path, text, _digest(data), own and source.windows)
-
-
-def _digest(data: bytes) -> str:
-    return sha256(data).hexdigest()
-
-
-def digest_of(path: Path) -> str:
-    """The digest of a file's bytes; '' where there is none."""
-    return _digest(read_bytes(path)) if path.exists() else ""
-
-
-def check_free(path: Path, there: str, known: str | None, *, replacing: bool) -> None:
-    """Raise OccupiedError where writing would surprise: over another file, through a link to nothing, or again.
-
-    ``there``: the digest of the file at ``path``; ``known``: that of the document's own, None for another's.
-    """
-    if replacing or (there == (known or "") and (there or not path.is_symlink())):
-        return
-    if known is None:
-        raise OccupiedError(f"a file named {path.name} already exists")
-    raise OccupiedError(f"{path.name} was {'changed' if there else 'removed'} by another program")
+    return Source(draft, path, text, digest_of(data), own and source.windows)
 
 
 def draft_of_text(text: str, about: Draft) -> Draft:

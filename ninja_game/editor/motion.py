@@ -40,12 +40,10 @@ class Motion(NamedTuple):
         return self.xx * x + self.xy * y + 0.0, self.yx * x + self.yy * y + 0.0
 
     def point(self, x: float, y: float) -> tuple[float, float]:
-        """Where a point goes."""
         a, b = self.vector(x, y)
         return a + self.dx, b + self.dy
 
     def cell(self, cell: Cell) -> Cell:
-        """Where a cell goes."""
         x, y = self.point(24.0 * cell[0] + 12.0, 24.0 * cell[1] + 12.0)
         return int(x // 24), int(y // 24)
 

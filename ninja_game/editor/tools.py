@@ -5,6 +5,7 @@ They know no window: points are px of the level.
 
 from __future__ import annotations
 
+from ninja_game.document import History
 from ninja_game.editor.brush import (
     OBJECT_TYPE_NAMES,
     OBJECT_TYPES,
@@ -16,7 +17,6 @@ from ninja_game.editor.brush import (
     with_switch,
 )
 from ninja_game.editor.draft import Cell, Draft, cell_of
-from ninja_game.editor.history import History
 from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.records import has_switch, points
 from ninja_game.editor.stamp import (
@@ -72,7 +72,6 @@ class EditorTools:
 
     @property
     def draft(self) -> Draft:
-        """The level as it is now."""
         return self.history.draft
 
     @property
@@ -147,7 +146,6 @@ class EditorTools:
         self.move(*self.pointer)
 
     def release(self) -> None:
-        """The button goes up."""
         if self._doing == "drop" and has_switch(self._dropped()):
             self._switchless = placed(self.record, *self._pressed_at, self.snap)
             self._doing = ""

@@ -15,10 +15,10 @@ from ninja_game.backend.memories import open_worlds
 from ninja_game.batch.batch import Numbers
 from ninja_game.learn.observations.part import Ragged, Setting, clamp
 from ninja_game.search.heuristics import POINTS, Heuristics, point_at
+from ninja_game.search.switches import open_bits
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.rules import WORLD_HEIGHT, WORLD_WIDTH
-from ninja_game.sim.traces import is_open
 
 SPARE_FIELDS = 1024
 """Fields that are kept although no world is in their state; 53 KB each, once made."""
@@ -114,10 +114,7 @@ def measure_distance(
         index = which[k]
         level = level_of[index]
         w = worlds[index]
-        state = 0
-        for bit in range(starts[level], starts[level + 1]):
-            if is_open(w, int(switches[bit])):
-                state |= 1 << (bit - starts[level])
+        state = open_bits(w, switches, starts[level], starts[level + 1])
         if state != states[index]:
             states[index] = state
             stale[index] = True

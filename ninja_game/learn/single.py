@@ -11,6 +11,7 @@
 
 from __future__ import annotations
 
+from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -133,6 +134,13 @@ class NinjaEnv(gymnasium.Env[Any, Any]):
         self._running = not (terminated or truncated)
         self._show(ticks)
         return self._observation(), float(worlds.rewards[0]), terminated, truncated, self._info()
+
+    def __getstate__(self) -> dict[str, Any]:
+        """A copy makes its own picture."""
+        return vars(self) | {"_picture": None}
+
+    def __copy__(self) -> NinjaEnv:
+        return deepcopy(self)
 
     def _observation(self) -> Any:
         observed = self.worlds.observations

@@ -11,6 +11,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import deepcopy
 from typing import Any
 
 import numpy as np
@@ -130,6 +131,9 @@ class NinjaVectorEnv(VectorEnv[Observed, Any, NDArray[Any]]):
                 final = self._final(ended, terminated | truncated)
                 worlds.reset(ended)
         return self._shown(), rewards, terminated, truncated, self._infos() | final
+
+    def __copy__(self) -> NinjaVectorEnv:
+        return deepcopy(self)
 
     def _final(self, ended: NDArray[np.intp], mask: NDArray[np.bool_]) -> Infos:
         """What the worlds that have ended showed last."""

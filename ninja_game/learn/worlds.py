@@ -13,6 +13,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import deepcopy
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -131,7 +132,23 @@ class EnvWorlds:
         # What the kernels take, first and last.
         self._places = (self._worlds.maps, self.levels_now, self._worlds.worlds)
         self._episodes = (frame_skip, time_limit, weights, self.rewards, self._facts, self._changed)
+        self._settings: dict[str, Any] = {
+            "level": self.source, "count": count, "observation": self.observation.parts, "flat": flat, "reward": terms,
+            "frame_skip": frame_skip, "time_limit": time_limit, "goal_distance": goal_distance, "body": body,
+            "memory": self.memory, "threads": threads,
+        }  # fmt: skip
         self.reset()
+
+    def __copy__(self) -> EnvWorlds:
+        return deepcopy(self)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _made_with, (self._settings,), (self.save(), self._levels, self._facts, self.rewards)
+
+    def __setstate__(self, state: tuple[EnvState, LevelSequences, NDArray[np.int64], NDArray[np.float64]]) -> None:
+        saved, self._levels, facts, rewards = state
+        self.restore(saved)
+        self._facts[:], self.rewards[:] = facts, rewards
 
     # --- time ---
 
@@ -244,3 +261,8 @@ class EnvWorlds:
 
     def _owner(self) -> tuple[Any, ...]:
         return self.levels, self.body, self.memory, self.time_limit, self.goal is not None
+
+
+def _made_with(settings: dict[str, Any]) -> EnvWorlds:
+    """A function of its own, so that a copy has copies of the settings too: a source of levels may learn."""
+    return EnvWorlds(**settings)

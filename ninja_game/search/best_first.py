@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from ninja_game.backend.memories import compiled
 from ninja_game.search.engine import MORE, add_root, expand, load_node
-from ninja_game.search.heuristics import POINTS, Field, Heuristics
+from ninja_game.search.heuristics import POINTS, Heuristics
 from ninja_game.search.known_run import KnownRun, play_known
+from ninja_game.search.legs import Checkpoint, FieldOf, Leg
 from ninja_game.search.macros import inputs_of
 from ninja_game.search.nodes import (
     BackedUpHeuristic,
@@ -27,49 +28,8 @@ from ninja_game.search.nodes import (
 from ninja_game.search.states import MAX_SWITCH_STATES, NOT_MADE, WANTED, Goal
 
 NO_BACKED_UP = BackedUpHeuristic(zeroed(TableEntry, 1), Resolution())
-SWEEPS = 40
-"""Most sweeps over all links that make a guide's values."""
-
-
-FieldOf = Callable[[int, float, float], Field]
-"""The field of a switch state, for a ninja at (x, y)."""
-
-
-class Leg(NamedTuple):
-    """From some moments to the next piece of gold or switch, or to the exit.
-
-    ``until``: gold at which it ends, as where what is open differs from ``mask``; 0: only at the exit, with ``gold``
-    pieces at least; ``ends``: how many are enough, ``rollouts``: tries to survive there;
-    ``field``: what makes the fields; ``wanted``: switches of which one must have been touched there, but for a few
-    ends (0: any).
-    """
-
-    roots: Sequence[StateWords]
-    until: int
-    mask: int
-    gold: int
-    ends: int
-    rollouts: int
-    field: FieldOf
-    wanted: int = 0
-
-
-class End(NamedTuple):
-    """A moment at which a leg has ended: from which root, by which inputs, its state, ticks, gold (a bit a piece).
-
-    ``mask``: what is open, ``place``: where the ninja is (px), ``routines``: what
-    the enemies do.
-    """
-
-    root: int
-    inputs: bytes
-    words: StateWords
-    tick: int
-    taken: int
-    mask: int
-    place: tuple[float, float]
-    routines: bytes
-    pace: bytes
+MOST_SWEEPS = 40
+"""Most sweeps over all links that back values up for the next search."""
 
 
 class Search:
@@ -103,6 +63,7 @@ class Search:
         self._field: FieldOf = heuristics.field
         self._known: KnownRun | None = None
         self._known_inputs = b""
+        self._roots: Sequence[Checkpoint] = ()
 
     def begin(self, resolution: Resolution, *, seed: int, bound: int, backed_up: bool = False) -> None:
         """Begin a new search from the start to the exit. ``bound``: only runs of fewer ticks count (0: any).
@@ -110,6 +71,7 @@ class Search:
         ``backed_up``: by what the last search has learned; otherwise that is forgotten.
         """
         self.backed_up = self._learned() if backed_up else NO_BACKED_UP
+        self._roots = ()
         self._begin([self.start.initial], resolution, seed, bound)
 
     def begin_leg(self, leg: Leg, resolution: Resolution, *, seed: int, bound: int) -> None:
@@ -120,7 +82,8 @@ class Search:
         )
         self.goal.fields[:, 0] = NOT_MADE
         self._field = leg.field
-        self._begin(leg.roots, resolution, seed, bound)
+        self._roots = leg.roots
+        self._begin([root.words for root in leg.roots], resolution, seed, bound)
 
     def begin_along(self, run: KnownRun, inputs: bytes, resolution: Resolution, *, seed: int, gold: int) -> None:
         """Begin a search at the span of a known run, whose inputs are given, for a shorter one with so much gold."""
@@ -152,7 +115,7 @@ class Search:
     def _learned(self) -> BackedUpHeuristic:
         """The table of the search just made, with its values; the next search gets the other table."""
         table = self.memory.table
-        compiled(back_up_values)(table, self.memory.links, int(self.counters.links), SWEEPS)
+        compiled(back_up_values)(table, self.memory.links, int(self.counters.links), MOST_SWEEPS)
         other = new_table(self._nodes) if self._other_table is None else self._other_table
         other[:] = 0
         self.memory = self.memory._replace(table=other)
@@ -198,22 +161,26 @@ class Search:
             goal.fields[index] = self._field(int(goal.masks[index]), float(x), float(y))
         self.counters.fields_wanted = 0
 
-    def ends(self) -> list[End]:
-        """The moments at which the leg has ended so far."""
+    def ends(self, *, by_velocity: bool = False) -> list[Checkpoint]:
+        """The checkpoints at which the leg has ended so far. ``by_velocity``: the velocity sets them apart, too."""
         found = []
         for index in self.memory.ends[: int(self.counters.ends)].tolist():
             compiled(load_node)(self.start, self.memory, index)
             root, inputs = self._path(index)
-            words = self.start.scratch.copy()
-            world = self.start.worlds[1]
-            place = (float(world["ninja"]["x"]), float(world["ninja"]["y"]))
-            mask = int(self.goal.masks[self.memory.nodes[index].switch_state])
-            taken, routines = self.heuristics.taken(world), self.heuristics.routines(world)
-            ninja = world["ninja"]
-            moved = (float(ninja["x"] - ninja["prev_x"]) / 1.5, float(ninja["y"] - ninja["prev_y"]) / 1.5)
-            pace = bytes(128 + max(-100, min(100, round(part))) for part in moved)
-            found.append(End(root, inputs, words, int(world["tick"]), taken, mask, place, routines, pace))
+            found.append(self.checkpoint(self._roots[root], inputs, by_velocity=by_velocity))
         return found
+
+    def checkpoint(self, before: Checkpoint | None, inputs: bytes, *, by_velocity: bool = False) -> Checkpoint:
+        """The scratch world as a checkpoint."""
+        world, heuristics = self.start.worlds[1], self.heuristics
+        ninja = world["ninja"]
+        variety = heuristics.routines(world)
+        if by_velocity:
+            moved = (float(ninja["x"] - ninja["prev_x"]) / 1.5, float(ninja["y"] - ninja["prev_y"]) / 1.5)
+            variety += bytes(128 + max(-100, min(100, round(part))) for part in moved)
+        taken, mask = heuristics.taken(world), heuristics.opened(self.start.worlds, 1)
+        place = (float(ninja["x"]), float(ninja["y"]))
+        return Checkpoint(self.start.scratch.copy(), int(world["tick"]), taken, mask, place, variety, before, inputs)
 
     def _path(self, index: int) -> tuple[int, bytes]:
         """From which root a node comes, and the inputs from there, one byte per tick."""
@@ -235,7 +202,13 @@ class Search:
         """Save-states expanded since ``begin``."""
         return int(self.counters.expanded)
 
-    def best(self) -> tuple[int, bytes] | None:
-        """The shortest run to the exit that this search has found: the root it begins at, its inputs; None if none."""
+    def best(self) -> bytes | None:
+        """The shortest run to the exit that this search has found, of a leg from the start of the level; None if none.
+
+        Of a search along a known run: from the span on.
+        """
         index = int(self.counters.best_node)
-        return self._path(index) if index >= 0 else None
+        if index < 0:
+            return None
+        root, inputs = self._path(index)
+        return self._roots[root].run() + inputs if self._roots else inputs

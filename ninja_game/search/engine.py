@@ -1,7 +1,7 @@
 """Best-first search (weighted A*) over save-states: the compiled inner loop of every search.
 
 The node with the least (ticks so far + weight x estimated ticks to go) is taken from the open list, all macros are
-played from its save-state, and every state that is no duplicate becomes a node. What differs between goals is the
+played from its save-state, and every state that is not a duplicate becomes a node. What differs between goals is the
 estimate and what ends a search: the exit, the end of a leg, or a shorter run than a known one (``Goal``).
 """
 
@@ -200,7 +200,7 @@ def keep_child(
     parent: int, action: int, played: int, start: Start, memory: SearchMemory, goal: Goal, known: KnownRun | None,
     backed_up: BackedUpHeuristic, resolution: Resolution,
 ) -> None:  # fmt: skip
-    """Make a node of the scratch world if it is no duplicate and may still lead to a shorter run than the best."""
+    """Make a node of the scratch world if it is not a duplicate and may still lead to a shorter run than the best."""
     w = start.worlds[1]
     if known is None and w.tick >= LIFETIME + GOLD_BONUS * w.gold:
         return

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ninja_game.search.heuristics import UNREACHED
 from ninja_game.search.nodes import Start
 from ninja_game.search.switches import open_mask
 from ninja_game.sim.inputs import KEYS_DOWN, pressed
@@ -20,8 +21,6 @@ from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import OUTCOME_RUNNING
 from ninja_game.sim.world import step
 
-NEVER = 1.0e9
-"""Ticks to the exit where nothing of the known run is like this."""
 LATER, EARLIER = 128, 24
 """By how many ticks a moment may be ahead of the known run, or behind it."""
 SLOW = 0.5
@@ -43,7 +42,7 @@ class KnownRun(NamedTuple):
 
 
 def known_run(ticks: int, keys: bytes = b"") -> KnownRun:
-    """Room for a run of so many ticks, to be filled by ``play_known``."""
+    """Room for a run of this many ticks, to be filled by ``play_known``."""
     moves, (masks, gold) = np.zeros((ticks + 1, 4)), np.zeros((2, ticks + 1), np.int64)
     held = np.array(list(keys), np.uint8) & np.uint8(KEYS_DOWN)
     return KnownRun(moves, held, masks, gold, (0, ticks), 0.0, 64.0, 1.0, 1.0)
@@ -87,7 +86,7 @@ def nearest(run: KnownRun, w: World, mask: int) -> tuple[int, float]:
     vx = n.x - n.prev_x
     vy = n.y - n.prev_y
     best = -1
-    least = NEVER
+    least = UNREACHED
     for k in range(max(0, w.tick - EARLIER), min(ticks, w.tick + LATER)):
         row = run.moves[k]
         dx = abs(n.x - row[0])

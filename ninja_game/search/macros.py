@@ -18,7 +18,7 @@ from ninja_game.sim.memory.schema import TileMap, World
 from ninja_game.sim.world import step
 
 Keys = NDArray[np.uint8]
-"""Keys that are down, a byte a tick: a sum of left, right and jump."""
+"""Keys that are down, one byte per tick: a sum of left, right and jump."""
 
 RELEASED, PRESSED, PRESSED_AGAIN = 0, 1, 2
 """Modes of the jump key: up; down (a press if it was up); up for one tick, then down."""
@@ -96,7 +96,7 @@ def followed_code(row: int, ticks: int) -> int:
 
 
 def inputs_of(action: int, known: bytes) -> bytes:
-    """The inputs of an action, one byte a tick; ``known``: the run that it may follow."""
+    """The inputs of an action, one byte per tick; ``known``: the run that it may follow."""
     if action >> 2 & 3 != FOLLOWED:
         return action_inputs(action)
     return known[action >> 16 : (action >> 16) + (action >> 8 & 255)]

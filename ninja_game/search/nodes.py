@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.backend.memories import compiled
+from ninja_game.search.heuristics import UNREACHED
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.compiled import load_worlds
 from ninja_game.sim.memory.declare import entry_point, f4, fast, i4, i8, struct, struct_base
@@ -28,8 +29,6 @@ CHUNK = 32
 BUCKETS = 1 << 14
 MAX_ENDS = 96
 """Ends of a leg that are kept, with room for those of a last expansion."""
-UNKNOWN = 1.0e9
-"""Value of an entry from which no way to the exit is known."""
 
 
 @struct_base
@@ -224,7 +223,7 @@ def back_up_values(table: Sequence[TableEntry], links: Sequence[Link], count: in
     the same are not quite the same, so values are estimates, on the whole too low.
     """
     for slot in range(len(table)):
-        table[slot].value = UNKNOWN
+        table[slot].value = UNREACHED
     for sweep in range(sweeps):
         changed = False
         for index in range(count - 1, -1, -1):

@@ -1,9 +1,10 @@
-"""A run in legs: from gold to gold along a tour and from switch to switch, several moments kept at each.
+"""A run in legs: from gold to gold along a tour and from switch to switch, several checkpoints kept at each.
 
-Moments with the same gold and the same switches form a *front*. A step takes the most promising front, searches from
-all its moments to the next piece of its tour, or to the next switch or the exit, and puts the moments at which a piece
-was collected or a switch touched - that one or another - into their fronts. A front that leads nowhere is tried again,
-later, with another piece, another resolution and more work; the more often it was tried, the sooner others come first.
+Checkpoints with the same gold and the same switches form a *frontier*. A step takes the frontier of the highest
+priority, searches from all its checkpoints to the next piece of its tour, or to the next switch or the exit, and puts
+the checkpoints at which a piece was collected or a switch touched - that one or another - into their frontiers. A
+frontier that leads nowhere is tried again, later, with another piece, another resolution and more work; the more often
+it was tried, the lower its priority.
 """
 
 from __future__ import annotations
@@ -13,13 +14,13 @@ from functools import partial
 
 import numpy as np
 
-from ninja_game.search.best_first import FieldOf, Leg, Search
-from ninja_game.search.heuristics import UNREACHED, Field, Heuristics, point_at
-from ninja_game.search.legs import Checkpoint, Frontier, pieces_of
+from ninja_game.search.best_first import Search
+from ninja_game.search.heuristics import UNREACHED, Heuristics, point_at
+from ninja_game.search.legs import FAR, NEVER, ROLLOUTS, Checkpoint, FieldOf, Frontier, Leg, LegFields, pieces_of
 from ninja_game.search.nodes import Resolution
 from ninja_game.search.tour import short_tour
 
-LEGS = (
+ROUTE_LEGS = (
     (Resolution(cell=12.0, speed=1.0, macro=5, weight=1.6), 400_000),
     (Resolution(cell=8.0, speed=0.5, macro=5, weight=2.0, enemy_cell=24.0), 1_000_000),
     (Resolution(cell=12.0, speed=1.0, macro=6, weight=1.3, visits=12, patience=15, enemy_cell=24.0), 2_000_000),
@@ -27,17 +28,14 @@ LEGS = (
     (Resolution(cell=9.0, speed=0.6, macro=7, jitter=3, weight=1.5, visits=5, patience=40, enemy_cell=24.0), 5_000_000),
     (Resolution(cell=6.0, speed=0.4, macro=4, weight=1.2, visits=2), 8_000_000),
 )
-"""How a front is searched at its first, second … try, and the most ticks."""
+"""How a frontier is searched at its first, second … try, and the most ticks."""
 LEG_NODES = 250_000
-ROLLOUTS = 16
 CAREFUL_TRIES = 4
-"""A piece must be survived, as far as so many random runs tell, at a front's first tries."""
-NEVER = 1 << 30
-"""More gold than there is: what a leg wants at the exit that is to end elsewhere."""
-EXTRA = 40_000
+"""A piece must be survived, as far as so many random runs tell, at a frontier's first tries."""
+ROUTE_EXTRA = 40_000
 """Ticks that a leg goes on at least after its first end, for others."""
 TRY_PENALTY = 1.5
-"""Pieces of gold that a try counts against a front."""
+"""Pieces of gold that a try counts against a frontier."""
 STALL_STEPS = 120
 STALL_TICKS = 6_000_000
 """Steps and ticks without another piece of gold after which it begins again from the start."""
@@ -45,12 +43,9 @@ DOOR_WORTH = 0.5
 """Pieces of gold that an open door counts like."""
 DOOR_TICKS = 3_000_000
 """Ticks of search that an open door counts like, without gold."""
-FAR = 20_000.0
-"""Ticks that an unreachable piece counts in a tour."""
-FIELDS_KEPT = 400
-WIDTH = 12
-ENDS = 24
-"""Moments kept a front, and ends of a leg that are enough."""
+ROUTE_WIDTH = 12
+ROUTE_ENDS = 24
+"""Checkpoints kept a frontier, and ends of a leg that are enough."""
 
 
 class Route:
@@ -69,18 +64,13 @@ class Route:
         self._stalled_steps = self._stalled_ticks = self._restarts = 0
         self._most_now = 0.0
         self._leaving: dict[tuple[int, int], bool] = {}
-        self._fields: dict[tuple[int, int], Field] = {}
-        self._distances: dict[int, Field] = {}
-        self._points = np.array([point_at(x, y) for x, y in self.heuristics.gold_places], np.int64)
+        self._fields = LegFields(self.heuristics)
         switches = list(enumerate(self.heuristics.switches))
         self._exits = sum(1 << bit for bit, switch in switches if not switch.door)
         self._doors = sum(1 << bit for bit, switch in switches if switch.door and not switch.trap)
         start = search.start
-        ninja = start.worlds[0]["ninja"]
-        start.node[:] = start.initial
-        self._first = Checkpoint(
-            start.initial, 0, 0, self.heuristics.opened(start.worlds, 0), (float(ninja["x"]), float(ninja["y"]))
-        )
+        start.scratch[:] = start.initial
+        self._first = search.checkpoint(None, b"")
         self._add(self._first, [])
 
     def step(self, over: Callable[[int], bool]) -> bytes | None:
@@ -91,41 +81,34 @@ class Route:
         stalled = self._stalled_steps > STALL_STEPS or self._stalled_ticks > STALL_TICKS * (1 + self._restarts)
         if self.gold and stalled:
             self._restart()
-        frontier = max(self.frontiers.values(), key=self._promise)
+        frontier = max(self.frontiers.values(), key=self._priority)
         target = self._target(frontier)
         ways = 1 if self.gold else 1 + (self._doors & ~frontier.mask).bit_count()
-        resolution, budget = LEGS[min(frontier.tries // ways, len(LEGS) - 1)]
+        resolution, budget = ROUTE_LEGS[min(frontier.tries // ways, len(ROUTE_LEGS) - 1)]
         frontier.tries += 1
         self.steps += 1
         leg = self._leg(frontier, target)
         budget *= 4 if target < 0 and ways == 1 else 1
         self.search.begin_leg(leg, resolution, seed=self.seed * 10_000 + self.steps, bound=0)
         before = self._most_now
-        self.search.run_leg(budget, over, part=EXTRA, least=EXTRA)
+        self.search.run_leg(budget, over, part=ROUTE_EXTRA, least=ROUTE_EXTRA)
         self._stalled_ticks += self.search.ticks
         frontier.spent += self.search.ticks
         self._stalled_steps += 1
         if leg.gold < NEVER:
-            best = self.search.best()
-            if not best:
-                return None
-            return frontier.checkpoints[best[0]].run() + best[1]
+            return self.search.best()
         ends = self.search.ends()
         if target >= 0 and not any(end.taken >> target & 1 for end in ends):
             frontier.failed[target] += 1
             self.urgency[target] *= 0.5
         for end in ends:
-            before_it = frontier.checkpoints[end.root]
-            checkpoint = Checkpoint(
-                end.words, end.tick, end.taken, end.mask, end.place, end.routines, before=before_it, inputs=end.inputs
-            )
-            self._add(checkpoint, frontier.tour)
+            self._add(end, frontier.tour)
         if self._most_now > before:
             self._stalled_steps = self._stalled_ticks = 0
         return None
 
-    def _promise(self, frontier: Frontier) -> tuple[float, int, int]:
-        """How far a front is, less what its tries count; without gold, less the ticks that were spent on it."""
+    def _priority(self, frontier: Frontier) -> tuple[float, int, int]:
+        """How far a frontier is, less what its tries count; without gold, less the ticks that were spent on it."""
         if self.gold:
             return self._done(frontier) - TRY_PENALTY * frontier.tries, frontier.taken, frontier.mask
         # The exit is opened last, or the way to the doors may be shut.
@@ -139,20 +122,20 @@ class Route:
         return frontier.count + DOOR_WORTH * (frontier.mask & useful).bit_count()
 
     def _may_leave(self, frontier: Frontier) -> bool:
-        """Whether an open exit can be reached, as far as walls and doors tell; asked once a front."""
+        """Whether an open exit can be reached, as far as walls and doors tell; asked once a frontier."""
         key = (frontier.taken, frontier.mask)
         if key not in self._leaving:
             self._leaving[key] = self.heuristics.may_leave(frontier.mask, *frontier.checkpoints[0].place)
         return self._leaving[key]
 
     def never_taken(self) -> list[int]:
-        """The pieces that were collected at no moment."""
-        return [piece for piece in range(len(self._points)) if not self.ever_taken >> piece & 1]
+        """The pieces that were collected at no checkpoint."""
+        return [piece for piece in range(len(self._fields.points)) if not self.ever_taken >> piece & 1]
 
     def _restart(self) -> None:
         """Begin again from the start; what was left over this time is more urgent from now on."""
         last = max(self.frontiers.values(), key=lambda frontier: (frontier.count, -frontier.tries))
-        pieces = set(range(len(self._points)))
+        pieces = set(range(len(self._fields.points)))
         left = pieces - set(pieces_of(last.taken))
         if last.count >= self.gold:
             # The way to the exit is shut: what was taken last comes earlier.
@@ -168,14 +151,21 @@ class Route:
         self._add(self._first, [])
 
     def _leg(self, frontier: Frontier, target: int) -> Leg:
-        roots = [checkpoint.words for checkpoint in frontier.checkpoints]
+        roots = frontier.checkpoints
         rollouts = ROLLOUTS if frontier.tries <= CAREFUL_TRIES else 0
         if target >= 0:
-            return Leg(roots, frontier.count + 1, frontier.mask, NEVER, ENDS, rollouts, partial(self._field, target))
+            return Leg(
+                roots,
+                frontier.count + 1,
+                frontier.mask,
+                NEVER,
+                ROUTE_ENDS,
+                rollouts,
+                partial(self._fields.to_piece, target),
+            )
         if self._may_leave(frontier):
             return Leg(roots, 0, frontier.mask, self.gold, 1, 0, self.heuristics.field)
-        field, wanted = self._way_to_a_switch(frontier)
-        return Leg(roots, NEVER, frontier.mask, NEVER, ENDS, rollouts, field, wanted)
+        return Leg(roots, NEVER, frontier.mask, NEVER, ROUTE_ENDS, rollouts, *self._way_to_a_switch(frontier))
 
     def _way_to_a_switch(self, frontier: Frontier) -> tuple[FieldOf, int]:
         """The fields of the first door in the way; at later tries, in turn, those of the other doors' switches.
@@ -193,7 +183,7 @@ class Route:
         return partial(self.heuristics.field_to, (switch.switch_x, switch.switch_y)), 0 if self.gold else 1 << bit
 
     def _add(self, checkpoint: Checkpoint, tour: list[int]) -> None:
-        """Put a moment into its front, which keeps the best."""
+        """Put a checkpoint into its frontier, which keeps the best."""
         key = (checkpoint.taken if self.gold else 0, checkpoint.mask)
         if key not in self.frontiers:
             self.frontiers[key] = Frontier(*key, tour=[k for k in tour if not checkpoint.taken >> k & 1])
@@ -201,22 +191,22 @@ class Route:
         self.ever_taken |= checkpoint.taken
         self.most = max(self.most, frontier.count)
         self._most_now = max(self._most_now, self._done(frontier))
-        frontier.add(checkpoint, WIDTH)
+        frontier.add(checkpoint, ROUTE_WIDTH)
 
     def _target(self, frontier: Frontier) -> int:
-        """The piece to fetch next from a front, -1: the exit or its switch.
+        """The piece to fetch next from a frontier, -1: the exit or its switch.
 
         Pieces from which no way leads to others, or to the switch, come last: they are behind one-way platforms, say.
         """
-        left = [piece for piece in range(len(self._points)) if not frontier.taken >> piece & 1]
+        left = [piece for piece in range(len(self._fields.points)) if not frontier.taken >> piece & 1]
         if frontier.count >= self.gold:
             return -1
         checkpoint = frontier.checkpoints[0]
-        fields = self._tour_fields(checkpoint.mask)
+        fields = self._fields.tours(checkpoint.mask)
         here = fields[:, point_at(*checkpoint.place)].astype(np.float64)
         start = here[left]
-        home = fields[-1, self._points[left]]
-        between = fields[left][:, self._points[left]].T.astype(np.float64)
+        home = fields[-1, self._fields.points[left]]
+        between = fields[left][:, self._fields.points[left]].T.astype(np.float64)
         no_return = (home >= UNREACHED) & (here[-1] < UNREACHED)
         if not frontier.mask & self._exits and no_return.all():
             return -1
@@ -229,18 +219,3 @@ class Route:
         ranks = [min(tour.index(k), nearest.index(k) + 0.5) + 2.5 * frontier.failed[left[k]] for k in range(len(left))]
         ranked = zip(start >= UNREACHED, shut, -self.urgency[left], ranks, left, strict=True)
         return min(ranked)[-1]
-
-    def _tour_fields(self, mask: int) -> Field:
-        if mask not in self._distances:
-            if len(self._distances) >= 16:
-                self._distances.clear()
-            self._distances[mask] = self.heuristics.tour_fields(mask)
-        return self._distances[mask]
-
-    def _field(self, target: int, mask: int, x: float, y: float) -> Field:
-        """The field of a piece in a switch state, made when it is first wanted."""
-        if (target, mask) not in self._fields:
-            if len(self._fields) >= FIELDS_KEPT:
-                self._fields.clear()
-            self._fields[target, mask] = self.heuristics.field_to(self.heuristics.gold_places[target], mask, x, y)
-        return self._fields[target, mask]

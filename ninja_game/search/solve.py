@@ -17,20 +17,20 @@ from ninja_game.formats.replay.text import Replay
 from ninja_game.search.best_first import Search
 from ninja_game.search.certificate import with_plain_triggers
 from ninja_game.search.engine import MORE
+from ninja_game.search.gold_beam import GoldBeam
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.nodes import Resolution, open_start
 from ninja_game.search.route import LEG_NODES, Route
 from ninja_game.search.spans import RunShortener
-from ninja_game.search.sweeps import Shortener
 from ninja_game.search.task import (
     FOUND_BOUND,
     GIVEN_BOUND,
+    GOLD_BEAM_TICKS,
+    OTHER_ROUTE_TICKS,
+    OTHER_ROUTE_TURNS,
+    OTHER_ROUTES,
     SEARCH_COST,
     SLICE,
-    SWEEP_TICKS,
-    VARY,
-    VARY_TICKS,
-    VARY_TURNS,
     Progress,
     Report,
     SearchState,
@@ -51,41 +51,41 @@ class _Job:
         self.number = number
         self.seed = task.seed * 1000 + number
         self.work = 0.0
-        self.shares = WorkPlan()
+        self.plan = WorkPlan()
         self.start = open_start(task.level, box=task.body == "box")
         self.heuristics = Heuristics(self.start.levels, self.start.worlds)
-        self._sweeper: Shortener | None = None
-        self._turn = self._varied = 2 * number
+        self._gold_beam: GoldBeam | None = None
+        self._turn = self._routes_tried = 2 * number
         self.shortener = RunShortener(
             self.start, self.heuristics, gold=task.gold_wanted, seed=self.seed, submit=state.submit, over=self._spend
         )
 
     def run(self) -> None:
         """Find, vary, local search, until the end."""
-        state, shares = self.state, self.shares
+        state, plan = self.state, self.plan
         if not state.runs:
             self._find()
         while not self._over and state.runs:
             self._turn += 1
             if state.task.gold_wanted:
-                self._sweep()
-            elif self._early or (self.work > 0 and self._turn % VARY_TURNS == 2):
-                self._vary()
+                self._shorten_with_gold()
+            elif self._early or (self.work > 0 and self._turn % OTHER_ROUTE_TURNS == 2):
+                self._search_other_route()
             else:
                 # The best run most of the time; now and then another one that may have more in it.
                 rank = (0, 1, 0, 2, 0)[self._turn % 5] if not state.task.first else 0
                 with state.lock:
                     inputs = state.runs[min(rank, len(state.runs) - 1)]
                 if state.task.first and not self.work:
-                    inputs = self.shortener.climb(inputs, shares.first_climb)
-                inputs = self.shortener.search_spans(inputs, shares.spans)
-                self.shortener.climb(inputs, shares.climb)
+                    inputs = self.shortener.search_locally(inputs, plan.first_local)
+                inputs = self.shortener.search_spans(inputs, plan.spans)
+                self.shortener.search_locally(inputs, plan.local)
 
     @property
     def _early(self) -> bool:
         """Whether it is the time in which only other routes are looked for; a run that was given has none."""
         task = self.state.task
-        return not task.first and self.work < self.shares.vary_until * task.work_planned
+        return not task.first and self.work < self.plan.routes_until * task.work_planned
 
     def _spend(self, played: int, cost: float) -> bool:
         """Count ticks of shortening; whether the job is over."""
@@ -118,24 +118,24 @@ class _Job:
                 self._follow(route, ticks)  # switch by switch: for long ways
             self._search_once(resolution, ticks, seed=turn, bound=0, until_found=True)
 
-    def _sweep(self) -> None:
-        """Make a run with gold shorter, by sweeps of legs and then by a local search; what is found is submitted."""
+    def _shorten_with_gold(self) -> None:
+        """Make a run with gold shorter, by a beam search of legs and then a local search; submit what is found."""
         best = self.state.runs[0]
-        if self._sweeper is None:
-            self._sweeper = Shortener(self._leg_search, best, seed=self.seed)
-        elif len(best) < self._sweeper.ticks:
-            self._sweeper.add_run(best)
-        until = self.work + SWEEP_TICKS * SEARCH_COST
+        if self._gold_beam is None:
+            self._gold_beam = GoldBeam(self._leg_search, best, seed=self.seed)
+        elif len(best) < self._gold_beam.ticks:
+            self._gold_beam.add_run(best)
+        until = self.work + GOLD_BEAM_TICKS * SEARCH_COST
 
         def over(played: int) -> bool:
             return self._spend(played, played * SEARCH_COST)
 
         while self.work < until and not over(0):
-            found = self._sweeper.sweep(over)
+            found = self._gold_beam.search_levels(over)
             if found:
                 self.state.submit(found)
-        best, shares = self.state.runs[0], self.shares
-        self.shortener.search_spans(self.shortener.climb(best, shares.climb), shares.spans_with_gold)
+        best, plan = self.state.runs[0], self.plan
+        self.shortener.search_spans(self.shortener.search_locally(best, plan.local), plan.spans_with_gold)
 
     def _follow(self, route: Route, ticks: float) -> None:
         """Search a run in legs, for this many ticks; one that is found is submitted."""
@@ -156,23 +156,23 @@ class _Job:
         if found:
             self.state.submit(found)
 
-    def _vary(self) -> None:
+    def _search_other_route(self) -> None:
         """Search a run from the start, maybe by another route than that of the best; shorten what is found."""
-        turn, self._varied = self._varied, self._varied + 1
-        resolution = VARY[turn % len(VARY)]
+        turn, self._routes_tried = self._routes_tried, self._routes_tried + 1
+        resolution = OTHER_ROUTES[turn % len(OTHER_ROUTES)]
         with self.state.lock:
             shortest = len(self.state.runs[0])
         resolution = resolution._replace(slack=resolution.slack * shortest)
         given, early = bool(self.state.task.first), self._early
         bound = shortest + max(4, int(shortest * (GIVEN_BOUND if given else FOUND_BOUND)))
         found = self._search_once(
-            resolution, VARY_TICKS, seed=100 + turn, bound=bound, backed_up=resolution.slack > 0.0
+            resolution, OTHER_ROUTE_TICKS, seed=100 + turn, bound=bound, backed_up=resolution.slack > 0.0
         )
         if not early and not found:
             return
-        run = self.shortener.climb(found or self.state.runs[0], self.shares.climb)
+        run = self.shortener.search_locally(found or self.state.runs[0], self.plan.local)
         if not early and len(run) < shortest * (1.0 + FOUND_BOUND):
-            self.shortener.search_spans(run, self.shares.spans)
+            self.shortener.search_spans(run, self.plan.spans)
 
     def _search_once(
         self, resolution: Resolution, ticks: int, *, seed: int, bound: int, backed_up: bool = False,
@@ -192,8 +192,8 @@ class _Job:
         best = search.best()
         if not best:
             return None
-        self.state.submit(best[1])
-        return best[1]
+        self.state.submit(best)
+        return best
 
 
 _SMALL = "0" * 713 + "|5^100,566!11^160,564,130,564!0^115,566"

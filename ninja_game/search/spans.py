@@ -15,7 +15,7 @@ from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.known_run import KnownRun, known_run, play_known
 from ninja_game.search.local_search import LocalSearch
 from ninja_game.search.nodes import Resolution, Start
-from ninja_game.search.task import COOLING, SEARCH_COST, SHORT_CLIMB, SLICE
+from ninja_game.search.task import COOLING, SEARCH_COST, SHORT_LOCAL_TICKS, SLICE
 from ninja_game.sim.inputs import with_press_bits
 
 NODES = 300_000
@@ -123,8 +123,8 @@ class SpanSearches:
         factor = self._delay_factor * (1.15 if early else 0.8 if late else 1.0)
         self._delay_factor = min(max(factor, LEAST_DELAY_FACTOR), MOST_DELAY_FACTOR)
         found = search.best()
-        # A press is there where the key goes down; joined parts need it anew.
-        return with_press_bits(self._inputs[:first] + found[1]) if found else None
+        # A press is there where the key goes down; joined parts need it again.
+        return with_press_bits(self._inputs[:first] + found) if found else None
 
 
 class RunShortener:
@@ -143,7 +143,7 @@ class RunShortener:
         self.seed = seed
         self._submit = submit
         self._over = over
-        self._climbs = self._searches = 0
+        self._local_searches = self._searches = 0
 
     @cached_property
     def _spans(self) -> SpanSearches:
@@ -168,13 +168,13 @@ class RunShortener:
             found = self._spans.shorter(inputs, seed=self.seed * 1000 + self._searches, over=over)
             if found:
                 self._submit(found)
-                inputs = self.climb(found, SHORT_CLIMB)
+                inputs = self.search_locally(found, SHORT_LOCAL_TICKS)
         return inputs
 
-    def climb(self, inputs: bytes, ticks: int) -> bytes:
+    def search_locally(self, inputs: bytes, ticks: int) -> bytes:
         """Go on from a run by a local search of this many ticks; its best run."""
-        self._climbs += 1
-        local_search = LocalSearch(self.start, inputs, gold=self.gold, seed=self.seed + 7919 * self._climbs)
+        self._local_searches += 1
+        local_search = LocalSearch(self.start, inputs, gold=self.gold, seed=self.seed + 7919 * self._local_searches)
         for temperature in COOLING:
             until = local_search.played + ticks // len(COOLING)
             while local_search.played < until and not self._over(0, 0.0):

@@ -142,7 +142,7 @@ FIND = (
 Before each but the first, a run from switch to switch is looked for, as long.
 """
 
-VARY = (
+OTHER_ROUTES = (
     Resolution(cell=8.0, speed=0.5, macro=8, weight=1.0),
     Resolution(cell=8.0, speed=0.4, macro=6, jitter=3, weight=1.1),
     Resolution(cell=6.0, speed=0.35, macro=6, weight=1.0, slack=0.2, off_table=0.3),
@@ -151,18 +151,18 @@ VARY = (
     Resolution(cell=6.0, speed=0.5, macro=10, weight=1.1),
 )
 """Searches for other routes. Those with ``slack`` (part of the best run's ticks) are guided by the search before."""
-VARY_TICKS = 12_000_000
+OTHER_ROUTE_TICKS = 12_000_000
 FOUND_BOUND, GIVEN_BOUND = 0.05, 0.15
 """By what share a run of theirs may be longer than the best: one that was found here, or one that was given."""
-VARY_TURNS = 4
+OTHER_ROUTE_TURNS = 4
 """One of them is made every so many turns, once runs are shortened."""
 
-SWEEP_TICKS = 12_000_000
+GOLD_BEAM_TICKS = 12_000_000
 """Ticks that a run with gold is swept before it gets a local search."""
 
 SLICE = 1_000_000
 """Ticks between two looks at the clock."""
-SHORT_CLIMB = 3_000_000
+SHORT_LOCAL_TICKS = 3_000_000
 """Ticks of the local search from a run that came of the search of a span."""
 COOLING = (6.0, 4.0, 2.5, 1.2, 0.4)
 """Temperatures of a local search, one after the other."""
@@ -172,11 +172,11 @@ COOLING = (6.0, 4.0, 2.5, 1.2, 0.4)
 class WorkPlan:
     """How a solver's work is divided: the part of it that only looks for other routes; ticks of the others."""
 
-    vary_until: float = 0.25
+    routes_until: float = 0.25
     spans: int = 20_000_000
     spans_with_gold: int = 6_000_000
-    first_climb: int = 20_000_000
-    climb: int = 8_000_000
+    first_local: int = 20_000_000
+    local: int = 8_000_000
 
 
 def find_order(job: int) -> Iterator[tuple[Resolution, int, int]]:

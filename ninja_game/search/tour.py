@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.search.heuristics import Field, Heuristics, point_at
-from ninja_game.search.legs import Checkpoint, pieces_of
+from ninja_game.search.heuristics import point_at
+from ninja_game.search.legs import FAR, Checkpoint, LegFields, pieces_of
 
 Distances = NDArray[np.float64]
 """Ticks from each stop (row) to each stop (column)."""
@@ -82,28 +82,21 @@ def _move_a_segment(tour: list[int], start: Distances, between: Distances, end: 
     return moved
 
 
-FAR = 20_000.0
-"""Ticks that an unreachable piece counts."""
 FAILED = 200.0
 """Ticks that a way counts at least which a leg did not find."""
 SLOWER, TURN = 1.4, 10.0
 """What legs take, against distance fields, which know no run-ups: so many times the ticks, and ticks more a piece."""
-FIELDS_KEPT = 400
-MASKS_KEPT = 16
 
 
 class PieceTicks:
     """Ticks between the pieces of a level, to be learned from the legs of its runs."""
 
-    def __init__(self, heuristics: Heuristics) -> None:
-        self._heuristics = heuristics
-        self._points = np.array([point_at(x, y) for x, y in heuristics.gold_places], np.int64)
-        count = len(self._points)
+    def __init__(self, fields: LegFields) -> None:
+        self._fields = fields
+        count = len(fields.points)
         # The last row: from the start of the level.
         self._measured: Distances = np.full((count + 1, count), np.nan)
         self._factors: Distances = np.ones((count + 1, count))
-        self._distances: dict[int, Field] = {}
-        self._fields: dict[tuple[int, int], Field] = {}
 
     def change(self, random: np.random.Generator, noise: float) -> None:
         """Change all estimates at random by up to half of ``noise`` (a part of them), for other tours."""
@@ -123,39 +116,21 @@ class PieceTicks:
         self._measured[row, piece] = min(FAR, max(FAILED, 1.5 * known))
 
     def estimate(self, checkpoint: Checkpoint) -> tuple[Distances, Distances, Distances]:
-        """Ticks from each piece to each, from a moment to each piece, and to the exit from each (last: the moment)."""
+        """Ticks from piece to piece, from a checkpoint to each piece, and from each to the exit."""
         mask, here = checkpoint.mask, point_at(*checkpoint.place)
-        if mask not in self._distances:
-            if len(self._distances) >= MASKS_KEPT:
-                self._distances.clear()
-            self._distances[mask] = self._heuristics.tour_fields(mask)
-        fields = self._distances[mask]
-        by_fields = np.vstack([fields[:-1, self._points].T, fields[:-1, here]]).astype(float)
+        fields, points = self._fields.tours(mask), self._fields.points
+        by_fields = np.vstack([fields[:-1, points].T, fields[:-1, here]]).astype(float)
         by_fields = np.minimum(SLOWER * by_fields + TURN, FAR)
         row = _last_piece(checkpoint)
         known = np.vstack([self._measured[:-1], self._measured[row]])
         factors = np.vstack([self._factors[:-1], self._factors[row]])
         ticks = np.where(np.isnan(known), by_fields, known) * factors
-        home = SLOWER * np.append(fields[-1, self._points], fields[-1, here]).astype(float)
+        home = SLOWER * np.append(fields[-1, points], fields[-1, here]).astype(float)
         return ticks[:-1], ticks[-1], np.minimum(home, FAR)
-
-    def field(self, target: int, mask: int, x: float, y: float) -> Field:
-        """The field of a piece (-1: the exit) in a switch state, made when it is first wanted."""
-        if (target, mask) not in self._fields:
-            if len(self._fields) >= FIELDS_KEPT:
-                self._fields.clear()
-            heuristics = self._heuristics
-            field = (
-                heuristics.field(mask, x, y)
-                if target < 0
-                else heuristics.field_to(heuristics.gold_places[target], mask, x, y)
-            )
-            self._fields[target, mask] = field
-        return self._fields[target, mask]
 
 
 def _last_piece(checkpoint: Checkpoint) -> int:
-    """The piece collected last before a moment, -1 if there is none."""
+    """The piece collected last before a checkpoint, -1 if there is none."""
     while checkpoint.before and checkpoint.before.taken == checkpoint.taken:
         checkpoint = checkpoint.before
     return max(pieces_of(checkpoint.taken & ~(checkpoint.before.taken if checkpoint.before else 0)), default=-1)

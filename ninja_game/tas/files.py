@@ -6,10 +6,9 @@ import json
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
-from hashlib import sha256
 from pathlib import Path
 
-from ninja_game.editor.files import check_free, digest_of
+from ninja_game.document import check_free, digest_of, digest_of_file
 from ninja_game.errors import DAMAGED, NinjaGameError, ReplayError
 from ninja_game.files.reading import read_bytes, read_utf8
 from ninja_game.files.resources import data_folder
@@ -83,7 +82,7 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
         return OpenedRun(recording, track, RunFile(), Branches())
     if not _written_by_us(data := read_bytes(path)):
         return OpenedRun(recording, track, RunFile(), Branches())
-    file = RunFile(path, sha256(data).hexdigest(), digest_of(branches_path(path)), track)
+    file = RunFile(path, digest_of(data), digest_of_file(branches_path(path)), track)
     return OpenedRun(recording, track, file, read_branches(path))
 
 
@@ -216,13 +215,13 @@ def save_run(
     """
     own, beside = path == file.path, branches_path(path)
     for each, known in ((path, file.digest), (beside, file.branches_digest)):
-        check_free(each, digest_of(each), known if own else None, replacing=replacing)
-    if not own or track != file.track or digest_of(path) != file.digest:
+        check_free(each, digest_of_file(each), known if own else None, replacing=replacing)
+    if not own or track != file.track or digest_of_file(path) != file.digest:
         replay = replay_of_track(about, track)
         write_atomically(path, write_replay(_with_old_path(replay, about) if own else replay))
     if len(branches) or branches.watched or beside.exists():
         Tree(path.parent).write(beside.name, json.dumps(branches.as_json(), indent=1))
-    return RunFile(path, digest_of(path), digest_of(beside), track)
+    return RunFile(path, digest_of_file(path), digest_of_file(beside), track)
 
 
 def _with_old_path(replay: Replay, about: Recording) -> Replay:

@@ -78,7 +78,6 @@ def be_fast(span: SearchedSpan) -> Wanted:
 
 
 def stay_alive(span: SearchedSpan) -> Wanted:
-    """Do not die in the span."""
     return Wanted(_alive(span.last))
 
 
@@ -137,5 +136,4 @@ def _alive(last: int) -> str:
 
 
 def _less(name: str, value: float) -> str:
-    """A name less a number."""
     return f"{name} {'-' if value >= 0 else '+'} {abs(value):.4g}"

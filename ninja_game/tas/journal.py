@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import os
-import secrets
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
@@ -16,8 +15,8 @@ from pathlib import Path
 from typing import Any
 from zlib import crc32
 
-from ninja_game.errors import DAMAGED, FileError, NinjaGameError
-from ninja_game.files.locking import LOCK_SUFFIX, forget, hold, left_behind
+from ninja_game.document import RecoveryFile, recovered_from
+from ninja_game.errors import DAMAGED, FileError
 from ninja_game.files.reading import open_regular
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import parse_replays
@@ -33,7 +32,7 @@ from ninja_game.tas.branches import (
 from ninja_game.tas.files import OpenedRun, RunFile, run_file_of
 from ninja_game.tas.input_track import InputTrack
 
-FOLDER = "tas"
+FOLDER, SUFFIX = "tas", ".jsonl"
 """In the player's folder."""
 
 
@@ -70,62 +69,46 @@ def edited(track: InputTrack, change: dict[str, Any]) -> InputTrack:
     return new
 
 
-class Journal:
-    """Writes the journal of one run, from its first edit on. ``problem``: why it cannot, or ''.
-
-    ``file``: the journal of a session that has died, to continue with. Raises FileError where another program does so.
-    """
+class Journal(RecoveryFile):
+    """Writes the journal of one run, from its first edit on. ``opened``: its first line."""
 
     def __init__(self, folder: Path, opened: dict[str, Any], file: Path | None = None) -> None:
-        self.problem = ""
+        super().__init__(folder / FOLDER, SUFFIX, file)
         self.opened = opened
-        self._folder = folder / FOLDER
-        self._file = file or self._folder / f"{secrets.token_hex(6)}.jsonl"
-        self._lock: int | None = None
         self._handle: int | None = None
-        if file is not None:
-            self._lock = hold(file.with_suffix(LOCK_SUFFIX))
-            if self._lock is None:
-                raise FileError("another window continues with this run already", str(file))
 
     def note(self, line: dict[str, Any]) -> bool:
         """Write a line; whether that was possible."""
-        try:
+        with self.reporting():
             if self._handle is None:
                 self._handle = self._open()
-            # A line that was truncated by a full disk or a kill, ends where the next one begins.
+            # A line that was truncated by a full disk or a kill ends where the next one begins.
             data = b"\n" + json.dumps(line, separators=(",", ":")).encode()
-            done = os.write(self._handle, data) == len(data)
-            self.problem = "" if done else "What you edit cannot be kept safe: the disk is full"
-        except (OSError, NinjaGameError) as error:
-            self.problem = f"What you edit cannot be kept safe: {getattr(error, 'strerror', '') or error}"
+            if os.write(self._handle, data) < len(data):
+                raise FileError("the disk is full")
         return not self.problem
 
     def _open(self) -> int:
-        self._folder.mkdir(parents=True, exist_ok=True)
-        if self._lock is None:
-            self._lock = hold(self._file.with_suffix(LOCK_SUFFIX))
-        if not self._file.exists():
-            write_atomically(self._file, json.dumps(self.opened, separators=(",", ":")))
-        return os.open(self._file, os.O_WRONLY | os.O_APPEND)
+        self.lock()
+        if not self.file.exists():
+            write_atomically(self.file, json.dumps(self.opened, separators=(",", ":")))
+        return os.open(self.file, os.O_WRONLY | os.O_APPEND)
 
-    def begin_anew(self, opened: dict[str, Any]) -> None:
+    def begin_again(self, opened: dict[str, Any]) -> None:
         """The run was saved: what was noted so far is no longer needed."""
         self.close()
         self.opened = opened
 
     def close(self, *, keep: bool = False) -> None:
         """End. ``keep``: what was noted stays, to be found by the next session."""
-        for handle in (self._handle, self._lock):
-            if handle is not None:
-                os.close(handle)
-        self._handle = self._lock = None
-        if not keep:
-            forget(self._file)
+        if self._handle is not None:
+            os.close(self._handle)
+            self._handle = None
+        super().close(keep=keep)
 
 
 @dataclass(frozen=True)
-class Recovered:
+class RecoveredRun:
     """What a session that has died was editing. ``opened``: as it began; ``tracks``: after each edit.
 
     ``branches``: as they were last; ``said``: the first line of the journal ``file``.
@@ -138,12 +121,12 @@ class Recovered:
     file: Path
 
 
-def recovered(folder: Path) -> Iterator[Recovered]:
+def recovered(folder: Path) -> Iterator[RecoveredRun]:
     """What sessions that have died were editing, the newest first; those of running sessions are left out."""
-    return left_behind(folder / FOLDER, "*.jsonl", read_journal, DAMAGED)
+    return recovered_from(folder / FOLDER, SUFFIX, read_journal)
 
 
-def read_journal(file: Path) -> Recovered:
+def read_journal(file: Path) -> RecoveredRun:
     """What a journal tells; a line that is damaged is skipped.
 
     Raises one of DAMAGED for one whose first line is damaged, OSError.
@@ -166,4 +149,4 @@ def read_journal(file: Path) -> Recovered:
                 else:
                     tracks.append(edited(tracks[-1], change))
     opened = OpenedRun(recording, tracks[0], run_file, branches_of_json(said["branches"]))
-    return Recovered(opened, tuple(tracks[1:]), branches, said, file)
+    return RecoveredRun(opened, tuple(tracks[1:]), branches, said, file)

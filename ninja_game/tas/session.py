@@ -6,14 +6,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from ninja_game.editor.files import digest_of
-from ninja_game.editor.history import History
+from ninja_game.document import History, digest_of_file
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.tas.branches import Branch, Branches, branch_as_json, track_as_json
 from ninja_game.tas.files import OpenedRun, RunFile, has_tail, recording_of, save_run, unclaimed_replay
 from ninja_game.tas.input_track import InputTrack
-from ninja_game.tas.journal import Journal, Recovered, edit_as_json
+from ninja_game.tas.journal import Journal, RecoveredRun, edit_as_json
 from ninja_game.tas.timeline import EMPTY_TRAJECTORY, Timeline, Trajectory
 
 TICKS_PER_FRAME = 6000
@@ -56,8 +55,11 @@ class Session:
 
     @property
     def track(self) -> InputTrack:
-        """The run as it is now."""
         return self.history.draft
+
+    @property
+    def name(self) -> str:
+        return self.about.name or "run"
 
     @property
     def is_saved(self) -> bool:
@@ -97,7 +99,6 @@ class Session:
         self._follow(ticks)
 
     def end(self) -> None:
-        """The stroke ends."""
         self.history.end()
         self._note()
         self._stroke_noted = False
@@ -183,14 +184,14 @@ class Session:
         self.file = save_run(self.about, self.track, self.branches, path, self.file, replacing=replacing)
         self.saved, self._saved_branches = self.track, list(self.branches.all)
         self._file_differs = False
-        self.journal.begin_anew(self._opened())
+        self.journal.begin_again(self._opened())
 
     def close(self, *, keep: bool = False) -> None:
         """End. ``keep``: what is not saved stays in the journal, for the next session."""
         self.end()
         self.journal.close(keep=keep and not self.is_saved)
 
-    def recover(self, found: Recovered) -> None:
+    def recover(self, found: RecoveredRun) -> None:
         """Go on where a session that has died was, which had opened the same run; its edits can be undone.
 
         Raises FileError where another window does so already.
@@ -202,6 +203,6 @@ class Session:
             self.history.change(track)
         self.branches = found.branches
         # The program may have died when the file was written, and the journal not yet started again.
-        self._file_differs = self.file.path is not None and digest_of(self.file.path) != self.file.digest
+        self._file_differs = self.file.path is not None and digest_of_file(self.file.path) != self.file.digest
         self._noted = self.track
         self._follow()

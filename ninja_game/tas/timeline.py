@@ -199,7 +199,6 @@ class Timeline:
 
     @property
     def exits(self) -> list[tuple[float, float]]:
-        """Where the exits are, px."""
         return [(x, y) for kind, x, y, _ in self._seen if kind == EXIT]
 
     @property

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ninja_game import Batch, Simulation
+from ninja_game import Batch, Simulation, parse_level
 from ninja_game.backend.memories import open_worlds
 from tests.support.crowded import crowded_inputs, crowded_level
 from tests.support.memories import BOTH
@@ -72,3 +72,45 @@ def test_a_copied_batch_shows_and_runs_its_own_worlds(again: Again, memory: str)
     assert np.array_equal(other.positions, batch.positions)
     assert other.state_digests() == batch.state_digests()
     other.restore(batch.save())
+
+
+def environment(kind: str, memory: str) -> Any:
+    """One that has whatever may be shared by accident: a source that learns, potentials, a goal, several parts."""
+    from ninja_game.learn.levels import level_source
+    from ninja_game.learn.levels.curriculum import Curriculum
+    from ninja_game.learn.rewards import DistanceShaping
+    from ninja_game.learn.single import NinjaEnv
+    from ninja_game.learn.vector import NinjaVectorEnv
+
+    easy = [parse_level("0" * 713 + f"|5^100,566!11^{x},564,130,564!0^120,566!1^300,300") for x in (160, 400)]
+    level = Curriculum(level_source(easy), difficulties=[1, 2], start=1, threshold=0.01)
+    reward = DistanceShaping()
+    settings: Any = {"observation": ["state", "rays"], "reward": reward, "time_limit": 90, "memory": memory}
+    return NinjaEnv(level, **settings) if kind == "single" else NinjaVectorEnv(3, level, **settings)
+
+
+@pytest.mark.parametrize("kind", ["single", "vector"])
+def test_a_copied_environment_goes_on_alike_and_alone(kind: str, again: Again, memory: str) -> None:
+    env = environment(kind, memory)
+    env.reset(seed=7)
+
+    def steps(of: Any, count: int) -> list[bytes]:
+        """Everything that is told of some steps; a world that has ended begins a new episode."""
+        told: list[Any] = []
+        for number in range(count):
+            observed, *rest = of.step(2 if kind == "single" else [2, 2, number % 6])
+            told += [*observed.values(), *map(str, rest), of.worlds.events, of.worlds.levels_now]
+            if kind == "single" and (rest[1] or rest[2]):
+                told += of.reset()[0].values()
+        return [np.asarray(value).tobytes() for value in told]
+
+    steps(env, 15)
+    other = again(env)
+    here, there = ((each.worlds.ticks, each.worlds.rewards, each.worlds.events) for each in (env, other))
+    assert np.array_equal(here, there)
+    before = env.worlds.digest(0)
+    found = steps(other, 40)
+    assert env.worlds.digest(0) == before
+    assert env.worlds.source.rates.tolist() != other.worlds.source.rates.tolist()
+    assert steps(env, 40) == found
+    assert env.worlds.source.rates.tolist() == other.worlds.source.rates.tolist()

@@ -11,19 +11,17 @@ from pathlib import Path
 
 import pytest
 
+from ninja_game.document import History, OccupiedError, digest_of_file
 from ninja_game.editor.ascii_text import ascii_text, reads_as, updated_text
 from ninja_game.editor.autosave import FOLDER, Autosave, recovered
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import (
-    OccupiedError,
-    digest_of,
     draft_of,
     draft_of_text,
     new_source,
     open_source,
     save,
 )
-from ninja_game.editor.history import History
 from ninja_game.editor.motion import Motion
 from ninja_game.editor.stamp import Selection, Stamp, everything, moved, put, removed
 from ninja_game.errors import LevelError, NinjaGameError
@@ -245,7 +243,7 @@ def test_an_autosave_knows_no_file_but_a_level_that_is_there(tmp_path: Path) -> 
     other.write_text("# what every machine has, of a known digest\n")
     (tmp_path / "dangling").symlink_to(tmp_path / "nothing")
     for path in (tmp_path / "missing", other, tmp_path / "dangling", tmp_path, "/dev/null", "a\0b"):
-        kept(tmp_path, path, digest_of(other))
+        kept(tmp_path, path, digest_of_file(other))
         (found,) = recovered(tmp_path)
         assert found.source.path is None
     path = hand_written(tmp_path)

@@ -7,8 +7,8 @@ from itertools import product
 import pytest
 from hypothesis import given, settings, strategies as st
 
+from ninja_game.document import History
 from ninja_game.editor.draft import Draft, Tiles
-from ninja_game.editor.history import History
 from ninja_game.editor.motion import CLOCKWISE, FLIP, HALF_TURN, MIRROR, SYMMETRIES, Motion
 from ninja_game.editor.records import (
     PROPERTIES,

@@ -133,7 +133,7 @@ def test_runs_that_cannot_be_compared_say_why(tmp_path: Path, why: str, monkeypa
     monkeypatch.setattr(lead_tab, "lead_table", raising(why))
     at = TasDriver(tmp_path, RUN)
     try:
-        at.screen.show_tab(at.screen.tabs[2])
+        at.editor.show_tab("Lead")
         until(at, lambda: at.screen.tabs[2].summary not in ("", "comparing ..."))  # type: ignore[attr-defined]
         assert at.screen.tabs[2].summary == why  # type: ignore[attr-defined]
     finally:

@@ -8,12 +8,14 @@ and look at them. A picture that differs is written beside the accepted one as
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 import pygame
 import pytest
 
 from ninja_game.formats.load import load_levels, load_replays
+from ninja_game.play.lab.export import export_figure
 from ninja_game.play.ui.theme import PALETTES
 from ninja_game.play.view import level_view
 from ninja_game.play.view.level_view import LevelView
@@ -25,7 +27,7 @@ from ninja_game.sim.death import kill
 from ninja_game.sim.states import ELECTRIC, EXPLOSIVE
 from ninja_game.simulation import Simulation
 from tests.support.own_pack import PACK
-from tools.draw import screens
+from tools.draw import how_it_works, screens
 from tools.draw.contact_sheet import THINGS, paint_things
 
 HERE = Path(__file__).parent
@@ -125,6 +127,31 @@ def test_a_picture_of_the_documents_is_of_the_program_as_it_is(name: str) -> Non
     mean, worst = difference(shown, golden)
     assert mean <= MEAN_TOLERANCE, "run `python3 tools/dev.py docs`"
     assert worst <= BLOCK_TOLERANCE, "run `python3 tools/dev.py docs`"
+
+
+@pytest.mark.parametrize("file", [file for file in how_it_works.FIGURES if file.endswith(".png")])
+def test_a_figure_of_the_lab_in_the_documents_is_as_it_is_drawn_now(file: str, tmp_path: Path) -> None:
+    export_figure(file.partition(".")[0], tmp_path / file)
+    shown, golden = (pygame.image.load(path) for path in (tmp_path / file, screens.PICTURES / f"lab-{file}"))
+    mean, worst = difference(shown, golden)
+    assert (mean <= MEAN_TOLERANCE, worst <= BLOCK_TOLERANCE) == (True, True), "run `python3 tools/dev.py docs`"
+
+
+@pytest.mark.parametrize("name", how_it_works.VECTORS)
+def test_a_vector_picture_of_the_documents_is_as_it_is_drawn_now(name: str, tmp_path: Path) -> None:
+    how_it_works.VECTORS[name]().save(tmp_path / name)
+    drawn, kept = ((folder / name).read_text("utf-8") for folder in (tmp_path, screens.PICTURES))
+    assert drawn == kept, "run `python3 tools/dev.py docs`"
+
+
+def test_every_picture_of_the_documents_is_drawn_by_a_tool() -> None:
+    pages = [ROOT / "README.md", *(ROOT / "docs").rglob("*.md")]
+    links = [link for page in pages for link in re.findall(r"pictures/([^)\s]+)\)", page.read_text("utf-8"))]
+    drawn = {*screens.SCREENS, *how_it_works.VECTORS, *(f"lab-{file}" for file in how_it_works.FIGURES)}
+    # By other tools, since they measure, train or take minutes: docs/tools.md, `python3 -m benchmarks`.
+    others = {"ninja-game.gif"}, ("levels/", "performance/", "learn/", "learning/")
+    assert not [link for link in links if link not in drawn | others[0] and not link.startswith(others[1])]
+    assert drawn <= {*links}, "drawn, and shown nowhere"
 
 
 def test_comparison_sees_that_the_ninja_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -27,10 +27,10 @@ DRAWS = re.compile(r"_?(draw|paint)(_|$)")
 NOT_SHOWN = {
     "lab/figure.py: Figure.draw": "its figures do",
     "screen.py: Screen.draw": "its screens do",
-    "tas/part.py: Part.paint": "its parts do",
+    "workspace/part.py: Part.paint": "its parts do",
     "ui/widgets.py: Widget.draw": "its widgets do",
     "replay/paths.py: _draw_speeds": "of the pictures that `compare` writes",
-    "tas/roll/mouse.py: RollMouse._paint": "paints keys with the mouse, not a picture",
+    "tas/roll/part.py: RollMouse._paint": "paints keys with the mouse, not a picture",
     "view/overlays.py: _draw_box": "of ninjas with a box as their body",
     "view/overlays.py: _paint_edges": "kept from the first picture on; test_pictures.py shows it",
     "view/overlays.py: _paint_grid": "kept from the first picture on; test_pictures.py shows it",

@@ -16,16 +16,16 @@ from ninja_game.sim.level import Level
 if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
-from ninja_game.search import sweeps
-from ninja_game.search.best_first import Leg, Search
+from ninja_game.search import gold_beam
+from ninja_game.search.best_first import Search
 from ninja_game.search.certificate import verified_run
 from ninja_game.search.engine import OTHER_ENDS
+from ninja_game.search.gold_beam import GoldBeam
 from ninja_game.search.heuristics import Heuristics
-from ninja_game.search.legs import Checkpoint, Frontier
+from ninja_game.search.legs import NEVER, Checkpoint, Frontier, Leg
 from ninja_game.search.nodes import Resolution, open_start
-from ninja_game.search.route import NEVER, Route
+from ninja_game.search.route import Route
 from ninja_game.search.solve import Progress, Task, solve
-from ninja_game.search.sweeps import Shortener
 
 COLUMN = 23
 FLOOR = 566
@@ -140,10 +140,11 @@ def test_a_leg_to_a_certain_switch_does_not_end_at_another_on_the_way() -> None:
     heuristics = Heuristics(start.levels, start.worlds)
     far = next(1 << bit for bit, switch in enumerate(heuristics.switches) if switch.switch_x == 500.0)
     search = Search(start, heuristics, nodes=50_000)
+    root = search.checkpoint(None, b"")
 
     def ends(wanted: int) -> list[int]:
         field = partial(heuristics.field_to, (500.0, 566.0))
-        leg = Leg([start.initial], NEVER, 0, NEVER, 4, 0, field, wanted)
+        leg = Leg([root], NEVER, 0, NEVER, 4, 0, field, wanted)
         search.begin_leg(leg, Resolution(), seed=1, bound=0)
         search.run_leg(300_000, lambda _: False, part=1_000)
         return [end.mask & far for end in search.ends()]
@@ -155,7 +156,7 @@ def test_a_leg_to_a_certain_switch_does_not_end_at_another_on_the_way() -> None:
 
 
 def test_the_exit_is_opened_last() -> None:
-    """A front with an open exit to which there is no way is searched later than the one with a closed exit."""
+    """A frontier with an open exit to which there is no way is searched later than the one with a closed exit."""
     start = open_start(KEY_AT_THE_RIGHT, box=False)
     route = Route(Search(start, Heuristics(start.levels, start.worlds), nodes=50_000), gold=0, seed=1)
     for _ in range(2):
@@ -186,36 +187,36 @@ def first() -> Replay:
     return run
 
 
-def shortener_of(first: Replay) -> Shortener:
-    """What sweeps a run of LINES."""
+def beam_of(first: Replay) -> GoldBeam:
+    """A beam search from a run of LINES."""
     start = open_start(LINES, box=False)
     search = Search(start, Heuristics(start.levels, start.worlds), nodes=50_000)
-    return Shortener(search, first.inputs, seed=1)
+    return GoldBeam(search, first.inputs, seed=1)
 
 
 def test_a_run_with_gold_in_a_bad_order_gets_much_shorter(first: Replay) -> None:
-    shortener = shortener_of(first)
-    runs = [shortener.sweep(lambda _: False) for _ in range(4)]
+    beam = beam_of(first)
+    runs = [beam.search_levels(lambda _: False) for _ in range(4)]
     best = min(filter(None, runs), key=len)
-    assert len(best) == shortener.ticks
+    assert len(best) == beam.ticks
     assert verified_run(LINES, best, gold=all_gold(LINES)).end_tick < 0.85 * first.end_tick
 
 
-def test_a_sweep_keeps_moments_of_different_velocities(first: Replay) -> None:
+def test_a_beam_keeps_checkpoints_of_different_velocities(first: Replay) -> None:
     """No enemy is there: only the velocities differ."""
-    shortener = shortener_of(first)
-    shortener.sweep(lambda _: False)
-    frontiers = [frontier for frontiers in shortener.levels.values() for frontier in frontiers.values()]
-    assert max(len({checkpoint.routines for checkpoint in frontier.checkpoints}) for frontier in frontiers) > 5
+    beam = beam_of(first)
+    beam.search_levels(lambda _: False)
+    frontiers = [frontier for frontiers in beam.levels.values() for frontier in frontiers.values()]
+    assert max(len({checkpoint.variety for checkpoint in frontier.checkpoints}) for frontier in frontiers) > 5
 
 
 def test_a_leg_that_finds_nothing_gets_more_work(first: Replay, monkeypatch: pytest.MonkeyPatch) -> None:
     """Legs of one tick find nothing; only because they are tried again does the run get shorter."""
-    monkeypatch.setattr(sweeps, "LEG_TICKS", 1)
-    monkeypatch.setattr(sweeps, "EFFORTS", (1, 150_000))
-    monkeypatch.setattr(sweeps, "EXIT_FACTOR", 1_500_000)
-    shortener = shortener_of(first)
-    assert any(shortener.sweep(lambda _: False) for _ in range(4))
+    monkeypatch.setattr(gold_beam, "BEAM_TICKS", 1)
+    monkeypatch.setattr(gold_beam, "EFFORTS", (1, 150_000))
+    monkeypatch.setattr(gold_beam, "EXIT_FACTOR", 1_500_000)
+    beam = beam_of(first)
+    assert any(beam.search_levels(lambda _: False) for _ in range(4))
 
 
 def test_shortening_a_run_with_gold_keeps_the_gold_and_is_the_same_every_time() -> None:

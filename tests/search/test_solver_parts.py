@@ -26,7 +26,7 @@ from ninja_game.search.local_search import (
     stretch,
 )
 from ninja_game.search.macros import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_inputs
-from ninja_game.search.nodes import UNKNOWN, Link, Resolution, TableEntry, back_up_values, open_start, zeroed
+from ninja_game.search.nodes import Link, Resolution, TableEntry, back_up_values, open_start, zeroed
 from ninja_game.search.states import key_of
 from ninja_game.search.switches import open_mask
 from ninja_game.search.tour import short_tour
@@ -167,7 +167,7 @@ def test_values_spread_backwards_from_the_exit(memory: str) -> None:
         link.source, link.target, link.ticks = source, target, ticks
     settle = compiled(back_up_values) if memory == "compiled" else back_up_values
     assert settle(table, links, 3, 40) == 2
-    assert [float(entry.value) for entry in table] == [15.0, 10.0, 3.0, UNKNOWN]
+    assert [float(entry.value) for entry in table] == [15.0, 10.0, 3.0, UNREACHED]
 
 
 def test_no_gold_to_fetch_leaves_no_fields() -> None:

@@ -13,8 +13,8 @@ if not compiled_available():
     pytest.skip("Numba is not installed", allow_module_level=True)
 
 from ninja_game.search.certificate import verified_run
-from ninja_game.search.heuristics import Heuristics
-from ninja_game.search.known_run import NEVER, nearest
+from ninja_game.search.heuristics import UNREACHED, Heuristics
+from ninja_game.search.known_run import nearest
 from ninja_game.search.nodes import Resolution, open_start
 from ninja_game.search.spans import RunShortener, SpanSearches, SpanSettings
 
@@ -54,10 +54,10 @@ def test_what_lacks_gold_or_is_far_from_the_run_is_not_like_it() -> None:
     w = PlainWorlds([LEVEL], box=False).world()
     w.tick = 100
     w.ninja.x = float(with_gold.run.moves[100][0])
-    assert nearest(with_gold.run, w, 0) == (-1, NEVER)
+    assert nearest(with_gold.run, w, 0) == (-1, UNREACHED)
     assert nearest(without.run, w, 0)[0] > 0
     w.ninja.y -= 200
-    assert nearest(without.run, w, 0) == (-1, NEVER)
+    assert nearest(without.run, w, 0) == (-1, UNREACHED)
 
 
 def test_a_span_gets_shorter_and_the_rest_is_joined_to_it() -> None:

@@ -144,7 +144,7 @@ class DrawLog:
 
     def _desk(self, view: EditorView, *_: Any, **__: Any) -> str:
         """The level with its marks is painted again, too."""
-        view._look = ()
+        view._laid_out = ()
         return ""
 
     def _text(self, _: Any, surface: Any, text: str, x: float, y: float, size: float, colour: Any,

@@ -342,7 +342,6 @@ def _editor_states(driver: MenuDriver) -> Iterator[str]:
     replay = load_replays(bundled_replays()[0])[0]
     certifier.level, certifier.route = screen.session.draft.level, ((60.0, 542.0), (120.0, 500.0), (180.0, 540.0))
     certifier.run, certifier._said = cast("Replay", replay), "Certified: 3.90 s"
-    screen.view.stale = True
     yield "editor-certified"
     driver.mouse(300, 300)
     driver.press("escape")

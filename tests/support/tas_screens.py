@@ -14,8 +14,7 @@ import pygame
 from ninja_game.play.tas.level import paths
 from ninja_game.play.tas.level.part import LevelPart
 from ninja_game.play.tas.opening import OpeningScreen
-from ninja_game.play.tas.roll.glyphs import Digits
-from ninja_game.play.tas.roll.rows import RowSheet
+from ninja_game.play.tas.roll.rows import Digits, RowSheet
 from ninja_game.play.tas.tabs.lead_tab import LeadTab
 from ninja_game.play.ui.lettering import Lettering
 from ninja_game.search.formula.task import Found, SpanTask
@@ -143,7 +142,7 @@ class FixedSearch:
 def tas_editor(driver: MenuDriver) -> Iterator[str]:
     """The names of the states, one after the other; in the end the screen below is shown again."""
     run = Path(copy(RUN, driver.player.folder / "locksmith.replay.txt"))
-    with patch("ninja_game.play.tas.tabs.span_results.SpanSearch", FixedSearch):
+    with patch("ninja_game.play.tas.tabs.search_tab.SpanSearch", FixedSearch):
         at = TasDriver.over(driver, run)
         yield "tas"
         yield from _edits(at)
@@ -253,7 +252,7 @@ def _tabs(at: TasDriver) -> Iterator[str]:
         values._toggle(0)  # type: ignore[attr-defined]
     at.frames()
     yield "tas-values-fewer"
-    at.screen.show_tab(branches)
+    at.editor.show_tab(branches.name)
     at.frames()
     yield "tas-branches-empty"
     for name in ("first try", "second try"):
@@ -277,12 +276,12 @@ def _tabs(at: TasDriver) -> Iterator[str]:
             at.editor.edit(lambda _, first=first: first)  # type: ignore[misc]
             at.session.keep_branch("third try")
             at.editor.against = at.session.branches.all[1].track
-        at.screen.show_tab(lead)
+        at.editor.show_tab(lead.name)
         at.frames(20)
         lead._job.finish()
         at.frames(2)
         yield f"tas-lead-{name}"
-    at.screen.show_tab(search)
+    at.editor.show_tab(search.name)
     at.frames(2)
     yield "tas-search-empty"
     at.editor.select(100, 130)

@@ -11,9 +11,8 @@ from typing import Any
 
 from platformdirs import user_cache_path
 
-from ninja_game.web.site.build import build_site
+from ninja_game.web.site.build import build_site, site_server
 from ninja_game.web.site.pyodide_files import VERSION
-from ninja_game.web.site.serve import site_server
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 BUSY = ROOT / "tools" / "measure" / "busy.py"

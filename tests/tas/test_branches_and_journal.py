@@ -263,7 +263,7 @@ def test_a_kill_between_the_file_and_its_journal_loses_nothing(session: Session,
 
 def test_edits_of_an_empty_run_are_found_again(session: Session, tmp_path: Path) -> None:
     session.change(InputTrack(b""))
-    session.journal.begin_anew(session._opened())
+    session.journal.begin_again(session._opened())
     session.change(InputTrack(b"\1"))
     session.journal.close(keep=True)
     (found,) = recovered(tmp_path)

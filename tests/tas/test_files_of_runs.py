@@ -10,7 +10,7 @@ from random import Random
 import pytest
 from hypothesis import given, strategies as st
 
-from ninja_game.editor.files import OccupiedError, digest_of
+from ninja_game.document import OccupiedError, digest_of_file
 from ninja_game.errors import ArgumentError, FileError, NinjaGameError, ReplayError
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
@@ -147,7 +147,7 @@ def test_a_journal_knows_no_file_but_a_run_that_is_there(tmp_path: Path) -> None
     journal = edited_and_lost(path, tmp_path)
     first, _, rest = journal.read_text("utf-8").partition("\n")
     for place, home in ((path, path), (other, None), (tmp_path / "missing", None), (tmp_path, None)):
-        said = json.loads(first) | {"path": str(place), "digest": digest_of(other)}
+        said = json.loads(first) | {"path": str(place), "digest": digest_of_file(other)}
         journal.write_text(f"{json.dumps(said)}\n{rest}", "utf-8")
         (found,) = recovered(tmp_path)
         assert found.opened.file.path == home

@@ -27,8 +27,7 @@ from ninja_game.web.board.ranking import FASTEST, HIGHEST, Ranking
 from ninja_game.web.board.report import DATE
 from ninja_game.web.board.runs import Judged, Key, judge
 from ninja_game.web.pages.exhibition import exhibition
-from ninja_game.web.pages.frame import POLICY
-from ninja_game.web.pages.html import tag
+from ninja_game.web.pages.frame import POLICY, tag
 from tests.support.forgeries import FORGERIES, GOLD_LATER, WALKING, record, replay
 from tests.support.samples import SPIKED, WALK, WALK_END
 

@@ -20,13 +20,13 @@ from click.testing import CliRunner
 from ninja_game.cli.main import cli
 from ninja_game.errors import FileError, NinjaGameError
 from ninja_game.web.site import build, pyodide_files
-from ninja_game.web.site.serve import site_server
+from ninja_game.web.site.build import site_server
 
 
 @pytest.fixture
 def pyodide(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder with stand-ins for Pyodide's files, small ones, that count as the right version; no Node.js."""
-    monkeypatch.setattr("ninja_game.web.site.bytecode.shutil.which", lambda _: None)
+    monkeypatch.setattr("ninja_game.web.site.game_archive.shutil.which", lambda _: None)
     folder = tmp_path / "pyodide"
     folder.mkdir()
     library = io.BytesIO()
@@ -159,9 +159,9 @@ def test_the_local_server_names_the_kinds_of_files_and_lists_nothing(server: Thr
         server.server_close()
 
 
-def test_the_lines_of_the_readme_run(pyodide: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    readme = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
-    lines = re.findall(r"^ninja-game ((?:site|player) .*?)\s+#", readme, re.MULTILINE)
+def test_the_commands_of_the_document_run(pyodide: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = (Path(__file__).parents[2] / "docs" / "browser.md").read_text("utf-8")
+    lines = re.findall(r"^    ninja-game ((?:site|player) .*?)\s+#", page, re.MULTILINE)
     assert lines == ["site public", "site --serve", "player export my-data.zip"]
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path / "home"))

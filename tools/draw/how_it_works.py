@@ -9,6 +9,7 @@ os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 from ninja_game.play.lab.export import export_figure
 from ninja_game.play.view.sprites.tile_sheet import outline
 from tools import ROOT
+from tools.draw.legend import picture as draw_legend
 from tools.draw.svg import BLUE, FAINT, INK, SOLID, Picture, Point
 
 PICTURES = ROOT / "docs" / "pictures"
@@ -68,10 +69,12 @@ def draw_tick() -> Picture:
     return picture
 
 
+VECTORS = {"shapes.svg": draw_shapes, "tick.svg": draw_tick, "tiles.svg": draw_legend}
+
 if __name__ == "__main__":
     PICTURES.mkdir(exist_ok=True)
-    draw_shapes().save(PICTURES / "shapes.svg")
-    draw_tick().save(PICTURES / "tick.svg")
+    for name, draw in VECTORS.items():
+        draw().save(PICTURES / name)
     for file in FIGURES:
         export_figure(file.partition(".")[0], PICTURES / f"lab-{file}")
-    print(f"drew {2 + len(FIGURES)} pictures into docs/pictures")
+    print(f"drew {len(VECTORS) + len(FIGURES)} pictures into docs/pictures")

@@ -29,8 +29,3 @@ def picture() -> Picture:
         for column, character in enumerate(characters):
             draw_cell(drawn, TILE_OF_CHAR[character], LEFT + column * STEP_X, TOP + row * STEP_Y)
     return drawn
-
-
-if __name__ == "__main__":
-    picture().save(PICTURE)
-    print(PICTURE.relative_to(ROOT))

@@ -5,7 +5,9 @@ from __future__ import annotations
 import os
 import tempfile
 from pathlib import Path
+from random import Random
 from shutil import copy
+from unittest.mock import patch
 
 os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
@@ -15,7 +17,12 @@ import pygame
 
 from ninja_game.editor.files import open_source
 from ninja_game.formats.load import load_replays
+from ninja_game.play.replay.paths import paths_picture
+from ninja_game.play.replay.screen import ReplayScreen
+from ninja_game.play.ui.theme import PALETTES
+from ninja_game.runs.compare import run_splits
 from tests.support.level_maker import Maker, examine
+from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK, instead_of_ours
 from tests.support.tas_driver import TasDriver
 from tools import ROOT
@@ -45,8 +52,34 @@ def editor_picture(folder: Path) -> pygame.Surface:
     return picture
 
 
-def bench_picture(folder: Path) -> pygame.Surface:
-    """A run on the bench, some ticks selected, beside it one that goes another way from there on."""
+def menu_picture(folder: Path) -> pygame.Surface:
+    """The main menu, over the attract mode, which begins with a level at random."""
+    with patch("ninja_game.play.menus.attract.Random", lambda _: Random(1)):
+        driver = MenuDriver(folder)
+    driver.frames(80)
+    return driver.app.surface.copy()
+
+
+def viewer_picture(folder: Path) -> pygame.Surface:
+    """A run in the replay viewer, paused in the middle, with its keys."""
+    driver = MenuDriver(folder)
+    driver.app.push(ReplayScreen(driver.app, load_replays(PACK / "certificates" / "01-2-the-works.exit.replay.txt")))
+    driver.frames(180)
+    driver.press("p")
+    driver.frames(2)
+    return driver.app.surface.copy()
+
+
+def splits_picture(_: Path) -> pygame.Surface:
+    """What `ninja-game splits --picture` draws of the two certificates of Springtime."""
+    names = {"exit": "to the exit", "gold": "with all gold"}
+    runs = [load_replays(ROOT / "levels" / "certificates" / f"10-0-springtime.{goal}.replay.txt")[0] for goal in names]
+    paths = [(name, run_splits(run).positions) for name, run in zip(names.values(), runs, strict=True)]
+    return paths_picture(runs[0].level, paths, PALETTES["classic"], 792)
+
+
+def tas_editor_picture(folder: Path) -> pygame.Surface:
+    """A run in the TAS editor, some ticks selected, next to it one that goes another way from there on."""
     name = "01-0-springtime.exit.replay.txt"
     at = TasDriver(folder, Path(copy(PACK / "certificates" / name, folder)), (1280, 800))
     jumps = at.editor.track.replaced(150, 190, [6] * 25)
@@ -61,7 +94,13 @@ def bench_picture(folder: Path) -> pygame.Surface:
     return picture
 
 
-SCREENS = {"editor.png": editor_picture, "tas-editor.png": bench_picture}
+SCREENS = {
+    "menu.png": menu_picture,
+    "viewer.png": viewer_picture,
+    "splits.png": splits_picture,
+    "editor.png": editor_picture,
+    "tas-editor.png": tas_editor_picture,
+}
 
 
 def draw(name: str) -> pygame.Surface:

@@ -191,7 +191,7 @@ def _loaded(path: Path) -> list[Any]:
 
 
 def _run(path: Path) -> None:
-    """A run as the bench opens it: beside itself, and in all notations that can say it."""
+    """A run as the TAS editor opens it: next to itself, and in all notations that can say it."""
     opened = open_run(path, level=LEVEL)
     runs_of_level(path, opened.recording)
     if len(opened.track) <= LONGEST_RUN:

@@ -56,7 +56,7 @@ def command(out: Path | None, pyodide: Path | None, serve: bool, port: int) -> N
 
 
 def _serve(folder: Path, port: int) -> None:
-    from ninja_game.web.site.serve import site_server
+    from ninja_game.web.site.build import site_server
 
     with site_server(folder, port) as server:
         click.echo(f"http://127.0.0.1:{server.server_port}/ (Ctrl-C ends it)")

@@ -2,51 +2,50 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ninja_game.editor.autosave import Recovered, recovered
+from ninja_game.editor.autosave import RecoveredDraft, recovered
 from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import SUFFIX, OccupiedError, Source, draft_of, new_source, open_source
+from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.records import points
 from ninja_game.editor.stamp import everything
 from ninja_game.editor.tools import TOOLS
-from ninja_game.errors import LevelError, NinjaGameError, reason
+from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.shown_text import file_stem
+from ninja_game.files.user_folder import free_path
 from ninja_game.formats.ascii.writer import HEADER_KEYS
 from ninja_game.play.editor.marks import finding_points
+from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.panels import LevelChoice, help_page
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.editor.view import EditorView
-from ninja_game.play.menus.panels import CANCEL, Form, Menu, nothing
+from ninja_game.play.menus.panels import Form, Menu, nothing
+from ninja_game.play.workspace.document import Action, DocumentCommands
 from ninja_game.player.catalogue import Entry
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
 
-Action = Callable[[], object]
-
 NAMELESS = "My level"
 """What a level is called if its maker gives it no name."""
 
 
-class EditorCommands:
-    """Runs commands by name (``controls.COMMANDS``). ``step_palette``: goes on in the palette."""
+class EditorCommands(DocumentCommands):
+    """Runs commands by name (``controls.COMMANDS``)."""
 
-    def __init__(self, app: App, session: EditorSession, view: EditorView) -> None:
-        self.app = app
+    def __init__(self, app: App, session: EditorSession, view: EditorView, palette: PaletteView) -> None:
+        super().__init__(app, session)
         self.session = session
         self.view = view
-        self.step_palette: Callable[[int], object] = lambda _: None
+        self._palette = palette
         self._finding = -1
 
     def run(self, name: str) -> None:
-        """Do what a command says."""
         tools = self.session.tools
         if name in TOOLS:
             tools.finish()
@@ -73,18 +72,17 @@ class EditorCommands:
             "lines": lambda: setattr(view, "lines", not view.lines),
             "paths": lambda: setattr(view, "paths", not view.paths),
             "next_finding": lambda: self.go_to_finding(self._finding + 1),
-            "next_entry": lambda: self.step_palette(1), "previous_entry": lambda: self.step_palette(-1),
+            "next_entry": lambda: self._palette.step(1),
+            "previous_entry": lambda: self._palette.step(-1),
         }  # fmt: skip
 
     def next_symmetry(self) -> None:
-        """Another symmetry."""
         names = list(SYMMETRIES)
         tools = self.session.tools
         tools.finish()
         tools.symmetry = names[(names.index(tools.symmetry) + 1) % len(names)]
 
     def choose_all(self) -> None:
-        """Select everything."""
         tools = self.session.tools
         tools.finish()
         tools.tool, tools.selection = "select", everything(tools.draft)
@@ -149,28 +147,19 @@ class EditorCommands:
         ]  # fmt: skip
         self.app.push(Menu(self.app, "Level", rows))
 
-    def save(self, then: Action = nothing) -> None:
-        """Write the level into its file, or into a new one of the player's, and do ``then``."""
-        if self.session.source.path is None and not self.session.draft.name:
-            self.save_as(then)
-        else:
-            self.save_to(self.session.own_path, then)
+    @property
+    def _levels(self) -> Path:
+        return self.app.player.folder / "levels"
 
-    def save_to(self, path: Path, then: Action = nothing, *, replacing: bool = False) -> None:
-        """Write the level, and do ``then``; ask before anything is replaced."""
-        try:
-            self.session.save(path, replacing=replacing)
-        except OccupiedError as error:
-            text = str(error)
-            rows = [
-                ("Save under another name", lambda: self.save_as(then), ""),
-                ("Replace it", lambda: self.save_to(path, then, replacing=True), "What it holds now is lost"), CANCEL,
-            ]  # fmt: skip
-            self.app.push(Menu(self.app, text[0].upper() + text[1:], rows))
-        except (NinjaGameError, OSError) as error:
-            self.app.notify(f"Not saved: {reason(error)}")
-        else:
-            then()
+    def own_path(self) -> Path | None:
+        """The level's file, or a new one among the player's levels; None for a level without file and name."""
+        if self.session.source.path is None and not self.session.draft.name:
+            return None
+        return self.session.source.path or free_path(self._levels, file_stem(self.session.draft.name, "level"), SUFFIX)
+
+    def saved_text(self, path: Path) -> str:
+        """Where it is, and whether the menu shows it."""
+        return f"Saved{', and in the menu Levels' * path.is_relative_to(self._levels)}: {path}"
 
     def save_as(self, then: Action = nothing) -> None:
         """Ask for the level's name, write it into a file of that name, and do ``then``."""
@@ -179,8 +168,8 @@ class EditorCommands:
 
         def on_accept(texts: list[str]) -> None:
             name = texts[0].strip() or NAMELESS
-            folder = session.source.path.parent if session.source.path else self.app.player.folder / "levels"
-            session.tools.finish()
+            folder = session.source.path.parent if session.source.path else self._levels
+            session.end()
             session.tools.history.change(replace(session.draft, name=name))
             self.save_to(folder / f"{file_stem(name, 'level')}{SUFFIX}", then)
 
@@ -199,7 +188,6 @@ class EditorCommands:
         self.app.push(Form(self.app, "About the level", fields, "OK", on_accept))
 
     def open(self) -> None:
-        """Choose a level to edit."""
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))
 
     def edit_entry(self, entry: Entry) -> None:
@@ -210,42 +198,17 @@ class EditorCommands:
         except (NinjaGameError, OSError) as error:
             self.app.notify(str(error))
 
-    def edit(self, source: Source, found: Recovered | None = None) -> None:
-        """Edit this level, or one that was found again."""
+    def edit(self, source: Source, found: RecoveredDraft | None = None) -> None:
+        """Edit this level, or one that was found again. Raises FileError for what another window goes on with."""
         self.session.begin(source, found)
-        self.view.stale = True
 
     def offer_recovered(self) -> None:
         """Ask what to do with a level that was being edited when the program died."""
         found = next(recovered(self.app.player.folder), None)
-        if found is None:
-            return
-        name = found.draft.name or (found.source.path.name if found.source.path else "a new level")
-        rows = [
-            ("Recover", lambda: self.edit(found.source, found), "As it was at most two seconds before the end"),
-            ("Keep for later", nothing, "It is offered again"),
-            ("Discard", found.forget, "It is lost"),
-        ]
-        self.app.push(Menu(self.app, f"Not saved last time: {name}", rows))
+        if found is not None:
+            name = found.draft.name or (found.source.path.name if found.source.path else "a new level")
+            about = "As it was at most two seconds before the end"
+            self.ask_about_recovered(name, lambda: self.edit(found.source, found), found.forget, about=about)
 
     def new(self) -> None:
-        """An empty level."""
         self.unless_unsaved(lambda: self.edit(new_source(self.app.settings.name)))
-
-    def leave(self) -> None:
-        """Back to where the editor was opened."""
-
-        def go() -> None:
-            self.session.close()
-            self.app.pop()
-
-        self.unless_unsaved(go)
-
-    def unless_unsaved(self, action: Action) -> None:
-        """Do something after which the present level is gone; ask first if it is not saved."""
-        self.session.tools.finish()
-        if self.session.is_saved:
-            action()
-            return
-        rows = [CANCEL, ("Save", lambda: self.save(action), ""), ("Discard changes", action, "")]
-        self.app.push(Menu(self.app, f"{self.session.name} is not saved", rows))

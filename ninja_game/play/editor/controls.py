@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, QUARTERS
-from ninja_game.play.input.bindings import InputEvent
-from ninja_game.play.input.keys import Command, chord, key_text
+from ninja_game.play.input.keys import Command
+from ninja_game.play.workspace.commands import CommandTable
 
 COMMANDS = (
     Command("help", "This page", ("f1",)),
@@ -49,8 +49,7 @@ COMMANDS = (
 )
 """Everything that a key does by itself. Other keys choose tiles and objects."""
 
-_BY_KEY = {key: command.name for command in COMMANDS for key in command.keys}
-_BY_PAD = {command.pad: command.name for command in COMMANDS if command.pad}
+TABLE = CommandTable(COMMANDS, repeating=dict.fromkeys(("undo", "redo"), 100))
 
 DIRECTION_KEYS = {"w": "up", "a": "left", "s": "down", "d": "right"}
 """Directions of objects, as in Ned."""
@@ -59,20 +58,6 @@ OBJECT_TYPE_OF_KEY = {object_type.key: object_type for object_type in OBJECT_TYP
 """Objects by their keys."""
 
 _FAMILY_OF_KEY = {family.key: family for family in FAMILIES}
-
-
-def keys_of(name: str) -> str:
-    """What to press for a command of the editor, for people."""
-    return key_text(next(command for command in COMMANDS if command.name == name))
-
-
-def command_of(event: InputEvent) -> str:
-    """The command that an event means; '' for none."""
-    if event.source is None:
-        return ""
-    if event.source[0] == "pad":
-        return _BY_PAD.get(event.source[1], "")
-    return _BY_KEY.get(chord(event.raw), "")
 
 
 def tile_of_key(name: str, present: int) -> int | None:

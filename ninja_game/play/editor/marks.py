@@ -64,7 +64,6 @@ def _rects(canvas: Canvas, a: Point, b: Point) -> Iterator[pygame.Rect]:
 
 
 def line_mark(canvas: Canvas, colour: Colour, a: Point, b: Point, width: float = 0) -> LevelMark:
-    """A straight line."""
     return LevelMark(lambda target: target.line(colour, *a, *b, width), tuple(_rects(canvas, a, b)))
 
 
@@ -98,7 +97,6 @@ def sign_mark(canvas: Canvas, palette: Palette, at: Point) -> LevelMark:
 
 
 def finding_points(level: Level, finding: Finding) -> list[Point]:
-    """Where a finding is, px."""
     places = [(24.0 * column + 12.0, 24.0 * row + 12.0) for column, row in finding.cells]
     for number in finding.records:
         found = points(level.objects[number]) if number < len(level.objects) else {}

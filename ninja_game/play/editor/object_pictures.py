@@ -78,7 +78,6 @@ class _Noted(DrawTarget):
         self.sprites: list[PlacedSprite] = []
 
     def sprite(self, key: SpriteKey, x: float, y: float) -> None:
-        """Note it."""
         self.sprites.append((key, x, y))
 
 

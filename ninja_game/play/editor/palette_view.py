@@ -66,7 +66,6 @@ class PaletteView(Widget):
         )
 
     def click(self, x: float, y: float) -> bool:
-        """Take what is there."""
         what = self._at(x, y)
         if what is not None:
             self.tools.pick_up(what.record if isinstance(what, ObjectType) else what)
@@ -92,7 +91,6 @@ class PaletteView(Widget):
             tools.pick_up(TILE_ORDER[(place + by) % len(TILE_ORDER)])
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """All of it; what is in hand has a frame."""
         canvas, palette = theme.canvas, theme.palette
         x, y, w, h = self.area
         canvas.fill_rect(surface, palette.panel, x - 4, y - 4, w + 6, h + 4, 3)

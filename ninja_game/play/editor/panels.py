@@ -26,7 +26,6 @@ class LevelChoice(Browser):
         self.list.hint = "Enter opens the level in the editor"
 
     def build(self) -> Sequence[Widget]:
-        """The list and its search; no buttons to play."""
         return [*list(super().build())[:3], Button((436, 470, 320, 32), "Edit", lambda: self._play(self.list.index))]
 
     def _play(self, index: int, *, practice: bool = False) -> None:

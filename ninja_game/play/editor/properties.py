@@ -32,7 +32,6 @@ def subject(tools: EditorTools) -> tuple[object, ...]:
 
 
 def property_widgets(tools: EditorTools, area: Area) -> Sequence[Widget]:
-    """The rows of the panel."""
     x, y, w, _ = area
     rows: list[Callable[[Area], Widget]] = []
     if tools.selection and tools.chosen is None:

@@ -6,17 +6,15 @@ from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING
 
-from ninja_game.editor.autosave import Autosave, Recovered
+from ninja_game.editor.autosave import Autosave, RecoveredDraft
 from ninja_game.editor.background import NewestJob
 from ninja_game.editor.brush import OBJECT_TYPES, placed
 from ninja_game.editor.certify import Certifier, Route, route_of
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import SUFFIX, Source, draft_of_text, new_source, save
+from ninja_game.editor.files import Source, draft_of_text, new_source, save
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.shown_text import file_stem
-from ninja_game.files.user_folder import free_path
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
@@ -51,22 +49,26 @@ class EditorSession:
         self._checks: NewestJob[Level, Examined] = NewestJob(_examine)
         self._begin(source or new_source(app.settings.name))
 
-    def _begin(self, source: Source, found: Recovered | None = None) -> None:
+    def _begin(self, source: Source, found: RecoveredDraft | None = None) -> None:
+        self.autosave = Autosave(self.app.player.folder, found.file if found else None)
         self.source = found.source if found else source
         self.tools.load(found.draft if found else source.draft)
-        self.autosave = Autosave(self.app.player.folder, found.file if found else None)
         self.last_try: Route = ()
         self._asked: Level | None = None
         self._asked_at = 0.0
 
-    def begin(self, source: Source, found: Recovered | None = None) -> None:
-        """Edit another level, or one that was found again; what was not saved of the present one is given up."""
-        self.close()
+    def begin(self, source: Source, found: RecoveredDraft | None = None) -> None:
+        """Edit another level, or one that was found again; what was not saved of the present one is given up.
+
+        Raises FileError for what another window goes on with.
+        """
+        before = self.autosave
         self._begin(source, found)
+        self.certifier.stop()
+        before.close()
 
     @property
     def draft(self) -> Draft:
-        """The level as it is now."""
         return self.tools.draft
 
     @property
@@ -76,7 +78,6 @@ class EditorSession:
 
     @property
     def name(self) -> str:
-        """What to call the level."""
         return self.draft.name or (self.source.path.stem if self.source.path else "") or "New level"
 
     @property
@@ -104,27 +105,19 @@ class EditorSession:
             self._checks.ask(self.draft.level)
 
     def close(self) -> None:
-        """The level is left: nothing of it is kept."""
         self.certifier.stop()
         self.autosave.close()
 
     # --- files ---
 
-    @property
-    def own_path(self) -> Path:
-        """Where the level would be saved: its file, or a new one among the player's levels."""
-        levels = self.app.player.folder / "levels"
-        return self.source.path or free_path(levels, file_stem(self.draft.name, "level"), SUFFIX)
+    def end(self) -> None:
+        """Whatever is half done is done now."""
+        self.tools.finish()
 
     def save(self, path: Path, *, replacing: bool = False) -> None:
-        """Write the level, and say so.
-
-        Raises OccupiedError where that would replace what somebody else wrote, OSError.
-        """
+        """Write the level. Raises OccupiedError where that would replace what somebody else wrote, OSError."""
         self.tools.finish()
         self.source = save(self.source, self.draft, path, replacing=replacing)
-        mine = path.is_relative_to(self.app.player.folder / "levels")
-        self.app.notify(f"Saved{', and in the menu Levels' * mine}: {path}")
 
     def export_picture(self) -> None:
         """A picture of the level among the player's exports."""

@@ -59,7 +59,6 @@ class LevelSheet:
         self._dirty: list[pygame.Rect] = []
 
     def show(self, draft: Draft) -> None:
-        """Show a draft."""
         before, self.draft = self.draft, draft
         if before is None:
             static = TileMap()

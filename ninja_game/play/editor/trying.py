@@ -27,7 +27,6 @@ class TryContext(LevelContext):
         return []
 
     def passed(self, attempt: Attempt) -> list[str]:
-        """Nothing is saved."""
         return ["It can be passed"]
 
     def died(self, attempt: Attempt) -> None:
@@ -37,7 +36,6 @@ class TryContext(LevelContext):
         """Nothing is counted."""
 
     def advance(self) -> Navigation:
-        """Back to the editor."""
         return Navigation.BACK
 
 

@@ -1,8 +1,8 @@
-"""The editor's picture: the level in the middle, panels around it, and what of them has to be drawn again."""
+"""The level under edit in its window: drawn, pointed at, and where the other parts are around it."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import pygame
@@ -12,97 +12,127 @@ from ninja_game.play.editor.overlay import Overlay
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.sheet import LevelSheet
 from ninja_game.play.ui.canvas import Colour, Point
-from ninja_game.play.ui.theme import Area, wrapped
+from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Widget
+from ninja_game.play.workspace.part import Part
 
 if TYPE_CHECKING:
     from ninja_game.editor.certify import Route
-    from ninja_game.levels.findings import Finding
     from ninja_game.play.app import App
 
 
 class EditorLayout(NamedTuple):
-    """Where things are, px of the stage."""
+    """Where the parts are, px of the stage."""
 
+    toolbar: Area = (0, 0, 792, 26)
     level: Area = (6, 30, 602, 456)
-    palette: Area = (616, 30, 172, 226)
-    properties: Area = (616, 262, 170, 222)
+    palette: Area = (610, 26, 182, 231)
+    properties: Area = (610, 257, 182, 231)
     findings: Area = (6, 490, 602, 84)
-    file: Area = (616, 490, 170, 84)
+    file: Area = (612, 490, 176, 84)
     status: Area = (0, 579, 792, 21)
 
 
 LAYOUT = EditorLayout()
 
 
-class EditorView:
-    """What is seen. ``stale``: the panels are to be drawn again; ``moved``: the pointer is somewhere else."""
+class EditorView(Part):
+    """The level under edit, and what lies over it. ``hovering``: the pointer is shown; ``hint``: for the line below."""
 
-    def __init__(self, app: App, session: EditorSession) -> None:
+    area = LAYOUT.level
+
+    def __init__(self, app: App, session: EditorSession, step_palette: Callable[[int], object]) -> None:
         self.app = app
         self.session = session
-        self.stale = self.moved = True
         self.hovering = False
         self.hint = ""
         self.grid: Grid = GRIDS[1]
         self.lines = self.paths = True
-        self.toolbar: list[Widget] = []
-        self.properties: list[Widget] = []
-        self.shown_findings: list[Finding] = []
-        self.shown_certificate = ""
-        self._look: tuple[object, ...] = ()
+        self._step_palette = step_palette
+        self._held = False
         self._marked: tuple[object, ...] = ()
         self._lay_out()
 
-    def render_key(self) -> tuple[object, ...]:
+    def _layout_key(self) -> tuple[object, ...]:
         return self.app.canvas, self.app.theme.palette.name
 
     def _lay_out(self) -> None:
         canvas = self.app.canvas
-        x, y, w, h = LAYOUT.level
+        x, y, w, h = self.area
         self.sheet = LevelSheet(canvas.rect(x, y, w, h).size, self.app.theme.palette)
         self.overlay = Overlay(self.sheet, canvas.point(x, y))
         self.sheet.show(self.session.draft)
         self.sheet.show_grid(self.grid.lines())
-        self._look = self.render_key()
+        self._laid_out = self._layout_key()
         self._marked = ()
 
     def next_grid(self) -> None:
-        """Another grid."""
         self.grid = GRIDS[(GRIDS.index(self.grid) + 1) % len(GRIDS)]
-        self._look = ()
+        self.sheet.show_grid(self.grid.lines())
+
+    # --- the mouse ---
+
+    def press(self, *, erase: bool = False, pick: bool = False, add: bool = False) -> None:
+        """A button goes down at the pointer."""
+        self._held = True
+        self.session.tools.press(erase=erase, pick=pick, add=add)
+
+    def release(self) -> bool:
+        """A button goes up; whether one was down."""
+        held, self._held = self._held, False
+        if held:
+            self.session.tools.release()
+        return held
+
+    def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
+        """Drawing, dragging; the wheel goes on in the palette."""
+        if event.type == pygame.MOUSEWHEEL:
+            self._step_palette(-event.y)
+            return True
+        if event.type == pygame.MOUSEBUTTONUP:
+            self.release()
+            return True
+        self.session.tools.move(*self.overlay.canvas.logical(event.pos))
+        self.hovering = self.overlay.area.collidepoint(event.pos)
+        if event.type == pygame.MOUSEBUTTONDOWN:
+            add = bool(pygame.key.get_mods() & pygame.KMOD_SHIFT)
+            right, middle = event.button == pygame.BUTTON_RIGHT, event.button == pygame.BUTTON_MIDDLE
+            self.press(erase=right, pick=middle, add=add)
+        return True
+
+    def mouse_left(self) -> None:
+        self.hovering = False
 
     # --- drawing ---
 
+    def render_key(self) -> tuple[object, ...]:
+        """All that the overlay depends on; the sheet knows what has changed of the level."""
+        tools = self.session.tools
+        return (
+            tools.pointer, self.hovering, tools.tool, tools.objects, tools.tile, tools.record, tools.snap,
+            tools.symmetry, tools.selection, tools.marquee, tools.placing_switch, tools.draft,
+        )  # fmt: skip
+
     def draw(
-        self, surface: pygame.Surface, widgets: Sequence[Widget], focus: Widget | None, *, whole: bool
-    ) -> list[pygame.Rect] | None:
-        """Draw what has changed; the px that did, None for all."""
-        if self._look != self.render_key():
+        self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool
+    ) -> list[pygame.Rect]:  # fmt: skip
+        if self._laid_out != self._layout_key():
             self._lay_out()
             whole = True
         tools = self.session.tools
         if tools.draft is not self.sheet.draft:
             self.sheet.show(tools.draft)
         self._follow_marks()
-        dirty = self.sheet.paint()
-        changed = []
+        dirty, key = self.sheet.paint(), self.render_key()
+        if not (whole or dirty) and key == self._drawn:
+            return []
+        self._drawn = key
         if whole:
-            surface.fill(self.app.theme.palette.tile)
-            surface.blit(self.sheet.surface, self.overlay.canvas.origin)
-            self.stale = True
-        elif dirty or self.stale or self.moved:
+            changed = [self.overlay.area]
+            surface.blit(self.sheet.surface, self.overlay.area)
+        else:
             changed = self.overlay.restore(surface, dirty)
-        if whole or changed or self.stale or self.moved:
-            changed = changed + list(self.overlay.draw(surface, tools, hovering=self.hovering))
-        if self.stale:
-            changed += self._draw_panels(surface, widgets, focus)
-        if self.stale or self.moved:
-            changed.append(self._draw_status(surface))
-        if self.session.certifier.busy and not self.stale:
-            changed.append(self._draw_file(surface))
-        self.stale = self.moved = False
-        return None if whole else changed
+        return [*changed, *self.overlay.draw(surface, tools, hovering=self.hovering)]
 
     def _follow_marks(self) -> None:
         """The marks over the level as they should be now."""
@@ -129,68 +159,6 @@ class EditorView:
         examined = self.session.examined
         found = [p for each in self.session.findings for p in finding_points(examined, each)] if examined else []
         return list(dict.fromkeys(found))
-
-    def _draw_panels(
-        self, surface: pygame.Surface, widgets: Sequence[Widget], focus: Widget | None
-    ) -> list[pygame.Rect]:
-        canvas, theme = self.app.canvas, self.app.theme
-        rects = [canvas.fill_rect(surface, theme.palette.tile, 0, 0, 792, 30)]
-        rects.append(canvas.fill_rect(surface, theme.palette.tile, 610, 30, 182, 548))
-        x, y, w, h = LAYOUT.findings
-        rects.append(canvas.fill_rect(surface, theme.palette.panel, x, y, w, h, 3))
-        px, py, pw, ph = LAYOUT.properties
-        canvas.fill_rect(surface, theme.palette.background, px - 4, py - 5, pw + 6, ph + 2, 3)
-        for widget in widgets:
-            widget.draw(surface, theme, focused=widget is focus)
-        rects.append(self._draw_file(surface))
-        return rects
-
-    def _draw_file(self, surface: pygame.Surface) -> pygame.Rect:
-        """The level's name and file, and how far the solver is."""
-        canvas, theme, palette, session = self.app.canvas, self.app.theme, self.app.theme.palette, self.session
-        x, y, w, h = LAYOUT.file
-        rect = canvas.fill_rect(surface, palette.panel, x - 4, y, w + 6, h, 3)
-        theme.text(surface, session.name, x, y + 5, size=11, bold=True, width=w)
-        file = session.source.path.name if session.source.path else "no file yet"
-        state = "saved" if session.is_saved and session.source.path else "not saved" if not session.is_saved else ""
-        theme.text(surface, f"{file}  {state}", x, y + 20, size=9, colour=palette.faint, width=w)
-        certifier = session.certifier
-        text = certifier.text or "Not certified: F7 looks for a run"
-        stale = certifier.is_stale(session.draft.level)
-        if stale and not certifier.busy:
-            text = "Certified before the last change: F7 again"
-        elif certifier.run and not certifier.busy:
-            text += ". To keep it: File, Keep the solver's run"
-        for number, line in enumerate(wrapped(theme, text, w, 9)[:3]):
-            colour = palette.good if certifier.run and not stale else palette.text
-            theme.text(surface, line, x, y + 36 + 12 * number, size=9, colour=colour)
-        if certifier.busy:
-            canvas.fill_rect(surface, palette.panel_edge, x, y + h - 9, w, 5, 2)
-            canvas.fill_rect(surface, palette.accent, x, y + h - 9, max(1.0, w * certifier.share), 5, 2)
-        return rect
-
-    def _draw_status(self, surface: pygame.Surface) -> pygame.Rect:
-        """Where the pointer is, and what to do."""
-        canvas, theme, palette = self.app.canvas, self.app.theme, self.app.theme.palette
-        tools = self.session.tools
-        rect = canvas.fill_rect(surface, palette.tile, *LAYOUT.status)
-        (column, row), (x, y) = tools.cell, tools.pointer
-        top = LAYOUT.status[1] + 5
-        theme.text(surface, f"{column},{row}", 8, top, size=9.5, colour=palette.on_tile)
-        theme.text(surface, f"{x:.0f},{y:.0f} px", 58, top, size=9.5, colour=palette.on_tile)
-        text = "Click where the switch is; Esc gives up" if tools.placing_switch else self.hint
-        tool = "brush" if tools.tool == "rectangle" and tools.draws_one else tools.tool
-        theme.text(surface, text or _TOOL_HINTS[tool], 140, top, size=9.5, colour=palette.on_tile, width=640)
-        return rect
-
-
-_TOOL_HINTS = {
-    "brush": "Left button draws, right erases, middle picks; wheel: next in the palette. F1: help",
-    "rectangle": "Drag a rectangle; right button erases. F1: help",
-    "fill": "A click fills what is joined and alike. F1: help",
-    "select": "Click or drag a frame; drag what is selected; Shift adds. Ctrl+C, Ctrl+V, H, J, U. F1: help",
-    "pick": "Click what to draw with. F1: help",
-}
 
 
 _X, _Y = MIDDLE

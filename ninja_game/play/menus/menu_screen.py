@@ -72,6 +72,10 @@ class MenuScreen(Screen):
         else:
             pygame.key.stop_text_input()
 
+    def widgets_changed(self) -> None:
+        """What a widget shows has changed, or which one has the focus."""
+        self.redraw = True
+
     # --- input ---
 
     def capture(self, event: InputEvent) -> bool:
@@ -85,7 +89,8 @@ class MenuScreen(Screen):
             self._typed.end()
             if taken:
                 self._typed.begin(event.raw, scancode_of(event.raw), first=FIRST_REPEAT_MS, every=TEXT_REPEAT_MS)
-        self.redraw = self.redraw or taken
+        if taken:
+            self.widgets_changed()
         return taken
 
     def handle(self, event: InputEvent) -> None:
@@ -102,7 +107,7 @@ class MenuScreen(Screen):
 
     def act(self, action: str, *, held: bool = False) -> None:
         """Do what a menu action says: the focused widget first, then the screen. ``held``: it repeats."""
-        self.redraw = True
+        self.widgets_changed()
         if action == "back":
             self.chime("menu-choose")
             self.back()
@@ -131,7 +136,7 @@ class MenuScreen(Screen):
         if widget is not None and widget is not self.focus:
             self.focus = widget
             self.chime("menu-move")
-            self.redraw = True
+            self.widgets_changed()
 
     def _next(self, step: int = 1) -> None:
         """The focus goes to the next widget in their order, or to the one before."""
@@ -168,24 +173,26 @@ class MenuScreen(Screen):
     def _handle_mouse(self, event: pygame.Event) -> None:
         if event.type == pygame.MOUSEWHEEL:
             widget = self._at(*self.theme.canvas.logical(pygame.mouse.get_pos()))
-            self.redraw = (widget is not None and widget.wheel(event.y)) or self.redraw
+            if widget is not None and widget.wheel(event.y):
+                self.widgets_changed()
             return
         x, y = self.theme.canvas.logical(event.pos)
         if event.type == pygame.MOUSEMOTION:
             if self._dragged is not None:
-                self.redraw = self._dragged.drag(x, y) or self.redraw
+                if self._dragged.drag(x, y):
+                    self.widgets_changed()
                 return
             widget = self._at(x, y)
             self.focus_on(widget)
-            if isinstance(widget, ListView):
-                self.redraw = widget.hover(x, y) or self.redraw
+            if isinstance(widget, ListView) and widget.hover(x, y):
+                self.widgets_changed()
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
             widget = self._at(x, y)
             if widget is not None:
                 self._dragged = widget
                 self.focus_on(widget)
                 widget.click(x, y)
-                self.redraw = True
+                self.widgets_changed()
         elif event.type == pygame.MOUSEBUTTONUP:
             self._dragged = None
 
@@ -198,7 +205,8 @@ class MenuScreen(Screen):
     def update(self, real_ms: int) -> None:
         """Repeat a direction, or a key in a text, that is held."""
         for typed in self._typed.due(real_ms):
-            self.redraw = (self.focus is not None and self.focus.text_event(typed)) or self.redraw
+            if self.focus is not None and self.focus.text_event(typed):
+                self.widgets_changed()
         for direction in self._direction.due(real_ms):
             self.act(direction, held=True)
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ninja_game.play.input.bindings import InputEvent
-from ninja_game.play.input.keys import Command, chord
+from ninja_game.play.input.keys import Command
+from ninja_game.play.workspace.commands import CommandTable
 
 COMMANDS = (
     Command("help", "This page", ("f1",)),
@@ -64,24 +64,16 @@ COMMANDS = (
 )
 """Everything that a key does, unless the run is taken over: then the keys of the game play."""
 
-FIRST_REPEAT_MS = 300
-"""A command whose key is held is repeated after so long."""
 REPEATING = {
     **dict.fromkeys(("up", "down", "select_up", "select_down", "step", "step_back"), 25),
     **dict.fromkeys(("page_up", "page_down", "select_page_up", "select_page_down", "undo", "redo"), 100),
 }
 """The commands that are repeated, and then how often, ms. 25: as the run goes."""
 
-_BY_KEY = {key: command.name for command in COMMANDS for key in command.keys}
 BY_PAD = {
     "start": "take_over", "y": "play", "leftshoulder": "step_back", "rightshoulder": "step", "x": "undo",
     "dpad-up": "up", "dpad-down": "down",
 }  # fmt: skip
 """Commands by buttons of a pad; of a run that is taken over, only those that step."""
 
-
-def command_of(event: InputEvent) -> str:
-    """The command that a key or a button of a pad means; '' for none."""
-    if event.source is None:
-        return ""
-    return _BY_KEY.get(chord(event.raw), "") if event.source[0] == "keys" else BY_PAD.get(event.source[1], "")
+TABLE = CommandTable(COMMANDS, repeating=REPEATING, pads=BY_PAD)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.play.ui.theme import Theme
+from ninja_game.play.workspace.part import Part
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.session import Session
 from ninja_game.tas.timeline import Trajectory
@@ -46,7 +47,7 @@ class TasEditor:
     ``against``: the run that the lead is told over; None: the run as it was opened.
     ``theme``: the look of all parts, in the TAS editor's own logical px, which are not those of other screens.
     ``places``: cursor and anchor when the selected ticks of a run were edited, for undo.
-    ``hint``: of what is under the mouse, for the line below. ``ask_to_watch``: proposes a formula to be watched.
+    ``hint``: of what is under the mouse, for the line below.
     """
 
     def __init__(self, app: App, session: Session) -> None:
@@ -62,12 +63,10 @@ class TasEditor:
         self.tab = "Values"
         self.against: InputTrack | None = None
         self.hint = ""
-        self.ask_to_watch: Callable[[str], object] = lambda _: None
         self.places: WeakKeyDictionary[InputTrack, tuple[int, int | None]] = WeakKeyDictionary()
 
     @property
     def track(self) -> InputTrack:
-        """The run as it is now."""
         return self.session.track
 
     @property
@@ -80,6 +79,10 @@ class TasEditor:
     def last_tick(self) -> int:
         """The last tick that has a row."""
         return len(self.session.timeline) - 1
+
+    def show_tab(self, name: str) -> None:
+        """Show the tab of this name."""
+        self.tab = name
 
     def go(self, tick: int, *, select: bool = False) -> None:
         """Put the cursor on a tick; ``select``: what lies between is selected."""
@@ -113,3 +116,12 @@ class TasEditor:
         """Change the selected ticks; undo selects them again. Whether it was done."""
         self.places[self.track] = self.cursor, self.anchor
         return self.edit(make)
+
+
+class TasPart(Part):
+    """A part of the TAS editor. ``slot``: the name of its place in the layout."""
+
+    slot: ClassVar[str] = ""
+
+    def __init__(self, editor: TasEditor) -> None:
+        self.editor = editor

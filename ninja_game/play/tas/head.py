@@ -6,23 +6,21 @@ from pathlib import Path
 
 import pygame
 
-from ninja_game.play.tas.part import Part
+from ninja_game.play.tas.editor import TasPart
 from ninja_game.play.ui.theme import Theme
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 
-class Head(Part):
+class Head(TasPart):
     """The run's name and file, and whether it is saved."""
 
     slot = "head"
 
     def render_key(self) -> tuple[object, ...]:
-        """Name, file, saved, outcome."""
         session = self.editor.session
         return session.about.name, session.file.path, session.is_saved, session.timeline.end, session.journal.problem
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """One line."""
         session, palette, right = self.editor.session, theme.palette, self.area[2] - 8
         theme.canvas.fill_rect(surface, palette.tile, *self.area)
         end, outcome = session.timeline.end
@@ -50,7 +48,7 @@ class Head(Part):
         theme.text(surface, words + seconds, right, 8, size=11, bold=True, colour=palette.on_tile, align="right")
 
 
-class Foot(Part):
+class Foot(TasPart):
     """Where the cursor is, what is selected, and a hint."""
 
     slot = "foot"
@@ -69,7 +67,6 @@ class Foot(Part):
         )
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """One line."""
         editor, palette, (_, y, w, _) = self.editor, theme.palette, self.area
         theme.canvas.fill_rect(surface, palette.tile, *self.area)
         first, last = editor.selection

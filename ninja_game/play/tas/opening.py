@@ -94,7 +94,6 @@ class OpeningScreen(Screen):
 
     @property
     def explanation(self) -> str:
-        """What takes so long."""
         if self._waited_ms < PATIENCE_MS:
             return ""
         seconds = f"{self._waited_ms // 1000} s"
@@ -122,7 +121,6 @@ class OpeningScreen(Screen):
             self.app.replace(screen)
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """Two lines, when they are others than before."""
         shown = f"Opening {self._name} ...\n{self.explanation}"
         if shown == self._shown and not self.redraw:
             return []

@@ -187,7 +187,7 @@ class PlainWorlds(Worlds):
         return [save_plain(self.worlds[index]) for index in which]
 
     def restore_many(self, states: Iterable[PlainState], which: Iterable[int], levels: Iterable[int]) -> None:
-        """A world of another level is made anew."""
+        """A world of another level is made again."""
         for state, index, number in zip(states, which, levels, strict=True):
             if self.level_of[index] != number:
                 self.worlds[index] = load_plain(self.levels[number], self._box)[1]

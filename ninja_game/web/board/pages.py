@@ -16,10 +16,8 @@ from ninja_game.web.board.ranking import FASTEST, HIGHEST, Ranked, Ranking
 from ninja_game.web.board.report import summary
 from ninja_game.web.board.runs import Apart, Run
 from ninja_game.web.pages.exhibition import page_name, shared_name, shared_text, watch_address
-from ninja_game.web.pages.frame import REPLAYS, Pages, page, section, table
-from ninja_game.web.pages.gallery import BOARD, write_levels
-from ninja_game.web.pages.html import Content, Markup, joined, tag
-from ninja_game.web.pages.level_page import medal_mark
+from ninja_game.web.pages.frame import REPLAYS, Content, Markup, Pages, joined, page, section, table, tag
+from ninja_game.web.pages.gallery import BOARD, medal_mark, write_levels
 
 NEWEST, LEADING, TOGETHER = 40, 25, 4
 """Rows of the newest records and of the players on the first page; runs that are watched together."""

@@ -1,4 +1,4 @@
-"""Builds the folder: the page, Pyodide, the game as one archive, icons, manifest, licences; what it weighs."""
+"""Builds the folder of the site, and serves it: the page, Pyodide, the game as one archive, icons, licences."""
 
 from __future__ import annotations
 
@@ -6,17 +6,18 @@ import gzip
 import hashlib
 import io
 import json
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ninja_game import __version__
-from ninja_game.errors import DAMAGED, FileError
+from ninja_game.errors import DAMAGED, FileError, NinjaGameError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.resources import PACKAGE
 from ninja_game.files.tree import Tree, leads_below
-from ninja_game.web.site.bytecode import compiled
-from ninja_game.web.site.game_archive import game_archive, game_files, licence_of
+from ninja_game.web.site.game_archive import compiled, game_archive, game_files, licence_of
 from ninja_game.web.site.pyodide_files import library_files, library_of, pyodide_files
 
 MARK = "ninja-game-site.json"
@@ -151,3 +152,42 @@ def _manifest() -> dict[str, object]:
         "categories": ["games"],
         "icons": [*icons, {"src": MASKABLE, "sizes": "512x512", "type": "image/png", "purpose": "maskable"}],
     }
+
+
+TYPES = {
+    ".wasm": "application/wasm",
+    ".mjs": "text/javascript",
+    ".js": "text/javascript",
+    ".webmanifest": "application/manifest+json",
+    ".gz": "application/gzip",
+}
+"""What a browser insists on, whatever this system says."""
+
+
+class _Handler(SimpleHTTPRequestHandler):
+    """Files alone, no lists of folders; a browser asks each time whether it has the newest."""
+
+    protocol_version = "HTTP/1.1"
+    extensions_map = SimpleHTTPRequestHandler.extensions_map | TYPES
+
+    def end_headers(self) -> None:
+        """Add what all answers have in common."""
+        self.send_header("Cache-Control", "no-cache")
+        self.send_header("X-Content-Type-Options", "nosniff")
+        super().end_headers()
+
+    def list_directory(self, path: Any) -> None:  # noqa: ARG002 - the base class names it
+        """Say that there is nothing."""
+        self.send_error(404)
+
+    def log_message(self, *_: Any) -> None:
+        """Say nothing."""
+
+
+def site_server(folder: Path, port: int) -> ThreadingHTTPServer:
+    """A server of a folder for this machine alone; ``port`` 0 takes a free one. Raises NinjaGameError."""
+    handler: Callable[..., _Handler] = partial(_Handler, directory=str(folder))
+    try:
+        return ThreadingHTTPServer(("127.0.0.1", port), handler)
+    except OSError as error:
+        raise NinjaGameError(f"port {port} cannot be used: {error.strerror}; choose another with --port") from None

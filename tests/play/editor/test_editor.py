@@ -27,7 +27,7 @@ def test_from_the_menu_a_level_is_drawn_by_mouse(maker: Maker) -> None:
     maker.drag((60, 300), (84, 300), button=3)
     assert sum(maker.draft.level.tiles) == 10
     maker.drag((36, 300), button=2)
-    gold = next(area for what, area in maker.editor.palette_view.places() if getattr(what, "name", "") == "gold")
+    gold = next(area for what, area in maker.editor.palette.places() if getattr(what, "name", "") == "gold")
     maker.mouse(gold[0] + 5, gold[1] + 5)
     maker.drag((200, 200))
     assert maker.draft.objects[0].values == (204.0, 204.0)
@@ -179,7 +179,7 @@ def test_a_click_on_a_property_changes_the_selected_object(room: Maker) -> None:
     room.drag((300, 300))
     room.press("v")
     room.drag((300, 300))
-    choice = room.editor.view.properties[1]
+    choice = room.editor.properties.widgets[1]
     room.mouse(*choice.centre)
     assert room.draft.objects[-1].values[2] == 0.0
     room.chord("z", pygame.KMOD_LCTRL)
@@ -214,7 +214,7 @@ def test_only_what_changed_is_drawn_again_and_it_is_the_same_picture(room: Maker
     room.frames(2)
     mended = room.app.surface.copy()
     view = room.editor.view
-    view._look = ()
+    view._laid_out = ()
     room.app.stack.redraw_all()
     room.app.draw()
     whole = room.app.surface

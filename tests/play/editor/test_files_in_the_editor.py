@@ -13,7 +13,7 @@ import pytest
 
 from ninja_game.cli.main import cli
 from ninja_game.editor.ascii_text import ascii_text
-from ninja_game.editor.autosave import FOLDER, recovered
+from ninja_game.editor.autosave import FOLDER, Autosave, recovered
 from ninja_game.editor.files import Source, new_source, open_source
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
@@ -161,6 +161,21 @@ def test_what_was_not_saved_when_the_program_died_is_offered(room: Maker, tmp_pa
     assert not room.editor.session.is_saved
     room.chord("s", pygame.KMOD_LCTRL)
     room.wait(lambda: not list((tmp_path / FOLDER).glob("*.json")), "end of the autosave")
+
+
+def test_what_another_window_goes_on_with_is_not_recovered_twice(room: Maker, tmp_path: Path) -> None:
+    room.drag((300, 300))
+    room.wait(lambda: list((tmp_path / FOLDER).glob("*.json")), "autosave")
+    room.editor.session.autosave.close(keep=True)
+    room.app.stack.clear()
+    room.app.push(MainMenu(room.app))
+    room.open("Editor")
+    present = room.editor.session.draft
+    elsewhere = Autosave(tmp_path, next(recovered(tmp_path)).file)
+    room.choose("Recover")
+    assert "another window goes on with this" in room.app.notice
+    assert room.draft == present
+    elsewhere.close()
 
 
 @pytest.mark.parametrize("there", [False, True])

@@ -70,23 +70,23 @@ def test_a_larger_window_shows_more_rows_and_a_larger_level(at: TasDriver) -> No
 
 def test_a_dragged_border_and_the_size_of_letters_are_remembered(at: TasDriver, tmp_path: Path) -> None:
     resized(at, (1920, 1080))
-    layout = at.screen.borders.layout
+    layout = at.screen.splitters.layout
     x, y = layout.roll[0] - 3, layout.strip[1] - 1
     at.drag((x, 300), (x - 60, 300), (x - 100, 310))
-    moved = at.screen.borders.layout
+    moved = at.screen.splitters.layout
     assert abs(layout.roll[0] - moved.roll[0] - 100) < 12
     at.drag((100, y), (100, y + 30))
-    assert abs(moved.tabs[3] - at.screen.borders.layout.tabs[3] - 30) < 10
+    assert abs(moved.tabs[3] - at.screen.splitters.layout.tabs[3] - 30) < 10
     rows = at.screen.roll.layout.rows
     at.chord("minus", pygame.KMOD_LCTRL)
     assert at.screen.roll.layout.rows > rows
-    settings, preferences = read_settings(at.player.folder / "settings.toml")[0], at.screen.borders.preferences
+    settings, preferences = read_settings(at.player.folder / "settings.toml")[0], at.screen.splitters.preferences
     assert (settings.text_scale, settings.level_width, settings.tabs_height) == preferences
     assert all(preferences)
     again = TasDriver(at.player.folder, Path(copy(RUN, tmp_path / "again.replay.txt")), (1920, 1080))
-    assert again.screen.borders.layout == at.screen.borders.layout
+    assert again.screen.splitters.layout == at.screen.splitters.layout
     again.chord("0", pygame.KMOD_LCTRL)
-    assert again.screen.borders.layout == layout
+    assert again.screen.splitters.layout == layout
     again.session.close()
     again.close()
 
@@ -100,7 +100,7 @@ def test_a_bench_that_opens_at_a_tick_has_it_in_the_middle_of_the_roll(at: TasDr
 
 
 def test_a_border_that_cannot_be_dragged_wishes_nothing(at: TasDriver) -> None:
-    x = at.screen.borders.layout.roll[0] - 3
+    x = at.screen.splitters.layout.roll[0] - 3
     at.drag((x, 300), (x - 60, 300), (x - 100, 300))
     assert at.app.settings.level_width == 0
 

@@ -62,7 +62,7 @@ def test_the_window_says_what_is_done_until_the_bench_is_there(at: MenuDriver, l
     editor = at.top()
     assert isinstance(editor, TasScreen)
     assert editor.editor.cursor == 17
-    editor.files.leave()
+    editor.document.leave()
     assert screen not in at.app.stack
 
 

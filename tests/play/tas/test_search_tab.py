@@ -11,9 +11,8 @@ import pygame
 import pytest
 
 from ninja_game.play.input.keys import SCANCODES
-from ninja_game.play.tas.tabs import span_results
-from ninja_game.play.tas.tabs.search_tab import SearchTab
-from ninja_game.play.tas.tabs.span_results import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SpanResults
+from ninja_game.play.tas.tabs import search_tab as module
+from ninja_game.play.tas.tabs.search_tab import COMPILING, NOT_BEGUN, NOTHING, NOTHING_YET, SearchTab, SpanResults
 from ninja_game.search.formula import background
 from ninja_game.search.formula.methods import fewest_ticks
 from ninja_game.search.formula.task import Found
@@ -235,9 +234,9 @@ def test_a_run_gets_shorter_by_what_the_list_says(at: TasDriver, tab: SearchTab,
 def test_a_search_is_cancelled_by_hand_and_when_the_bench_is_left(
     at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert span_results.CLOSING_SECONDS <= 0.5, "nobody waits longer for a TAS editor to close"
+    assert module.CLOSING_SECONDS <= 0.5, "nobody waits longer for a TAS editor to close"
     # On a slow machine a round of trials takes longer.
-    monkeypatch.setattr(span_results, "CLOSING_SECONDS", LONGEST)
+    monkeypatch.setattr(module, "CLOSING_SECONDS", LONGEST)
     wish(at, "Greatest speed")
     at.press("return")
     first = results_of(tab)

@@ -9,7 +9,7 @@ import pygame
 import pytest
 
 from ninja_game.play.input.keys import SCANCODES
-from ninja_game.play.tas.level.take_over import TakeOver
+from ninja_game.play.tas.level.playing import TakeOver
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.timeline import AFTERMATH

@@ -10,10 +10,8 @@ import pygame
 import pytest
 
 from ninja_game.play.menus.panels import Form
-from ninja_game.play.tas.tabs.object_list import ObjectList
 from ninja_game.play.tas.tabs.plot import TickRange
-from ninja_game.play.tas.tabs.values_tab import ValuesTab
-from ninja_game.play.tas.tabs.watched import shown_value, watched_values
+from ninja_game.play.tas.tabs.values_tab import ObjectList, ValuesTab, shown_value, watched_values
 from ninja_game.sim.inputs import Input
 from ninja_game.simulation import Simulation
 from ninja_game.tas.input_track import InputTrack

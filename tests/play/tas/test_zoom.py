@@ -6,7 +6,7 @@ import numpy as np
 import pygame
 import pytest
 
-from ninja_game.play.tas.level.camera import LARGEST
+from ninja_game.play.tas.level.picture import LARGEST_ZOOM
 from ninja_game.play.ui.canvas import Point
 from tests.support.tas_driver import TasDriver
 
@@ -45,7 +45,7 @@ def test_the_wheel_zooms_at_the_pointer_and_all_can_be_shown_again(
     assert level.picture.canvas.scale == pytest.approx(whole * 1.25**4)
     assert at.editor.cursor == cursor
     wheel(at, 40, pointer, monkeypatch)
-    assert level.picture.canvas.scale == pytest.approx(LARGEST)
+    assert level.picture.canvas.scale == pytest.approx(LARGEST_ZOOM)
     at.press("0")
     assert level.picture.canvas.scale == whole
     wheel(at, 3, pointer, monkeypatch)

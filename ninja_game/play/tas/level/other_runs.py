@@ -18,8 +18,8 @@ from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Form
 from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen
 from ninja_game.play.tas.editor import OtherRun, TasEditor
-from ninja_game.play.tas.part import Commands
 from ninja_game.play.ui.widgets import Button, Widget
+from ninja_game.play.workspace.part import Commands
 from ninja_game.player.records import SavedReplay
 from ninja_game.tas.files import runs_of_level, same_level, track_of
 from ninja_game.tas.timeline import Timeline
@@ -37,7 +37,6 @@ class OtherRuns:
         self.editor = editor
 
     def commands(self) -> Commands:
-        """By name."""
         return {
             "open_other": lambda: self.editor.app.push(OtherRunScreen(self.editor.app, self)),
             "next_other": self.next, "splice": self.splice, "splice_here": self.splice_here,
@@ -60,7 +59,6 @@ class OtherRuns:
         return editor.others[editor.chosen % len(editor.others)]
 
     def next(self) -> None:
-        """Choose the next one."""
         editor = self.editor
         if self.chosen is not None:
             editor.chosen = (editor.chosen + 1) % len(editor.others)
@@ -127,7 +125,6 @@ class OtherRunScreen(ReplaysScreen):
         self.list.empty = "No other run of this level is known. There may be one in a file"
 
     def build(self) -> Sequence[Widget]:
-        """The list, and a way to any file."""
         return [*super().build(), Button((622, 14, 134, 26), "From a file ...", self._ask, hint="Any file with runs")]
 
     def arranged(self, rows: list[ReplayRow]) -> list[ReplayRow]:
@@ -149,7 +146,6 @@ class OtherRunScreen(ReplaysScreen):
         MenuScreen.handle(self, event)
 
     def act(self, action: str, *, held: bool = False) -> None:
-        """Nothing is removed here."""
         MenuScreen.act(self, action, held=held)
 
     def _ask(self) -> None:

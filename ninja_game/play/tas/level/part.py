@@ -1,15 +1,17 @@
-"""The level beside the roll: the world after the tick under the cursor, and the paths of runs."""
+"""The level beside the roll: the world after the tick under the cursor, the paths of runs, and the mouse over it."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
+from math import hypot
 
 import numpy as np
 import pygame
 
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.replay.screen import SPEEDS
-from ninja_game.play.tas.controls import command_of
-from ninja_game.play.tas.editor import TasEditor
-from ninja_game.play.tas.level.mouse import LevelPointer
+from ninja_game.play.tas.controls import TABLE
+from ninja_game.play.tas.editor import TasEditor, TasPart
 from ninja_game.play.tas.level.other_runs import OtherRuns
 from ninja_game.play.tas.level.paths import (
     FAINT,
@@ -21,27 +23,54 @@ from ninja_game.play.tas.level.paths import (
     first_other_place,
     shown_span,
 )
-from ninja_game.play.tas.level.picture import LevelPicture
-from ninja_game.play.tas.level.playing import Playing
-from ninja_game.play.tas.level.run_ghost import RunGhost
-from ninja_game.play.tas.level.take_over import TakeOver
-from ninja_game.play.tas.part import Commands, Part
+from ninja_game.play.tas.level.picture import LevelPicture, RunGhost
+from ninja_game.play.tas.level.playing import Playing, TakeOver
 from ninja_game.play.tas.tabs.plot import colour_of
+from ninja_game.play.tas.tabs.values_tab import proposal
 from ninja_game.play.ui.canvas import Point
 from ninja_game.play.ui.theme import Theme
-from ninja_game.simulation import ObjectView
+from ninja_game.play.workspace.part import Commands
+from ninja_game.sim.kinds import KIND_NAMES
+from ninja_game.simulation import ObjectView, Simulation
+
+_REACH = 16.0
+"""px of the level within which an object is pointed at."""
+_LEAP = 40.0
+"""A drag goes to a nearer part of the run that is many ticks away only if it is nearer by more px than this."""
+
+
+def nearest_tick(positions: Positions, x: float, y: float, cursor: int, *, dragged: bool = False) -> int:
+    """The tick, of those whose path is shown, after which the ninja was nearest to a place, px of the level."""
+    first, last = shown_span(cursor)
+    shown = positions[first:last] if first < len(positions) else positions
+    first = first if first < len(positions) else 0
+    far = np.hypot(shown[:, 0] - x, shown[:, 1] - y)
+    if dragged:
+        far += np.minimum(np.abs(np.arange(len(far)) + first - cursor), _LEAP)
+    return first + int(np.argmin(far))
+
+
+def object_at(run: Simulation, x: float, y: float) -> ObjectView | None:
+    """The object that is nearest to a place now, if it is near."""
+    found = min(run.objects, key=lambda each: hypot(each.x - x, each.y - y), default=None)
+    return found if found is not None and hypot(found.x - x, found.y - y) < _REACH else None
+
 
 LINE = 13.0
 """Height of what is written below the level, logical px."""
 
 
-class LevelPart(Part):
-    """The level, smaller than in the game. ``hover``: the tick to which a click goes; ``pointed``: the object there."""
+class LevelPart(TasPart):
+    """The level, smaller than in the game. ``hover``: the tick to which a click goes; ``pointed``: the object there.
+
+    ``ask_to_watch``: proposes a formula about it.
+    """
 
     slot = "level"
 
-    def __init__(self, editor: TasEditor) -> None:
+    def __init__(self, editor: TasEditor, ask_to_watch: Callable[[str], object]) -> None:
         super().__init__(editor)
+        self.ask_to_watch = ask_to_watch
         self.picture = LevelPicture(editor)
         self.playing = Playing(editor, self.picture)
         self.take_over = TakeOver(self.playing)
@@ -57,7 +86,6 @@ class LevelPart(Part):
         self._followed: Point = (0.0, 0.0)
 
     def commands(self) -> Commands:
-        """Playing, taking over, other runs."""
         playing, taken = self.playing, self.take_over
         shared: Commands = {
             "faster": lambda: playing.change_speed(1), "slower": lambda: playing.change_speed(-1),
@@ -74,7 +102,7 @@ class LevelPart(Part):
 
     def meaning(self, event: InputEvent) -> str:
         """The command that an event means; '' for none."""
-        return self.take_over.meaning(event) if self.take_over.on else command_of(event)
+        return self.take_over.meaning(event) if self.take_over.on else TABLE.meaning(event)
 
     @property
     def ghosts(self) -> list[RunGhost]:
@@ -87,7 +115,6 @@ class LevelPart(Part):
     # --- time ---
 
     def update(self, real_ms: int) -> None:
-        """Play on."""
         self.playing.update(real_ms)
         self.take_over.update(real_ms)
         if self._hovered_run is not self.editor.track:
@@ -124,14 +151,12 @@ class LevelPart(Part):
         self._hovered_run = self.editor.track
 
     def mouse_left(self) -> None:
-        """Nothing is pointed at."""
         self.hover = self.pointed = None
         self._pointer.release()
 
     # --- picture ---
 
     def render_key(self) -> tuple[object, ...]:
-        """Run, cursor, what is shown beside, playing."""
         editor, timeline, playing = self.editor, self.editor.session.timeline, self.playing
         moving = playing.on or self.take_over.on
         return (
@@ -231,3 +256,95 @@ class LevelPart(Part):
         right = theme.text(surface, speed, x + w - 6, y + 1, size=LETTERS, colour=palette.on_tile, align="right")
         room = right.left / theme.canvas.scale - x - 12
         theme.text(surface, text, x + 6, y + 1, size=LETTERS, colour=palette.on_tile, bold=take_over.on, width=room)
+
+
+_STILL = 3
+"""The mouse that moves less, px, clicks."""
+
+Px = tuple[int, int]
+
+
+class LevelPointer:
+    """What the mouse is doing in the level."""
+
+    def __init__(self, part: LevelPart) -> None:
+        self._part = part
+        self._editor = part.editor
+        self._goes = False
+        self._grabbed: Px | None = None
+        self._moved = False
+
+    @property
+    def busy(self) -> bool:
+        """Whether it goes along the run, or moves the picture."""
+        return self._goes or self._grabbed is not None
+
+    def release(self) -> None:
+        self._goes, self._grabbed = False, None
+
+    def handle_mouse(self, event: pygame.Event, x: float, y: float) -> None:
+        """A mouse event at logical px of the window."""
+        rect = self._editor.theme.canvas.rect(*self._part.area)
+        left, top = self._editor.theme.canvas.point(x, y)
+        at = left - rect.left, top - rect.top
+        if event.type == pygame.MOUSEMOTION and not any(event.buttons):
+            self.release()
+        if event.type == pygame.MOUSEWHEEL:
+            self._wheel(event.y, rect.size, at)
+        elif event.type == pygame.MOUSEBUTTONDOWN and event.button in (pygame.BUTTON_MIDDLE, pygame.BUTTON_RIGHT):
+            self._grabbed, self._moved = at, False
+        elif event.type == pygame.MOUSEMOTION and self._grabbed is not None:
+            self._drag(rect.size, at)
+        elif event.type == pygame.MOUSEBUTTONUP and self._grabbed is not None:
+            self._click(event.button)
+        elif event.type == pygame.MOUSEBUTTONUP:
+            self.release()
+        elif not self._part.take_over.on:
+            self._point(event, at)
+
+    def _wheel(self, notches: float, size: Px, at: Px) -> None:
+        part = self._part
+        if not pygame.key.get_mods() & pygame.KMOD_CTRL:
+            part.picture.camera.zoom_at(size, at, notches)
+        elif not part.take_over.on:
+            part.playing.step(-round(notches))
+
+    def _drag(self, size: Px, at: Px) -> None:
+        if self._grabbed is None:
+            return
+        dx, dy = at[0] - self._grabbed[0], at[1] - self._grabbed[1]
+        self._moved = self._moved or max(abs(dx), abs(dy)) > _STILL
+        if self._moved:
+            self._part.picture.camera.move(size, dx, dy)
+            self._grabbed = at
+
+    def _click(self, button: int) -> None:
+        """A button that was down without a drag is up again."""
+        part, moved = self._part, self._moved
+        self.release()
+        if moved or part.take_over.on:
+            return
+        if button == pygame.BUTTON_MIDDLE:
+            part.picture.camera.show_all()
+        elif part.pointed is not None:
+            part.ask_to_watch(proposal(part.pointed.id, KIND_NAMES.index(part.pointed.kind)))
+
+    def _point(self, event: pygame.Event, at: Px) -> None:
+        """Tell what is there; a click, or a drag, goes to the tick in which the ninja was nearest."""
+        part, editor = self._part, self._editor
+        positions = editor.session.timeline.positions
+        if not len(positions):
+            return
+        place = part.picture.canvas.logical(at)
+        dragged = event.type == pygame.MOUSEMOTION and bool(event.buttons[0])
+        pressed = event.type == pygame.MOUSEBUTTONDOWN and event.button == pygame.BUTTON_LEFT
+        tick = nearest_tick(positions, *place, editor.cursor, dragged=dragged)
+        part.point_at(tick, None if dragged else object_at(part.picture.run, *place))
+        found = part.pointed
+        words = f"{found.kind} {found.id}; right button: watch it   " if found else ""
+        zoomed = part.picture.camera.zoom > 1
+        editor.hint = f"{words}Click: to tick {tick}; wheel: zoom{', right button: move, 0: all' if zoomed else ''}"
+        self._goes = dragged or pressed
+        if self._goes:
+            part.playing.stop()
+            editor.go(tick, select=bool(pygame.key.get_mods() & pygame.KMOD_SHIFT))

@@ -11,8 +11,8 @@ from ninja_game.formats.replay.input_text import Inputs
 from ninja_game.play.clipboard import copy_text, pasted_text
 from ninja_game.play.menus.panels import Form
 from ninja_game.play.tas.editor import Span, TasEditor
-from ninja_game.play.tas.part import Commands
-from ninja_game.play.tas.roll.differences import changes, compared
+from ninja_game.play.tas.roll.facts import changes, compared
+from ninja_game.play.workspace.part import Commands
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.files import inputs_of_text
 from ninja_game.tas.input_track import InputTrack
@@ -29,7 +29,6 @@ class RollCommands:
         self._page = page
 
     def commands(self) -> Commands:
-        """By name."""
         editor, moves = self._editor, self._moves()
         return {
             **{name: partial(self._move, to) for name, to in moves.items()},

@@ -4,16 +4,92 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import isfinite
+from typing import NamedTuple
 
 import pygame
 
 from ninja_game.play.tas.roll.columns import Place, RollLayout
-from ninja_game.play.tas.roll.event_words import EVENTS, STATES
 from ninja_game.play.tas.roll.facts import FLOOR, WALL_LEFT, WALL_RIGHT, RowFacts, Values
-from ninja_game.play.tas.roll.glyphs import Blit, Digits
 from ninja_game.play.ui.theme import Palette, Theme, mixed
+from ninja_game.sim.events import EVENT_NAMES
 from ninja_game.sim.inputs import JUMP_HELD, JUMP_PRESSED, KEY_LEFT, KEY_RIGHT, pressed
 from ninja_game.sim.states import JUMPING
+
+STATES = ("stand", "run", "skid", "jump", "fall", "slide", "dead", "won")
+"""In the order of the state numbers."""
+
+
+class EventWord(NamedTuple):
+    """``rank``: the lower, the more important; ``chip``: the palette's role that it lies on; ``ink``: its own."""
+
+    rank: int
+    word: str
+    chip: str = ""
+    ink: str = "outline"
+
+
+_WORDS = {
+    "died": EventWord(0, "died", "bad", "panel"),
+    "won": EventWord(0, "exit", "good", "panel"),
+    "exit-opened": EventWord(1, "switch", "exit_light"),
+    "gold-taken": EventWord(2, "gold", "gold_light"),
+    "lock-opened": EventWord(3, "lock", "exit_light"),
+    "trap-closed": EventWord(3, "trap", "warning"),
+    "door-opened": EventWord(4, "door"),
+    "launched": EventWord(5, "pad"),
+    "jumped": EventWord(5, "jump"),
+    "wall-jumped": EventWord(5, "wall jump"),
+    "mine-exploded": EventWord(6, "mine"),
+    "landed": EventWord(7, "land"),
+    "rocket-launched": EventWord(8, "rocket"),
+    "rocket-exploded": EventWord(8, "blast"),
+    "turret-fired": EventWord(8, "turret"),
+    "laser-on": EventWord(8, "laser"),
+    "chaingun-shot": EventWord(8, "shot"),
+    "block-woken": EventWord(9, "block"),
+    "thwump-fell": EventWord(9, "thwump"),
+    "thwump-landed": EventWord(9, "thwump"),
+    "guard-started": EventWord(9, "guard"),
+    "chase-started": EventWord(9, "chase"),
+    "door-closed": EventWord(9, "door shut"),
+}
+EVENTS = {name: _WORDS.get(name, EventWord(10, name.replace("-", " "))) for name in EVENT_NAMES}
+"""By the names of events."""
+
+
+Blit = tuple[pygame.Surface, tuple[int, int]]
+
+
+class Digits:
+    """The characters of numbers in one size and any colours. ``theme``: for which they are made."""
+
+    def __init__(self, theme: Theme, size: float) -> None:
+        self.theme, self._size = theme, size
+        self._pictures: dict[int, dict[str, tuple[pygame.Surface, float]]] = {}
+        # Widths of texts are whole px; of many characters the mean is exact.
+        widths = {each: (theme.width(each * 21, size) - theme.width(each, size)) / 20 for each in "0123456789.-"}
+        # Digits below each other are of one width.
+        widest = max(widths[each] for each in "0123456789")
+        scale = theme.canvas.scale
+        self._advance = {each: (widest if each.isdigit() else width) * scale for each, width in widths.items()}
+
+    def _of(self, colour: pygame.Color) -> dict[str, tuple[pygame.Surface, float]]:
+        """Every character in a colour, and how wide it is."""
+        render = self.theme.lettering.rendered
+        return {each: (render(each, self._size, colour), wide) for each, wide in self._advance.items()}
+
+    def blits(self, text: str, right: int, y: int, colour: pygame.Color) -> list[Blit]:
+        """What draws a number whose last px is left of ``right``, px."""
+        key = int(colour)
+        if key not in self._pictures:
+            self._pictures[key] = self._of(colour)
+        characters, x, made = self._pictures[key], right + 0.5, []
+        for character in reversed(text):
+            picture, wide = characters[character]
+            x -= wide
+            made.append((picture, (int(x), y)))
+        return made
+
 
 SIZE = 8.0
 """Of the letters, logical px."""

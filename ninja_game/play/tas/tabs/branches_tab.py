@@ -6,10 +6,10 @@ import pygame
 
 from ninja_game.play.menus.panels import Form, Question
 from ninja_game.play.tas.editor import TasEditor
-from ninja_game.play.tas.part import Commands
 from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Button
+from ninja_game.play.workspace.part import Commands
 from ninja_game.tas.branches import Branch, Branches
 
 LONGEST = 60
@@ -41,17 +41,14 @@ class BranchesTab(Tab):
         self.widgets: list[Rows | Button] = [self.list, *self._buttons]
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
-        """The tree above the buttons."""
         self.list.area = x + 4, y + 20, w - 8, h - 43
         put_in_a_row(x + 4, y + h - 20, self._buttons, (46, 58, 58, 56, 46))
 
     def commands(self) -> Commands:
-        """Keeping."""
         return {"branch": self.keep}
 
     @property
     def branches(self) -> Branches:
-        """The run's."""
         return self.editor.session.branches
 
     @property
@@ -63,7 +60,7 @@ class BranchesTab(Tab):
 
     def keep(self) -> None:
         """Keep the run as a branch, after asking for a name."""
-        self.editor.tab = self.name
+        self.editor.show_tab(self.name)
         session = self.editor.session
         end, outcome = session.timeline.end
         name = f"{outcome} {end}" if end >= 0 else f"branch {len(self.branches) + 1}"
@@ -86,10 +83,9 @@ class BranchesTab(Tab):
         """Show the lead over the chosen branch."""
         if self.chosen is not None:
             self.editor.against = self.branches.all[self.chosen].track
-            self.editor.tab = "Lead"
+            self.editor.show_tab("Lead")
 
     def rename(self) -> None:
-        """Ask for another name."""
         number = self.chosen
         if number is None:
             return
@@ -111,14 +107,12 @@ class BranchesTab(Tab):
     # --- picture ---
 
     def refresh(self) -> None:
-        """Have the tree as it is now."""
         self.tree = list(self.branches.in_tree())
         self.list.fill(self.tree)
         for button in self._for_one:
             button.enabled = bool(self.tree)
 
     def render_key(self) -> tuple[object, ...]:
-        """Branches, the run and its end."""
         session = self.editor.session
         tree = tuple(self.branches.all), self.branches.current
         return tree, session.track, session.timeline.end, self.list.over
@@ -134,7 +128,6 @@ class BranchesTab(Tab):
             theme.text(surface, text, at, y - 13, size=8, colour=theme.palette.faint)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
-        """Name, end, gold, the difference to the run."""
         number, depth = self.tree[index]
         branch, palette = self.branches.all[number], theme.palette
         x, y, w, h = area

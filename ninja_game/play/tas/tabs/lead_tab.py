@@ -52,7 +52,6 @@ class LeadTab(Tab):
         self.widgets = [self._choice, self.list]
 
     def arrange(self, x: float, y: float, w: float, h: float) -> None:
-        """The choice above the table."""
         self._choice.area = x + 56, y + 4, w - 60, 18
         self.list.area = x + 4, y + 53, w - 8, h - 55
 
@@ -99,7 +98,6 @@ class LeadTab(Tab):
         self.list.fill(self.table.rows if self.table else ())
 
     def close(self) -> None:
-        """Wait for a comparison that is going on."""
         self._job.finish()
 
     @property
@@ -121,7 +119,6 @@ class LeadTab(Tab):
 
     @property
     def summary(self) -> str:
-        """What the table comes to."""
         if not self.is_current or self._job.result is None:
             return self._job.problem or "comparing ..."
         table = self._job.result[1]
@@ -140,7 +137,6 @@ class LeadTab(Tab):
         return "; ".join(parts)
 
     def render_key(self) -> tuple[object, ...]:
-        """Runs, the table, the cursor."""
         return self._choice.options, self._against(), self.summary, id(self.table), self.editor.cursor, self.list.over
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
@@ -156,7 +152,6 @@ class LeadTab(Tab):
             theme.text(surface, text, at, y + 41, size=8, colour=faint)
 
     def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, _: bool) -> None:
-        """Place, ticks, lead."""
         if self.table is None or index >= len(self.table.rows):
             return
         row, palette = self.table.rows[index], theme.palette

@@ -41,7 +41,6 @@ class TickRange:
         return self.left + self.width * (tick - self.first) / (self.last - self.first)
 
     def tick(self, x: float) -> float:
-        """The tick at a place."""
         return self.first + (self.last - self.first) * (x - self.left) / self.width
 
     def fit(self, length: float) -> None:
@@ -52,7 +51,6 @@ class TickRange:
         self.move(0.0)
 
     def show_all(self) -> None:
-        """Show all ticks."""
         self.first, self.last = 0.0, self.length
 
     def zoom(self, x: float, steps: int) -> None:

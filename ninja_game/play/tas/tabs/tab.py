@@ -8,12 +8,12 @@ from typing import ClassVar
 import pygame
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.play.tas.editor import TasEditor
-from ninja_game.play.tas.part import Part
+from ninja_game.play.tas.editor import TasEditor, TasPart
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.ui.theme import Area, Theme
-from ninja_game.play.ui.widgets import Button, Widget
+from ninja_game.play.ui.widgets import Button
+from ninja_game.play.workspace.part import Commands
 from ninja_game.search.formula.language import FormulaError
 
 SMALL = 9.0
@@ -26,22 +26,13 @@ _SHORT = 60
 """Longer lists of what is expected are left out of a line."""
 
 
-class Tab(Part):
-    """A part with widgets. ``widgets``: all of them, made once; what they show is part of ``render_key``.
-
-    ``wants``: the widget that is to get the focus as soon as the tab is shown.
-    """
+class Tab(TasPart):
+    """A part with widgets, which are made once."""
 
     slot = "tabs"
     name: ClassVar[str] = ""
 
-    def __init__(self, editor: TasEditor) -> None:
-        super().__init__(editor)
-        self.widgets: Sequence[Widget] = ()
-        self.wants: Widget | None = None
-
     def place(self, area: Area) -> None:
-        """Be there, with the widgets."""
         super().place(area)
         self.arrange(*area)
 
@@ -50,7 +41,6 @@ class Tab(Part):
         raise NotImplementedError
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """Its background."""
         theme.panel(surface, *self.area)
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
@@ -61,7 +51,6 @@ class Tab(Part):
         return False
 
     def mouse_left(self) -> None:
-        """No row is under the mouse."""
         self._leave_lists(-1, -1)
 
     def _leave_lists(self, x: float, y: float) -> None:
@@ -74,15 +63,50 @@ class Tab(Part):
 
 
 class TabName(Button):
-    """The name of a tab; that of the one that is shown stands out."""
+    """The name of a tab, to show it; that of the one that is shown stands out."""
 
-    def __init__(self, tab: Tab, action: Callable[[], object]) -> None:
-        super().__init__(UNPLACED, tab.name, action, size=SMALL)
+    def __init__(self, tab: Tab) -> None:
+        super().__init__(UNPLACED, tab.name, lambda: tab.editor.show_tab(tab.name), size=SMALL)
         self._editor = tab.editor
 
     def draw_base(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """Its panel."""
         theme.row(surface, self.area, chosen=focused or self.text == self._editor.tab, focused=focused)
+
+
+class TabStrip(TasPart):
+    """The names of all tabs, side by side."""
+
+    slot = "strip"
+
+    def __init__(self, editor: TasEditor, tabs: Sequence[Tab]) -> None:
+        super().__init__(editor)
+        self.tabs = tabs
+        self.widgets = [TabName(tab) for tab in tabs]
+
+    def commands(self) -> Commands:
+        return {"next_tab": self.show_next}
+
+    def show_next(self) -> None:
+        """Show the tab after the one that is shown."""
+        names = [tab.name for tab in self.tabs]
+        self.editor.show_tab(names[(names.index(self.editor.tab) + 1) % len(names)])
+
+    @property
+    def shown(self) -> Tab:
+        return next(tab for tab in self.tabs if tab.name == self.editor.tab)
+
+    def place(self, area: Area) -> None:
+        super().place(area)
+        x, y, w, h = area
+        width = w / len(self.widgets)
+        for number, name in enumerate(self.widgets):
+            name.area = x + number * width, y, width - 4, h
+
+    def render_key(self) -> tuple[object, ...]:
+        return (self.editor.tab,)
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        theme.canvas.fill_rect(surface, theme.palette.tile, *self.area)
 
 
 class Rows(ListView):
@@ -125,17 +149,8 @@ class EntryField(TextEntry):
         self._enter = enter
 
     def confirm(self) -> bool:
-        """Do it."""
         self._enter()
         return True
-
-
-def put_side_by_side(buttons: Sequence[Button], area: Area) -> None:
-    """Put buttons of one width side by side."""
-    x, y, w, h = area
-    width = w / len(buttons)
-    for number, button in enumerate(buttons):
-        button.area = x + number * width, y, width - 4, h
 
 
 def put_in_a_row(x: float, y: float, buttons: Sequence[Button], widths: Sequence[float]) -> None:

@@ -1,21 +1,118 @@
-"""Watched values: what they are at the cursor's tick, and their plots over the run."""
+"""Watched values: what they are at the cursor's tick, their plots over the run, and the objects to choose from."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
 import pygame
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Form
 from ninja_game.play.tas.editor import TasEditor
-from ninja_game.play.tas.part import Commands
-from ninja_game.play.tas.tabs.object_list import ObjectList
 from ninja_game.play.tas.tabs.plot import TickRange, colour_of, draw_lane
 from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row, what_is_wrong
-from ninja_game.play.tas.tabs.watched import LANES, USUAL, Watched, shown_value, watched_values
+from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.theme import Area, Theme
-from ninja_game.play.ui.widgets import Button
+from ninja_game.play.ui.widgets import Button, Widget
+from ninja_game.play.workspace.part import Commands
 from ninja_game.runs.compare import SPLIT_EVENTS
-from ninja_game.tas.watch import parse_watch
+from ninja_game.search.formula.language import Numbers
+from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, KIND_OF, MINE
+from ninja_game.tas.watch import Watch, parse_watch
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App
+
+Found = tuple[int, int, float, float]
+"""Id, kind, x and y (px) of an object."""
+
+
+class ObjectList(MenuScreen):
+    """All objects. ``choose`` is called with a formula about the one that is chosen."""
+
+    title = "Objects of this level"
+    foot = "Enter proposes to watch an object; Esc goes back"
+
+    def __init__(self, app: App, objects: Sequence[Found], choose: Callable[[str], object]) -> None:
+        super().__init__(app)
+        self._objects = objects
+        self._choose = choose
+        self.list = ListView((40, 88, 712, 430), 20, self._draw_row, self._chosen, empty="This level has no objects")
+        self.list.fill(objects)
+
+    def build(self) -> Sequence[Widget]:
+        return [self.list, Button((640, 530, 112, 24), "Back", self.back, size=10)]
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        """The names of the columns."""
+        super().draw_frame(surface)
+        theme = self.app.theme
+        for x, text in ((48, "Id"), (100, "What"), (300, "x, y at the start, px"), (500, "To be watched")):
+            theme.text(surface, text, x, 68, size=10, colour=theme.palette.faint)
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        id_, kind, px, py = self._objects[index]
+        x, y, w, h = area
+        theme.row(surface, (x, y, w, h - 1), chosen=focused, focused=False, filled=focused)
+        cells = ((48, str(id_)), (100, KIND_NAMES[kind]), (300, f"{px:.6g}, {py:.6g}"), (500, proposal(id_, kind)))
+        for at, text in cells:
+            theme.text(surface, text, at, y + 4, size=10.5)
+
+    def _chosen(self, index: int) -> None:
+        self.app.pop()
+        self._choose(proposal(*self._objects[index][:2]))
+
+
+def proposal(id_: int, kind: int) -> str:
+    """What one would watch of an object of a kind.
+
+    >>> proposal(3, GOLD), proposal(4, EXIT)
+    ('taken(3)', 'opened(4)')
+    """
+    if kind in (GOLD, MINE):
+        return f"taken({id_})"
+    if kind in (EXIT, DOOR):
+        return f"opened({id_})"
+    return f"object_x({id_})" if KIND_OF[kind].moves else f"status({id_})"
+
+
+USUAL = ("speed", "vx", "vy")
+"""What is watched where nothing else is wanted."""
+LANES = 4
+"""Values whose plot is shown at once."""
+
+
+@dataclass(eq=False)
+class Watched:
+    """A value that is watched. ``plotted``: its plot is shown; ``number``: of its colour."""
+
+    watch: Watch
+    number: int
+    plotted: bool = True
+    values: Numbers = field(default_factory=lambda: np.zeros(0))
+
+
+def watched_values(texts: Sequence[str]) -> Iterator[Watched]:
+    """Formulas as they were kept; those that cannot be read are left out."""
+    for number, text in enumerate(texts):
+        with suppress(NinjaGameError):
+            yield Watched(parse_watch(text), number, plotted=number < LANES)
+
+
+def shown_value(each: Watched, tick: int) -> str:
+    """A value at a tick, as the list has it."""
+    value = float(each.values[tick]) if tick < len(each.values) else np.nan
+    if not np.isfinite(value):
+        return "-"
+    if each.watch.formula.truth:
+        return "yes" if value > 0 else "no"
+    return f"{value:.6g}"
+
 
 LONGEST = 200
 """Characters of a formula that one can type."""
@@ -44,7 +141,6 @@ class ValuesTab(Tab):
         ]
         self._buttons = [Button(UNPLACED, text, action, hint=hint, size=SMALL) for text, action, hint in actions]
         self.widgets = [self.list, *self._buttons]
-        editor.ask_to_watch = self.ask
         self._made: tuple[object, ...] = ()
         self._cursor = 0
         self._grabbed: float | None = None
@@ -60,13 +156,11 @@ class ValuesTab(Tab):
         self.window.left, self.window.width = left, self._plot[2]
 
     def commands(self) -> Commands:
-        """Watching."""
         return {"watch": self.ask}
 
     # --- the values ---
 
     def refresh(self) -> None:
-        """Have the values of the run as it is now."""
         timeline = self.editor.session.timeline
         made = (self.editor.track.inputs, timeline.simulated_until, *self.watched)
         if made != self._made:
@@ -77,8 +171,7 @@ class ValuesTab(Tab):
             self.list.fill(self.watched)
 
     def ask(self, text: str = "") -> None:
-        """Ask for a formula."""
-        self.editor.tab = self.name
+        self.editor.show_tab(self.name)
         fields = [("speed, x > 400, object_x(12) ...", text, LONGEST)]
         self.editor.app.push(Form(self.editor.app, "Watch a value", fields, "Watch", lambda texts: self.add(texts[0])))
 
@@ -150,7 +243,6 @@ class ValuesTab(Tab):
         )
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """The plots; the list is a widget."""
         super().paint(surface, theme)
         x, y, w, h = self._plot
         lanes = [each for each in self.watched if each.plotted]

@@ -1,8 +1,9 @@
-"""Shorter runs with gold from a known one: sweeps of legs over its pieces, in orders that measured legs suggest.
+"""Shorter runs with gold from a known one: a beam search of legs, in orders that measured legs suggest.
 
-The moments of the known run at which it collects or switches something are the first *fronts*. A sweep begins at one
-of them and goes on level by level (a level: so much is collected and switched): it takes the few fronts with the least
-ticks so far and to come, and searches from all their moments to the next piece. Fronts stay from sweep to sweep.
+The checkpoints of the known run at which it collects or switches something are the first *frontiers*. A pass begins at
+one of them and goes on level by level (a level: so many pieces collected and switches touched): it takes the few
+frontiers with the least ticks so far and to go, and searches from all their checkpoints to the next piece. Frontiers
+stay from pass to pass.
 """
 
 from __future__ import annotations
@@ -14,54 +15,52 @@ from itertools import pairwise
 import numpy as np
 
 from ninja_game.backend.memories import compiled
-from ninja_game.search.best_first import Leg, Search
-from ninja_game.search.legs import Checkpoint, Frontier, pieces_of
+from ninja_game.search.best_first import Search
+from ninja_game.search.legs import NEVER, ROLLOUTS, Checkpoint, Frontier, Leg, LegFields, pieces_of
 from ninja_game.search.nodes import Resolution, Start
 from ninja_game.search.tour import PieceTicks, short_tour
-from ninja_game.sim.inputs import pressed
+from ninja_game.sim.inputs import KEYS_DOWN, pressed
 from ninja_game.sim.memory.declare import entry_point
 from ninja_game.sim.world import step
 
-LEGS = (
+BEAM_LEGS = (
     Resolution(cell=12.0, speed=1.0, macro=5, weight=1.3),
     Resolution(cell=12.0, speed=0.7, macro=7, jitter=3, weight=1.1, enemy_cell=24.0),
     Resolution(cell=8.0, speed=0.7, macro=5, weight=1.2),
     Resolution(cell=10.0, speed=0.7, macro=9, weight=1.0),
 )
-"""How the legs of a sweep are searched, in turn."""
-LEG_TICKS = 150_000
-LEG_EXTRA = 20_000
+"""How the legs of a pass are searched, in turn."""
+BEAM_TICKS = 150_000
+BEAM_EXTRA = 20_000
 """Most ticks of a leg, and how many it goes on at least after its first end."""
 EXIT_FACTOR = 10
 """How many times more the last leg, to the exit, may take."""
-WIDTH = 40
-ENDS = 80
-"""Moments kept in a front, and ends of a leg."""
+BEAM_WIDTH = 40
+BEAM_ENDS = 80
+"""Checkpoints kept in a frontier, and ends of a leg."""
 EFFORTS = (1, 4)
-"""How many times the ticks of a leg a front gets; the second only if the first found nothing: far pieces need more."""
+"""How many times a leg's ticks a frontier gets; the second only if the first found nothing: far pieces need more."""
 BREADTHS = (3, 6, 3, 6, 10)
-"""Fronts that are searched on from at each level, sweep by sweep."""
+"""Frontiers that are searched on from at each level, pass by pass."""
 SPARE = 2
-"""Fronts that may take the place of others whose legs found nothing."""
+"""Frontiers that may take the place of others whose legs found nothing."""
 FRONTS_KEPT = 10
-"""Fronts kept at each level from sweep to sweep."""
-ROLLOUTS = 16
-NEVER = 1 << 30
+"""Frontiers kept at each level from pass to pass."""
 NOISE = 0.4
 """By which part the ticks between pieces are changed at random, for other orders."""
 HOPE = 1.1
-"""What share more a run from a level on may seem to take than the best run before a sweep is given up."""
+"""What share more a run from a level on may seem to take than the best run before a pass is given up."""
 
 
 @entry_point
 def play_on(start: Start, keys: int) -> None:
-    """Play one tick of the working world."""
+    """Play one tick of the scratch world."""
     w = start.worlds[1]
-    step(start.levels[0], w, pressed(keys & 7, w.ninja.jump_held))
+    step(start.levels[0], w, pressed(keys & KEYS_DOWN, w.ninja.jump_held))
 
 
-class Shortener:
-    """Sweeps that make a run shorter which reaches the exit; all pieces that it collects are collected again.
+class GoldBeam:
+    """Passes that make a run shorter which reaches the exit; all pieces that it collects are collected again.
 
     ``seed``: of its random numbers.
     """
@@ -71,28 +70,29 @@ class Shortener:
         self.heuristics = search.heuristics
         self.random = np.random.default_rng([seed, 9])
         self.seed = seed
-        self.sweeps = 0
+        self.passes = 0
         self.legs = 0
         self.levels: dict[int, dict[tuple[int, int], Frontier]] = {}
         self.ticks = NEVER
         self.wanted = 0
-        self.piece_ticks = PieceTicks(self.heuristics)
+        self._fields = LegFields(self.heuristics)
+        self.piece_ticks = PieceTicks(self._fields)
         self.order: list[int] = []
         self.add_run(run)
 
     def add_run(self, run: bytes) -> None:
-        """Add the moments of a run; it sets the bound and the order if it is the shortest."""
+        """Add the checkpoints of a run; it sets the bound and the order if it is the shortest."""
         start, heuristics = self.search.start, self.heuristics
         start.scratch[:] = start.initial
         world = start.worlds[1]
-        checkpoint = self._moment(world, None, b"")
+        checkpoint = self.search.checkpoint(None, b"")
         checkpoints = [checkpoint]
         begun, last = 0, (checkpoint.taken, checkpoint.mask)
         for tick, keys in enumerate(run[:-1], 1):
             compiled(play_on)(start, keys)
             now = (heuristics.taken(world), heuristics.opened(start.worlds, 1))
             if now != last:
-                checkpoint = self._moment(world, checkpoint, run[begun:tick])
+                checkpoint = self.search.checkpoint(checkpoint, run[begun:tick])
                 begun, last = tick, now
                 checkpoints.append(checkpoint)
         if not self.wanted:
@@ -106,24 +106,16 @@ class Shortener:
                 self.piece_ticks.learn(checkpoint.before, checkpoint)
             self._add(checkpoint, self.order)
 
-    def _moment(self, world: object, before: Checkpoint | None, inputs: bytes) -> Checkpoint:
-        ninja = world["ninja"]  # type: ignore[index]
-        return Checkpoint(
-            self.search.start.scratch.copy(), int(world["tick"]), self.heuristics.taken(world),  # type: ignore[index]
-            self.heuristics.opened(self.search.start.worlds, 1), (float(ninja["x"]), float(ninja["y"])),
-            self.heuristics.routines(world), before=before, inputs=inputs,
-        )  # fmt: skip
-
-    def sweep(self, over: Callable[[int], bool]) -> bytes | None:
+    def search_levels(self, over: Callable[[int], bool]) -> bytes | None:
         """Search on from one of the levels to the exit; a shorter run, None if there is none.
 
         ``over``: called now and then with the ticks just simulated; true: stop.
         """
-        resolution = LEGS[self.sweeps % len(LEGS)]
-        self.piece_ticks.change(self.random, NOISE * (self.sweeps % 3) / 2)
-        first = 0 if self.sweeps % 3 == 0 else int(self.random.integers(max(self.levels)))
-        breadth = BREADTHS[self.sweeps % len(BREADTHS)]
-        self.sweeps += 1
+        resolution = BEAM_LEGS[self.passes % len(BEAM_LEGS)]
+        self.piece_ticks.change(self.random, NOISE * (self.passes % 3) / 2)
+        first = 0 if self.passes % 3 == 0 else int(self.random.integers(max(self.levels)))
+        breadth = BREADTHS[self.passes % len(BREADTHS)]
+        self.passes += 1
         level = first
         while level <= max(self.levels):
             frontiers = sorted(self.levels.get(level, {}).values(), key=self._value)
@@ -148,30 +140,28 @@ class Shortener:
     def _leg(
         self, frontier: Frontier, resolution: Resolution, effort: int, over: Callable[[int], bool]
     ) -> tuple[bytes | None, int]:
-        """Search from a front to the next piece, or to the exit: a run that is shorter than the best; ends found."""
+        """Search from a frontier to the next piece, or to the exit: a run that is shorter than the best; ends found."""
         self.legs += 1
         target = self._target(frontier)
-        roots = [checkpoint.words for checkpoint in frontier.checkpoints]
+        roots = frontier.checkpoints
         if target < 0:
             leg = Leg(roots, 0, frontier.mask, frontier.count, 1, 0, self.heuristics.field)
         else:
             leg = Leg(
-                roots, frontier.count + 1, frontier.mask, NEVER, ENDS, ROLLOUTS, partial(self.piece_ticks.field, target)
+                roots,
+                frontier.count + 1,
+                frontier.mask,
+                NEVER,
+                BEAM_ENDS,
+                ROLLOUTS,
+                partial(self._fields.to_piece, target),
             )
         self.search.begin_leg(leg, resolution, seed=self.seed * 100_000 + self.legs, bound=self.ticks)
-        budget = LEG_TICKS * (EXIT_FACTOR if target < 0 else effort)
-        self.search.run_leg(budget, over, part=LEG_EXTRA)
+        budget = BEAM_TICKS * (EXIT_FACTOR if target < 0 else effort)
+        self.search.run_leg(budget, over, part=BEAM_EXTRA)
         if target < 0:
-            best = self.search.best()
-            return (frontier.checkpoints[best[0]].run() + best[1] if best else None), 1
-        ends = self.search.ends()
-        checkpoints = [
-            Checkpoint(
-                end.words, end.tick, end.taken, end.mask, end.place, end.routines + end.pace,
-                before=frontier.checkpoints[end.root], inputs=end.inputs,
-            )
-            for end in ends
-        ]  # fmt: skip
+            return self.search.best(), 1
+        checkpoints = self.search.ends(by_velocity=True)
         if not any(checkpoint.taken >> target & 1 for checkpoint in checkpoints):
             self.piece_ticks.note_failure(frontier.checkpoints[0], target)
         for checkpoint in checkpoints:
@@ -184,10 +174,10 @@ class Shortener:
         frontiers = self.levels.setdefault(checkpoint.taken.bit_count() + checkpoint.mask.bit_count(), {})
         if key not in frontiers:
             frontiers[key] = Frontier(*key, tour=[piece for piece in tour if not checkpoint.taken >> piece & 1])
-        frontiers[key].add(checkpoint, WIDTH)
+        frontiers[key].add(checkpoint, BEAM_WIDTH)
 
     def _value(self, frontier: Frontier) -> float:
-        """Ticks so far, and about how many to come along the front's tour."""
+        """Ticks so far, and about how many to come along the frontier's tour."""
         between, start, home = self.piece_ticks.estimate(frontier.checkpoints[0])
         tour = frontier.tour
         if not tour:
@@ -197,7 +187,7 @@ class Shortener:
         )
 
     def _target(self, frontier: Frontier) -> int:
-        """The piece to fetch next from a front, -1: the exit. Its tour is made shorter."""
+        """The piece to fetch next from a frontier, -1: the exit. Its tour is made shorter."""
         left = [piece for piece in frontier.tour if not frontier.taken >> piece & 1]
         if not left:
             return -1

@@ -1,4 +1,4 @@
-"""What the TAS editor does with files: save, open, what was not saved last time, leave."""
+"""The run under edit as a document: its menu, saving, what was not saved last time."""
 
 from __future__ import annotations
 
@@ -10,8 +10,6 @@ from pathlib import Path
 from time import localtime, strftime
 from typing import TYPE_CHECKING
 
-from ninja_game.editor.files import OccupiedError
-from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.locking import forget
 from ninja_game.files.resources import data_folder
 from ninja_game.files.shown_text import file_stem
@@ -19,14 +17,15 @@ from ninja_game.files.user_folder import REPLAYS, free_path
 from ninja_game.formats.links.making import replay_link
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.help.commands_page import HelpPage
-from ninja_game.play.menus.panels import CANCEL, Form, Menu, Row, nothing
+from ninja_game.play.menus.panels import Form, Menu, Row, nothing
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.tas.controls import COMMANDS
 from ninja_game.play.tas.editor import TasEditor
-from ninja_game.play.tas.part import Commands
+from ninja_game.play.workspace.document import Action, DocumentCommands
+from ninja_game.play.workspace.part import Commands
 from ninja_game.player.saving import keep_replay
 from ninja_game.tas.files import SUFFIX, branches_path, replay_of_track, same_level
-from ninja_game.tas.journal import Recovered, recovered
+from ninja_game.tas.journal import RecoveredRun, recovered
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App
@@ -40,23 +39,22 @@ a plot. With Ctrl the wheel goes tick by tick. Drag what is between the parts to
 """What one has to know to begin."""
 
 
-class FileCommands:
+class TasDocument(DocumentCommands):
     """The commands that concern files.
 
-    ``run``: does a command of any part by its name; ``go_on``: opens what was not saved.
+    ``run``: does a command of any part by its name; ``recover``: opens what was not saved.
     """
 
     def __init__(
-        self, app: App, editor: TasEditor, run: Callable[[str], object], go_on: Callable[[Recovered], object]
+        self, app: App, editor: TasEditor, run: Callable[[str], object], recover: Callable[[RecoveredRun], object]
     ) -> None:
-        self.app = app
-        self._go_on = go_on
+        super().__init__(app, editor.session)
         self.editor = editor
         self.session = editor.session
         self._run = run
+        self._recover = recover
 
     def commands(self) -> Commands:
-        """By name."""
         return {"menu": self.menu, "help": self.help, "save": self.save, "save_as": self.save_as}
 
     def help(self) -> None:
@@ -64,7 +62,6 @@ class FileCommands:
         self.app.push(HelpPage(self.app, "The TAS editor", HELP, COMMANDS))
 
     def menu(self) -> None:
-        """The file menu."""
         rows: list[Row] = [
             ("Save", self.save, "Ctrl+S"), ("Save as...", self.save_as, "Ctrl+Shift+S"),
             ("Open another run...", lambda: self._run("open_other"), "Beside this one: Ctrl+O"),
@@ -75,18 +72,11 @@ class FileCommands:
         ]  # fmt: skip
         self.app.push(Menu(self.app, "Run", rows))
 
-    @property
-    def _name(self) -> str:
-        return self.session.about.name or "run"
-
     # --- saving ---
 
-    def save(self, then: Callable[[], object] = nothing) -> None:
-        """Write the run into its file, and do ``then``; of one without a file ask for a name."""
-        if self.session.file.path:
-            self.save_to(self.session.file.path, then)
-        else:
-            self.save_as(then)
+    def own_path(self) -> Path | None:
+        """The run's file, if it has one."""
+        return self.session.file.path
 
     @property
     def _folder(self) -> Path:
@@ -97,10 +87,10 @@ class FileCommands:
                 return opened.parent
         return self.app.player.folder / REPLAYS
 
-    def save_as(self, then: Callable[[], object] = nothing) -> None:
+    def save_as(self, then: Action = nothing) -> None:
         """Ask for the name of the file, write the run, and do ``then``."""
         path, folder = self.session.file.path, self._folder
-        free = free_path(folder, file_stem(self._name, "run"), SUFFIX)
+        free = free_path(folder, file_stem(self.session.name, "run"), SUFFIX)
         name = (path or free).name.removesuffix(SUFFIX)
 
         def on_accept(texts: list[str]) -> None:
@@ -114,24 +104,11 @@ class FileCommands:
             Form(self.app, f"Save in {folder.absolute()}", [("Name or path of the file", name, 300)], "Save", on_accept)
         )
 
-    def save_to(self, path: Path, then: Callable[[], object] = nothing, *, replacing: bool = False) -> None:
-        """Write the run, and do ``then``; ask before anything is replaced."""
-        try:
-            self.session.save(path, replacing=replacing)
-        except OccupiedError as error:
-            text = str(error)
-            rows: list[Row] = [
-                ("Save under another name", lambda: self.save_as(then), ""),
-                ("Replace it", lambda: self.save_to(path, then, replacing=True), "What it holds now is lost"), CANCEL,
-            ]  # fmt: skip
-            self.app.push(Menu(self.app, text[0].upper() + text[1:], rows))
-        except (NinjaGameError, OSError) as error:
-            self.app.notify(f"Not saved: {reason(error)}")
-        else:
-            tail = ", with what is behind its end (Ctrl+E takes that out)" if self.session.has_tail else ""
-            beside = " and its branches beside it" * branches_path(path).exists()
-            self.app.notify(f"Saved{tail}: {path}{beside}")
-            then()
+    def saved_text(self, path: Path) -> str:
+        """Where it is, and what else was saved."""
+        tail = ", with what is behind its end (Ctrl+E takes that out)" if self.session.has_tail else ""
+        branches = " and its branches beside it" * branches_path(path).exists()
+        return f"Saved{tail}: {path}{branches}"
 
     def keep(self) -> None:
         """Put the run among the player's replays."""
@@ -144,7 +121,7 @@ class FileCommands:
     def copy_link(self) -> None:
         """The run as a link, in the clipboard."""
         about, track = self.session.about, self.session.track
-        copy_link(self.app, lambda: replay_link([replay_of_track(about, track)]), title=self._name)
+        copy_link(self.app, lambda: replay_link([replay_of_track(about, track)]), title=self.session.name)
 
     def watch(self) -> None:
         """The run in the replay viewer."""
@@ -163,14 +140,14 @@ class FileCommands:
             self._offer(own)
         elif self.session.moved:
             rows: list[Row] = [
-                ("Edit it on this level", lambda: None, "Its keys stay; it is saved as a new recording"),
-                ("Leave", self._go, ""),
+                ("Edit it on this level", nothing, "Its keys stay; it is saved as a new recording"),
+                ("Leave", self.close, ""),
             ]
-            self.app.push(Menu(self.app, f"{self._name}: this level is not the one that was recorded", rows))
+            self.app.push(Menu(self.app, f"{self.session.name}: this level is not the one that was recorded", rows))
         elif lost:
             self.app.notify(f"Not saved last time: {_name_of(lost[0])}. Esc, Not saved last time")
 
-    def _is_of_this_run(self, found: Recovered) -> bool:
+    def _is_of_this_run(self, found: RecoveredRun) -> bool:
         opened, session = found.opened, self.session
         if opened.file.path or session.file.path:
             return opened.file.path == (session.file.path and session.file.path.absolute())
@@ -183,46 +160,21 @@ class FileCommands:
             for found in islice(recovered(self.app.player.folder), 8)
         ]  # fmt: skip
         if rows:
-            self.app.push(Menu(self.app, "Not saved last time", [*rows, ("Back", lambda: None, "")]))
+            self.app.push(Menu(self.app, "Not saved last time", [*rows, ("Back", nothing, "")]))
         else:
             self.app.notify("All runs that were edited are saved")
 
-    def _offer(self, found: Recovered) -> None:
-        forgetting: list[Row] = [
-            ("Keep for later", nothing, "It is offered again"),
-            ("Discard", lambda: forget(found.file), "It is lost"),
-        ]  # fmt: skip
-        rows: list[Row] = [
-            ("Recover", lambda: self.editor.attempt(lambda: self._go_on(found)), _when(found)),
-            ("Keep for later", nothing, "It is offered again"),
-            ("Discard...", lambda: self.app.push(Menu(self.app, f"Discard {_when(found)}?", forgetting)), ""),
-        ]  # fmt: skip
-        self.app.push(Menu(self.app, f"Not saved last time: {_name_of(found)}", rows))
-
-    def leave(self) -> None:
-        """Back to where the TAS editor was opened; ask first if the run is not saved."""
-        self.session.end()
-        if self.session.is_saved:
-            self._go()
-            return
-        rows: list[Row] = [
-            CANCEL,
-            ("Save", lambda: self.save(self._go), ""),
-            ("Discard changes", self._go, ""),
-        ]
-        self.app.push(Menu(self.app, f"{self._name} is not saved", rows))
-
-    def _go(self) -> None:
-        self.session.close()
-        self.app.pop()
+    def _offer(self, found: RecoveredRun) -> None:
+        recover, discard = partial(self._recover, found), partial(forget, found.file)
+        self.ask_about_recovered(_name_of(found), recover, discard, about=f"{_when(found)}; every edit can be undone")
 
 
-def _name_of(found: Recovered) -> str:
+def _name_of(found: RecoveredRun) -> str:
     home = found.opened.file.path
     return home.name if home else found.opened.recording.name or "a run"
 
 
-def _when(found: Recovered) -> str:
+def _when(found: RecoveredRun) -> str:
     """How many edits, and when the last one was."""
     count = len(found.tracks)
     last = strftime("%Y-%m-%d %H:%M", localtime(found.file.stat().st_mtime)) if found.file.exists() else "gone"

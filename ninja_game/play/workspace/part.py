@@ -1,37 +1,37 @@
-"""A part of the TAS editor's window: it draws itself when what it shows has changed."""
+"""A part of an editor's window: it draws itself when what it shows has changed."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import ClassVar
+from collections.abc import Callable, Mapping, Sequence
 
 import pygame
 
-from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.ui.theme import Area, Theme
+from ninja_game.play.ui.widgets import Widget
 
 Commands = Mapping[str, Callable[[], object]]
-"""What a part does, by the names of ``controls.COMMANDS``."""
+"""What is done, by the names of the table of commands."""
 
 
 class Part:
-    """``area``: where it is, logical px. ``slot``: the name of that place in the TAS editor's layout."""
+    """``area``: where it is, logical px. ``widgets``: in it; what they show is part of ``render_key``.
 
-    slot: ClassVar[str] = ""
+    ``wants``: the widget that is to get the focus as soon as the part is shown.
+    """
+
     area: Area = (0, 0, 0, 0)
-
-    def __init__(self, editor: TasEditor) -> None:
-        self.editor = editor
-        self._drawn: tuple[object, ...] = ()
+    widgets: Sequence[Widget] = ()
+    wants: Widget | None = None
+    _drawn: tuple[object, ...] | None = None
 
     # --- what parts say of themselves ---
 
     def render_key(self) -> tuple[object, ...]:
-        """All that its picture depends on, besides the window's size and the palette."""
+        """All that its picture depends on, besides the window's size, the palette and the focus."""
         raise NotImplementedError
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
-        """Draw all of it; the clip is its area."""
+        """Draw all of it but the widgets; the clip is its area."""
         raise NotImplementedError
 
     def commands(self) -> Commands:
@@ -39,7 +39,7 @@ class Part:
         return {}
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """A mouse event in its area, or one that ends or continues with a drag that began there; whether it was used.
+        """A mouse event in its area, or one that ends or goes on with a drag that began there; whether it was used.
 
         ``x``, ``y``: logical px of the window.
         """
@@ -62,14 +62,18 @@ class Part:
         left, top, w, h = self.area
         return left <= x < left + w and top <= y < top + h
 
-    def draw(self, surface: pygame.Surface, theme: Theme, *, whole: bool) -> list[pygame.Rect]:
+    def draw(
+        self, surface: pygame.Surface, theme: Theme, focus: Widget | None, *, whole: bool
+    ) -> list[pygame.Rect]:  # fmt: skip
         """Draw it if anything has changed; the px that did."""
-        render_key = self.render_key()
-        if not whole and render_key == self._drawn:
+        key = self.render_key()
+        if not whole and key == self._drawn:
             return []
-        self._drawn = render_key
+        self._drawn = key
         rect = theme.canvas.rect(*self.area)
         surface.set_clip(rect)
         self.paint(surface, theme)
+        for widget in sorted(self.widgets, key=lambda widget: widget is focus):
+            widget.draw(surface, theme, focused=widget is focus)
         surface.set_clip(None)
         return [rect]

@@ -1,0 +1,157 @@
+"""What every document under edit has: its history, a file to save to, and a copy in case the program dies."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from hashlib import sha256
+from pathlib import Path
+from typing import Generic, TypeVar
+
+from ninja_game.errors import DAMAGED, FileError, NinjaGameError
+from ninja_game.files.locking import LOCK_SUFFIX, forget, hold, left_behind
+from ninja_game.files.reading import read_bytes
+
+Draft = TypeVar("Draft")
+"""A level or a run under edit: never changed, equal to another one that says the same."""
+Found = TypeVar("Found")
+
+
+class OccupiedError(NinjaGameError):
+    """A file that saving would replace, and that was not made by this document's last save."""
+
+
+def digest_of(data: bytes) -> str:
+    """A digest of a file's bytes."""
+    return sha256(data).hexdigest()
+
+
+def digest_of_file(path: Path) -> str:
+    """The digest of a file's bytes; '' where there is none."""
+    return digest_of(read_bytes(path)) if path.exists() else ""
+
+
+def check_free(path: Path, there: str, known: str | None, *, replacing: bool) -> None:
+    """Raise OccupiedError where writing would surprise: over another file, through a link to nothing, or again.
+
+    ``there``: the digest of the file at ``path``; ``known``: that of the document's own, None for another's.
+    """
+    if replacing or (there == (known or "") and (there or not path.is_symlink())):
+        return
+    if known is None:
+        raise OccupiedError(f"a file named {path.name} already exists")
+    raise OccupiedError(f"{path.name} was {'changed' if there else 'removed'} by another program")
+
+
+class RecoveryFile:
+    """A copy of what is being edited, in the player's folder, for the next start if the program dies.
+
+    It is locked as long as its program lives. ``file``: that of a program that has died, to go on with. ``problem``:
+    why the copy cannot be kept, or ''. Raises FileError where another window goes on with ``file`` already.
+    """
+
+    def __init__(self, folder: Path, suffix: str, file: Path | None = None) -> None:
+        self.problem = ""
+        self.file = file or folder / f"{secrets.token_hex(6)}{suffix}"
+        self._lock: int | None = None
+        if file is not None:
+            self.lock()
+
+    def lock(self) -> None:
+        """Keep the file from others, if that is not done yet. Raises FileError, OSError."""
+        if self._lock is None:
+            self.file.parent.mkdir(parents=True, exist_ok=True)
+            self._lock = hold(self.file.with_suffix(LOCK_SUFFIX))
+            if self._lock is None:
+                raise FileError("another window goes on with this already", str(self.file))
+
+    @contextmanager
+    def reporting(self) -> Iterator[None]:
+        """Note as ``problem`` whether what is done within succeeds."""
+        try:
+            yield
+            self.problem = ""
+        except (OSError, NinjaGameError) as error:
+            self.problem = f"What you edit cannot be kept safe: {getattr(error, 'strerror', '') or error}"
+
+    def close(self, *, keep: bool = False) -> None:
+        """End. ``keep``: the copy stays, to be found at the next start."""
+        if self._lock is not None:
+            os.close(self._lock)
+            self._lock = None
+        if not keep:
+            forget(self.file)
+
+
+def recovered_from(folder: Path, suffix: str, read: Callable[[Path], Found]) -> Iterator[Found]:
+    """What programs that have died were editing, the newest first; files of running ones and damaged ones left out."""
+    return left_behind(folder, f"*{suffix}", read, DAMAGED)
+
+
+class History(Generic[Draft]):
+    """``draft``: the present one. A *stroke* is several changes that are undone as one, such as a line of tiles."""
+
+    def __init__(self, draft: Draft) -> None:
+        self.draft = draft
+        self._done: list[Draft] = []
+        self._undone: list[Draft] = []
+        self._began: Draft | None = None
+
+    @property
+    def can_undo(self) -> bool:
+        return bool(self._done) or self._began not in (None, self.draft)
+
+    @property
+    def can_redo(self) -> bool:
+        return bool(self._undone)
+
+    @property
+    def began(self) -> Draft:
+        """The draft at the begin of the stroke; the present one outside of strokes."""
+        return self.draft if self._began is None else self._began
+
+    @property
+    def in_stroke(self) -> bool:
+        return self._began is not None
+
+    def begin(self) -> None:
+        self.end()
+        self._began = self.draft
+
+    def change(self, draft: Draft) -> None:
+        """Another draft, as a part of the stroke or as an edit of its own."""
+        if draft == self.draft:
+            return
+        alone = self._began is None
+        self._began = self.began
+        self.draft = draft
+        if alone:
+            self.end()
+
+    def end(self) -> None:
+        began, self._began = self._began, None
+        if began not in (None, self.draft):
+            self._done.append(began)
+            self._undone.clear()
+
+    def abandon(self) -> None:
+        """The stroke ends, and what it changed is taken back."""
+        self.draft, self._began = self.began, None
+
+    def undo(self) -> bool:
+        """Take the last edit back; whether there was one."""
+        return self._step(self._done, self._undone)
+
+    def redo(self) -> bool:
+        """Do again what was taken back last; whether there was anything."""
+        return self._step(self._undone, self._done)
+
+    def _step(self, source: list[Draft], target: list[Draft]) -> bool:
+        self.end()
+        if not source:
+            return False
+        target.append(self.draft)
+        self.draft = source.pop()
+        return True

@@ -1,0 +1,247 @@
+"""The parts around the level: toolbar, palette, properties, findings, the file with the solver, the status line."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import pygame
+
+from ninja_game.editor.tools import EditorTools
+from ninja_game.play.editor.controls import TABLE
+from ninja_game.play.editor.palette_view import PaletteView
+from ninja_game.play.editor.properties import property_widgets, subject
+from ninja_game.play.editor.session import EditorSession
+from ninja_game.play.editor.view import LAYOUT, EditorView
+from ninja_game.play.ui.list_view import ListView
+from ninja_game.play.ui.theme import Area, Theme, wrapped
+from ninja_game.play.ui.widgets import Button
+from ninja_game.play.workspace.part import Part
+
+if TYPE_CHECKING:
+    from ninja_game.levels.findings import Finding
+
+TOP, TALL, GAP = 4.0, 21.0, 3.0
+
+_BUTTONS = (
+    ("menu", "File", 36, 0), ("undo", "Undo", 40, 0), ("redo", "Redo", 40, 5),
+    ("brush", "Brush", 42, 0), ("rectangle", "Box", 34, 0), ("fill", "Fill", 32, 0), ("select", "Select", 44, 0),
+    ("pick", "Pick", 34, 5), ("symmetry", "Mirror: {symmetry}", 100, 0), ("grid", "Grid: {grid}", 104, 0),
+    ("snap_next", "Snap: {snap}", 78, 5), ("test", "Test", 42, 0), ("certify", "Certify", 52, 0),
+    ("help", "Help", 40, 0),
+)  # fmt: skip
+"""Command, text, width, more than the usual gap behind it, px."""
+
+
+class ToolButton(Button):
+    """A button of a command, accented while the command is in force."""
+
+    def __init__(
+        self,
+        area: Area,
+        name: str,
+        text: str,
+        run: Callable[[str], object],
+        tools: EditorTools,
+        grid: Callable[[], str],
+    ) -> None:
+        super().__init__(area, text, lambda: run(name), hint=TABLE.hint(name), size=9)
+        self.name, self.tools, self.grid = name, tools, grid
+
+    def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
+        tools, (x, y, w, h) = self.tools, self.area
+        lit = self.name == tools.tool or (self.name == "symmetry" and tools.symmetry != "off")
+        theme.row(surface, self.area, chosen=lit, focused=lit, radius=3)
+        self.enabled = {"undo": tools.history.can_undo, "redo": tools.history.can_redo}.get(self.name, True)
+        text = self.text.format(symmetry=tools.symmetry, grid=self.grid(), snap=tools.snap)
+        colour = theme.palette.text if self.enabled else theme.palette.faint
+        theme.text(
+            surface, text, x + w / 2, y + (h - 9) / 2, size=9, colour=colour, align="centre", bold=lit or focused
+        )
+
+
+class EditorPart(Part):
+    """A part beside the level, on the window's ground."""
+
+    def __init__(self, view: EditorView) -> None:
+        self.view = view
+        self.session: EditorSession = view.session
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        theme.canvas.fill_rect(surface, theme.palette.tile, *self.area)
+
+    def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
+        """What the mouse is over is said in the status line; all else is up to the widgets."""
+        if event.type != pygame.MOUSEMOTION or any(event.buttons):
+            return False
+        widget = next((each for each in self.widgets if each.focusable and each.contains(x, y)), None)
+        self.view.hint = widget.hint if widget else ""
+        return True
+
+
+class Toolbar(EditorPart):
+    """The row of buttons above the level. ``run``: does a command."""
+
+    area = LAYOUT.toolbar
+
+    def __init__(self, view: EditorView, run: Callable[[str], object]) -> None:
+        super().__init__(view)
+        x, buttons = 6.0, []
+        for name, text, width, gap in _BUTTONS:
+            area = (x, TOP, width, TALL)
+            buttons.append(ToolButton(area, name, text, run, self.session.tools, lambda: view.grid.name))
+            x += width + GAP + gap
+        self.widgets = buttons
+
+    def render_key(self) -> tuple[object, ...]:
+        tools = self.session.tools
+        history = tools.history.can_undo, tools.history.can_redo
+        return tools.tool, tools.symmetry, self.view.grid, tools.snap, history
+
+
+class Palette(EditorPart):
+    """All tiles and objects."""
+
+    area = LAYOUT.palette
+
+    def __init__(self, view: EditorView, palette: PaletteView) -> None:
+        super().__init__(view)
+        self._palette = palette
+        self.widgets = [palette]
+
+    def render_key(self) -> tuple[object, ...]:
+        tools = self.session.tools
+        return tools.objects, tools.tile, tools.record
+
+    def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
+        """What an entry is called is said in the status line."""
+        used = super().mouse(event, x, y)
+        if used:
+            self.view.hint = self._palette.hover(x, y)
+        return used
+
+
+class Properties(EditorPart):
+    """Those of what is selected, or of what is drawn with."""
+
+    area = LAYOUT.properties
+
+    def __init__(self, view: EditorView) -> None:
+        super().__init__(view)
+        self._subject: tuple[object, ...] = ()
+
+    def refresh(self) -> None:
+        about = subject(self.session.tools)
+        if about != self._subject:
+            self._subject = about
+            x, y, w, h = self.area
+            self.widgets = property_widgets(self.session.tools, (x + 6, y + 5, w - 12, h - 9))
+
+    def render_key(self) -> tuple[object, ...]:
+        tools = self.session.tools
+        return self._subject, tools.tile, tools.subject, tools.selection
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        super().paint(surface, theme)
+        x, y, w, h = self.area
+        theme.canvas.fill_rect(surface, theme.palette.background, x + 2, y, w - 6, h - 7, 3)
+
+
+class Findings(EditorPart):
+    """What is odd about the level. ``go_to``: called with the number of a finding."""
+
+    area = LAYOUT.findings
+
+    def __init__(self, view: EditorView, go_to: Callable[[int], object]) -> None:
+        super().__init__(view)
+        self._shown: list[Finding] = []
+        self.list = ListView(
+            self.area, 19, self._draw_row, go_to, empty="No problems found", hint="A click goes there and selects it"
+        )
+        self.widgets = [self.list]
+
+    def render_key(self) -> tuple[object, ...]:
+        return (id(self._shown),)
+
+    def update(self, real_ms: int) -> None:
+        if self._shown is not self.session.findings:
+            self._shown = self.session.findings
+            self.list.fill(self._shown)
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        super().paint(surface, theme)
+        theme.canvas.fill_rect(surface, theme.palette.panel, *self.area, 3)
+
+    def _draw_row(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        finding = self._shown[index]
+        x, y, w, _ = area
+        theme.text(surface, "!", x + 4, y + 5, size=9.5, bold=True, colour=theme.palette.bad)
+        theme.text(surface, f"{finding.sentence}. {finding.hint}", x + 14, y + 5, size=9.5, width=w - 16)
+
+
+class FilePart(EditorPart):
+    """The level's name and file, and how far the solver is."""
+
+    area = LAYOUT.file
+
+    def render_key(self) -> tuple[object, ...]:
+        session, certifier = self.session, self.session.certifier
+        solver = certifier.text, certifier.busy, certifier.share, certifier.run is None
+        return session.name, session.source.path, session.is_saved, solver, certifier.is_stale(session.draft.level)
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        super().paint(surface, theme)
+        canvas, palette, session = theme.canvas, theme.palette, self.session
+        x, y, w, h = self.area
+        canvas.fill_rect(surface, palette.panel, *self.area, 3)
+        x, w = x + 4, w - 6
+        theme.text(surface, session.name, x, y + 5, size=11, bold=True, width=w)
+        file = session.source.path.name if session.source.path else "no file yet"
+        state = "saved" if session.is_saved and session.source.path else "not saved" if not session.is_saved else ""
+        theme.text(surface, f"{file}  {state}", x, y + 20, size=9, colour=palette.faint, width=w)
+        certifier = session.certifier
+        text = certifier.text or "Not certified: F7 looks for a run"
+        stale = certifier.is_stale(session.draft.level)
+        if stale and not certifier.busy:
+            text = "Certified before the last change: F7 again"
+        elif certifier.run and not certifier.busy:
+            text += ". To keep it: File, Keep the solver's run"
+        for number, line in enumerate(wrapped(theme, text, w, 9)[:3]):
+            colour = palette.good if certifier.run and not stale else palette.text
+            theme.text(surface, line, x, y + 36 + 12 * number, size=9, colour=colour)
+        if certifier.busy:
+            canvas.fill_rect(surface, palette.panel_edge, x, y + h - 9, w, 5, 2)
+            canvas.fill_rect(surface, palette.accent, x, y + h - 9, max(1.0, w * certifier.share), 5, 2)
+
+
+class StatusLine(EditorPart):
+    """Where the pointer is, and what to do."""
+
+    area = LAYOUT.status
+
+    def _text(self) -> str:
+        tools = self.session.tools
+        if tools.placing_switch:
+            return "Click where the switch is; Esc gives up"
+        tool = "brush" if tools.tool == "rectangle" and tools.draws_one else tools.tool
+        return self.view.hint or _TOOL_HINTS[tool]
+
+    def render_key(self) -> tuple[object, ...]:
+        return self.session.tools.pointer, self._text()
+
+    def paint(self, surface: pygame.Surface, theme: Theme) -> None:
+        super().paint(surface, theme)
+        tools, colour, top = self.session.tools, theme.palette.on_tile, self.area[1] + 5
+        (column, row), (x, y) = tools.cell, tools.pointer
+        theme.text(surface, f"{column},{row}", 8, top, size=9.5, colour=colour)
+        theme.text(surface, f"{x:.0f},{y:.0f} px", 58, top, size=9.5, colour=colour)
+        theme.text(surface, self._text(), 140, top, size=9.5, colour=colour, width=640)
+
+
+_TOOL_HINTS = {
+    "brush": "Left button draws, right erases, middle picks; wheel: next in the palette. F1: help",
+    "rectangle": "Drag a rectangle; right button erases. F1: help",
+    "fill": "A click fills what is joined and alike. F1: help",
+    "select": "Click or drag a frame; drag what is selected; Shift adds. Ctrl+C, Ctrl+V, H, J, U. F1: help",
+    "pick": "Click what to draw with. F1: help",
+}
