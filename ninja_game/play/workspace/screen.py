@@ -122,7 +122,7 @@ class WorkspaceScreen(MenuScreen):
         self.follow_parts()
 
     def edit_by_key(self, event: InputEvent) -> bool:
-        """A key that is no command but edits; whether it did."""
+        """Take a key that edits without a command; whether it did."""
         return False
 
     def _give_mouse(self, raw: pygame.Event) -> None:
