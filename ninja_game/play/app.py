@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pygame
 
-from ninja_game.files.resources import data_folder
 from ninja_game.files.shown_text import shown_text
+from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.recording import Recording
 from ninja_game.play.audio.player import AudioOutput, AudioPlayer
 from ninja_game.play.boss import BossScreen

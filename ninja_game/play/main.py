@@ -8,7 +8,7 @@ from pathlib import Path
 import pygame
 
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.resources import data_folder
+from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.links.fragment import is_link, read_link
 from ninja_game.formats.links.making import recordings_of
 from ninja_game.formats.load import load_level, load_levels, load_replays
@@ -158,7 +158,7 @@ def _episodes(path: Path) -> Callable[[App], Screen]:
     own = not is_link(path) and path.resolve() == data_folder("levels").resolve()
 
     def choose(app: App) -> Screen:
-        from ninja_game.play.menus.episodes.grid import EpisodeGrid
+        from ninja_game.play.menus.episodes import EpisodeGrid
 
         if not own:
             app.player.catalogue.more.append(path)

@@ -17,7 +17,7 @@ from ninja_game.play.audio.player import AudioOutput
 from ninja_game.play.boss import BossScreen
 from ninja_game.play.main import first_screen, main, run_app
 from ninja_game.play.menus.pause import PausePanel
-from ninja_game.play.menus.watch_replay import watch_recording
+from ninja_game.play.menus.replays import watch_recording
 from ninja_game.play.screen import Screen
 from ninja_game.play.window import Window
 from ninja_game.player.player_data import PlayerData

@@ -15,7 +15,7 @@ from ninja_game.play.clipboard import copy_link
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.hud import Hud, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
-from ninja_game.play.menus.episodes.passed import EpisodePassed
+from ninja_game.play.menus.passed import EpisodePassed
 from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.screen import Screen

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pygame
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.resources import bundled_replays
+from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.play.level.play import RunClock

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.input.bindings import InputEvent
-from ninja_game.play.menus.help.screen import HelpScreen
+from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.panels import Panel
-from ninja_game.play.menus.settings.screen import SettingsScreen
+from ninja_game.play.menus.settings import SettingsScreen
 
 if TYPE_CHECKING:
     from ninja_game.play.app import App

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import pygame
 
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.watch_replay import watch
+from ninja_game.play.menus.replays import watch
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Widget

@@ -11,12 +11,11 @@ from time import localtime, strftime
 from typing import TYPE_CHECKING
 
 from ninja_game.files.locking import forget
-from ninja_game.files.resources import data_folder
 from ninja_game.files.shown_text import file_stem
-from ninja_game.files.user_folder import REPLAYS, free_path
+from ninja_game.files.user_folder import REPLAYS, data_folder, free_path
 from ninja_game.formats.links.making import replay_link
 from ninja_game.play.clipboard import copy_link
-from ninja_game.play.menus.help.commands_page import HelpPage
+from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import Form, Menu, Row, nothing
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.tas.controls import COMMANDS

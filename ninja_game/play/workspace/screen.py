@@ -123,7 +123,7 @@ class WorkspaceScreen(MenuScreen):
         self.await_text()
 
     def edit_by_key(self, event: InputEvent) -> bool:
-        """A key that is no command but edits; whether it did."""
+        """Take a key that edits without a command; whether it did."""
         return False
 
     def _give_mouse(self, raw: pygame.Event) -> None:

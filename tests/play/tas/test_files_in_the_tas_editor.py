@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pygame
 
-from ninja_game.files.resources import data_folder
+from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_replays
-from ninja_game.play.menus.help.commands_page import HelpPage
+from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import Form, Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.tas.controls import COMMANDS
