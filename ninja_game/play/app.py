@@ -153,23 +153,32 @@ NOTICE_MS, WARNING_MS = 4000, 12_000
 """How long a notice is shown, and what went wrong when the game started."""
 
 
+TasEditorOpener = Callable[["App", Recording, Sequence[Recording], int], object]
+
+
 class App:
     """The window with its stack of screens.
 
     ``controls``: keys to actions. ``player``: the player's data with the settings, which ``change_settings`` changes.
-    ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``open_tas_editor``:
-    opens a run in the TAS editor, with others beside it, at a tick; who starts the program sets it, and leaves None
-    where there is none. ``size``: px of the window. Raises NinjaGameError where there is no display.
+    ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``tas_editor``:
+    opens a run in the TAS editor, with others beside it, at a tick; None where there is none, as in a page.
+    ``size``: px of the window. Raises NinjaGameError where there is no display.
     """
 
     def __init__(
-        self, player: PlayerData, controls: Bindings, audio_output: AudioOutput, *, size: tuple[int, int] | None = None
+        self,
+        player: PlayerData,
+        controls: Bindings,
+        audio_output: AudioOutput,
+        *,
+        size: tuple[int, int] | None = None,
+        tas_editor: TasEditorOpener | None = None,
     ) -> None:
         self.player = player
         self.controls = controls
         self.audio_output = audio_output
         self.overclock = 0
-        self.open_tas_editor: Callable[[Recording, Sequence[Recording], int], object] | None = None
+        self.tas_editor = tas_editor
         self.stack = ScreenStack()
         self.running = True
         self.frame_ms = 0.0
@@ -361,11 +370,14 @@ def build_app(
     size: tuple[int, int] | None = None,
     controls: Bindings | None = None,
     audio_output: AudioOutput | None = None,
+    tas_editor: TasEditorOpener | None = None,
 ) -> App:
     """The app as the player's settings have it; a notice tells what is wrong with the player's files.
 
     ``folder``: the player's, instead of the usual one. ``controls``: instead of the player's bindings.
-    ``audio_output``: instead of the sound device. Raises NinjaGameError where there is no display.
+    ``audio_output``: instead of the sound device. ``tas_editor``: as of ``App``.
+
+    Raises NinjaGameError where there is no display.
     """
     player = PlayerData(folder)
     settings = player.settings
@@ -373,7 +385,7 @@ def build_app(
     sound = audio_output or AudioPlayer(
         data_folder("assets") / "sounds", volume=settings.volume, loop_volume=settings.loop_volume
     )
-    app = App(player, bindings, sound, size=size)
+    app = App(player, bindings, sound, size=size, tas_editor=tas_editor)
     player.open_records()
     if bindings.unknown:
         player.tell(f"settings.toml: no key is called {shown_text(', '.join(bindings.unknown), 60)}.")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
 from pathlib import Path
 
 import pygame
@@ -64,8 +63,7 @@ def run_app(
     from ninja_game.play.tas.opening import open_tas_editor
 
     try:
-        app = build_app(size=size)
-        app.open_tas_editor = partial(open_tas_editor, app)
+        app = build_app(size=size, tas_editor=open_tas_editor)
         try:
             app.push(first(app))
             app.run(frames)

@@ -193,7 +193,7 @@ def test_screenshot_to_a_place_that_is_not_there_names_it(tmp_path: Path, monkey
         main(str(LEVEL), frames=1, screenshot=str(tmp_path / "nowhere" / "a.png"))
 
 
-def test_the_program_has_a_bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_program_has_a_tas_editor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path))
     programs: list[App] = []
 
@@ -203,7 +203,7 @@ def test_the_program_has_a_bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
     run_app(first, frames=1)
     (app,) = programs
-    assert app.open_tas_editor is not None
+    assert app.tas_editor is not None
 
 
 def test_no_display_is_said(monkeypatch: pytest.MonkeyPatch) -> None:

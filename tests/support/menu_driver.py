@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 
 import pygame
@@ -36,8 +35,7 @@ class MenuDriver:
     def __init__(self, folder: Path, size: tuple[int, int] = (792, 600)) -> None:
         self.keys = ScriptedKeys()
         self.keys.script = []
-        self.app = build_app(folder, size=size, controls=self.keys)
-        self.app.open_tas_editor = partial(open_tas_editor, self.app)
+        self.app = build_app(folder, size=size, controls=self.keys, tas_editor=open_tas_editor)
         self.app.push(MainMenu(self.app))
         self.frames(2)
 

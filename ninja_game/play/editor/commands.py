@@ -100,7 +100,7 @@ class EditorCommands(DocumentCommands):
         if places:
             tools.pointer = places[0]
             self.view.hovering = True
-        self.view.hint = f"{finding.sentence}. {finding.mend}"
+        self.view.hint = f"{finding.sentence}. {finding.hint}"
 
     # --- trying and certifying ---
 

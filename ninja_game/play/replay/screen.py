@@ -47,7 +47,7 @@ class ReplayScreen(Screen):
 
     def __init__(self, app: App, runs: Sequence[Recording], *, editable: bool = True) -> None:
         super().__init__(app)
-        self.open_tas_editor = app.open_tas_editor if editable else None
+        self.tas_editor = app.tas_editor if editable else None
         self.runs = runs
         self.clock = RunClock()
         self.overlays = Overlays()
@@ -261,8 +261,10 @@ class ReplayScreen(Screen):
 
     def edit(self) -> None:
         """Open the TAS editor on this run, at this tick, with the others beside it."""
-        if self.open_tas_editor:
-            self.open_tas_editor(self.run, [run for run in self.runs if run is not self.run], max(0, self.tick - 1))
+        if self.tas_editor:
+            self.tas_editor(
+                self.app, self.run, [run for run in self.runs if run is not self.run], max(0, self.tick - 1)
+            )
 
     # --- picture ---
 
@@ -293,7 +295,7 @@ class ReplayScreen(Screen):
         return (
             f"{key('frame_back')} {key('frame_forward')}: tick by tick    {key('left')} {key('right')}: a second    "
             f"{key('slower')} {key('faster')}: speed    {key('export')}: film    "
-            + f"{key('edit')}: edit    " * bool(self.open_tas_editor)
+            + f"{key('edit')}: edit    " * bool(self.tas_editor)
             + f"{key('link')}: link    {key('back')}: leave"
         )
 

@@ -58,7 +58,7 @@ class WorkspaceScreen(MenuScreen):
         if focus is not self.focus:
             self.focus = focus
             self.widgets_changed()
-        self.await_text()
+            self.await_text()
 
     def enter(self) -> None:
         super().enter()
@@ -118,6 +118,7 @@ class WorkspaceScreen(MenuScreen):
         elif typing or not self.edit_by_key(event):
             super().handle(event)
         self.follow_parts()
+        self.await_text()
 
     def edit_by_key(self, event: InputEvent) -> bool:
         """Take a key that edits without a command; whether it did."""
