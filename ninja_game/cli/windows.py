@@ -129,8 +129,7 @@ def edit(
 
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
-    from ninja_game.play.screen import Screen
+    from ninja_game.play.app import App, Screen
 
 
 @click.command()
