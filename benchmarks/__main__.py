@@ -30,7 +30,7 @@ from benchmarks import measure_grids, measure_worlds
 from benchmarks.charts import Chart
 from benchmarks.speed import run_benchmark
 from ninja_game.batch.thread_pool import cores
-from ninja_game.files.resources import bundled_replays
+from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 

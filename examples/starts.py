@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from examples.search import SearchAgent
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.resources import bundled_replays
+from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.learn.actions import DISCRETE_KEYS
 from ninja_game.learn.levels import LevelSource

@@ -34,27 +34,21 @@ import hashlib
 import os
 import shutil
 import subprocess
-import tempfile
 import tomllib
-from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 VENV = ROOT / ".venv"
 STAMP = VENV / "ninja-game-installed.txt"
-CACHES = (".pytest_cache", ".mypy_cache", ".ruff_cache", ".import_linter_cache", ".hypothesis", "build", "dist")
-SOURCES = ("ninja_game", "tests", "tools", "benchmarks", "examples")
-EXTRAS = ("cluster", "fast", "film", "learn", "minari", "plots", "train")
-DEVELOPMENT = (*EXTRAS, "dev")
-USES = {
-    "play": (), "edit": ("fast",), "info": (), "convert": (), "record": (), "link": (), "player": (),
-    "lab": (), "site": (), "film": ("film",), "verify": ("cluster", "fast"),
-    "demonstrations": ("fast", "learn", "minari"),
-}  # fmt: skip
-"""The extras that commands of the game use; those that are not here use Numba."""
-DRAWINGS = ("draw.how_it_works", "draw.screens")
+MADE = (".pytest_cache", ".mypy_cache", ".ruff_cache", ".import_linter_cache", ".hypothesis", "build", "dist")
+DEVELOPMENT = ("cluster", "dev", "fast", "film", "learn", "minari", "plots", "train")
+USES = {"play": (), "film": ("film",), "verify": ("cluster", "fast"), "demonstrations": ("fast", "learn", "minari")}
+"""The extras that commands of the game use; those that are not here may use Numba."""
+PROGRAMS = {"benchmark": "benchmarks", "golden": "tools.golden", "change-rules": "tools.change_rules"}
+DRAWINGS = ("draw.how_it_works", "draw.legend", "draw.screens")
 PICTURE_TESTS = ("tests/play/test_recorded_screens.py", "tests/play/test_pictures.py", "tests/play/test_sound.py")
+LINT = (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",), ("lint-imports",))
 
 
 def program(name: str) -> str:
@@ -63,8 +57,8 @@ def program(name: str) -> str:
 
 
 def run(*words: str) -> int:
-    """Exit code of a command in the project's folder. An interrupt reaches the command too, and it ends as it does."""
-    process = subprocess.Popen(words, cwd=ROOT)
+    """Exit code of a program of the environment. An interrupt reaches it too, and it ends as it does."""
+    process = subprocess.Popen([program(words[0]), *words[1:]], cwd=ROOT)
     while True:
         try:
             code = process.wait()
@@ -84,26 +78,18 @@ def become(*words: str) -> int:
     return subprocess.run([program("python"), *words], check=False).returncode
 
 
-def make_environment() -> None:
-    """A `.venv` with pip; a half-made one, or one whose Python has gone, is made again."""
-    works = [program("python"), "-m", "pip", "--version"]
-    if Path(works[0]).exists() and subprocess.run(works, capture_output=True, check=False).returncode == 0:
-        return
-    print(f"Making {VENV} with Python {sys.version.split()[0]} ...", flush=True)
-    if run(sys.executable, "-m", "venv", "--clear", str(VENV)):
-        sys.exit("tools/dev.py: there is no environment without Python's modules venv and ensurepip; see above.")
-
-
 def install(names: Sequence[str]) -> None:
     """The project, editable, with these extras and groups; nothing to do while those of this lock are there."""
     digest = hashlib.sha256((ROOT / "pyproject.toml").read_bytes() + (ROOT / "uv.lock").read_bytes()).hexdigest()
     before = STAMP.read_text("utf-8").split() if STAMP.is_file() else []
     if before[:1] == [digest] and set(names) <= set(before):
         return
-    make_environment()
+    here = Path(program("python")).exists() and run("python", "-m", "pip", "--version") == 0
+    # None is there, or a half-made one, or one whose Python has gone.
+    if not here and subprocess.run([sys.executable, "-m", "venv", "--clear", VENV], check=False).returncode:
+        sys.exit("tools/dev.py: there is no environment without Python's modules venv and ensurepip; see above.")
     wanted = sorted({*names, *before[1:]})
-    extras = f" with {', '.join(wanted)}" if wanted else ""
-    print(f"Installing ninja-game{extras} into {VENV}; this can take a minute ...", flush=True)
+    print(f"Installing ninja-game ({', '.join(wanted) or 'no extras'}) into {VENV} ...", flush=True)
     if not (uv_sync(wanted) or pip_install(wanted)):
         # The newest Python may be too new for Numba; everything but speed works without it.
         if "fast" not in wanted or not pip_install([name for name in wanted if name != "fast"]):
@@ -114,57 +100,47 @@ def install(names: Sequence[str]) -> None:
 
 def uv_sync(names: Sequence[str]) -> bool:
     """Whether uv could install exactly the versions and files of uv.lock."""
-    uv = program("uv")
-    if not Path(uv).exists() and run(
-        program("python"), "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "uv"
-    ):
+    if not Path(program("uv")).exists() and run("python", "-m", "pip", "install", "--quiet", "uv"):
         return False
     os.environ["UV_PROJECT_ENVIRONMENT"] = str(VENV)
-    words = [uv, "sync", "--quiet", "--locked", "--inexact", "--python", program("python"), "--no-default-groups"]
-    return run(*words, *(f"--group={name}" if name == "dev" else f"--extra={name}" for name in names)) == 0
+    words = ["uv", "sync", "--quiet", "--locked", "--inexact", "--python", program("python"), "--no-default-groups"]
+    return run(*words, *(f"--{'group' if name == 'dev' else 'extra'}={name}" for name in names)) == 0
 
 
 def pip_install(names: Sequence[str]) -> bool:
     """Whether pip could install the versions of uv.lock; a package with several of them is left to pip."""
     packages = tomllib.loads((ROOT / "uv.lock").read_text("utf-8"))["package"]
-    count = Counter(package["name"] for package in packages)
-    exact = [f"{p['name']}=={p['version']}" for p in packages if "registry" in p["source"] and count[p["name"]] == 1]
-    extras = ",".join(name for name in names if name != "dev")
-    project = f"{ROOT}[{extras}]" if extras else str(ROOT)
+    several = [package["name"] for package in packages]
+    exact = [
+        f"{p['name']}=={p['version']}" for p in packages if "registry" in p["source"] and several.count(p["name"]) == 1
+    ]
+    constraints = VENV / "constraints.txt"
+    constraints.write_text("\n".join(exact) + "\n", "utf-8")
     group = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["dependency-groups"]["dev"]
     tools = [name for name in group if not name.startswith("ninja-game")] if "dev" in names else []
-    with tempfile.TemporaryDirectory() as folder:
-        constraints = Path(folder) / "constraints.txt"
-        constraints.write_text("\n".join(exact) + "\n", "utf-8")
-        words = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--constraint", str(constraints)]
-        return run(program("python"), *words, "--editable", project, *tools) == 0
-
-
-def extras_of(words: Sequence[str]) -> list[str]:
-    """The extras that a command of the game uses."""
-    return [*USES.get(words[0] if words else "play", ("fast",))]
-
-
-def lint(*fix: str) -> int:
-    """Style, format, types and the import contract."""
-    install(DEVELOPMENT)
-    steps = [["ruff", "check", *fix], ["ruff", "format", *(() if fix else ("--check",))], ["mypy"], ["lint-imports"]]
-    failed = [" ".join(words) for words in steps if run(program(words[0]), *words[1:])]
-    print(f"lint: {', '.join(failed)} failed" if failed else "lint: all good", flush=True)
-    return 1 if failed else 0
+    extras = ",".join(name for name in names if name != "dev")
+    project = f"{ROOT}[{extras}]" if extras else str(ROOT)
+    return run("python", "-m", "pip", "install", "--quiet", "-c", str(constraints), "--editable", project, *tools) == 0
 
 
 def test(rest: Sequence[str]) -> int:
     """`lint`, then the tests on up to four cores; or pytest alone, with ``rest``."""
-    install(DEVELOPMENT)
     if rest:
-        return run(program("python"), "-m", "pytest", *rest)
-    unclean = lint()
-    jobs = str(min(4, os.cpu_count() or 1))
-    failed = run(program("python"), "-m", "pytest", "-n", jobs, "--dist", "worksteal")
-    if unclean:
-        print("tools/dev.py: `lint` failed, its messages stand above the tests.", file=sys.stderr)
-    return failed or unclean
+        return run("python", "-m", "pytest", *rest)
+    unclean = lint(LINT)
+    failed = run("python", "-m", "pytest", "-n", str(min(4, os.cpu_count() or 1)), "--dist", "worksteal")
+    return lint_failed(unclean) or failed
+
+
+def lint(steps: Sequence[Sequence[str]]) -> list[str]:
+    """Style, format, types and the import contract: those that fail."""
+    return [" ".join(words) for words in steps if run(*words)]
+
+
+def lint_failed(failed: Sequence[str]) -> int:
+    """Say it below everything else."""
+    print(f"lint: {', '.join(failed)} failed" if failed else "lint: all good", flush=True)
+    return 1 if failed else 0
 
 
 def tool(name: str, *rest: str) -> int:
@@ -174,49 +150,42 @@ def tool(name: str, *rest: str) -> int:
     if {"-h", "--help"} & {*rest} and "argparse" not in text:
         print(ast.get_docstring(ast.parse(text)))
         return 0
-    install(DEVELOPMENT)
     return become("-m", f"tools.{name}", *rest)
-
-
-def clean() -> int:
-    """Remove what can be made again."""
-    folders = [VENV, *(ROOT / name for name in CACHES), *ROOT.glob("*.egg-info")]
-    for folder in [*folders, *(folder for name in SOURCES for folder in (ROOT / name).rglob("__pycache__"))]:
-        shutil.rmtree(folder, ignore_errors=True)
-    return 0
 
 
 def main(words: Sequence[str]) -> int:
     """Exit code of the command that ``words`` name; what follows the name is the command's own."""
     # Nothing in the folder that the user is in may be imported, by what starts here or by what that starts.
     os.environ["PYTHONSAFEPATH"] = "1"
-    match list(words):
-        case ["play", *rest]:
-            install(())
-            return become("-m", "ninja_game", "play", *rest)
-        case ["run", *rest]:
-            install(extras_of(rest))
-            return become("-m", "ninja_game", *rest)
-        case ["test", *rest]:
+    name, *rest = words or ["--help"]
+    if name == "play" or (name == "run" and rest):
+        command = [name, *rest] if name == "play" else rest
+        install(USES.get(command[0], ("fast",)))
+        return become("-m", "ninja_game", *command)
+    if name == "clean":
+        caches = [path for path in ROOT.rglob("__pycache__") if VENV not in path.parents]
+        for folder in [VENV, *(ROOT / made for made in MADE), *ROOT.glob("*.egg-info"), *caches]:
+            shutil.rmtree(folder, ignore_errors=True)
+        return 0
+    if name in {"test", "lint", "accept-pictures", "docs", *PROGRAMS} or (name == "tool" and rest):
+        install(DEVELOPMENT)
+    match name, *rest:
+        case "test", *rest:
             return test(rest)
-        case ["lint"] | ["lint", "--fix"]:
-            return lint(*words[1:])
-        case [("golden" | "change-rules") as name, *rest]:
-            return tool(name.replace("-", "_"), *rest)
-        case ["accept-pictures"]:
+        case "lint", "--fix":
+            return lint_failed(lint((("ruff", "check", "--fix"), ("ruff", "format"), *LINT[2:])))
+        case ("lint",):
+            return lint_failed(lint(LINT))
+        case "accept-pictures", *_:
             os.environ["ACCEPT_PICTURES"] = "1"
             return test(["-q", *PICTURE_TESTS])
-        case ["docs"]:
-            install(DEVELOPMENT)
-            return max(run(program("python"), "-m", f"tools.{name}") for name in DRAWINGS)
-        case ["benchmark", *rest]:
-            install(DEVELOPMENT)
-            return become("-m", "benchmarks", *rest)
-        case ["tool", name, *rest]:
-            return tool(name, *rest)
-        case ["clean"]:
-            return clean()
-    asked = not words or "help" in words[-1] or "-h" in words
+        case "docs", *_:
+            return max(run("python", "-m", f"tools.{drawing}") for drawing in DRAWINGS)
+        case "tool", script, *rest:
+            return tool(script, *rest)
+        case _ if name in PROGRAMS:
+            return become("-m", PROGRAMS[name], *rest)
+    asked = {name, *rest} & {"-h", "--help", "help"}
     print(__doc__, file=sys.stdout if asked else sys.stderr, end="")
     if not asked:
         print(f"tools/dev.py: there is no command {' '.join(words)!r}.", file=sys.stderr)

@@ -8,7 +8,6 @@ to folders beside the sources, so it is not used.
 from __future__ import annotations
 
 import pickle
-import sys
 from collections.abc import Callable
 from functools import cache
 from hashlib import sha256
@@ -16,18 +15,30 @@ from pathlib import Path
 from typing import Any
 from uuid import uuid4
 
+from ninja_game.backend.numba_import import say_once
 from ninja_game.errors import FileError
 from ninja_game.files.user_folder import chosen_folder
 
 KEPT_FILES = 200
 """How many compiled kernels stay in the cache folder: the newest, some ten versions of all."""
 
+COMPILES_AGAIN = "; it works, but compiles again in the next process"
+
 before_compiling: list[Callable[[], None]] = []
 """What is called once, before the first kernel that has to be compiled: it takes a while."""
 
 
 def attach_cache(dispatcher: Any, digest: str) -> None:
-    """Let a kernel's machine code be read from the cache folder, and written there."""
+    """Let a kernel's machine code be read from the cache folder, and written there.
+
+    A Numba without the private parts that this needs works without a cache, which is said once.
+    """
+    from numba.core import compiler, serialize
+
+    needed = (dispatcher, "_cache"), (compiler.CompileResult, "_rebuild"), (compiler.CompileResult, "_reduce")
+    if missing := [name for owner, name in (*needed, (serialize, "dumps")) if not hasattr(owner, name)]:
+        say_once(f"compiled code cannot be kept, since this Numba has no {missing[0]}{COMPILES_AGAIN}")
+        return
     dispatcher._cache = KernelCache(cache_folder(), f"{dispatcher.py_func.__name__}-{digest[:32]}")  # noqa: SLF001
 
 
@@ -97,7 +108,11 @@ class KernelCache:
         from numba.core.serialize import dumps
 
         pack: Any = dumps
-        code = pack(result._reduce())  # noqa: SLF001 - as Numba's own caches do
+        try:
+            code = pack(result._reduce())  # noqa: SLF001 - as Numba's own caches do
+        except Exception as error:  # noqa: BLE001 - whatever another version of Numba does here: it works without
+            say_once(f"compiled code cannot be kept ({type(error).__name__}: {error}){COMPILES_AGAIN}")
+            return
         path = self._file(signature, result.codegen)
         part = path.with_suffix(f".{uuid4().hex[:16]}")
         try:
@@ -106,13 +121,8 @@ class KernelCache:
             part.replace(path)
             forget_old_code(self.folder)
         except OSError as error:
-            _say_once(f"compiled code cannot be kept in {self.folder}: {error.strerror or error}")
+            say_once(f"compiled code cannot be kept in {self.folder}: {error.strerror or error}{COMPILES_AGAIN}")
             try:
                 part.unlink(missing_ok=True)
             except OSError:
                 return
-
-
-@cache
-def _say_once(message: str) -> None:
-    sys.stderr.write(f"ninja-game: {message}; it works, but compiles again in the next process\n")

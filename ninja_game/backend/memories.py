@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ninja_game.backend.known_run import check_known_run
 from ninja_game.errors import ArgumentError, NinjaGameError
-from ninja_game.files.resources import how_to_install
+from ninja_game.files.user_folder import how_to_install
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import MemoryName, Worlds
 from ninja_game.sim.memory.kernels import load_world
@@ -28,6 +28,8 @@ R = TypeVar("R")
 _LOCK = Lock()
 """One thread at a time imports Numba and makes twins."""
 _KERNELS: dict[tuple[Callable[..., Any], bool], Any] = {}
+_FAILURES: list[str] = []
+"""Why the compiled memory cannot be used in this process, once that has been tried."""
 _ALL_CHECKED = os.environ.get("NINJA_GAME_CHECKED") == "1"
 
 
@@ -37,7 +39,7 @@ class MemoryUnavailableError(NinjaGameError):
 
 def compiled_available() -> bool:
     """Is Numba installed, with its compiler on? Without it everything works on the plain memory."""
-    return find_spec("numba") is not None and os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
+    return not _FAILURES and find_spec("numba") is not None and os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0")
 
 
 def choose_memory(memory: str) -> MemoryName:
@@ -49,10 +51,8 @@ def choose_memory(memory: str) -> MemoryName:
         return "compiled" if compiled_available() else "plain"
     if memory in ("compiled", "checked"):
         if not compiled_available():
-            raise MemoryUnavailableError(
-                f"the compiled memory needs Numba; {how_to_install('fast')}, "
-                "unset NUMBA_DISABLE_JIT, or use the plain memory"
-            )
+            needs = f"the compiled memory needs Numba; {how_to_install('fast')}, unset NUMBA_DISABLE_JIT"
+            raise MemoryUnavailableError(f"{_FAILURES[0] if _FAILURES else needs}, or use the plain memory")
         return "compiled"
     if memory == "plain":
         return "plain"
@@ -66,13 +66,29 @@ def open_worlds(memory: str, levels: Level | Sequence[Level], count: int = 1, *,
     Raises LevelError for a level that cannot be played, what ``choose_memory`` and ``compiled`` raise.
     """
     several = [levels] if isinstance(levels, Level | str) else levels
-    if choose_memory(memory) == "plain":
+    # The first time this imports Numba, which must come before NumPy.
+    if _usable_memory(memory) == "plain":
         return PlainWorlds(several, count, box=box)
     make = partial(compiled, checked=True) if memory == "checked" else compiled
-    make(load_world)  # the first time this imports Numba, which must come before NumPy
     from ninja_game.sim.memory.compiled import CompiledWorlds
 
     return CompiledWorlds(make, several, count, box=box)
+
+
+def _usable_memory(memory: str, *, checked: bool = False) -> MemoryName:
+    """As ``choose_memory``; the compiled memory is ready then, and "auto" is plain where its Numba does not work."""
+    if choose_memory(memory) == "plain":
+        return "plain"
+    try:
+        compiled(load_world, checked=checked or memory == "checked")
+    except MemoryUnavailableError as error:
+        if memory != "auto":
+            raise
+        from ninja_game.backend.numba_import import say_once
+
+        say_once(f"{error}; this is the plain memory, which is slower")
+        return "plain"
+    return "compiled"
 
 
 def proven_memory(memory: str) -> str:
@@ -80,10 +96,9 @@ def proven_memory(memory: str) -> str:
 
     Raises KnownRunError where it does not, and what ``choose_memory`` raises.
     """
-    if choose_memory(memory) == "plain":
+    if _usable_memory(memory, checked=True) == "plain":
         _prove_plain()
         return "plain"
-    compiled(load_world, checked=True)
     return "checked"
 
 
@@ -106,7 +121,12 @@ def compiled(entry: Callable[..., R], *, checked: bool = False) -> Callable[...,
             if entry is load_world and (entry, checked) not in _KERNELS:
                 from ninja_game.sim.memory.compiled import CompiledWorlds
 
-                check_known_run(lambda level, box: CompiledWorlds(make, [level], box=box), "compiled")
+                try:
+                    check_known_run(lambda level, box: CompiledWorlds(make, [level], box=box), "compiled")
+                except NinjaGameError:
+                    raise
+                except Exception as error:
+                    raise _unusable("compile the rules", error) from error
             kernel = _KERNELS[entry, checked] = make(entry)
     return kernel
 
@@ -118,7 +138,7 @@ def is_compiled(entry: Callable[..., Any]) -> bool:
 
 def compiled_if_possible(entry: Callable[..., R]) -> Callable[..., R]:
     """The compiled twin of an entry point that only takes arrays of numbers; without Numba the function itself."""
-    return compiled(entry) if compiled_available() else entry
+    return compiled(entry) if _usable_memory("auto") == "compiled" else entry
 
 
 @cache
@@ -130,9 +150,14 @@ def _compiler(checked: bool) -> Compiler:
 
     try:
         numba = import_numba()
-    except Exception as error:
-        hint = "install another version, or use the plain memory"
-        raise MemoryUnavailableError(f"Numba cannot be loaded ({type(error).__name__}: {error}); {hint}") from error
-    from ninja_game.sim.memory.compiler import Compiler
+        from ninja_game.sim.memory.compiler import Compiler
 
-    return Compiler(numba, checked=checked, attach_cache=attach_cache)
+        return Compiler(numba, checked=checked, attach_cache=attach_cache)
+    except Exception as error:
+        raise _unusable("be loaded", error) from error
+
+
+def _unusable(what: str, error: Exception) -> MemoryUnavailableError:
+    """The error that Numba cannot do this; the compiled memory is not tried again."""
+    _FAILURES.append(f"Numba cannot {what} ({type(error).__name__}: {error!s:.200}); install another version")
+    return MemoryUnavailableError(f"{_FAILURES[-1]}, or use the plain memory")

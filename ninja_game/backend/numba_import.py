@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
+from functools import cache
 from importlib.abc import MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from types import CodeType
@@ -46,11 +47,19 @@ class _ConfigFinder(MetaPathFinder):
         return spec
 
 
+@cache
+def say_once(message: str) -> None:
+    """Write a line on stderr, the first time only."""
+    sys.stderr.write(f"ninja-game: {message}\n")
+
+
 def import_numba() -> Any:
     """Numba, with its settings as they are by default; one thread at a time may call this.
 
     Variables that NumPy, llvmlite and Numba would read are taken out of the environment, for worker processes too.
+    Raises ImportError where Numba was imported before and its settings cannot be set back.
     """
+    imported_before = "numba" in sys.modules
     for name in [name for name in os.environ if name.startswith(_FOREIGN) and name not in HONOURED]:
         del os.environ[name]
     finder = _ConfigFinder()
@@ -63,7 +72,11 @@ def import_numba() -> Any:
     finally:
         sys.meta_path.remove(finder)
     config: Any = found
-    settings = config._env_reloader  # noqa: SLF001 - there is no public way
+    settings = getattr(config, "_env_reloader", None)  # there is no public way
+    if settings is None and imported_before:
+        raise ImportError(f"the settings of Numba {numba.__version__} cannot be set back")
+    if settings is None:
+        return numba
     # Also where somebody else imported Numba before. The number of threads, which we have no use for, cannot change.
     settings.process_environ(FIXED | {"NUMBA_NUM_THREADS": config.NUMBA_NUM_THREADS})
     # Numba asks again before each function that it compiles.

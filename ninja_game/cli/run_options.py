@@ -67,7 +67,7 @@ class LevelPath(InputPath):
 
 
 def _own_levels() -> dict[str, Path]:
-    from ninja_game.files.resources import bundled_levels
+    from ninja_game.files.user_folder import bundled_levels
 
     return {path.stem: path for path in bundled_levels()}
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ninja_game.backend.memories import compiled_available
 from ninja_game.editor.background import NewestJob
 from ninja_game.errors import BudgetError, LevelError
-from ninja_game.files.resources import how_to_install
+from ninja_game.files.user_folder import how_to_install
 from ninja_game.runs.run import run_level
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import TICKS_PER_SECOND

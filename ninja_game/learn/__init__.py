@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from ninja_game.errors import MissingExtraError
-from ninja_game.files.resources import how_to_install
+from ninja_game.files.user_folder import how_to_install
 
 try:
     from gymnasium.envs import registration

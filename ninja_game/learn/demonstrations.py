@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError, MissingExtraError, NinjaGameError
-from ninja_game.files.resources import how_to_install
+from ninja_game.files.user_folder import how_to_install
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.learn.actions import BUTTON_KEYS, DISCRETE_KEYS

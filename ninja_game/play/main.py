@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
 from pathlib import Path
 
 import pygame
 
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.resources import data_folder
+from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.links.fragment import is_link, read_link
 from ninja_game.formats.links.making import recordings_of
 from ninja_game.formats.load import load_level, load_levels, load_replays
@@ -17,8 +16,7 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.files import is_pack
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.recording import Recording
-from ninja_game.play.app import App, build_app
-from ninja_game.play.screen import Screen
+from ninja_game.play.app import App, Screen, build_app
 from ninja_game.play.window import save_picture
 from ninja_game.player.playthrough import FileRun
 from ninja_game.sim.level import Level
@@ -65,8 +63,7 @@ def run_app(
     from ninja_game.play.tas.opening import open_tas_editor
 
     try:
-        app = build_app(size=size)
-        app.open_tas_editor = partial(open_tas_editor, app)
+        app = build_app(size=size, tas_editor=open_tas_editor)
         try:
             app.push(first(app))
             app.run(frames)
@@ -160,7 +157,7 @@ def _episodes(path: Path) -> Callable[[App], Screen]:
     own = not is_link(path) and path.resolve() == data_folder("levels").resolve()
 
     def choose(app: App) -> Screen:
-        from ninja_game.play.menus.episodes.grid import EpisodeGrid
+        from ninja_game.play.menus.episodes import EpisodeGrid
 
         if not own:
             app.player.catalogue.more.append(path)

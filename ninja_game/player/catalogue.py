@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.reading import LeftOut, files_below, files_in
-from ninja_game.files.resources import data_folder
+from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.named_level import NamedLevel

@@ -1,7 +1,7 @@
 """Archives: any number of recordings verified or traced, on all cores or a cluster, in order, in constant memory.
 
 >>> from pathlib import Path
->>> from ninja_game.files.resources import data_folder
+>>> from ninja_game.files.user_folder import data_folder
 >>> tally = Tally()
 >>> for result in verify_all([data_folder("levels") / "certificates"], jobs=2):
 ...     tally.add(result)
@@ -27,7 +27,7 @@ from ninja_game.backend.memories import choose_memory
 from ninja_game.batch.thread_pool import cores
 from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.resources import bundled_levels
+from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.load import NamedLevel, load_levels
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.recording import Recording

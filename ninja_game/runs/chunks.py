@@ -21,6 +21,7 @@ from ninja_game.errors import DAMAGED, NinjaGameError
 from ninja_game.files.beside import Beside, known_files
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.recording import Recording
+from ninja_game.levels.findings import RUN_RULES, RunProblem
 from ninja_game.runs.recording_reader import Unreadable, recording_of_text, recordings_of, records_of, texts_in
 from ninja_game.runs.verify import NOT_RUN, Verdict, verify_recording
 from ninja_game.runs.workers import ClusterError
@@ -188,6 +189,12 @@ def result_from_data(data: object) -> Result:
     if data["outcome"] not in OUTCOMES:
         raise ValueError(f"outcome is {data['outcome']!r}"[:80])
     problems = data["problems"]
-    if not isinstance(problems, (list, tuple)) or not all(isinstance(problem, str) for problem in problems):
-        raise ValueError("problems are not a list of texts")
-    return Verdict(**(data | {"problems": tuple(problems)}))
+    if not isinstance(problems, (list, tuple)) or not all(map(_is_problem, problems)):
+        raise ValueError("problems are not a list of codes and texts")
+    return Verdict(**(data | {"problems": tuple(RunProblem(*problem) for problem in problems)}))
+
+
+def _is_problem(data: object) -> bool:
+    if not isinstance(data, (list, tuple)) or len(data) != 2 or not isinstance(data[1], str):
+        return False
+    return isinstance(data[0], str) and data[0] in RUN_RULES

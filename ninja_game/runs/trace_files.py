@@ -19,9 +19,8 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from ninja_game.errors import FileError, FormatError
-from ninja_game.files.arrays import MOST_ARRAYS, UNREADABLE, read_array
 from ninja_game.files.reading import open_regular
-from ninja_game.files.zips import open_zip
+from ninja_game.files.zips import MOST_ARRAYS, UNREADABLE, open_zip, read_array
 from ninja_game.runs.trace import NINJA_NAME, NINJA_RECORD, OBJECT_RECORD, RunTrace, rows
 from ninja_game.sim.inputs import MAX_TICKS, Input
 

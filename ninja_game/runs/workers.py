@@ -23,7 +23,7 @@ from multiprocessing import get_context, parent_process
 from typing import Any, Protocol, TypeVar
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.resources import how_to_install
+from ninja_game.files.user_folder import how_to_install
 from ninja_game.signals import held_back
 
 J = TypeVar("J")

@@ -11,8 +11,8 @@ from pathlib import Path
 from ninja_game.document import check_free, digest_of, digest_of_file
 from ninja_game.errors import DAMAGED, NinjaGameError, ReplayError
 from ninja_game.files.reading import read_bytes, read_utf8
-from ninja_game.files.resources import data_folder
 from ninja_game.files.tree import Tree
+from ninja_game.files.user_folder import data_folder
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.links.fragment import is_link

@@ -21,24 +21,28 @@ needs_numba = pytest.mark.skipif(not memories.compiled_available(), reason="Numb
 
 # Compiles one small kernel, so that it takes a second, and says whether it was compiled.
 PROGRAM = """
+{first}
 from ninja_game.backend import kernel_cache, memories
 from ninja_game.sim.memory.compiled import load_worlds
-from ninja_game.sim.memory.declare import entry_point
+from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.memory.schema import World
 import numpy as np
 FACTOR = {factor}
+@fast
+def product(one: int, other: int) -> int:
+    return one * other
 @entry_point
 def scaled(numbers: World, count: int) -> int:
-    return numbers[count - 1] * FACTOR + count
+    return product(numbers[count - 1], FACTOR) + count
 kernel_cache.before_compiling.append(lambda: print("compiles"))
 print(memories.compiled(scaled)(np.array([3]), {count}))
 """
 
 
-def run(folder: Path, factor: int = 2, count: int = 1, **more: str) -> tuple[str, str]:
+def run(folder: Path, factor: int = 2, count: int = 1, first: str = "", **more: str) -> tuple[str, str]:
     """What the program says on stdout and stderr, with its cache in a folder."""
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder), **more}
-    command = [sys.executable, "-c", PROGRAM.format(factor=factor, count=count)]
+    command = [sys.executable, "-c", PROGRAM.format(factor=factor, count=count, first=first)]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     return done.stdout, done.stderr
 
@@ -69,6 +73,55 @@ def test_where_nothing_can_be_written_it_works_and_says_so_once(tmp_path: Path) 
     assert out == "compiles\n7\n"
     assert errors.count("compiled code cannot be kept in") == len(errors.splitlines()) == 1
     assert not list(Path(memories.__file__).parent.rglob("*.nbi"))
+
+
+@needs_numba
+@pytest.mark.parametrize(
+    "change, said",
+    [
+        ("del numba.core.compiler.CompileResult._rebuild", "this Numba has no _rebuild"),
+        ("del numba.core.compiler.CompileResult._reduce", "this Numba has no _reduce"),
+        ("numba.core.compiler.CompileResult._reduce = lambda self, more: 0", "cannot be kept (TypeError"),
+    ],
+)
+def test_another_numba_compiles_without_a_cache(change: str, said: str, tmp_path: Path) -> None:
+    """Without a private part that only the cache needs, or with another one of its name."""
+    out, errors = run(
+        tmp_path, first=f"from ninja_game.backend.numba_import import *; numba = import_numba(); {change}"
+    )
+    assert out == "compiles\n7\n" or (out == "7\n" and "has no" in said)
+    assert said in errors
+    assert len(errors.splitlines()) == 1
+
+
+@needs_numba
+@pytest.mark.parametrize(
+    "change",
+    [
+        "numba.core.dispatcher.Dispatcher.get_call_template = lambda self: 0",
+        "import numba; del numba.core.config._env_reloader",
+        "numba.njit = None",
+    ],
+)
+def test_where_numba_compiles_nothing_auto_is_plain_and_says_why(change: str, tmp_path: Path) -> None:
+    program = (
+        f"from ninja_game.backend.numba_import import import_numba\nnumba = import_numba()\n{change}\n"
+        "from ninja_game import Batch, Level, ObjectSpec, Simulation\n"
+        "from ninja_game.backend.memories import choose_memory, compiled_if_possible, proven_memory\n"
+        "from ninja_game.sim.memory.kernels import step_world\n"
+        "level = Level(objects=(ObjectSpec(5, (100.0, 100.0)),))\n"
+        "print(Simulation(level, memory='auto').memory, Batch(level, 2).memory, choose_memory('auto'),\n"
+        "      proven_memory('auto'), compiled_if_possible(step_world) is step_world)\n"
+        "Simulation(level, memory='compiled')"
+    )
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    command = [sys.executable, "-c", program]
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert done.stdout == "plain plain plain plain True\n"
+    first, *rest = done.stderr.splitlines()
+    assert first.startswith("ninja-game: Numba cannot ")
+    assert first.endswith("this is the plain memory, which is slower")
+    assert rest[-1].startswith("ninja_game.backend.memories.MemoryUnavailableError: Numba cannot ")
 
 
 @needs_numba

@@ -13,7 +13,7 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import COMMANDS, cli
 from ninja_game.errors import LevelError, NinjaGameError
-from ninja_game.files.resources import bundled_levels, data_folder
+from ninja_game.files.user_folder import bundled_levels, data_folder
 from ninja_game.signals import Terminated
 
 

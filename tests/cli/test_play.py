@@ -12,7 +12,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game.cli.main import cli
-from ninja_game.files.resources import bundled_levels
+from ninja_game.files.user_folder import bundled_levels
 
 
 @pytest.fixture

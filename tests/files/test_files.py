@@ -16,11 +16,10 @@ from unittest.mock import Mock
 import pytest
 
 from ninja_game.errors import FileError
-from ninja_game.files import resources, writing
+from ninja_game.files import user_folder as folders, writing
 from ninja_game.files.locking import locked
 from ninja_game.files.reading import LeftOut, files_below, read_bytes, read_text, read_utf8, text_files
-from ninja_game.files.resources import data_folder
-from ninja_game.files.user_folder import user_folder
+from ninja_game.files.user_folder import data_folder, user_folder
 from ninja_game.files.writing import open_atomically, remove_leftovers, write_atomically
 
 
@@ -263,6 +262,6 @@ def test_home_of_an_unknown_user_is_an_error_of_ours(monkeypatch: pytest.MonkeyP
 
 
 def test_what_is_missing_is_installed_as_the_place_has_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert "tools/dev.py run" in resources.how_to_install("fast")
-    monkeypatch.setattr(resources, "PACKAGE", tmp_path / "site-packages" / "ninja_game")
-    assert resources.how_to_install("fast") == f"install it: {sys.executable} -m pip install 'ninja-game[fast]'"
+    assert "tools/dev.py run" in folders.how_to_install("fast")
+    monkeypatch.setattr(folders, "PACKAGE", tmp_path / "site-packages" / "ninja_game")
+    assert folders.how_to_install("fast") == f"install it: {sys.executable} -m pip install 'ninja-game[fast]'"

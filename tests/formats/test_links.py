@@ -17,7 +17,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from ninja_game.errors import FormatError, LinkError, NinjaGameError
-from ninja_game.files.resources import bundled_levels, bundled_replays, data_folder
+from ninja_game.files.user_folder import bundled_levels, bundled_replays, data_folder
 from ninja_game.formats.links.fragment import (
     MOST_BYTES,
     MOST_CHARACTERS,

@@ -9,7 +9,7 @@ from statistics import median
 
 import pytest
 
-from ninja_game.files.resources import data_folder
+from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.runs.archive import Tally, verify_all
 from tests.support.memories import BOTH

@@ -10,19 +10,18 @@ import pytest
 
 from ninja_game.editor.files import new_source, open_source
 from ninja_game.errors import ReplayError
-from ninja_game.files.resources import bundled_levels, bundled_replays
+from ninja_game.files.user_folder import bundled_levels, bundled_replays
 from ninja_game.formats.links.making import level_link, recording_link
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.pack.files import PackFiles
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.play.editor.screen import EditorScreen
-from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.main import first_screen, watch_screen
 from ninja_game.play.menus.browser import Browser
-from ninja_game.play.menus.episodes.grid import EpisodeGrid
+from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.replay.screen import ReplayScreen
 from tests.support.menu_driver import MenuDriver

@@ -15,7 +15,7 @@ import pygame
 import pytest
 
 from ninja_game.formats.load import load_levels, load_replays
-from ninja_game.play.lab.export import export_figure
+from ninja_game.play.lab.screen import export_figure
 from ninja_game.play.ui.theme import PALETTES
 from ninja_game.play.view import level_view
 from ninja_game.play.view.level_view import LevelView

@@ -11,8 +11,7 @@ import pytest
 from hypothesis import given, settings as hypothesis_settings, strategies as st
 
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.settings import MOST_INPUTS, RULES, Settings
-from ninja_game.player.settings_file import read_settings, write_changes
+from ninja_game.player.settings import MOST_INPUTS, RULES, Settings, read_settings, write_changes
 
 PRINTABLE = st.text(st.characters(exclude_categories=["Cs", "Cc", "Cf", "Zl", "Zp", "Zs", "Co", "Cn"]), max_size=30)
 BINDINGS = st.dictionaries(PRINTABLE, st.lists(PRINTABLE, max_size=3).map(tuple), max_size=4)

@@ -55,7 +55,7 @@ def strict(text: str, folder: Path, levels: list[NamedLevel]) -> list[Result]:
 def told(results: list[Result]) -> Iterator[str]:
     """What is wrong, in words; nothing for a result that is believed."""
     for result in results:
-        yield from [result.message] if isinstance(result, Unreadable) else result.problems
+        yield from [result.message] if isinstance(result, Unreadable) else map(str, result.problems)
 
 
 def test_there_are_sixty_forgeries() -> None:
@@ -99,7 +99,7 @@ def test_an_honest_run_is_believed(text: str, tmp_path: Path, counting: list[Nam
 
 
 def test_without_level_the_games_own_levels_count(tmp_path: Path) -> None:
-    from ninja_game.files.resources import bundled_replays
+    from ninja_game.files.user_folder import bundled_replays
 
     results = list(verify_all(bundled_replays(), memory="plain", jobs=1, processes=False, strict=True))
     assert list(told(results)) == []

@@ -112,3 +112,5 @@ def test_a_rule_is_compiled_once_whatever_constants_its_callers_write() -> None:
     compiler = Compiler(import_numba())
     CompiledWorlds(compiler, [crowded_level(0)], box=False).kill(0, 0.0, 0.0)
     assert len(compiler._twin(emit).signatures) == 1
+    without_the_private_part = object()
+    assert compiler._one_for_all_integers(without_the_private_part) is without_the_private_part

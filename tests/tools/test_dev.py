@@ -84,7 +84,7 @@ def test_what_is_installed_is_installed_once(tmp_path: Path, monkeypatch: pytest
         return True
 
     monkeypatch.setattr(dev, "STAMP", tmp_path / "stamp")
-    monkeypatch.setattr(dev, "make_environment", lambda: None)
+    monkeypatch.setattr(dev, "run", lambda *_: 0)
     monkeypatch.setattr(dev, "uv_sync", sync)
     dev.install(["cluster"])
     dev.install(["cluster"])
@@ -93,18 +93,15 @@ def test_what_is_installed_is_installed_once(tmp_path: Path, monkeypatch: pytest
     assert calls == [["cluster"], ["cluster", "fast"]]
 
 
-def test_run_installs_what_its_command_uses() -> None:
-    assert dev.extras_of(["info", "levels"]) == []
-    assert dev.extras_of(["solve", "level.txt"]) == ["fast"]
+def test_run_installs_what_its_command_uses(installed: list[tuple[str, ...]]) -> None:
+    dev.main(["run", "demonstrations", "--help"])
+    assert installed == [("fast", "learn", "minari")]
     assert set(dev.USES) <= set(COMMANDS)
-    used = {extra for command in COMMANDS for extra in dev.extras_of([command])}
-    assert used == set(dev.EXTRAS) - {"plots", "train"}
+    assert {extra for extras in dev.USES.values() for extra in extras} <= set(dev.DEVELOPMENT)
 
 
-def test_a_command_that_uses_numba_says_when_it_compiles() -> None:
-    """All but the editor, whose solver is made ready in the background and says so there."""
-    compiling = {command for command in COMMANDS if "fast" in dev.extras_of([command])}
-    assert compiling - {"edit"} == set(COMPILING), "COMPILING of ninja_game/cli/main.py, USES of tools/dev.py"
+def test_a_command_that_compiles_gets_numba() -> None:
+    assert all("fast" in dev.USES.get(command, ("fast",)) for command in COMPILING)
 
 
 def test_pip_installs_the_locked_versions_where_uv_cannot_be_had(
@@ -113,12 +110,13 @@ def test_pip_installs_the_locked_versions_where_uv_cannot_be_had(
     asked: list[str] = []
 
     def run(*words: str) -> int:
-        path = Path(words[words.index("--constraint") + 1])
+        if words[-1] == "--version":
+            return 0
+        path = Path(words[words.index("-c") + 1])
         asked.extend([*words[words.index("--editable") + 1 :], *path.read_text("utf-8").split()])
         return 0
 
     monkeypatch.setattr(dev, "STAMP", tmp_path / "stamp")
-    monkeypatch.setattr(dev, "make_environment", lambda: None)
     monkeypatch.setattr(dev, "uv_sync", lambda _names: False)
     monkeypatch.setattr(dev, "run", run)
     dev.install(())

@@ -17,7 +17,7 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.errors import FileError
-from ninja_game.files.resources import bundled_replays, data_folder
+from ninja_game.files.user_folder import bundled_replays, data_folder
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.replay.text import parse_replay, write_replay

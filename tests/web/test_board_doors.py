@@ -18,7 +18,7 @@ import pytest
 from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
-from ninja_game.files.resources import bundled_replays, data_folder
+from ninja_game.files.user_folder import bundled_replays, data_folder
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.replay.text import write_replay
 from ninja_game.runs.run import record_replay, run_level

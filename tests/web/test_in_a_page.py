@@ -31,7 +31,7 @@ def daily():
     frames()
     return app.top.message
 def film():
-    from ninja_game.files.resources import bundled_replays
+    from ninja_game.files.user_folder import bundled_replays
     from ninja_game.formats.load import load_replays
     from ninja_game.play.replay.screen import ReplayScreen
     app.push(ReplayScreen(app, load_replays(bundled_replays()[0])))
@@ -52,7 +52,7 @@ def findings():
     frames(40)
     return app.top.session._checks.result is not None
 def picture():
-    app.push(__import__("ninja_game.play.boss", fromlist=["BossScreen"]).BossScreen(app))
+    app.push(__import__("ninja_game.play.app", fromlist=["BossScreen"]).BossScreen(app))
     frames()
     app.keep_screenshot()
     return head_of(app.notice)

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from ninja_game.files.resources import data_folder
+from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.web.board.pages import BoardPages

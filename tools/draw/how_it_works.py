@@ -6,7 +6,7 @@ import os
 
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
-from ninja_game.play.lab.export import export_figure
+from ninja_game.play.lab.screen import export_figure
 from ninja_game.play.view.sprites.tile_sheet import outline
 from tools import ROOT
 from tools.draw.legend import picture as draw_legend

@@ -16,7 +16,7 @@ from itertools import combinations
 
 import numpy as np
 
-from ninja_game.files.resources import bundled_replays
+from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.demo import parse_demo
 from ninja_game.formats.recording import Recording

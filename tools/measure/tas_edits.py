@@ -24,7 +24,7 @@ from pathlib import Path
 from random import Random
 from unittest.mock import patch
 
-from ninja_game.files.resources import bundled_levels
+from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.load import load_level
 from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.runs.run import run_level

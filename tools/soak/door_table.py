@@ -44,7 +44,7 @@ from ninja_game.play.ui.stroke_font import StrokeFont
 from ninja_game.play.ui.text_entry import EditedText
 from ninja_game.player.backup import read_backup
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.settings_file import read_settings, write_changes
+from ninja_game.player.settings import read_settings, write_changes
 from ninja_game.player.store import Store
 from ninja_game.runs.checkpoint_log import CheckpointLog
 from ninja_game.runs.chunks import (

@@ -27,7 +27,7 @@ FOLDER_SIZE = 1000
 
 def make_archive(folder: Path, count: int, source: Path | None) -> None:
     """``count`` files of one recording each, a thousand a folder, every 997th broken."""
-    from ninja_game.files.resources import bundled_replays
+    from ninja_game.files.user_folder import bundled_replays
     from ninja_game.formats.load import load_replays
     from ninja_game.formats.n14.level_file import read_level_file
     from ninja_game.formats.replay.text import write_replay

@@ -31,7 +31,7 @@ def command(
     """
     from ninja_game.cli.game.play import pixels
     from ninja_game.editor.files import Source, open_source
-    from ninja_game.files.resources import data_folder
+    from ninja_game.files.user_folder import data_folder
 
     window = pixels(size) if size else None
     source = open_source(level, record) if level is not None else None

@@ -46,7 +46,7 @@ def command(
     window = pixels(size) if size else None
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     if output is not None and figure is not None:
-        from ninja_game.play.lab.export import export_figure
+        from ninja_game.play.lab.screen import export_figure
 
         export_figure(figure, output)
         return

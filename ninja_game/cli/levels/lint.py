@@ -30,7 +30,7 @@ def command(ctx: click.Context, pack: Path) -> None:
     opened = Pack(pack)
     found = list(lint(opened))
     for finding in found:
-        click.echo(f"{shown_text(str(finding), 500)}. {finding.mend} [{finding.code}]")
+        click.echo(f"{shown_text(str(finding), 500)}. {finding.hint} [{finding.code}]")
     episodes = len(opened.episodes)
     counted = f"{shown_text(opened.name)}: {episodes} episodes, {len(opened.levels)} levels"
     click.echo(f"{counted}, {len(found)} findings" if found else f"{counted}, nothing odd")

@@ -140,7 +140,8 @@ def _row(verdict: Verdict) -> str:
     where = f"{shown_text(verdict.file)}:{verdict.record}"
     name = shown_text(verdict.name)
     row = f"{mark} {verdict.outcome:<7} {when:>11}  {verdict.gold:>3} gold  {score:>8}  {name}  {where}"
-    return "\n     ".join([row, *map(shown_text, verdict.problems)])
+    problems = [f"{shown_text(each.text)}. {each.hint} [{each.code}]" for each in verdict.problems]
+    return "\n     ".join([row, *problems])
 
 
 def _summary(tally: Tally) -> str:

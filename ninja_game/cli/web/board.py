@@ -50,7 +50,7 @@ def command(
       ninja-game board replays/ --levels my-pack/ --site public/
     """
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
-    from ninja_game.files.resources import data_folder
+    from ninja_game.files.user_folder import data_folder
     from ninja_game.files.writing import check_output, write_atomically
     from ninja_game.web.board.pages import BoardPages, check_site
     from ninja_game.web.board.ranking import Ranking

@@ -36,7 +36,7 @@ def command(out: Path | None, pyodide: Path | None, serve: bool, port: int) -> N
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from platformdirs import user_cache_path
 
-    from ninja_game.files.resources import data_folder
+    from ninja_game.files.user_folder import data_folder
     from ninja_game.web.pages.exhibition import exhibition
     from ninja_game.web.pages.gallery import write_gallery
     from ninja_game.web.site.build import build_site

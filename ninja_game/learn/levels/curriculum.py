@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ninja_game.errors import ArgumentError
 from ninja_game.files.reading import read_text
-from ninja_game.files.resources import data_folder
+from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.pack.files import PARS
 from ninja_game.formats.pack.pars import parse_pars

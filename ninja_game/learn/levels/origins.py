@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from ninja_game.errors import ArgumentError
-from ninja_game.files.resources import bundled_levels
+from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.named_level import NamedLevel, parse_levels
 from ninja_game.learn.levels.curriculum import Curriculum

@@ -176,7 +176,7 @@ class Findings(EditorPart):
         finding = self._shown[index]
         x, y, w, _ = area
         theme.text(surface, "!", x + 4, y + 5, size=9.5, bold=True, colour=theme.palette.bad)
-        theme.text(surface, f"{finding.sentence}. {finding.mend}", x + 14, y + 5, size=9.5, width=w - 16)
+        theme.text(surface, f"{finding.sentence}. {finding.hint}", x + 14, y + 5, size=9.5, width=w - 16)
 
 
 class FilePart(EditorPart):

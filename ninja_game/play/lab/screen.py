@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 import pygame
 
-from ninja_game.play.lab.figure import Figure
+from ninja_game.errors import NinjaGameError
+from ninja_game.play.app import App
+from ninja_game.play.lab.figure import FIGURE, Figure, Sheet
 from ninja_game.play.lab.figures.catalogue import FIGURES
-from ninja_game.play.lab.sheet import FIGURE, Sheet
 from ninja_game.play.level.play import RunClock
 from ninja_game.play.menus.menu_screen import DIRECTIONS, MenuScreen
+from ninja_game.play.replay.film import write_gif
+from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.theme import Area, Theme, wrapped
 from ninja_game.play.ui.widgets import Button, Choice, Slider, Widget
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
+from ninja_game.play.view.render_context import OffscreenContext
+from ninja_game.play.window import save_picture
 
 TEXT_TOP, NUMBERS_TOP, LINE = 394.0, 452.0, 15.0
 CONTROLS: Area = (552, 452, 200, 26)
@@ -170,3 +172,37 @@ class FigureArea(Widget):
         sheet.close()
         if focused:
             theme.canvas.frame_rect(surface, theme.palette.accent, *FIGURE, 2.5)
+
+
+FILM_TICKS = 240
+PICTURE_TICK = 100
+"""Where in its demonstration a figure is photographed."""
+
+
+def figure_pictures(name: str, *, scale: float = 1.0, ticks: int = FILM_TICKS) -> Iterator[pygame.Surface]:
+    """The figure after each tick of its demonstration, without anything around it."""
+    pygame.font.init()
+    context = OffscreenContext((round(WIDTH * scale), round(HEIGHT * scale)))
+    surface = pygame.Surface(context.canvas.window)
+    figure = FIGURES[name]()
+    for tick in range(ticks):
+        figure.demonstrate(tick)
+        figure.tick()
+        sheet = Sheet(surface, context.theme, figure.view)
+        figure.draw(sheet)
+        sheet.close()
+        yield surface.subsurface(context.canvas.rect(*FIGURE))
+
+
+def export_figure(name: str, path: Path, *, scale: float = 1.0) -> None:
+    """Write a figure as PNG, or its demonstration as GIF. Raises NinjaGameError for another suffix, OSError."""
+    if path.suffix == ".png":
+        *_, last = figure_pictures(name, scale=scale, ticks=PICTURE_TICK)
+        save_picture(last, path)
+    elif path.suffix == ".gif":
+        pictures = figure_pictures(name, scale=scale)
+        context = OffscreenContext((round(WIDTH * scale), round(HEIGHT * scale)))
+        palette, size = context.theme.palette, context.canvas.rect(*FIGURE).size
+        write_gif(pictures, FILM_TICKS, path, size, 1.0, palette)
+    else:
+        raise NinjaGameError(f"{path}: a figure is written as .png or .gif")

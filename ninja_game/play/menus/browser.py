@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from os import sep
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pygame
 
@@ -15,24 +14,22 @@ from ninja_game.files.shown_text import name_problem
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
+from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.level_card import all_gold_and_medal, draw_pars, where_from
+from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
-from ninja_game.play.menus.watch_replay import watch
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.ui.theme import Area, Theme, counted, unreadable
 from ninja_game.play.ui.widgets import Button, Choice, Widget
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.marks import Mark
 from ninja_game.player.playthrough import LevelRun
+from ninja_game.player.progress import Mark
 from ninja_game.player.records import SavedReplay
 from ninja_game.player.scoring import seconds_text
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 ROW = 54
 PICTURE = 60

@@ -7,7 +7,7 @@ import pygame
 from ninja_game.play.ui.medals import MEDALS, draw_all_gold, draw_medal
 from ninja_game.play.ui.theme import Theme
 from ninja_game.player.catalogue import Entry
-from ninja_game.player.marks import Mark, has_all_gold, medal_of, next_par
+from ninja_game.player.progress import Mark, has_all_gold, medal_of, next_par
 from ninja_game.player.scoring import seconds_text
 
 

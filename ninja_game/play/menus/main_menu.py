@@ -3,31 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
 import pygame
 
 from ninja_game import __version__
+from ninja_game.play.app import App, Screen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.menus.attract import Attract
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.daily import DailyScreen
-from ninja_game.play.menus.episodes.grid import EpisodeGrid
-from ninja_game.play.menus.help.screen import HelpScreen
+from ninja_game.play.menus.episodes import EpisodeGrid
+from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
-from ninja_game.play.menus.settings.screen import SettingsScreen
-from ninja_game.play.screen import Screen
+from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.theme import Area
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Entry as LevelEntry
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 LEFT, WIDE, MIDDLE = 44, 232, 306
 """Where the panel lies: its left edge, its width, the height of its middle."""

@@ -4,33 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import pygame
 
-from ninja_game.errors import NinjaGameError
+from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.reading import LeftOut, files_below
-from ninja_game.files.resources import bundled_replays
-from ninja_game.files.user_folder import export_path
+from ninja_game.files.user_folder import bundled_replays, export_path
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.links.making import recording_link, replay_link
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
-from ninja_game.formats.replay.text import write_replay
+from ninja_game.formats.replay.text import Replay, write_replay
+from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question
-from ninja_game.play.menus.watch_replay import watch, watch_recording
+from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.theme import Area, Theme, unreadable
 from ninja_game.play.ui.widgets import Widget
 from ninja_game.player.records import SavedReplay
 from ninja_game.player.saving import forget_replay
 from ninja_game.player.scoring import level_score, seconds_text
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 ROW = 34
 FILES_SHOWN = 300
@@ -211,3 +208,19 @@ def _result(outcome: str, gold: int, final_tick: int) -> str:
     if outcome == "exit":
         return seconds_text(level_score(gold, final_tick))
     return f"{OUTCOMES[outcome]}, {seconds_text(final_tick + 1)}"
+
+
+def watch(app: App, replays: Iterable[Replay | None]) -> bool:
+    """Watch replays of the records one after another; whether there were any. Those that have gone are left out."""
+    runs = [Recording(replay.level, replay) for replay in replays if replay is not None and replay.level is not None]
+    if runs:
+        app.push(ReplayScreen(app, runs))
+    return bool(runs)
+
+
+def watch_recording(app: App, recording: Recording) -> None:
+    """Watch a recording from a file; a notice says why where its level cannot be played."""
+    try:
+        app.push(ReplayScreen(app, [recording]))
+    except LevelError as error:
+        app.notify(f"{recording.name or 'The replay'} cannot be watched: {error.what}")

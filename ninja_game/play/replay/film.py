@@ -15,9 +15,8 @@ from typing import Any
 import pygame
 
 from ninja_game.errors import ArgumentError, MissingExtraError, NinjaGameError
-from ninja_game.files.resources import how_to_install
 from ninja_game.files.tree import Tree
-from ninja_game.files.user_folder import export_path
+from ninja_game.files.user_folder import export_path, how_to_install
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.play.level.ghosts import Ghost

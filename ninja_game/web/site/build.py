@@ -15,8 +15,8 @@ from typing import Any, NamedTuple
 from ninja_game import __version__
 from ninja_game.errors import DAMAGED, FileError, NinjaGameError
 from ninja_game.files.reading import read_utf8
-from ninja_game.files.resources import PACKAGE
 from ninja_game.files.tree import Tree, leads_below
+from ninja_game.files.user_folder import PACKAGE
 from ninja_game.web.site.game_archive import compiled, game_archive, game_files, licence_of
 from ninja_game.web.site.pyodide_files import library_files, library_of, pyodide_files
 

@@ -14,7 +14,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from ninja_game.errors import NinjaGameError
-from ninja_game.files.resources import PACKAGE, data_folder
+from ninja_game.files.user_folder import PACKAGE, data_folder
 from ninja_game.web.sounds import compressed
 
 LEFT_OUT = (

@@ -9,7 +9,7 @@ from ninja_game.editor.brush import OBJECT_TYPES, placed
 from ninja_game.editor.files import Source
 from ninja_game.editor.records import BODY, points
 from ninja_game.editor.stamp import Selection, Stamp, put
-from ninja_game.files.resources import bundled_levels
+from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.play.editor import object_pictures
 from ninja_game.play.editor.object_pictures import ObjectPictures, ObjectSprites

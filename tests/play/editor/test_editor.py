@@ -15,7 +15,7 @@ from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.input.keys import SCANCODES
-from ninja_game.play.menus.help.commands_page import HelpPage
+from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import Menu
 from tests.support.level_maker import ROOM, Maker
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from ninja_game.errors import LevelError
-from ninja_game.play.menus.help.pages import Page, read_pages, room_level, strokes
-from ninja_game.play.menus.help.screen import HelpScreen
+from ninja_game.play.menus.help import HelpScreen, Page, read_pages, room_level, strokes
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.simulation import Simulation
 from tests.support.menu_driver import MenuDriver

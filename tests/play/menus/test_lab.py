@@ -14,8 +14,7 @@ from PIL import Image
 
 from ninja_game.cli.game import lab as lab_command
 from ninja_game.errors import NinjaGameError
-from ninja_game.play.lab.export import FILM_TICKS, export_figure, figure_pictures
-from ninja_game.play.lab.figure import Figure, room_world
+from ninja_game.play.lab.figure import FIGURE, Figure, room_world
 from ninja_game.play.lab.figures.catalogue import FIGURES
 from ninja_game.play.lab.figures.cells import CellsTouched, NineCells
 from ninja_game.play.lab.figures.drones import WalkingEnemies
@@ -25,9 +24,8 @@ from ninja_game.play.lab.figures.meetings import Bullets, FiveCells
 from ninja_game.play.lab.figures.one_tick import PHASES, PLAYED, OneTick
 from ninja_game.play.lab.figures.projection import PUSH, Projection
 from ninja_game.play.lab.figures.rays import Rays
-from ninja_game.play.lab.screen import FigureArea, LabScreen
-from ninja_game.play.lab.sheet import FIGURE
-from ninja_game.play.menus.help.pages import room_level
+from ninja_game.play.lab.screen import FILM_TICKS, FigureArea, LabScreen, export_figure, figure_pictures
+from ninja_game.play.menus.help import room_level
 from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle
 from ninja_game.sim.collision.rays import ray_circle, sees

@@ -8,8 +8,7 @@ import pytest
 
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
-from ninja_game.play.menus.episodes.cells import Cells
-from ninja_game.play.menus.episodes.grid import EpisodeGrid
+from ninja_game.play.menus.episodes import Cells, EpisodeGrid
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.records import RecordsScreen

@@ -13,11 +13,10 @@ from ninja_game.formats.pack.files import is_pack
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main import first_screen
 from ninja_game.play.menus.browser import Browser
-from ninja_game.play.menus.episodes.cells import NAMED, Cells
-from ninja_game.play.menus.episodes.grid import EpisodeGrid
+from ninja_game.play.menus.episodes import NAMED, Cells, EpisodeGrid
 from ninja_game.play.menus.level_card import time_and_par
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.player.marks import Mark
+from ninja_game.player.progress import Mark
 from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ninja_game.files.resources import bundled_replays
+from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.browser import Browser
-from ninja_game.play.menus.episodes.grid import EpisodeGrid
-from ninja_game.play.menus.episodes.passed import EpisodePassed
+from ninja_game.play.menus.episodes import EpisodeGrid
+from ninja_game.play.menus.passed import EpisodePassed
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.replay.screen import ReplayScreen

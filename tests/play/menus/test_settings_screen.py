@@ -6,9 +6,7 @@ import pytest
 
 from ninja_game.play.input.bindings import ACTIONS
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.settings.capture import Conflict, clash
-from ninja_game.play.menus.settings.rebinding import SLOTS
-from ninja_game.play.menus.settings.screen import PAGES, SettingsScreen
+from ninja_game.play.menus.settings import PAGES, SLOTS, Conflict, SettingsScreen, clash
 from ninja_game.play.ui.widgets import Slider
 from tests.support.menu_driver import MenuDriver
 

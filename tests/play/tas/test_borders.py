@@ -13,7 +13,7 @@ from ninja_game.play.menus.panels import Menu
 from ninja_game.play.tas.layout import NARROWEST_ROLL, LayoutPreferences, tas_canvas, tas_layout
 from ninja_game.play.tas.screen import TasScreen
 from ninja_game.play.ui.theme import Area
-from ninja_game.player.settings_file import read_settings
+from ninja_game.player.settings import read_settings
 from ninja_game.tas.files import open_run
 from tests.play.tas.conftest import RUN
 from tests.support.tas_driver import TasDriver

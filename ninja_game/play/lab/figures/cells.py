@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ninja_game.play.lab.figure import Control, Figure, choice, room_world
-from ninja_game.play.lab.sheet import CORNER, Sheet
-from ninja_game.play.lab.watching import watch
+from ninja_game.play.lab.figure import CORNER, Control, Figure, Sheet, choice, room_world, watch
 from ninja_game.play.view.overlays import hit_shapes, touched_cells
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, COLUMN, EXISTS, ROW
 from ninja_game.sim.events import EVENT_NAMES

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from random import Random
 from typing import NamedTuple
 
-from ninja_game.play.lab.sheet import FIELD, FIGURE
+from ninja_game.play.lab.figure import FIELD, FIGURE
 from ninja_game.sim.grid import cell_at, grid_insert, grid_move
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World

@@ -6,10 +6,8 @@ from collections.abc import Sequence
 
 from ninja_game.formats.ascii.legend import DIRECTION_WORDS
 from ninja_game.formats.ascii.object_forms import MOVEMENTS
-from ninja_game.play.lab.figure import ELSEWHERE, Control, Figure, Setting, choice
+from ninja_game.play.lab.figure import ELSEWHERE, Control, Figure, Setting, Sheet, Stage, choice
 from ninja_game.play.lab.figures.edges import STATES
-from ninja_game.play.lab.sheet import Sheet
-from ninja_game.play.lab.stage import Stage
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, NEIGHBOUR_OFFSET, UNIT_X, UNIT_Y
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.kinds import DOOR, DRONE

@@ -6,8 +6,7 @@ from collections.abc import Sequence
 
 from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
-from ninja_game.play.lab.figure import Control, Figure, Setting, choice, room_world, slider
-from ninja_game.play.lab.sheet import Sheet
+from ninja_game.play.lab.figure import Control, Figure, Setting, Sheet, choice, room_world, slider
 from ninja_game.sim.collision.tiles import (
     CENTRE_X,
     CENTRE_Y,

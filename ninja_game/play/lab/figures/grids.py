@@ -6,9 +6,8 @@ from collections.abc import Sequence
 from functools import cache
 from itertools import pairwise
 
-from ninja_game.play.lab.figure import Control, Figure, Setting, choice, slider
+from ninja_game.play.lab.figure import FIELD, Control, Figure, Setting, Sheet, choice, slider
 from ninja_game.play.lab.figures.crowd import LEFT, TOP, Crowd, Work
-from ninja_game.play.lab.sheet import FIELD, Sheet
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.objects.dispatch import NINE_CELLS

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from ninja_game.play.lab.figure import Control, Figure, Setting, choice, slider
+from ninja_game.play.lab.figure import FIELD, Control, Figure, Setting, Sheet, choice, slider
 from ninja_game.play.lab.figures.crowd import FIVE_CELLS, Crowd
-from ninja_game.play.lab.sheet import FIELD, Sheet
 from ninja_game.sim.grid import cell_at, grid_move
 from ninja_game.sim.memory.object_fields import Object
 

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ninja_game.play.lab.figure import Control, Figure, choice, slider
-from ninja_game.play.lab.sheet import Sheet
-from ninja_game.play.lab.stage import Stage
-from ninja_game.play.lab.watching import Call
-from ninja_game.play.menus.help.pages import strokes
+from ninja_game.play.lab.figure import Call, Control, Figure, Sheet, Stage, choice, slider
+from ninja_game.play.menus.help import strokes
 from ninja_game.play.view.overlays import touched_cells
 from ninja_game.sim.collision.tiles import EXISTS
 from ninja_game.sim.events import EVENT_NAMES

@@ -8,10 +8,8 @@ from typing import NamedTuple
 
 from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
-from ninja_game.play.lab.figure import Control, Figure, Setting, choice, room_world, slider
+from ninja_game.play.lab.figure import Call, Control, Figure, Setting, Sheet, View, choice, room_world, slider, watch
 from ninja_game.play.lab.figures.cells import BODIES
-from ninja_game.play.lab.sheet import Sheet, View
-from ninja_game.play.lab.watching import Call, watch
 from ninja_game.play.ui.canvas import Point
 from ninja_game.sim.collision.box import collide_box
 from ninja_game.sim.collision.circle import collide_circle

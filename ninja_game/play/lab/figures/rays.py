@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import dist
 
-from ninja_game.play.lab.figure import Control, Figure, choice, room_world
-from ninja_game.play.lab.sheet import Sheet
-from ninja_game.play.lab.watching import values_of, watch
+from ninja_game.play.lab.figure import Control, Figure, Sheet, choice, room_world, values_of, watch
 from ninja_game.play.ui.canvas import Point
 from ninja_game.sim.collision.rays import cast, ray_circle, ray_tiles, sees
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS

@@ -1,26 +1,130 @@
-"""Help: pages about moving and about every object, each with a demonstration that plays again and again."""
+"""The help's pages: texts, and small rooms with what is played in them (``assets/help/pages.toml``)."""
 
 from __future__ import annotations
 
+import re
+import tomllib
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from pathlib import Path
 
 import pygame
 
+from ninja_game.errors import LevelError
+from ninja_game.files.user_folder import data_folder
+from ninja_game.formats.ascii.reader import parse_ascii_level
+from ninja_game.play.app import App
 from ninja_game.play.input.bindings import ACTIONS, MOVES
+from ninja_game.play.input.gamepad import pad_label
+from ninja_game.play.input.keys import Command, key_text
 from ninja_game.play.level.play import RunClock
-from ninja_game.play.menus.help.pages import Page, read_pages
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.replay.playback import Playback
-from ninja_game.play.ui.canvas import HEIGHT, Canvas
+from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.theme import Area, Theme, wrapped
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.play.view.level_view import LevelView
+from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, with_press_bits
+from ninja_game.sim.level import COLUMNS, ROWS, Level
 from ninja_game.simulation import Simulation
 
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
+PAGES_FILE = "help/pages.toml"
+
+KEY_BITS = {"l": KEY_LEFT, "r": KEY_RIGHT, "j": JUMP_HELD}
+
+_STROKE = re.compile(r"([lrj]*)([0-9]+)")
+
+
+@dataclass(frozen=True)
+class Page:
+    """A page of the help. ``inputs``: one byte per tick; ``shows``: names of events that must happen in it."""
+
+    title: str
+    text: tuple[str, ...]
+    level: Level
+    inputs: bytes
+    shows: tuple[str, ...]
+
+
+def read_pages(path: Path | None = None) -> list[Page]:
+    """The pages of the bundled file, or of another. Raises LevelError naming the page that is wrong."""
+    path = path or data_folder("assets") / PAGES_FILE
+    tables = tomllib.loads(path.read_text("utf-8"))["page"]
+    return [_page(table, str(path)) for table in tables]
+
+
+def _page(table: dict[str, object], file: str) -> Page:
+    title = str(table["title"])
+    room = str(table["room"]).strip("\n").split("\n")
+    objects = table.get("objects", [])
+    assert isinstance(objects, list)  # noqa: S101 - our own file, read by a test
+    try:
+        level = room_level(room, objects)
+    except LevelError as error:
+        raise LevelError(f"the page {title!r}: {error}", file) from error
+    text, shows = table["text"], table["shows"]
+    assert isinstance(text, list)  # noqa: S101 - as above
+    assert isinstance(shows, list)  # noqa: S101 - as above
+    return Page(title, tuple(text), level, strokes(str(table["keys"])), tuple(shows))
+
+
+def room_level(room: Sequence[str], objects: Sequence[str]) -> Level:
+    """A level with the rows of a room in its upper left corner and solid all around."""
+    rows = [row.ljust(COLUMNS, "#") for row in room]
+    rows += ["#" * COLUMNS] * (ROWS - len(rows))
+    picture = "\n".join(f"|{row}|" for row in rows)
+    return parse_ascii_level(f"ninja-game level 1\n{picture}\n" + "\n".join(objects) + "\n").level
+
+
+def strokes(text: str) -> bytes:
+    r"""The inputs that key strokes mean: letters and how many ticks they are held.
+
+    >>> strokes("r2 rj2 1")
+    b'\x02\x02\x0e\x06\x00'
+    """
+    inputs = bytearray()
+    for stroke in text.split():
+        match = _STROKE.fullmatch(stroke)
+        if match is None:
+            raise LevelError("not a key stroke", found=repr(stroke), expected="letters of lrj and a number of ticks")
+        inputs += bytes([sum(KEY_BITS[letter] for letter in match[1])]) * int(match[2])
+    return with_press_bits(inputs)
+
+
+class HelpPage(MenuScreen):
+    """All that can be done, on one page: ``words``, then the table of ``commands``."""
+
+    foot = "Esc goes back"
+
+    def __init__(self, app: App, title: str, words: str, commands: Sequence[Command]) -> None:
+        super().__init__(app)
+        self.title = title
+        self._words = words
+        self._commands = [command for command in commands if command.keys or command.pad]
+
+    def build(self) -> Sequence[Widget]:
+        """One way back."""
+        return [Button((640, 536, 112, 24), "Back", self.back, size=10)]
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        """The words, then the table in two columns."""
+        super().draw_frame(surface)
+        theme = self.app.theme
+        lines = [line for text in self._words.split("\n") for line in wrapped(theme, text, WIDTH - 80, 10)]
+        for number, line in enumerate(lines):
+            theme.text(surface, line, 40, 60 + 15 * number, size=10)
+        rows = -(-len(self._commands) // 2)
+        top = 70 + 15 * len(lines)
+        keys, pads = (84, 86) if any(command.pad for command in self._commands) else (104, 0)
+        for number, command in enumerate(self._commands):
+            column, row = divmod(number, rows)
+            x, y = 40 + 362 * column, top + min(19.0, (530 - top) / rows) * row
+            theme.text(surface, key_text(command), x, y, size=10, bold=True, width=keys)
+            theme.text(surface, pad_label(command.pad) if command.pad else "", x + keys + 2, y, size=9, width=pads,
+                       colour=theme.palette.faint)  # fmt: skip
+            theme.text(surface, command.label, x + keys + pads + 4, y, size=10, width=356 - keys - pads)
+
 
 WINDOW: Area = (240, 66, 504, 288)
 """Where the demonstration is seen: that much of the stage, at its own scale."""

@@ -1,1 +1,0 @@
-"""Episodes: the grid, and what passing one has brought."""

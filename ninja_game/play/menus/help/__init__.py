@@ -1,1 +1,0 @@
-"""The help: pages with demonstrations, and the table of keys."""

@@ -1,0 +1,361 @@
+"""Taking a press for an action: the panel that waits for it, and the question if another action has it already."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import pygame
+
+from ninja_game.play.app import App, Screen
+from ninja_game.play.input.bindings import ACTIONS, InputEvent
+from ninja_game.play.input.gamepad import pad_label
+from ninja_game.play.input.keys import key_label
+from ninja_game.play.menus.menu_screen import MenuScreen
+from ninja_game.play.menus.panels import Panel
+from ninja_game.play.ui.canvas import WIDTH
+from ninja_game.play.ui.list_view import ListView
+from ninja_game.play.ui.text_entry import TextEntry
+from ninja_game.play.ui.theme import NINJA_COLOURS, PALETTES, Area, Theme
+from ninja_game.play.ui.widgets import TEXT, Button, Choice, Label, Slider, Widget
+from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
+
+IN_REPLAYS_ONLY = frozenset({"faster", "slower", "frame_back", "frame_forward", "edit"})
+IN_LEVELS_ONLY = frozenset(
+    {"suicide", "replay", "skip", "quick_save", "quick_load", "rewind", "slow", "step"}
+)  # fmt: skip
+"""Actions that never mean something on the same screen."""
+
+
+def clash(first: str, second: str) -> bool:
+    """Whether two actions must not have the same input: other ones, read on one screen, that share none by default."""
+    if first == second:
+        return False
+    pair = {first, second}
+    if pair & IN_REPLAYS_ONLY and pair & IN_LEVELS_ONLY:
+        return False
+    a, b = ACTIONS[first], ACTIONS[second]
+    return not (set(a.keys) & set(b.keys) or set(a.pad) & set(b.pad))
+
+
+def input_label(device: str, name: str) -> str:
+    """What an input is called. ``device``: "keys" or "pad"."""
+    return key_label(name) if device == "keys" else pad_label(name)
+
+
+class Conflict(Panel):
+    """An input that other actions have already: the player says what becomes of it."""
+
+    def __init__(self, table: BindingTable, action: str, slot: int, name: str, others: Sequence[str]) -> None:
+        labels = " and ".join(ACTIONS[other].label for other in others)
+        super().__init__(table.screen.app, f"{input_label(table.device, name)} already means {labels}")
+        self.table = table
+        self.action = action
+        self.slot = slot
+        self.name = name
+        self.others = others
+
+    def rows(self) -> list[tuple[str, Callable[[], object], str]]:
+        """To leave it comes first, so that a hasty key does no harm."""
+        label = ACTIONS[self.action].label
+        return [
+            ("Leave it as it was", self.back, ""),
+            (f"Only {label}", self._take, ""),
+            ("Use it for both", self._share, ""),
+        ]
+
+    def _take(self) -> None:
+        """The others lose it."""
+        for other in self.others:
+            self.table.bind(other, tuple(each for each in self.table.inputs(other) if each != self.name))
+        self._share()
+
+    def _share(self) -> None:
+        self.app.pop()
+        self.table.put(self.action, self.slot, self.name)
+
+
+class Capture(Screen):
+    """Waits for one press, which becomes the input. Esc leaves all as it was."""
+
+    see_through = True
+
+    def __init__(self, table: BindingTable, action: str, slot: int) -> None:
+        super().__init__(table.screen.app)
+        self.table = table
+        self.action = action
+        self.slot = slot
+
+    def capture(self, event: InputEvent) -> bool:
+        """Take the press, whatever it means elsewhere."""
+        if event.raw.type == pygame.MOUSEBUTTONDOWN:
+            self.app.pop()
+            return True
+        if event.source is None:
+            return False
+        device, name = event.source
+        if device == "keys" and name == "escape":
+            self.app.pop()
+        elif device == self.table.device:
+            self.app.pop()
+            self.table.taken(self.action, self.slot, name)
+        return True
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        """What to do."""
+        if not self.redraw:
+            return []
+        theme = self.app.theme
+        theme.window(surface, 206, 240, 380, 110)
+        what = "key" if self.table.device == "keys" else "button, or move a stick,"
+        theme.text(surface, ACTIONS[self.action].label, 396, 262, size=16, align="centre", bold=True)
+        theme.text(surface, f"Press a {what} for it", 396, 292, size=12, align="centre")
+        theme.text(surface, "Esc leaves it as it was", 396, 318, size=10, colour=theme.palette.faint, align="centre")
+        return None
+
+
+SLOTS = 5
+ROW = 30
+LIST: Area = (216, 72, 540, 13 * ROW)
+LABEL_SHARE = 0.34
+
+
+def binding_widgets(screen: SettingsScreen, device: str) -> list[Widget]:
+    """The widgets of a page. ``device``: "keys" or "pad"."""
+    actions = [name for name in ACTIONS if device == "keys" or ACTIONS[name].pad or name in ("quit", "skip", "boss")]
+    # The same one again after a press was taken, so that the selection stays.
+    table = screen.tables.setdefault(device, BindingTable(screen, device, actions))
+    widgets: list[Widget] = [
+        table,
+        Button((216, 478, 260, 30), "Reset to defaults", lambda: screen.change(**{device: {}})),
+    ]
+    if device == "pad":
+        widgets.append(_dead_zone(screen))
+    return widgets
+
+
+def _dead_zone(screen: SettingsScreen) -> Slider:
+    pads = screen.app.controls.pads.count
+    return Slider(
+        (216, 514, 540, 30), "Dead zone of sticks", (0.05, 0.95, 0.05), lambda: screen.player.settings.dead_zone,
+        lambda value: screen.change(dead_zone=round(value, 2)), show=lambda value: f"{100 * value:.0f} %",
+        hint=f"{pads} gamepads are plugged in" if pads != 1 else "One gamepad is plugged in",
+    )  # fmt: skip
+
+
+class BindingTable(ListView):
+    """One row an action, one cell an input. Left and right choose the cell, Enter waits for a press, Delete clears."""
+
+    def __init__(self, screen: SettingsScreen, device: str, actions: list[str]) -> None:
+        super().__init__(LIST, ROW, self._draw_action, self._capture)
+        self.screen = screen
+        self.device = device
+        self.actions = actions
+        self.slot = 0
+        self.hint = "Left and right choose a place, Enter takes a new press, Delete clears it"
+        self.fill(actions)
+
+    def inputs(self, action: str) -> tuple[str, ...]:
+        """The names of the inputs that an action has now."""
+        changed = getattr(self.screen.player.settings, self.device)
+        default = ACTIONS[action].keys if self.device == "keys" else ACTIONS[action].pad
+        return tuple(changed.get(action, default))
+
+    def bind(self, action: str, inputs: tuple[str, ...]) -> None:
+        """Give an action other inputs; where they are the default ones nothing is stored."""
+        changed = dict(getattr(self.screen.player.settings, self.device))
+        default = ACTIONS[action].keys if self.device == "keys" else ACTIONS[action].pad
+        changed[action] = inputs
+        if inputs == default:
+            del changed[action]
+        self.screen.change(**{self.device: changed})
+
+    def nudge(self, action: str) -> bool:
+        """Left and right within the row, Delete."""
+        if action in ("left", "right"):
+            slot = self.slot + (1 if action == "right" else -1)
+            if not 0 <= slot < SLOTS:
+                return False
+            self.slot = slot
+            return True
+        if action == "delete":
+            name = self.actions[self.index]
+            inputs = self.inputs(name)
+            self.bind(name, inputs[: self.slot] + inputs[self.slot + 1 :])
+            return True
+        return super().nudge(action)
+
+    def click(self, x: float, y: float) -> bool:
+        """The cell that is clicked."""
+        left, width = self._cells()
+        if left <= x < left + SLOTS * width:
+            self.slot = int((x - left) // width)
+        return super().click(x, y)
+
+    def _cells(self) -> tuple[float, float]:
+        x, _, w, _ = self.area
+        return x + w * LABEL_SHARE, (w * (1 - LABEL_SHARE) - 12) / SLOTS
+
+    def _capture(self, index: int) -> None:
+        self.screen.app.push(Capture(self, self.actions[index], self.slot))
+
+    def taken(self, action: str, slot: int, name: str) -> None:
+        """An input was pressed for an action: use it, unless other actions have it; then the player chooses."""
+        others = [other for other in ACTIONS if name in self.inputs(other) and clash(action, other)]
+        if others:
+            self.screen.app.push(Conflict(self, action, slot, name, others))
+        else:
+            self.put(action, slot, name)
+
+    def put(self, action: str, slot: int, name: str) -> None:
+        """Put an input in its place; twice in one row is once."""
+        inputs = [each for each in self.inputs(action) if each != name]
+        inputs[slot : slot + 1] = [name]
+        self.bind(action, tuple(inputs[:SLOTS]))
+
+    def _draw_action(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        _, y, _, h = area
+        action = self.actions[index]
+        top = y + (h - TEXT) / 2
+        theme.text(
+            surface, ACTIONS[action].label, area[0] + 2, top, size=TEXT, bold=focused, width=LIST[2] * LABEL_SHARE - 8
+        )
+        left, width = self._cells()
+        inputs = self.inputs(action)
+        for slot in range(SLOTS):
+            x = left + slot * width
+            here = focused and slot == self.slot
+            theme.row(surface, (x + 2, y + 2, width - 4, h - 4), chosen=here, focused=here, radius=3)
+            if slot < len(inputs):
+                text = input_label(self.device, inputs[slot])
+                theme.text(surface, text, x + width / 2, top + 0.5, size=10, align="centre", width=width - 10)
+
+
+PAGES = ("Picture", "Sound", "Play", "Keyboard", "Gamepad")
+SWITCH = [("off", False), ("on", True)]
+RATES = [("match display", 0), ("30", 30), ("60", 60), ("120", 120), ("144", 144), ("240", 240)]
+COLOUR_NAMES = ("default", "pink", "olive", "teal", "mauve", "maroon", "white", "gold", "slate", "silver")
+PRACTICE_HINT = "No clock; quick save, rewind, slow motion; no records"
+LEFT, TOP, STEP, HEIGHT_OF_ROW = 216, 72, 42, 32
+WIDTH_OF_ROW = WIDTH - 36 - LEFT - 12
+
+
+class SettingsScreen(MenuScreen):
+    """Pages at the left, the widgets of the chosen one at the right."""
+
+    title = "Settings"
+
+    def __init__(self, app: App) -> None:
+        super().__init__(app)
+        self.page = PAGES[0]
+        self.tables: dict[str, BindingTable] = {}
+        self.tabs = ListView((40, TOP - 4, 158, 40 * len(PAGES)), 40, self._draw_tab, self._go_in, selected=self._show)
+        self.tabs.hint = "Up and down choose a page, Right goes to it, Esc leaves the settings"
+        self.tabs.fill(PAGES)
+
+    def build(self) -> Sequence[Widget]:
+        """The pages, and the present page's widgets."""
+        return [self.tabs, *self._page_widgets()]
+
+    def _show(self, index: int) -> None:
+        """Show the page that is selected."""
+        if self.page != PAGES[index]:
+            self.page = PAGES[index]
+            self.enter()
+            self.redraw = True
+
+    def _go_in(self, _index: int) -> None:
+        """To the first widget of the page."""
+        self.focus_on(next(widget for widget in self.widgets[1:] if widget.focusable))
+
+    def back(self) -> None:
+        """One step: from a page to the list of pages, from there out."""
+        if self.focus is self.tabs:
+            super().back()
+        else:
+            self.focus_on(self.tabs)
+
+    def _page_widgets(self) -> list[Widget]:
+        if self.page in ("Keyboard", "Gamepad"):
+            return binding_widgets(self, "keys" if self.page == "Keyboard" else "pad")
+        return {"Picture": self._picture, "Sound": self._sound, "Play": self._play}[self.page]()
+
+    # --- changing ---
+
+    def change(self, **values: object) -> None:
+        """Take, save and show other values."""
+        self.app.change_settings(**values)
+
+    def _area(self, place: int) -> tuple[float, float, float, float]:
+        return LEFT, TOP + STEP * place, WIDTH_OF_ROW, HEIGHT_OF_ROW
+
+    def _choice(
+        self, place: int, text: str, name: str, options: Sequence[tuple[str, object]], hint: str = ""
+    ) -> Choice:
+        return Choice(
+            self._area(place), text, options, lambda: getattr(self.player.settings, name),
+            lambda value: self.change(**{name: value}), hint=hint,
+        )  # fmt: skip
+
+    def _picture(self) -> list[Widget]:
+        columns, present = self.player.columns_complete, self.player.columns_present
+        count = len(NINJA_COLOURS) if custom_colour_unlocked(columns, present) else 1 + unlocked_colours(columns)
+        palettes = [(name, name) for name in PALETTES]
+        colours = list(zip(COLOUR_NAMES, NINJA_COLOURS, strict=True))[:count]
+        more = "Complete columns of episodes for more" if count < len(NINJA_COLOURS) else ""
+        return [
+            self._choice(0, "Palette", "palette", palettes, "contrast and safe mark danger by shape too"),
+            self._choice(1, "Ninja colour", "ninja_colour", colours, more),
+            self._choice(2, "Full screen", "fullscreen", SWITCH, "F11 at any time"),
+            self._choice(3, "Smooth motion", "smooth", SWITCH, "Draw between the 40 ticks of a second"),
+            self._choice(4, "Frame rate", "frame_limit", RATES),
+            self._choice(5, "Reduced motion", "reduced_motion", SWITCH, "Fewer particles; nothing plays behind menus"),
+            self._choice(6, "Reduced gore", "reduced_gore", SWITCH, "No blood"),
+            self._choice(7, "Ghost of your best run", "show_ghost", SWITCH),
+            self._choice(8, "Show keys in play", "show_keys", SWITCH),
+            self._choice(9, "Show frame time", "show_frame_time", SWITCH),
+        ]
+
+    def _sound(self) -> list[Widget]:
+        def slider(place: int, text: str, name: str, hint: str) -> Slider:
+            return Slider(
+                self._area(place), text, (0, 99, 3), lambda: getattr(self.player.settings, name),
+                lambda value: self._set_volume(name, value), hint=hint,
+            )  # fmt: skip
+
+        return [
+            slider(0, "Volume", "volume", "0 is silence"),
+            slider(1, "Ambient loops", "loop_volume", "Skids, slides, rockets, lasers: share of the volume"),
+        ]
+
+    def _set_volume(self, name: str, value: float) -> None:
+        self.change(**{name: round(value)})
+        self.chime("gold" if name == "volume" else "menu-move")
+
+    def _play(self) -> list[Widget]:
+        widgets: list[Widget] = [
+            self._choice(0, "Practice mode", "practice", SWITCH, PRACTICE_HINT),
+            Label((LEFT, TOP + STEP + 10, 200, 14), "Your name, in replays:"),
+            TextEntry((LEFT + 220, TOP + STEP, WIDTH_OF_ROW - 220, HEIGHT_OF_ROW), "nameless",
+                      self.player.settings.name, lambda text: self.change(name=text)),
+        ]  # fmt: skip
+        if overclock_unlocked(self.player.columns_complete, self.player.columns_present):
+            widgets.append(
+                Slider(self._area(2), "Overclock, ms", (0, FASTEST_TICK_GAIN, 1), lambda: self.app.overclock,
+                       lambda value: setattr(self.app, "overclock", round(value)),
+                       hint="Shorter ticks, until the game ends; scores count as ever")
+            )  # fmt: skip
+        text = f"Your levels: {self.player.folder / 'levels'}"
+        return [*widgets, Label((LEFT, TOP + STEP * 10 + 16, 500, 12), text, size=9.5, faint=True)]
+
+    # --- picture ---
+
+    def draw_frame(self, surface: pygame.Surface) -> None:
+        """The frame, a line between pages and widgets."""
+        super().draw_frame(surface)
+        canvas, palette = self.app.canvas, self.app.theme.palette
+        canvas.fill_rect(surface, palette.panel_edge, 204, 64, 1, 490)
+
+    def _draw_tab(self, surface: pygame.Surface, theme: Theme, index: int, area: Area, focused: bool) -> None:
+        x, y, w, h = area
+        theme.row(surface, (x + 4, y + 4, w, h - 8), chosen=index == self.tabs.index, focused=focused)
+        theme.text(surface, PAGES[index], x + 4 + w / 2, y + h / 2 - 6, size=12, align="centre", bold=focused)

@@ -1,1 +1,0 @@
-"""The settings: pages of widgets, and the change of keys and buttons."""
