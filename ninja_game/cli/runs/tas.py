@@ -4,15 +4,11 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from ninja_game.cli.run_options import level_given, other_level_option, window_options
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
-    from ninja_game.play.screen import Screen
+from ninja_game.play.app import App, Screen
 
 
 @click.command()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ninja_game.editor.autosave import RecoveredDraft, recovered
 from ninja_game.editor.brush import SNAPS
@@ -18,6 +17,7 @@ from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.shown_text import file_stem
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.ascii.writer import HEADER_KEYS
+from ninja_game.play.app import App
 from ninja_game.play.editor.marks import finding_points
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.panels import LevelChoice, help_page
@@ -27,9 +27,6 @@ from ninja_game.play.editor.view import EditorView
 from ninja_game.play.menus.panels import Form, Menu, nothing
 from ninja_game.play.workspace.document import Action, DocumentCommands
 from ninja_game.player.catalogue import Entry
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 NAMELESS = "My level"
 """What a level is called if its maker gives it no name."""

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
+from ninja_game.play.app import App
 from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Entry
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 
 class LevelChoice(Browser):

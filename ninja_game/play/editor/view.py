@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import pygame
 
+from ninja_game.play.app import App
 from ninja_game.play.editor.marks import GRIDS, MIDDLE, Grid, finding_points, level_marks
 from ninja_game.play.editor.overlay import Overlay
 from ninja_game.play.editor.session import EditorSession
@@ -18,7 +19,6 @@ from ninja_game.play.workspace.part import Part
 
 if TYPE_CHECKING:
     from ninja_game.editor.certify import Route
-    from ninja_game.play.app import App
 
 
 class EditorLayout(NamedTuple):
