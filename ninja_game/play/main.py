@@ -16,8 +16,7 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.files import is_pack
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.recording import Recording
-from ninja_game.play.app import App, build_app
-from ninja_game.play.screen import Screen
+from ninja_game.play.app import App, Screen, build_app
 from ninja_game.play.window import save_picture
 from ninja_game.player.playthrough import FileRun
 from ninja_game.sim.level import Level

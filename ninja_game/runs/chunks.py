@@ -1,7 +1,7 @@
 """Recordings cut into chunks that can be verified anywhere: some files, or some records of a large one.
 
-A chunk carries its text, so that it can be sent to a machine that does not see the files, as JSON. Files that a text
-takes in are read where the chunk is verified, unless ``self_contained`` has put them inside first.
+A chunk carries its text, so that it can be sent to a machine that does not see the files. Files that a text takes in
+are read where the chunk is verified, unless ``self_contained`` has put them inside first.
 """
 
 from __future__ import annotations
@@ -121,24 +121,7 @@ def _result(recording: Recording | Unreadable, memory: str, counting: Container[
         return Unreadable(str(error))
 
 
-# --- as plain data ---
-
-
-def chunks_as_text(chunks: Sequence[Chunk]) -> str:
-    """Chunks as JSON, for another machine."""
-    return json.dumps([asdict(chunk) for chunk in chunks])
-
-
-def chunks_from_text(text: str) -> list[Chunk]:
-    """The chunks that ``chunks_as_text`` wrote."""
-    return [
-        Chunk(
-            **fields
-            | {"records": tuple(LevelRecord(**record) for record in fields["records"])}
-            | {"beside": {name: Beside(*each) for name, each in (fields["beside"] or {}).items()}}
-        )
-        for fields in json.loads(text)
-    ]
+# --- results as plain data ---
 
 
 def results_as_text(results: Sequence[Sequence[Result]]) -> str:

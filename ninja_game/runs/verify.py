@@ -145,7 +145,7 @@ def verify_recording(
     )  # fmt: skip
 
 
-def judged(verdict: Verdict, levels: Mapping[str, str], *, only_these: bool, strict: bool) -> Verdict:
+def with_demands(verdict: Verdict, levels: Mapping[str, str], *, only_these: bool, strict: bool) -> Verdict:
     """The verdict with the name of its level and with what is demanded of it beyond its own claims.
 
     ``levels``: the names of the levels that count, by digest; ``only_these``: a run on any other level is a problem;

@@ -28,7 +28,7 @@ DELAYS, DISTANCES = (4.0, 8.0, 16.0, 30.0), (48.0, 64.0, 96.0, 160.0)
 PLACE_PRICES, SPEED_PRICES = (0.6, 0.9, 1.2), (0.5, 1.0, 2.0, 4.0)
 ENEMY_CELLS = (0.0, 24.0)
 LENGTHS = (40, 60, 90, 150)
-"""What is drawn for each search: see Resolution and KnownRun; ticks of a span."""
+"""What is drawn for each search: see Resolution and KnownRun; ticks of a span. Not tuned: a spread of what may help."""
 LEAST_DELAY_FACTOR, MOST_DELAY_FACTOR = 0.5, 6.0
 """By how much ``max_delay`` is multiplied: more while searches come to an end of their own, less while they do not."""
 FEW_TICKS, MANY_TICKS = 500_000, 2_000_000

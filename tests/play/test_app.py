@@ -12,13 +12,11 @@ from ninja_game.files.user_folder import export_path
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
-from ninja_game.play.app import App, build_app
+from ninja_game.play.app import App, BossScreen, Screen, build_app
 from ninja_game.play.audio.player import AudioOutput
-from ninja_game.play.boss import BossScreen
+from ninja_game.play.level.screen import PausePanel
 from ninja_game.play.main import first_screen, main, run_app
-from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.menus.replays import watch_recording
-from ninja_game.play.screen import Screen
 from ninja_game.play.window import Window
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import Settings

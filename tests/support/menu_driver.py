@@ -8,12 +8,11 @@ import pygame
 
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
-from ninja_game.play.app import build_app
+from ninja_game.play.app import Screen, build_app
 from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.input.keys import SCANCODES
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.settings import PAGES, SettingsScreen
-from ninja_game.play.screen import Screen
 from ninja_game.play.tas.opening import open_tas_editor
 from ninja_game.player.player_data import PlayerData
 

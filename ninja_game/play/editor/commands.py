@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.draft import Draft
@@ -18,6 +17,7 @@ from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.shown_text import file_stem
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.ascii.writer import HEADER_KEYS
+from ninja_game.play.app import App
 from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.palette_view import PaletteView
 from ninja_game.play.editor.session import EditorSession
@@ -30,9 +30,6 @@ from ninja_game.play.menus.panels import Form, Menu, nothing
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.play.workspace.document import Action, DocumentCommands
 from ninja_game.player.catalogue import Entry
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 
 class LevelChoice(Browser):

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 import pygame
 
 from ninja_game.editor.brush import SNAPS, snapped
 from ninja_game.editor.files import Source
 from ninja_game.editor.records import PROPERTIES, properties, with_word, word
+from ninja_game.play.app import App
 from ninja_game.play.editor.commands import EditorCommands
 from ninja_game.play.editor.controls import DIRECTION_KEYS, OBJECT_TYPE_OF_KEY, TABLE, tile_of_key
 from ninja_game.play.editor.palette_view import PaletteView
@@ -22,9 +22,6 @@ from ninja_game.play.menus.menu_screen import DIRECTIONS
 from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.workspace.part import Part
 from ninja_game.play.workspace.screen import WorkspaceScreen
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 
 class EditorScreen(WorkspaceScreen):

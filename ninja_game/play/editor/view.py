@@ -12,6 +12,7 @@ from ninja_game.editor.motion import SYMMETRIES, Motion
 from ninja_game.editor.records import BODY, SWITCH, carried, points
 from ninja_game.editor.stamp import CellArea, area_between, nearest
 from ninja_game.editor.tools import DRAGGED, EditorTools
+from ninja_game.play.app import App
 from ninja_game.play.editor.palette_view import tile_icon
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.sheet import GRIDS, MIDDLE, Grid, LevelSheet, finding_points, joined, level_marks
@@ -25,7 +26,6 @@ from ninja_game.sim.kinds import EXIT, NINJA
 
 if TYPE_CHECKING:
     from ninja_game.editor.certify import Route
-    from ninja_game.play.app import App
 
 GHOST = 5
 """Eighths as solid as what is there is what would be drawn."""

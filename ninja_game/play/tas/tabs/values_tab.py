@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pygame
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Form
 from ninja_game.play.tas.editor import TasEditor
@@ -24,9 +24,6 @@ from ninja_game.runs.compare import SPLIT_EVENTS
 from ninja_game.search.formula.language import Numbers
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, KIND_OF, MINE
 from ninja_game.tas.watch import Watch, parse_watch
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 Found = tuple[int, int, float, float]
 """Id, kind, x and y (px) of an object."""

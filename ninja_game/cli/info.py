@@ -32,7 +32,7 @@ PIPE_WIDTH = 160
 @level_option
 @click.option("--picture/--no-picture", default=None, help="Draw the level. [default: if it is the only one]")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per level, for programs.")
-def command(
+def info(
     files: Sequence[Path], record: int | None, level_path: Path | None, picture: bool | None, as_json: bool
 ) -> None:
     """Show what is in level and replay files.

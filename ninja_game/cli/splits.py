@@ -62,7 +62,7 @@ picture_option = click.option(
 @picture_option
 @budget_option
 @click.pass_context
-def command(
+def splits(
     ctx: click.Context, files: Sequence[Path], against: Path | None, gold: bool, level_path: Path | None, form: str,
     picture: Path | None, budget: int,
 ) -> None:  # fmt: skip

@@ -59,7 +59,7 @@ class GoldGoals(options.GoldCount):
 @click.option("--improve", is_flag=True, help="Shorten the runs that are kept, too.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per level, for programs.")
 @click.pass_context
-def command(
+def check(
     ctx: click.Context,
     /,
     levels: Sequence[Path],
