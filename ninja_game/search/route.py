@@ -9,14 +9,13 @@ it was tried, the lower its priority.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from functools import partial
 
 import numpy as np
 
 from ninja_game.search.best_first import Search
 from ninja_game.search.heuristics import UNREACHED, Heuristics, point_at
-from ninja_game.search.legs import FAR, NEVER, ROLLOUTS, Checkpoint, FieldOf, Frontier, Leg, LegFields, pieces_of
+from ninja_game.search.legs import FAR, NEVER, ROLLOUTS, Checkpoint, FieldOf, Frontier, Leg, LegFields, Spend, pieces_of
 from ninja_game.search.nodes import Resolution
 from ninja_game.search.tour import short_tour
 
@@ -73,11 +72,8 @@ class Route:
         self._first = search.checkpoint(None, b"")
         self._add(self._first, [])
 
-    def step(self, over: Callable[[int], bool]) -> bytes | None:
-        """Search one leg; a run to the exit with the gold, if it ends in one.
-
-        ``over``: called now and then with the ticks just simulated; true: stop.
-        """
+    def step(self, spend: Spend) -> bytes | None:
+        """Search one leg; a run to the exit with the gold, if it ends in one."""
         stalled = self._stalled_steps > STALL_STEPS or self._stalled_ticks > STALL_TICKS * (1 + self._restarts)
         if self.gold and stalled:
             self._restart()
@@ -91,7 +87,7 @@ class Route:
         budget *= 4 if target < 0 and ways == 1 else 1
         self.search.begin_leg(leg, resolution, seed=self.seed * 10_000 + self.steps, bound=0)
         before = self._most_now
-        self.search.run_leg(budget, over, part=ROUTE_EXTRA, least=ROUTE_EXTRA)
+        self.search.run_leg(budget, spend, part=ROUTE_EXTRA, least=ROUTE_EXTRA)
         self._stalled_ticks += self.search.ticks
         frontier.spent += self.search.ticks
         self._stalled_steps += 1
