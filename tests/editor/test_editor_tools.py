@@ -1,4 +1,4 @@
-"""The workbench by presses, moves and releases: what a hand at the mouse does, without a window."""
+"""The tools by presses, moves and releases: what a hand at the mouse does, without a window."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pygame
 
-from ninja_game.editor import autosave
+from ninja_game.editor import files as editor_files
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import draft_of_text
 from ninja_game.errors import DAMAGED, NinjaGameError
@@ -359,7 +359,7 @@ DOORS: dict[str, Door] = {
     "board": _of_file(lambda path: read_board(path, datetime(2026, 1, 1, tzinfo=UTC))),
     "journal": _of_file(_journal, "tas/odd.jsonl", 6),
     "branches": Door(_branches),
-    "autosave": _of_file(lambda path: list(autosave.recovered(path.parent.parent)), "editing/odd.json"),
+    "autosave": _of_file(lambda path: list(editor_files.recovered(path.parent.parent)), "editing/odd.json"),
     "backup": Door(_backup, 2),
     "database": Door(_database, 1),
     "database rows": Door(_rows, 1),
