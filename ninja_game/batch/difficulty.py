@@ -23,7 +23,7 @@ TRIES = 256
 LOST = 3 * CELL
 """px from the run at which a try that lives has lost it."""
 LOST_WEIGHT = 0.25
-"""What a try that has lost the run counts for, a death being 1: it costs time, as a rule, not the level."""
+"""What a try that has lost the run counts for, a death being 1: mostly it only costs time. Not tuned: a guess."""
 
 
 def difficulty(level: Level, inputs: bytes, *, seed: int = 0, tries: int = TRIES, memory: str = "auto") -> float:

@@ -55,10 +55,15 @@ GROUPS = {
         "board": "Rank the runs of a folder, all simulated again: tables, pages, checks.",
     },
 }
-"""Commands with their first lines of help, by folder; ``ninja_game.cli.FOLDER.NAME`` holds one as ``command``."""
+"""Commands with their first lines of help."""
 
 COMMANDS = {name: text for group in GROUPS.values() for name, text in group.items()}
-MODULES = {name: f"ninja_game.cli.{folder}.{name}" for folder, group in GROUPS.items() for name in group}
+MODULES = {
+    **dict.fromkeys(("play", "edit", "tas", "lab"), "windows"),
+    **dict.fromkeys(("solve", "improve"), "search"),
+    **dict.fromkeys(("site", "board"), "web"),
+}
+"""Modules of ``ninja_game.cli`` that hold several commands; any other command is in a module of its name."""
 
 COMPILING = (
     "verify", "board", "trace", "splits", "compare", "solve", "improve", "search", "tas",
@@ -92,7 +97,7 @@ class Commands(click.Group):
         """The command of that name, None if there is none."""
         if cmd_name not in COMMANDS:
             return None
-        command = import_module(MODULES[cmd_name]).command
+        command = getattr(import_module(f"ninja_game.cli.{MODULES.get(cmd_name, cmd_name)}"), cmd_name)
         assert isinstance(command, click.Command)  # noqa: S101 - for the type checker
         if cmd_name in COMPILING:
             _announce_compiling()

@@ -14,9 +14,9 @@ from ninja_game.batch.difficulty import TRIES, difficulty
 from ninja_game.formats.ascii.writer import write_ascii_level
 from ninja_game.formats.replay.text import Replay
 from ninja_game.generator.compose import compose
-from ninja_game.generator.hazards import mines_beside, nearest_hazard
 from ninja_game.generator.layouts import LAYOUTS
 from ninja_game.generator.naming import AUTHOR, name_for
+from ninja_game.generator.obstacles import mines_beside, nearest_hazard
 from ninja_game.generator.scene import Point, Scene
 from ninja_game.runs.run import run_level
 from ninja_game.search.certificate import UnverifiedRunError, verified_run

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from random import Random
 
-from ninja_game.generator.board import Cell
-from ninja_game.generator.scene import Point, Scene, middle, spec, with_mirror
+from ninja_game.generator.scene import Cell, Point, Scene, middle, spec, with_mirror
 from ninja_game.sim.rules import CELL
 
 LEAST, MOST = 26, 48

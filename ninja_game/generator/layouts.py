@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from random import Random
 
-from ninja_game.generator.board import MIDDLE, Board, mirrored
+from ninja_game.generator.scene import MIDDLE, Board, mirrored
 from ninja_game.sim.level import COLUMNS, ROWS
 
 Layout = Callable[[Board, Random], None]

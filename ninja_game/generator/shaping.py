@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from random import Random
 from typing import NamedTuple
 
-from ninja_game.generator.board import Board, Cell, inside
+from ninja_game.generator.scene import Board, Cell, inside
 from ninja_game.sim.level import COLUMNS, ROWS
 
 CORNERS = (-1, -1), (1, -1), (-1, 1), (1, 1)

@@ -1,4 +1,4 @@
-"""What an examination of a level or a pack can find, by code: what it says, and how to fix it (docs/findings.md)."""
+"""What an examination of a level, a pack or a run can find, by code: text and hint (docs/findings.md)."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ Cell = tuple[int, int]
 
 
 class Rule(NamedTuple):
-    """``text``: what is odd, with {values}; ``mend``: a sentence. ``about_switch``: it is about the object's switch."""
+    """``text``: what is odd, with {values}; ``hint``: how to fix it. ``about_switch``: whether it is about a switch."""
 
     text: str
-    mend: str
+    hint: str
     about_switch: bool = False
 
 
@@ -114,6 +114,25 @@ PACK_RULES = {
 }
 """Of packs; what is odd about their levels has the codes of levels."""
 
+_RECORD = "Run its inputs again with `ninja-game record`."
+RUN_RULES = {
+    "other-rules": Rule("recorded under rules {rules}, these are rules {now}", _RECORD),
+    "missed-waypoint": Rule(
+        "tick {tick}: ninja: {field} is {found}, the replay says {claimed} (agrees {agrees})", _RECORD
+    ),
+    "other-end": Rule("tick {tick}: the run ends here ({outcome}), the replay in tick {claimed}", _RECORD),
+    "wrong-claim": Rule("tick {tick}: {field} is {found}, the replay says {claimed}", _RECORD),
+    "not-passed": Rule("does not reach the exit: {ending}", "Look at its end with `ninja-game tas`."),
+    "memories-differ": Rule("{what}", "Report it: it is a fault of the program."),
+    "other-level": Rule(
+        "level_digest is {digest}, which is not one of the levels that count", "Name its level with `--level`."
+    ),
+    "not-strict": Rule(
+        "{field} is {found}, --strict expects {expected}", "Play it again as a board wants it (docs/verification.md)."
+    ),
+}
+"""Of runs, by code: what `verify` finds."""
+
 
 class Finding(NamedTuple):
     """Something odd. ``text``: what; ``records``: numbers of the records that it is about; ``cells``: of odd tiles.
@@ -133,9 +152,9 @@ class Finding(NamedTuple):
         return f"{self.names}: {self.text}" if self.names else self.text
 
     @property
-    def mend(self) -> str:
+    def hint(self) -> str:
         """How to fix it, a sentence."""
-        return LEVEL_RULES[self.code].mend
+        return LEVEL_RULES[self.code].hint
 
     @property
     def about_switch(self) -> bool:
@@ -154,9 +173,29 @@ class PackFinding(NamedTuple):
         return f"{self.place}: {self.text}" if self.place else self.text
 
     @property
-    def mend(self) -> str:
+    def hint(self) -> str:
         """How to fix it, a sentence."""
-        return (PACK_RULES | LEVEL_RULES)[self.code].mend
+        return (PACK_RULES | LEVEL_RULES)[self.code].hint
+
+
+class RunProblem(NamedTuple):
+    """Why a run is not what its file says, or not what is demanded of it."""
+
+    code: str
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+    @property
+    def hint(self) -> str:
+        """How to fix it, a sentence."""
+        return RUN_RULES[self.code].hint
+
+
+def in_run(code: str, **values: object) -> RunProblem:
+    """A problem of this code about a run; ``values``: what its text names."""
+    return RunProblem(code, RUN_RULES[code].text.format(**values))
 
 
 def in_pack(code: str, place: str = "", **values: object) -> PackFinding:

@@ -5,23 +5,146 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from random import Random
 
 import pygame
 
+from ninja_game.errors import NinjaGameError, reason
 from ninja_game.files.shown_text import shown_text
-from ninja_game.files.user_folder import data_folder
+from ninja_game.files.user_folder import data_folder, export_path
+from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
 from ninja_game.play.audio.player import AudioOutput, AudioPlayer
-from ninja_game.play.boss import BossScreen
-from ninja_game.play.clipboard import write_export
 from ninja_game.play.input.bindings import Bindings, InputEvent
-from ninja_game.play.screen import Screen, ScreenStack
-from ninja_game.play.ui.canvas import Canvas
-from ninja_game.play.ui.theme import PALETTES, Theme, palette_named
-from ninja_game.play.window import Window, save_picture
+from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas
+from ninja_game.play.ui.theme import PALETTES, Area, Theme, palette_named
+from ninja_game.play.window import TITLE, Window, save_picture
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import Settings
 from ninja_game.sim.rules import TICK_MS
+
+
+class Screen:
+    """One thing that fills the window: a menu, a level being played, a panel over it. Subclasses say what it does.
+
+    ``see_through``: the screen below is drawn first. ``below_runs``: the screen below is updated too. ``redraw``: the
+    app sets it when the whole window must be drawn again (resized, uncovered, another palette). ``notice_area``: where
+    notices are shown, logical px.
+    """
+
+    see_through = False
+    below_runs = False
+    notice_area: Area = (0, HEIGHT - 24, WIDTH, 24)
+
+    def __init__(self, app: App) -> None:
+        self.app = app
+        self.redraw = True
+
+    @property
+    def theme(self) -> Theme:
+        """The look of what it draws, and where on the window that is."""
+        return self.app.theme
+
+    def enter(self) -> None:
+        """Called when this becomes the top screen: pushed, or uncovered again."""
+
+    def leave(self) -> None:
+        """Called when this is no longer the top screen: covered or popped. Loops of sound end here."""
+
+    def capture(self, event: InputEvent) -> bool:
+        """Take an event before the keys that the app has on every screen; whether it was taken."""
+        return False
+
+    def handle(self, event: InputEvent) -> None:
+        """React to an event of the window."""
+
+    def update(self, real_ms: int) -> None:
+        """Let ``real_ms`` of real time pass, whole ms since the last picture."""
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        """Draw; the px rectangles that changed, or None if everything may have."""
+        raise NotImplementedError
+
+
+class ScreenStack:
+    """Screens on top of each other; only the top one gets events."""
+
+    def __init__(self) -> None:
+        self._screens: list[Screen] = []
+
+    def __bool__(self) -> bool:
+        return bool(self._screens)
+
+    def __len__(self) -> int:
+        return len(self._screens)
+
+    def __contains__(self, screen: Screen) -> bool:
+        return screen in self._screens
+
+    @property
+    def top(self) -> Screen:
+        """The screen that gets the events. Raises IndexError if there is none."""
+        return self._screens[-1]
+
+    def push(self, screen: Screen) -> None:
+        """Cover the top screen by another."""
+        if self._screens:
+            self.top.leave()
+        self._screens.append(screen)
+        self._uncover()
+
+    def pop(self) -> None:
+        """Go back to the screen below."""
+        self._screens.pop().leave()
+        self._uncover()
+
+    def replace(self, screen: Screen) -> None:
+        """Put another screen in the top one's place."""
+        self._screens.pop().leave()
+        self._screens.append(screen)
+        self._uncover()
+
+    def clear(self) -> None:
+        """Leave every screen."""
+        while self._screens:
+            self._screens.pop().leave()
+
+    def _uncover(self) -> None:
+        self.redraw_all()
+        if self._screens:
+            self.top.enter()
+
+    def redraw_all(self) -> None:
+        """Have every screen draw everything again."""
+        for screen in self._screens:
+            screen.redraw = True
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        """Draw the screens that are seen; the px rectangles that changed, or None if everything may have."""
+        first = len(self._screens) - 1
+        while first > 0 and self._screens[first].see_through:
+            first -= 1
+        visible = self._screens[max(first, 0) :]
+        if len(visible) > 1 and any(screen.redraw or screen.below_runs for screen in visible[1:]):
+            visible[0].redraw = True
+        changed: list[pygame.Rect] | None = []
+        for screen in visible:
+            whole = screen.redraw
+            if not whole and screen is not self.top:
+                # Covered and still: drawing it again would paint over what covers it.
+                continue
+            rects = screen.draw(surface)
+            screen.redraw = False
+            changed = None if whole or rects is None or changed is None else changed + rects
+        return changed
+
+    def running(self) -> list[Screen]:
+        """The screens for which time passes, lowest first."""
+        first = len(self._screens) - 1
+        while first > 0 and self._screens[first].below_runs:
+            first -= 1
+        return self._screens[max(first, 0) :]
+
 
 FALLBACK_RATE = 60
 """Pictures per second where the display does not say its rate."""
@@ -30,23 +153,32 @@ NOTICE_MS, WARNING_MS = 4000, 12_000
 """How long a notice is shown, and what went wrong when the game started."""
 
 
+TasEditorOpener = Callable[["App", Recording, Sequence[Recording], int], object]
+
+
 class App:
     """The window with its stack of screens.
 
     ``controls``: keys to actions. ``player``: the player's data with the settings, which ``change_settings`` changes.
-    ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``open_tas_editor``:
-    opens a run in the TAS editor, with others beside it, at a tick; who starts the program sets it, and leaves None
-    where there is none. ``size``: px of the window. Raises NinjaGameError where there is no display.
+    ``overclock``: ms by which ticks are shorter until the program ends, 0 to 10 (game.md §1.1). ``tas_editor``:
+    opens a run in the TAS editor, with others beside it, at a tick; None where there is none, as in a page.
+    ``size``: px of the window. Raises NinjaGameError where there is no display.
     """
 
     def __init__(
-        self, player: PlayerData, controls: Bindings, audio_output: AudioOutput, *, size: tuple[int, int] | None = None
+        self,
+        player: PlayerData,
+        controls: Bindings,
+        audio_output: AudioOutput,
+        *,
+        size: tuple[int, int] | None = None,
+        tas_editor: TasEditorOpener | None = None,
     ) -> None:
         self.player = player
         self.controls = controls
         self.audio_output = audio_output
         self.overclock = 0
-        self.open_tas_editor: Callable[[Recording, Sequence[Recording], int], object] | None = None
+        self.tas_editor = tas_editor
         self.stack = ScreenStack()
         self.running = True
         self.frame_ms = 0.0
@@ -211,12 +343,25 @@ class App:
         elif changed:
             pygame.display.update(changed)
 
+    def write_export(self, title: str, suffix: str, content: str | Callable[[Path], object]) -> None:
+        """Write a file among the player's exports, and say where. ``content``: text, or what writes the path."""
+        try:
+            path = export_path(self.player.folder, title, suffix)
+            if callable(content):
+                content(path)
+            else:
+                write_atomically(path, content)
+        except (OSError, NinjaGameError) as error:
+            self.notify(f"Not written: {reason(error)}")
+        else:
+            self.notify(f"Saved: {path}")
+
     def keep_screenshot(self) -> None:
         """Put the picture, without a notice in it, among the player's exports, and say where."""
         if self.notice:
             self.notify("")
             self.draw()
-        write_export(self, "screenshot", ".png", lambda path: save_picture(self.surface, path))
+        self.write_export("screenshot", ".png", lambda path: save_picture(self.surface, path))
 
 
 def build_app(
@@ -225,11 +370,14 @@ def build_app(
     size: tuple[int, int] | None = None,
     controls: Bindings | None = None,
     audio_output: AudioOutput | None = None,
+    tas_editor: TasEditorOpener | None = None,
 ) -> App:
     """The app as the player's settings have it; a notice tells what is wrong with the player's files.
 
     ``folder``: the player's, instead of the usual one. ``controls``: instead of the player's bindings.
-    ``audio_output``: instead of the sound device. Raises NinjaGameError where there is no display.
+    ``audio_output``: instead of the sound device. ``tas_editor``: as of ``App``.
+
+    Raises NinjaGameError where there is no display.
     """
     player = PlayerData(folder)
     settings = player.settings
@@ -237,7 +385,7 @@ def build_app(
     sound = audio_output or AudioPlayer(
         data_folder("assets") / "sounds", volume=settings.volume, loop_volume=settings.loop_volume
     )
-    app = App(player, bindings, sound, size=size)
+    app = App(player, bindings, sound, size=size, tas_editor=tas_editor)
     player.open_records()
     if bindings.unknown:
         player.tell(f"settings.toml: no key is called {shown_text(', '.join(bindings.unknown), 60)}.")
@@ -245,3 +393,50 @@ def build_app(
         player.tell(f"settings.toml: there is no palette {settings.palette}: {', '.join(PALETTES)}.")
     app.tell_problems()
     return app
+
+
+_PAPER, _LINE, _HEAD, _INK = "#ffffff", "#d0d4da", "#eef0f3", "#3a3f47"
+_ROWS, _ROW_HEIGHT, _TOP = 24, 22.0, 48.0
+_COLUMNS = (("", 40.0), ("Item", 210.0), ("Q1", 100.0), ("Q2", 100.0), ("Q3", 100.0), ("Q4", 100.0), ("Total", 142.0))
+_ITEMS = ("Paper", "Toner", "Postage", "Travel", "Training", "Licences", "Furniture", "Coffee", "Cleaning", "Repairs")
+
+
+class BossScreen(Screen):
+    """The key that hides the game comes back to it; the key for leaving ends the program."""
+
+    def enter(self) -> None:
+        """Also the title of the window is dull."""
+        pygame.display.set_caption("Budget")
+
+    def leave(self) -> None:
+        """Call the window by its name again."""
+        pygame.display.set_caption(TITLE)
+
+    def handle(self, event: InputEvent) -> None:
+        """The key for leaving ends the program."""
+        if "quit" in event.pressed:
+            self.app.quit()
+
+    def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
+        """The sheet; it never changes."""
+        if not self.redraw:
+            return []
+        surface.fill(_PAPER)
+        canvas, text = self.app.canvas, self.app.theme.text
+        rng = Random(2)  # noqa: S311 - figures that mean nothing
+        canvas.fill_rect(surface, _HEAD, 0, _TOP - _ROW_HEIGHT, 792, _ROW_HEIGHT)
+        text(surface, "Budget, second draft", 12, 6, size=11, colour=_INK)
+        for row in range(_ROWS + 1):
+            y = _TOP + _ROW_HEIGHT * row
+            canvas.line(surface, _LINE, (0, y), (792, y), 0.5)
+            figures = [rng.randrange(40, 3000) for _ in range(4)]
+            cells = [str(row + 1), _ITEMS[row % len(_ITEMS)], *map(str, figures), str(sum(figures))]
+            x = 0.0
+            for (head, width), cell in zip(_COLUMNS, cells, strict=True):
+                if row == 0:
+                    text(surface, head, x + 8, _TOP - 16, size=9, colour=_INK)
+                    canvas.line(surface, _LINE, (x, _TOP - _ROW_HEIGHT), (x, 600), 0.5)
+                if row < _ROWS:
+                    text(surface, cell, x + 8, y + 6, size=9, colour=_INK)
+                x += width
+        return None

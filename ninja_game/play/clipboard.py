@@ -3,20 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pygame
 
 from ninja_game.editor.draft import Draft
-from ninja_game.errors import NinjaGameError, reason
-from ninja_game.files.user_folder import export_path
-from ninja_game.files.writing import write_atomically
+from ninja_game.errors import NinjaGameError
 from ninja_game.formats.links.making import level_link
 from ninja_game.formats.named_level import NamedLevel
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
+from ninja_game.play.app import App
 
 
 def copy_text(app: App, text: str, *, title: str, suffix: str, told: str = "") -> None:
@@ -24,7 +18,7 @@ def copy_text(app: App, text: str, *, title: str, suffix: str, told: str = "") -
     try:
         pygame.scrap.put_text(text)
     except pygame.error:
-        write_export(app, title, suffix, text + "\n")
+        app.write_export(title, suffix, text + "\n")
     else:
         app.notify(told or f"In the clipboard: {len(text):,} characters")
 
@@ -53,17 +47,3 @@ def copy_link(app: App, make: Callable[[], str], *, title: str) -> None:
 def copy_level_link(app: App, named: NamedLevel | Draft, title: str) -> None:
     """The same with the link of a level."""
     copy_link(app, lambda: level_link(named.level, name=title, author=named.author, comment=named.comment), title=title)
-
-
-def write_export(app: App, title: str, suffix: str, content: str | Callable[[Path], object]) -> None:
-    """Write a file among the player's exports, and say where. ``content``: its text, or what writes it at its path."""
-    try:
-        path = export_path(app.player.folder, title, suffix)
-        if callable(content):
-            content(path)
-        else:
-            write_atomically(path, content)
-    except (OSError, NinjaGameError) as error:
-        app.notify(f"Not written: {reason(error)}")
-    else:
-        app.notify(f"Saved: {path}")

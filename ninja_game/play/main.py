@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
 from pathlib import Path
 
 import pygame
@@ -17,8 +16,7 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.formats.pack.files import is_pack
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.formats.recording import Recording
-from ninja_game.play.app import App, build_app
-from ninja_game.play.screen import Screen
+from ninja_game.play.app import App, Screen, build_app
 from ninja_game.play.window import save_picture
 from ninja_game.player.playthrough import FileRun
 from ninja_game.sim.level import Level
@@ -65,8 +63,7 @@ def run_app(
     from ninja_game.play.tas.opening import open_tas_editor
 
     try:
-        app = build_app(size=size)
-        app.open_tas_editor = partial(open_tas_editor, app)
+        app = build_app(size=size, tas_editor=open_tas_editor)
         try:
             app.push(first(app))
             app.run(frames)

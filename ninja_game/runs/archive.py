@@ -2,10 +2,10 @@
 
 >>> from pathlib import Path
 >>> from ninja_game.files.user_folder import data_folder
->>> tally = Tally()
+>>> totals = Totals()
 >>> for result in verify_all([data_folder("levels") / "certificates"], jobs=2):
-...     tally.add(result)
->>> tally.failed, tally.unreadable
+...     totals.add(result)
+>>> totals.failed, totals.unreadable
 (0, 0)
 """
 
@@ -29,14 +29,12 @@ from ninja_game.budget import RUN_BUDGET
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.load import NamedLevel, load_levels
-from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
+from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.runs.checkpoint_log import CheckpointLog
 from ninja_game.runs.chunks import (
     Chunk,
     Result,
-    chunks_as_text,
-    chunks_from_text,
     chunks_in,
     results_as_text,
     results_from_text,
@@ -46,7 +44,7 @@ from ninja_game.runs.chunks import (
 from ninja_game.runs.recording_reader import Unreadable, recordings_in
 from ninja_game.runs.trace import trace_recording
 from ninja_game.runs.trace_files import FiledTrace
-from ninja_game.runs.verify import judged
+from ninja_game.runs.verify import with_demands
 from ninja_game.runs.workers import ClusterError, WorkerLostError, Workers, in_order, workers
 from ninja_game.sim.level import Level
 
@@ -94,7 +92,7 @@ def verify_all(
         if isinstance(result, Unreadable):
             yield result
         else:
-            yield judged(result, names, only_these=bool(levels), strict=strict)
+            yield with_demands(result, names, only_these=bool(levels), strict=strict)
 
 
 @dataclass(frozen=True)
@@ -110,17 +108,6 @@ class Asked:
         """A text that is another one where results may be; both memories give the same."""
         level = level_digest(self.level) if self.level else ""
         return json.dumps([self.memory == "both", level, self.counting and sorted(self.counting), self.budget])
-
-    def as_text(self) -> str:
-        """The same for another machine."""
-        level = write_level_string(self.level, exact=True) if self.level else ""
-        return json.dumps([self.memory, level, self.counting, self.budget])
-
-    @classmethod
-    def from_text(cls, text: str) -> Asked:
-        """What ``as_text`` wrote."""
-        memory, level, counting, budget = json.loads(text)
-        return cls(memory, parse_level_string(level) if level else None, counting, budget)
 
 
 def _verify_all(
@@ -149,10 +136,9 @@ def _verify_all(
         all_jobs = chain(filter(None, (first, second)), batches)
         try:
             if cluster:
-                run = partial(_verify_text, asked.as_text())
-                done = _isolate_failing(pool, run, all_jobs, chunks_as_text, results_from_text)
+                done = _isolate_failing(pool, partial(_verify_as_text, asked), all_jobs, results_from_text)
             else:
-                done = _isolate_failing(pool, partial(_verify, asked), all_jobs, tuple, lambda found, _: list(found))
+                done = _isolate_failing(pool, partial(_verify, asked), all_jobs, lambda found, _: list(found))
             yield from _record_results(done, log)
         except (CancelledError, ConnectionError) as error:
             if not cluster:
@@ -189,25 +175,24 @@ def _verify(asked: Asked, job: Job) -> list[list[Result]]:
     ]
 
 
-def _verify_text(asked: str, job: str) -> str:
-    """The same on another machine: nothing but text goes there and comes back."""
-    return results_as_text(_verify(Asked.from_text(asked), tuple(chunks_from_text(job))))
+def _verify_as_text(asked: Asked, job: Job) -> str:
+    """The same on another machine, whose answer is checked when it comes back."""
+    return results_as_text(_verify(asked, job))
 
 
 def _isolate_failing(
     pool: Workers,
     function: Callable[[Any], Any],
     jobs: Iterator[Job],
-    send: Callable[[Job], Any],
     read: Callable[[Any, Job], list[list[Result]]],
 ) -> Done:
     """All jobs with their results; one that kills its workers is done again chunk by chunk, to find the one chunk.
 
-    ``send``, ``read``: what turns a job and its results into what travels, and back.
+    ``read``: what turns an answer into the results of a job.
     """
-    for job, found in in_order(pool, function, jobs, send):
+    for job, found in in_order(pool, function, jobs):
         if isinstance(found, WorkerLostError) and len(job) > 1:
-            yield from _isolate_failing(pool, function, ((chunk,) for chunk in job), send, read)
+            yield from _isolate_failing(pool, function, ((chunk,) for chunk in job), read)
         else:
             yield job, found if isinstance(found, WorkerLostError) else read(found, job)
 
@@ -228,7 +213,7 @@ def _record_results(done: Done, log: CheckpointLog | None) -> Iterator[Result]:
 
 
 @dataclass
-class Tally:
+class Totals:
     """Results, counted; of what failed nothing is kept but the number."""
 
     recordings: int = 0
@@ -259,16 +244,16 @@ def write_report(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
 
     Nothing in it depends on time, machine or number of workers: equal recordings give equal reports.
     """
-    tally = Tally()
+    totals = Totals()
     out.write(b'{"results": [')
     separator = b"\n"
     for result in results:
-        tally.add(result)
+        totals.add(result)
         fields = {"unreadable": result.message} if isinstance(result, Unreadable) else result.as_json()
         out.write(separator + json.dumps(fields).encode())
         separator = b",\n"
         yield result
-    out.write(b'\n], "summary": ' + json.dumps(tally.as_json()).encode() + b"}\n")
+    out.write(b'\n], "summary": ' + json.dumps(totals.as_json()).encode() + b"}\n")
 
 
 TRACES = 32

@@ -1,7 +1,7 @@
 """Recordings cut into chunks that can be verified anywhere: some files, or some records of a large one.
 
-A chunk carries its text, so that it can be sent to a machine that does not see the files, as JSON. Files that a text
-takes in are read where the chunk is verified, unless ``self_contained`` has put them inside first.
+A chunk carries its text, so that it can be sent to a machine that does not see the files. Files that a text takes in
+are read where the chunk is verified, unless ``self_contained`` has put them inside first.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from ninja_game.errors import DAMAGED, NinjaGameError
 from ninja_game.files.beside import Beside, known_files
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.recording import Recording
+from ninja_game.levels.findings import RUN_RULES, RunProblem
 from ninja_game.runs.recording_reader import Unreadable, recording_of_text, recordings_of, records_of, texts_in
 from ninja_game.runs.verify import NOT_RUN, Verdict, verify_recording
 from ninja_game.runs.workers import ClusterError
@@ -120,24 +121,7 @@ def _result(recording: Recording | Unreadable, memory: str, counting: Container[
         return Unreadable(str(error))
 
 
-# --- as plain data ---
-
-
-def chunks_as_text(chunks: Sequence[Chunk]) -> str:
-    """Chunks as JSON, for another machine."""
-    return json.dumps([asdict(chunk) for chunk in chunks])
-
-
-def chunks_from_text(text: str) -> list[Chunk]:
-    """The chunks that ``chunks_as_text`` wrote."""
-    return [
-        Chunk(
-            **fields
-            | {"records": tuple(LevelRecord(**record) for record in fields["records"])}
-            | {"beside": {name: Beside(*each) for name, each in (fields["beside"] or {}).items()}}
-        )
-        for fields in json.loads(text)
-    ]
+# --- results as plain data ---
 
 
 def results_as_text(results: Sequence[Sequence[Result]]) -> str:
@@ -188,6 +172,12 @@ def result_from_data(data: object) -> Result:
     if data["outcome"] not in OUTCOMES:
         raise ValueError(f"outcome is {data['outcome']!r}"[:80])
     problems = data["problems"]
-    if not isinstance(problems, (list, tuple)) or not all(isinstance(problem, str) for problem in problems):
-        raise ValueError("problems are not a list of texts")
-    return Verdict(**(data | {"problems": tuple(problems)}))
+    if not isinstance(problems, (list, tuple)) or not all(map(_is_problem, problems)):
+        raise ValueError("problems are not a list of codes and texts")
+    return Verdict(**(data | {"problems": tuple(RunProblem(*problem) for problem in problems)}))
+
+
+def _is_problem(data: object) -> bool:
+    if not isinstance(data, (list, tuple)) or len(data) != 2 or not isinstance(data[1], str):
+        return False
+    return isinstance(data[0], str) and data[0] in RUN_RULES

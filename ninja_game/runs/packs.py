@@ -45,7 +45,7 @@ class Certificate:
         verdict = self.verdict
         if verdict.level_digest != level_digest(self.level):
             return ["it is a run of another level, or the level was changed after it"]
-        problems = list(verdict.problems)
+        problems = list(map(str, verdict.problems))
         if verdict.outcome != "exit" and not problems:
             problems.append(f"it does not reach the exit: {verdict.outcome}")
         allowed = verdict.body == "circle" and verdict.possible_by_keyboard and verdict.in_time

@@ -16,6 +16,7 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import RULES_VERSION, Replay
+from ninja_game.levels.findings import RunProblem, in_run
 from ninja_game.runs.recording_reader import named_errors
 from ninja_game.runs.run import RunResult, run_level
 from ninja_game.sim.inputs import with_press_bits
@@ -76,7 +77,7 @@ class Verdict:
     in_time: bool | None
     practice: bool
     complete: bool
-    problems: tuple[str, ...] = ()
+    problems: tuple[RunProblem, ...] = ()
 
     @property
     def good(self) -> bool:
@@ -84,9 +85,12 @@ class Verdict:
         return not self.problems
 
     def as_json(self) -> dict[str, Any]:
-        """The fields for programs, and ``problems`` where there are any."""
+        """The fields for programs; where there are problems, also these in words and their ``codes``."""
         fields = {name: value for name, value in vars(self).items() if name != "problems"}
-        return fields | ({"problems": list(self.problems)} if self.problems else {})
+        if not self.problems:
+            return fields
+        codes, texts = zip(*self.problems, strict=True)
+        return fields | {"problems": list(texts), "codes": list(codes)}
 
 
 def verify_recording(
@@ -128,9 +132,10 @@ def verify_recording(
             raise OutOfRangeError(f"{recording.file}: record {recording.record}: {what}") from error
         problems = list(_broken_claims(claimed, run)) if claimed else []
         if memory == "both":
-            problems += filter(None, [memory_difference(recording, run.ticks)])
+            difference = memory_difference(recording, run.ticks)
+            problems += [in_run("memories-differ", what=difference)] if difference else []
     if not claimed and run.outcome != "exit":
-        problems.append(f"does not reach the exit: {_ending(recording, run)}")
+        problems.append(in_run("not-passed", ending=_ending(recording, run)))
     sampled = run.ticks - 1 if run.outcome != "running" else min(run.ticks, len(recording.replay.inputs))
     return replace(
         verdict, outcome=run.outcome, end_tick=run.end_tick, gold=run.gold,
@@ -140,7 +145,7 @@ def verify_recording(
     )  # fmt: skip
 
 
-def judged(verdict: Verdict, levels: Mapping[str, str], *, only_these: bool, strict: bool) -> Verdict:
+def with_demands(verdict: Verdict, levels: Mapping[str, str], *, only_these: bool, strict: bool) -> Verdict:
     """The verdict with the name of its level and with what is demanded of it beyond its own claims.
 
     ``levels``: the names of the levels that count, by digest; ``only_these``: a run on any other level is a problem;
@@ -148,17 +153,17 @@ def judged(verdict: Verdict, levels: Mapping[str, str], *, only_these: bool, str
     """
     demanded = []
     if (only_these or strict) and verdict.level_digest not in levels:
-        demanded.append(f"level_digest is {verdict.level_digest}, which is not one of the levels that count")
+        demanded.append(in_run("other-level", digest=verdict.level_digest))
     unknown = (None, NOT_RUN) if demanded else ()
     for field, expected in STRICT.items() if strict else ():
         found = getattr(verdict, field)
         if found != expected and found not in unknown:
-            demanded.append(f"{field} is {_word(found)}, --strict expects {_word(expected)}")
+            demanded.append(in_run("not-strict", field=field, found=_as_json(found), expected=_as_json(expected)))
     name = levels.get(verdict.level_digest, "")
     return replace(verdict, level_name=name, problems=verdict.problems + tuple(demanded))
 
 
-def _word(value: object) -> str:
+def _as_json(value: object) -> str:
     """A field's value as JSON has it."""
     return str(value).lower() if isinstance(value, bool) else str(value)
 
@@ -173,13 +178,13 @@ def _ending(recording: Recording, run: RunResult) -> str:
     return f"still running after {run.ticks} ticks"
 
 
-def _broken_claims(replay: Replay, run: RunResult) -> Iterator[str]:
+def _broken_claims(replay: Replay, run: RunResult) -> Iterator[RunProblem]:
     """What a replay of ours says and is not so: the first waypoint that is missed, then what its last tick claims."""
     if replay.rules != RULES_VERSION:
-        yield f"recorded under rules {replay.rules}, these are rules {RULES_VERSION}"
+        yield in_run("other-rules", rules=replay.rules, now=RULES_VERSION)
     yield from _missed_waypoint(replay, run)
     if run.ticks != replay.ticks:
-        yield f"tick {run.ticks - 1}: the run ends here ({run.outcome}), the replay in tick {replay.final_tick}"
+        yield in_run("other-end", tick=run.ticks - 1, outcome=run.outcome, claimed=replay.final_tick)
         return
     claims: dict[str, tuple[object, object]] = {
         "outcome": (run.outcome, replay.outcome),
@@ -189,10 +194,10 @@ def _broken_claims(replay: Replay, run: RunResult) -> Iterator[str]:
         claims["digest"] = (run.digest, replay.digest)
     for field, (found, claimed) in claims.items():
         if found != claimed:
-            yield f"tick {replay.final_tick}: {field} is {found}, the replay says {claimed}"
+            yield in_run("wrong-claim", tick=replay.final_tick, field=field, found=found, claimed=claimed)
 
 
-def _missed_waypoint(replay: Replay, run: RunResult) -> Iterator[str]:
+def _missed_waypoint(replay: Replay, run: RunResult) -> Iterator[RunProblem]:
     """The first waypoint at which the run is somewhere else, by its first field that differs."""
     passed = "at the start only"
     for waypoint in replay.waypoints:
@@ -201,7 +206,8 @@ def _missed_waypoint(replay: Replay, run: RunResult) -> Iterator[str]:
         here = run.waypoint(waypoint.tick)
         for field, found, claimed in zip(waypoint._fields, here, waypoint, strict=True):
             if found != claimed:
-                yield f"tick {waypoint.tick}: ninja: {field} is {found}, the replay says {claimed} (agrees {passed})"
+                values = {"field": field, "found": found, "claimed": claimed, "agrees": passed}
+                yield in_run("missed-waypoint", tick=waypoint.tick, **values)
                 return
         passed = f"up to tick {waypoint.tick}"
 

@@ -230,22 +230,13 @@ def workers(count: int, *, processes: bool = False, cluster: str = "") -> Iterat
     found.close()
 
 
-def _itself(job: J) -> J:
-    return job
-
-
-def in_order(
-    pool: Workers, function: Callable[[Any], R], jobs: Iterable[J], send: Callable[[J], Any] = _itself
-) -> Iterator[tuple[J, R | WorkerLostError]]:
-    """Every job with its result, in the jobs' order; WorkerLostError for one that kills every worker it meets.
-
-    ``send``: what of a job goes to the worker.
-    """
+def in_order(pool: Workers, function: Callable[[J], R], jobs: Iterable[J]) -> Iterator[tuple[J, R | WorkerLostError]]:
+    """Every job with its result, in the jobs' order; WorkerLostError for one that kills every worker it meets."""
     flying: deque[tuple[J, Any]] = deque()
     waiting = iter(jobs)
     while True:
         for job in islice(waiting, max(0, AHEAD * pool.count - len(flying))):
-            flying.append((job, pool.submit(function, send(job))))
+            flying.append((job, pool.submit(function, job)))
         if not flying:
             return
         job, future = flying.popleft()
@@ -253,8 +244,8 @@ def in_order(
             result = future.result()
         except pool.lost:
             # Whose fault it was is not known: this job goes again alone, then all that fell with it.
-            result = _retry(pool, function, send(job))
-            flying = deque((job, _kept(pool, function, send(job), future)) for job, future in flying)
+            result = _retry(pool, function, job)
+            flying = deque((job, _kept(pool, function, job, future)) for job, future in flying)
         yield job, result
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from ninja_game.backend.memories import compiled
 from ninja_game.search.engine import MORE, add_root, expand, load_node
 from ninja_game.search.heuristics import POINTS, Heuristics
 from ninja_game.search.known_run import KnownRun, play_known
-from ninja_game.search.legs import Checkpoint, FieldOf, Leg
+from ninja_game.search.legs import Checkpoint, FieldOf, Leg, Spend
 from ninja_game.search.macros import inputs_of
 from ninja_game.search.nodes import (
     BackedUpHeuristic,
@@ -135,8 +135,8 @@ class Search:
                 return int(ended)
         return MORE
 
-    def run_leg(self, budget: int, over: Callable[[int], bool], *, part: int, least: int = 0) -> None:
-        """Run a leg's search for at most this many ticks, in parts; ``over`` gets the ticks of each, and may end it.
+    def run_leg(self, budget: int, spend: Spend, *, part: int, least: int = 0) -> None:
+        """Run a leg's search for at most this many ticks, in parts; ``spend`` gets the ticks of each, and may end it.
 
         From the first end or run to the exit on it goes on only as long again, or up to ``least`` ticks.
         """
@@ -144,7 +144,7 @@ class Search:
         while self.ticks < stop:
             before = self.ticks
             self.run(min(part, stop - before))
-            if over(self.ticks - before) or self.ticks == before or self._enough_ends:
+            if spend(self.ticks - before) or self.ticks == before or self._enough_ends:
                 return
             if self.counters.ends > self.counters.other_ends or self.counters.best_node >= 0:
                 stop = min(stop, max(2 * self.ticks, least)) if stop == budget else stop

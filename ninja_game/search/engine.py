@@ -3,6 +3,10 @@
 The node with the least (ticks so far + weight x estimated ticks to go) is taken from the open list, all macros are
 played from its save-state, and every state that is not a duplicate becomes a node. What differs between goals is the
 estimate and what ends a search: the exit, the end of a leg, or a shorter run than a known one (``Goal``).
+
+The kernels share their arguments: ``start``, the level and the two worlds that are played in; ``memory``, the arrays of
+this search; ``goal``; ``backed_up``, the table of an earlier search; ``resolution``, how finely to look. A ``parent``
+is the index of a node, an ``action`` what leads from it to the scratch world (macros.py), ``played`` its ticks.
 """
 
 from __future__ import annotations

@@ -19,7 +19,10 @@ FAR = 20_000.0
 ROLLOUTS = 16
 """Random runs that try whether the end of a leg can be survived. Not tuned."""
 FIELDS_KEPT, MASKS_KEPT = 400, 16
-"""Fields to pieces (53 KB each), and sets of fields to all pieces, that are kept before all are made anew."""
+"""Fields to pieces (53 KB each), and sets of fields to all pieces, that are kept before all are computed again."""
+
+Spend = Callable[[int], bool]
+"""Counts the ticks that a search has just simulated; true: it is over."""
 
 FieldOf = Callable[[int, float, float], Field]
 """The field of a switch state, for a ninja at (x, y)."""

@@ -57,7 +57,7 @@ class _Job:
         self._gold_beam: GoldBeam | None = None
         self._turn = self._routes_tried = 2 * number
         self.shortener = RunShortener(
-            self.start, self.heuristics, gold=task.gold_wanted, seed=self.seed, submit=state.submit, over=self._spend
+            self.start, self.heuristics, gold=task.gold_wanted, seed=self.seed, submit=state.submit, spend=self._spend
         )
 
     def run(self) -> None:
@@ -127,11 +127,11 @@ class _Job:
             self._gold_beam.add_run(best)
         until = self.work + GOLD_BEAM_TICKS * SEARCH_COST
 
-        def over(played: int) -> bool:
+        def spend(played: int) -> bool:
             return self._spend(played, played * SEARCH_COST)
 
-        while self.work < until and not over(0):
-            found = self._gold_beam.search_levels(over)
+        while self.work < until and not spend(0):
+            found = self._gold_beam.search_levels(spend)
             if found:
                 self.state.submit(found)
         best, plan = self.state.runs[0], self.plan
@@ -143,14 +143,14 @@ class _Job:
         until = self.work + ticks * SEARCH_COST
         first = not self.state.runs
 
-        def over(played: int) -> bool:
+        def spend(played: int) -> bool:
             self.work += played * SEARCH_COST
             self.state.count(played, 0, f"{route.most}{doing}" if doing else "searching")
             return self._over or self.work >= until or bool(self.state.runs and first)
 
         found = None
-        while not found and not over(0):
-            found = route.step(over)
+        while not found and not spend(0):
+            found = route.step(spend)
         if route.gold:
             self.state.note_gold(route.most, [self.heuristics.gold_ids[piece] for piece in route.never_taken()])
         if found:

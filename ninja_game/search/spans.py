@@ -13,6 +13,7 @@ from ninja_game.search.best_first import Search
 from ninja_game.search.engine import EXHAUSTED, MORE
 from ninja_game.search.heuristics import Heuristics
 from ninja_game.search.known_run import KnownRun, known_run, play_known
+from ninja_game.search.legs import Spend
 from ninja_game.search.local_search import LocalSearch
 from ninja_game.search.nodes import Resolution, Start
 from ninja_game.search.task import COOLING, SEARCH_COST, SHORT_LOCAL_TICKS, SLICE
@@ -28,7 +29,7 @@ DELAYS, DISTANCES = (4.0, 8.0, 16.0, 30.0), (48.0, 64.0, 96.0, 160.0)
 PLACE_PRICES, SPEED_PRICES = (0.6, 0.9, 1.2), (0.5, 1.0, 2.0, 4.0)
 ENEMY_CELLS = (0.0, 24.0)
 LENGTHS = (40, 60, 90, 150)
-"""What is drawn for each search: see Resolution and KnownRun; ticks of a span."""
+"""What is drawn for each search: see Resolution and KnownRun; ticks of a span. Not tuned: a spread of what may help."""
 LEAST_DELAY_FACTOR, MOST_DELAY_FACTOR = 0.5, 6.0
 """By how much ``max_delay`` is multiplied: more while searches come to an end of their own, less while they do not."""
 FEW_TICKS, MANY_TICKS = 500_000, 2_000_000
@@ -82,30 +83,27 @@ class SpanSearches:
             run.gold[:] = 0
         return run
 
-    def shorter(self, inputs: bytes, *, seed: int, over: Callable[[int], bool]) -> bytes | None:
-        """Search spans of a run by chance until a shorter run is found; ``over`` as for ``search``, without it None."""
+    def shorter(self, inputs: bytes, *, seed: int, spend: Spend) -> bytes | None:
+        """Search spans of a run at random until a shorter run is found, or until it is over: None."""
         self.know(inputs)
         random = np.random.default_rng([seed, 9])
 
-        while not over(EACH_COSTS):
+        while not spend(EACH_COSTS):
             length = int(random.choice(LENGTHS))
             first = max(0, int(random.integers(-length // 2, max(len(inputs) - 5, 1))))
             settings = draw_settings(random)
             settings = settings._replace(max_delay=settings.max_delay * self._delay_factor)
             chosen = int(random.integers(1 << 30))
             ticks = SPAN_TICKS << min(int(random.geometric(0.5)) - 1, DOUBLINGS)
-            found = self.search(first, first + length, settings, seed=chosen, ticks=ticks, over=over)
+            found = self.search(first, first + length, settings, seed=chosen, ticks=ticks, spend=spend)
             if found:
                 return found
         return None
 
     def search(
-        self, first: int, last: int, settings: SpanSettings, *, seed: int, ticks: int, over: Callable[[int], bool]
+        self, first: int, last: int, settings: SpanSettings, *, seed: int, ticks: int, spend: Spend
     ) -> bytes | None:
-        """Search the span from tick ``first`` to before ``last``; a shorter run than the known one, None if none.
-
-        ``over`` gets the ticks of each part, and may end it.
-        """
+        """Search the span from tick ``first`` to before ``last``; a shorter run than the known one, None if none."""
         search = self._search
         _, max_delay, max_distance, place_price, speed_price = settings
         run = self.run._replace(
@@ -117,7 +115,7 @@ class SpanSearches:
         while ended == MORE and search.ticks < ticks:
             before = search.ticks
             ended = search.run(min(PART, ticks - before))
-            if over(search.ticks - before):
+            if spend(search.ticks - before):
                 break
         early, late = ended == EXHAUSTED and search.ticks < FEW_TICKS, search.ticks >= MANY_TICKS
         factor = self._delay_factor * (1.15 if early else 0.8 if late else 1.0)
@@ -130,19 +128,19 @@ class SpanSearches:
 class RunShortener:
     """Shortens runs of one level that must collect so much gold.
 
-    ``submit`` is given every shorter run; ``over`` gets the ticks of each part and what they cost, and may end it.
+    ``submit`` is given every shorter run; ``spend`` gets the ticks of each part and what they cost, and may end it.
     """
 
     def __init__(
         self, start: Start, heuristics: Heuristics, *, gold: int, seed: int, submit: Callable[[bytes], None],
-        over: Callable[[int, float], bool],
+        spend: Callable[[int, float], bool],
     ) -> None:  # fmt: skip
         self.start = start
         self.heuristics = heuristics
         self.gold = gold
         self.seed = seed
         self._submit = submit
-        self._over = over
+        self._spend = spend
         self._local_searches = self._searches = 0
 
     @cached_property
@@ -152,20 +150,20 @@ class RunShortener:
     def compile(self, inputs: bytes) -> None:
         """Have all kernels compiled, with a run of the level."""
         self._spans.know(inputs)
-        self._spans.search(0, 1, draw_settings(np.random.default_rng(0)), seed=0, ticks=1, over=lambda _: True)
+        self._spans.search(0, 1, draw_settings(np.random.default_rng(0)), seed=0, ticks=1, spend=lambda _: True)
 
     def search_spans(self, inputs: bytes, ticks: int) -> bytes:
         """Search spans of a run, and those of the shorter ones that come of it; the shortest."""
         left = ticks
 
-        def over(played: int) -> bool:
+        def spend(played: int) -> bool:
             nonlocal left
             left -= played
-            return self._over(played, played * SEARCH_COST) or left <= 0
+            return self._spend(played, played * SEARCH_COST) or left <= 0
 
-        while not over(0):
+        while not spend(0):
             self._searches += 1
-            found = self._spans.shorter(inputs, seed=self.seed * 1000 + self._searches, over=over)
+            found = self._spans.shorter(inputs, seed=self.seed * 1000 + self._searches, spend=spend)
             if found:
                 self._submit(found)
                 inputs = self.search_locally(found, SHORT_LOCAL_TICKS)
@@ -177,10 +175,10 @@ class RunShortener:
         local_search = LocalSearch(self.start, inputs, gold=self.gold, seed=self.seed + 7919 * self._local_searches)
         for temperature in COOLING:
             until = local_search.played + ticks // len(COOLING)
-            while local_search.played < until and not self._over(0, 0.0):
+            while local_search.played < until and not self._spend(0, 0.0):
                 before, best = local_search.played, local_search.ticks
                 local_search.run(min(SLICE, until - before), temperature=temperature)
-                self._over(local_search.played - before, local_search.played - before)
+                self._spend(local_search.played - before, local_search.played - before)
                 if local_search.ticks < best:
                     self._submit(local_search.best())
             local_search.return_to_best()

@@ -125,6 +125,7 @@ class SearchState:
 WORK_PER_SECOND = 6_000_000
 """What one thread is expected to do; plans are made with this number, never with the clock."""
 SEARCH_COST = 2.0
+"""Ticks of a local search that a tick of a search counts for: its tables and save-states take as long again."""
 
 FIND = (
     (Resolution(), 8_000_000),
@@ -139,7 +140,8 @@ FIND = (
 )
 """Searches for a first run, with their ticks; then over again with other seeds.
 
-Before each but the first, a run from switch to switch is looked for, as long.
+Before each but the first, a run from switch to switch is looked for, as long. Judged as a whole on the reference levels
+(docs/solver.md), the numbers of a row were not tuned.
 """
 
 OTHER_ROUTES = (
@@ -150,7 +152,10 @@ OTHER_ROUTES = (
     Resolution(cell=10.0, speed=0.35, macro=9, weight=1.2),
     Resolution(cell=6.0, speed=0.5, macro=10, weight=1.1),
 )
-"""Searches for other routes. Those with ``slack`` (part of the best run's ticks) are guided by the search before."""
+"""Searches for other routes. Those with ``slack`` (part of the best run's ticks) are guided by the search before.
+
+Judged as a whole on the reference levels (docs/solver.md), the numbers of a row were not tuned.
+"""
 OTHER_ROUTE_TICKS = 12_000_000
 FOUND_BOUND, GIVEN_BOUND = 0.05, 0.15
 """By what share a run of theirs may be longer than the best: one that was found here, or one that was given."""
@@ -158,25 +163,25 @@ OTHER_ROUTE_TURNS = 4
 """One of them is made every so many turns, once runs are shortened."""
 
 GOLD_BEAM_TICKS = 12_000_000
-"""Ticks that a run with gold is swept before it gets a local search."""
+"""Ticks of beam search before a run with gold gets a local search. Not tuned."""
 
 SLICE = 1_000_000
 """Ticks between two looks at the clock."""
 SHORT_LOCAL_TICKS = 3_000_000
 """Ticks of the local search from a run that came of the search of a span."""
 COOLING = (6.0, 4.0, 2.5, 1.2, 0.4)
-"""Temperatures of a local search, one after the other."""
+"""Temperatures of a local search, ticks, one after the other. Not tuned."""
 
 
 @dataclass(frozen=True)
 class WorkPlan:
-    """How a solver's work is divided: the part of it that only looks for other routes; ticks of the others."""
+    """How a solver's work is divided. Judged on the reference levels (docs/solver.md); no number by itself."""
 
-    routes_until: float = 0.25
-    spans: int = 20_000_000
+    routes_until: float = 0.25  #: the part of the work that only looks for other routes
+    spans: int = 20_000_000  #: ticks of searches of spans in a turn
     spans_with_gold: int = 6_000_000
-    first_local: int = 20_000_000
-    local: int = 8_000_000
+    first_local: int = 20_000_000  #: ticks of the first local search of ``improve``
+    local: int = 8_000_000  #: and of each later one
 
 
 def find_order(job: int) -> Iterator[tuple[Resolution, int, int]]:

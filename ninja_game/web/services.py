@@ -44,7 +44,6 @@ class PageServices:
         return [code for code in map(scancode_named, self.app.controls.keys.get(action, ())) if code]
 
     def notify(self, text: str) -> None:
-        """Show a line below the stage."""
         self.app.notify(text)
 
     def flush(self) -> None:
@@ -106,7 +105,7 @@ class PageServices:
         from ninja_game.formats.load import load_levels
         from ninja_game.formats.n14.level_string import level_digest
         from ninja_game.runs.recording_reader import Unreadable, recordings_in
-        from ninja_game.runs.verify import judged, verify_recording
+        from ninja_game.runs.verify import verify_recording, with_demands
 
         names = {level_digest(each.level): each.name for path in bundled_levels() for each in load_levels(path)}
         with TemporaryDirectory() as folder:
@@ -124,4 +123,6 @@ class PageServices:
                 if isinstance(verdict, Unreadable):
                     yield json.dumps({"unreadable": verdict.message})
                 else:
-                    yield json.dumps(judged(verdict, names, only_these=False, strict=False).as_json() | {"file": name})
+                    yield json.dumps(
+                        with_demands(verdict, names, only_these=False, strict=False).as_json() | {"file": name}
+                    )

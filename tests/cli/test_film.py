@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner, Result
 from PIL import Image, ImageSequence
 
-from ninja_game.cli.game.film import command
+from ninja_game.cli.film import film as command
 from ninja_game.formats.n14.demo import write_demo
 from ninja_game.play.replay import film
 from ninja_game.play.replay.playback import Playback

@@ -8,11 +8,10 @@ import pytest
 
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.ascii.writer import write_ascii_level
-from ninja_game.generator.board import Board
 from ninja_game.generator.compose import compose
 from ninja_game.generator.layouts import LAYOUTS
 from ninja_game.generator.naming import PLACES
-from ninja_game.generator.scene import Scene
+from ninja_game.generator.scene import Board, Scene
 from ninja_game.generator.shaping import STYLES, shaped
 from ninja_game.levels.warnings import level_warnings
 from ninja_game.sim.level import COLUMNS, ROWS

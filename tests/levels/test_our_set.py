@@ -11,7 +11,7 @@ import pytest
 
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.pack.pack import Pack
-from ninja_game.runs.archive import Tally, verify_all
+from ninja_game.runs.archive import Totals, verify_all
 from tests.support.memories import BOTH
 from tools.measure.level_figures import alike, common_motifs
 from tools.measure.level_reference import ROWS
@@ -62,12 +62,12 @@ def test_certificates_are_verified_quickly(memory: str) -> None:
     folder = Path(OURS.files.place("certificates"))
     list(verify_all([next(folder.glob("*.replay.txt"))], memory=memory, jobs=1, processes=False))
     start = time.process_time()
-    tally = Tally()
+    totals = Totals()
     for result in verify_all([folder], memory=memory, jobs=1, processes=False):
-        tally.add(result)
+        totals.add(result)
     spent = time.process_time() - start
-    assert (tally.failed, tally.unreadable, tally.outcomes["exit"]) == (0, 0, tally.recordings)
-    assert spent < SECONDS[memory], f"{tally.recordings} certificates took {spent:.1f} s"
+    assert (totals.failed, totals.unreadable, totals.outcomes["exit"]) == (0, 0, totals.recordings)
+    assert spent < SECONDS[memory], f"{totals.recordings} certificates took {spent:.1f} s"
 
 
 def test_difficulty_rises_over_the_columns() -> None:

@@ -11,7 +11,7 @@ import pytest
 
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.formats.n14.level_string import parse_level_string
-from ninja_game.levels.findings import LEVEL_RULES, PACK_RULES, Rule
+from ninja_game.levels.findings import LEVEL_RULES, PACK_RULES, RUN_RULES, Rule
 from ninja_game.levels.reach import Ground
 from ninja_game.levels.warnings import level_findings, level_warnings, object_name
 from ninja_game.sim import kinds
@@ -272,7 +272,7 @@ def test_more_enemies_than_can_react() -> None:
     assert level_warnings(Level(objects=(*PROPER, *turrets[1:]))) == []
 
 
-def test_findings_name_records_and_cells_and_say_how_to_mend_them() -> None:
+def test_findings_name_records_and_cells_and_say_how_to_fix_them() -> None:
     rows = {2: "#Z#", 1: "?#", 3: ".#", 23: "@...x...X"}
     text = ["ninja-game level 1", *("|" + rows.get(row, "").ljust(31, ".") + "|" for row in range(1, 24))]
     text += ["tile 1,1 id 70", 'raw "77^1,2"', "zap drone 2,2 wander-cw right", "gold 900,100px 901,100px"]
@@ -281,19 +281,19 @@ def test_findings_name_records_and_cells_and_say_how_to_mend_them() -> None:
     assert found["it is outside the grid"].records == (4, 5)
     assert found["it is closed in on all sides: it never moves"].records == (3,)
     assert found["a tile id above 33 is a half tile without direction"].cells == ((1, 1),)
-    assert all(finding.mend for finding in found.values())
+    assert all(finding.hint for finding in found.values())
 
 
 def test_advice_belongs_to_the_code_not_to_words_that_two_texts_share() -> None:
     (flag,) = level_findings(Level(objects=(*PROPER, ObjectSpec(kinds.DRONE, (100.0, 100.0, 0.0, 7.0, 0.0, 0.0)))))
-    assert (flag.code, flag.text, flag.mend) == (
+    assert (flag.code, flag.text, flag.hint) == (
         "seeker-flag", "its seeker flag is not 0 or 1", "Choose whether it seeks."
     )  # fmt: skip
 
 
 def test_every_code_is_explained_in_the_documents() -> None:
     page = (Path(__file__).parents[2] / "docs" / "findings.md").read_text("utf-8")
-    rules = {**LEVEL_RULES, **PACK_RULES}
+    rules = {**LEVEL_RULES, **PACK_RULES, **RUN_RULES}
     assert [row for row in map(row_of, rules.items()) if row not in page] == []
     assert page.count("\n| `") == len(rules)
 
@@ -302,7 +302,7 @@ def row_of(entry: tuple[str, Rule]) -> str:
     """A code's line of docs/findings.md."""
     code, rule = entry
     text = re.sub(r"\{(\w+)[^}]*\}", lambda value: value[1].upper(), rule.text)
-    return f"| `{code}` | {text} | {rule.mend} |"
+    return f"| `{code}` | {text} | {rule.hint} |"
 
 
 WALL = dict.fromkeys(range(1, 23), "....#")

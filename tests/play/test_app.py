@@ -12,13 +12,11 @@ from ninja_game.files.user_folder import export_path
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
-from ninja_game.play.app import App, build_app
+from ninja_game.play.app import App, BossScreen, Screen, build_app
 from ninja_game.play.audio.player import AudioOutput
-from ninja_game.play.boss import BossScreen
+from ninja_game.play.level.screen import PausePanel
 from ninja_game.play.main import first_screen, main, run_app
-from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.menus.replays import watch_recording
-from ninja_game.play.screen import Screen
 from ninja_game.play.window import Window
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import Settings
@@ -195,7 +193,7 @@ def test_screenshot_to_a_place_that_is_not_there_names_it(tmp_path: Path, monkey
         main(str(LEVEL), frames=1, screenshot=str(tmp_path / "nowhere" / "a.png"))
 
 
-def test_the_program_has_a_bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_program_has_a_tas_editor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path))
     programs: list[App] = []
 
@@ -205,7 +203,7 @@ def test_the_program_has_a_bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
     run_app(first, frames=1)
     (app,) = programs
-    assert app.open_tas_editor is not None
+    assert app.tas_editor is not None
 
 
 def test_no_display_is_said(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,13 +11,11 @@ import pytest
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.formats.recording import Recording
-from ninja_game.play.app import App
+from ninja_game.play.app import App, Screen
 from ninja_game.play.input.bindings import ACTIONS
 from ninja_game.play.level.hud import hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, Phase
-from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.menus.pause import PausePanel
-from ninja_game.play.screen import Screen
+from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.player.playthrough import EpisodeRun, FileRun
 from tests.support.scripted import (
     ScriptedControls,

@@ -26,7 +26,7 @@ NAMES = sorted(f"{path.parent.name}/{path.stem}" for path in GOLDEN.glob("*scree
 DRAWS = re.compile(r"_?(draw|paint)(_|$)")
 NOT_SHOWN = {
     "lab/figure.py: Figure.draw": "its figures do",
-    "screen.py: Screen.draw": "its screens do",
+    "app.py: Screen.draw": "its screens do",
     "workspace/part.py: Part.paint": "its parts do",
     "ui/widgets.py: Widget.draw": "its widgets do",
     "replay/paths.py: _draw_speeds": "of the pictures that `compare` writes",

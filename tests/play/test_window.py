@@ -11,11 +11,10 @@ import pygame
 import pytest
 
 from ninja_game.errors import LevelError
-from ninja_game.play.app import App, build_app
+from ninja_game.play.app import App, Screen, build_app
 from ninja_game.play.level.play import RunClock
 from ninja_game.play.main import main
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.screen import Screen
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.window import fitting_size
 from tests.support.scripted import frames, scripted_app

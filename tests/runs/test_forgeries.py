@@ -55,7 +55,7 @@ def strict(text: str, folder: Path, levels: list[NamedLevel]) -> list[Result]:
 def told(results: list[Result]) -> Iterator[str]:
     """What is wrong, in words; nothing for a result that is believed."""
     for result in results:
-        yield from [result.message] if isinstance(result, Unreadable) else result.problems
+        yield from [result.message] if isinstance(result, Unreadable) else map(str, result.problems)
 
 
 def test_there_are_sixty_forgeries() -> None:

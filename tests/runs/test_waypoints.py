@@ -21,7 +21,7 @@ def running() -> Replay:
 
 def problems(replay: Replay) -> tuple[str, ...]:
     """What verification says of a replay."""
-    return verify_recording(parse_replays(write_replay(replay))[0], memory="plain").problems
+    return tuple(map(str, verify_recording(parse_replays(write_replay(replay))[0], memory="plain").problems))
 
 
 def test_a_waypoint_stands_at_the_end_of_every_second() -> None:

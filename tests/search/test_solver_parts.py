@@ -27,7 +27,7 @@ from ninja_game.search.local_search import (
 )
 from ninja_game.search.macros import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_inputs
 from ninja_game.search.nodes import Link, Resolution, TableEntry, back_up_values, open_start, zeroed
-from ninja_game.search.states import key_of
+from ninja_game.search.states import key_of, switch_state_of
 from ninja_game.search.switches import open_mask
 from ninja_game.search.tour import short_tour
 from ninja_game.sim.inputs import KEY_RIGHT, with_press_bits
@@ -242,3 +242,20 @@ def test_of_two_runs_to_the_exit_in_the_same_tick_the_deeper_one_scores_better()
         world.ninja.x = exit_.x - distance
         scores.append(score_of(world))
     assert scores == [100.0 - 0.99, 100.0 - 0.99 / 2, 100.0]
+
+
+def test_states_that_differ_in_a_tenth_switch_are_told_apart() -> None:
+    """Twelve trap doors and the exit's switch along the floor: each that is touched makes another switch state."""
+    doors = "!".join(f"9^{100 + 24 * k},566,0,1,{3 + k},1,0,0,0" for k in range(12))
+    level = parse_level_string(OPEN + f"5^60,566!11^700,566,600,566!{doors}")
+    start = open_start(level, box=False)
+    search = Search(start, Heuristics(start.levels, start.worlds), nodes=100, along=True)
+    memory = PlainWorlds([level], box=False)
+    states_of: dict[int, set[int]] = {}
+    for _ in range(150):
+        memory.step(KEY_RIGHT)
+        state = switch_state_of(memory.world(), search.goal, search.counters, 0)
+        key = key_of(memory.world(), search.goal, state, 0, Resolution(cell=1000.0, speed=100.0))
+        states_of.setdefault(key, set()).add(state)
+    assert len(set.union(*states_of.values())) == 14
+    assert all(len(states) == 1 for states in states_of.values())

@@ -63,7 +63,7 @@ def test_what_lacks_gold_or_is_far_from_the_run_is_not_like_it() -> None:
 def test_a_span_gets_shorter_and_the_rest_is_joined_to_it() -> None:
     known = searches()
     before = verified_run(LEVEL, STANDING)
-    found = known.search(10, 60, FINENESS, seed=1, ticks=2_000_000, over=never)
+    found = known.search(10, 60, FINENESS, seed=1, ticks=2_000_000, spend=never)
     assert found is not None
     after = verified_run(LEVEL, found)
     assert after.end_tick < before.end_tick
@@ -76,20 +76,20 @@ def test_a_run_of_ten_minutes_is_searched_too() -> None:
     long = bytes([0] * 33_000) + STANDING
     known = searches(long)
     for first in (32_990, 33_010):
-        found = known.search(first, first + 50, FINENESS, seed=1, ticks=1_000_000, over=never)
+        found = known.search(first, first + 50, FINENESS, seed=1, ticks=1_000_000, spend=never)
         assert found is not None
         assert found[:first] == long[:first]
         assert verified_run(LEVEL, found).end_tick < verified_run(LEVEL, long).end_tick - 10
 
 
 def test_nothing_is_found_in_a_span_that_cannot_be_better() -> None:
-    assert searches(bytes([2] * 300)).search(100, 140, FINENESS, seed=1, ticks=300_000, over=never) is None
+    assert searches(bytes([2] * 300)).search(100, 140, FINENESS, seed=1, ticks=300_000, spend=never) is None
 
 
 def test_the_same_seed_finds_the_same_and_work_ends_when_it_is_over() -> None:
-    runs = {searches().search(10, 60, FINENESS, seed=5, ticks=400_000, over=never) for _ in range(2)}
+    runs = {searches().search(10, 60, FINENESS, seed=5, ticks=400_000, spend=never) for _ in range(2)}
     assert len(runs) == 1
-    assert searches().shorter(STANDING, seed=1, over=lambda _: True) is None
+    assert searches().shorter(STANDING, seed=1, spend=lambda _: True) is None
 
 
 @pytest.mark.parametrize("gold", [0, 1])
@@ -98,13 +98,13 @@ def test_the_shortener_submits_ever_shorter_runs_with_their_gold(gold: int) -> N
     submitted: list[bytes] = []
     spent = 0
 
-    def over(_: int, cost: float) -> bool:
+    def spend(_: int, cost: float) -> bool:
         nonlocal spent
         spent += int(cost)
         return spent > 3_000_000
 
     heuristics = Heuristics(start.levels, start.worlds)
-    shortener = RunShortener(start, heuristics, gold=gold, seed=1, submit=submitted.append, over=over)
+    shortener = RunShortener(start, heuristics, gold=gold, seed=1, submit=submitted.append, spend=spend)
     best = shortener.search_spans(verified_run(LEVEL, STANDING).inputs, 2_000_000)
     assert len(best) == len(submitted[-1])
     ticks = [verified_run(LEVEL, run, gold=gold).end_tick for run in submitted]

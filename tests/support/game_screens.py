@@ -22,11 +22,10 @@ from ninja_game.formats.load import load_replays
 from ninja_game.formats.named_level import parse_levels
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
-from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.menus.settings import PAGES
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.sim.kinds import GOLD, MINE

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 
 import pygame
 
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
-from ninja_game.play.app import build_app
+from ninja_game.play.app import Screen, build_app
 from ninja_game.play.input.bindings import Bindings
 from ninja_game.play.input.keys import SCANCODES
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.settings import PAGES, SettingsScreen
-from ninja_game.play.screen import Screen
 from ninja_game.play.tas.opening import open_tas_editor
 from ninja_game.player.player_data import PlayerData
 
@@ -37,8 +35,7 @@ class MenuDriver:
     def __init__(self, folder: Path, size: tuple[int, int] = (792, 600)) -> None:
         self.keys = ScriptedKeys()
         self.keys.script = []
-        self.app = build_app(folder, size=size, controls=self.keys)
-        self.app.open_tas_editor = partial(open_tas_editor, self.app)
+        self.app = build_app(folder, size=size, controls=self.keys, tas_editor=open_tas_editor)
         self.app.push(MainMenu(self.app))
         self.frames(2)
 

@@ -12,20 +12,17 @@ from ninja_game.editor.files import draft_of, new_source
 from ninja_game.files.user_folder import bundled_levels, bundled_replays
 from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.formats.named_level import NamedLevel
-from ninja_game.play.app import App
-from ninja_game.play.boss import BossScreen
+from ninja_game.play.app import App, BossScreen, Screen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level import play
-from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import EpisodeGrid
 from ninja_game.play.menus.help import HelpScreen
-from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.screen import Screen
 from ninja_game.play.view.overlays import OVERLAY_ACTIONS
 from ninja_game.player.catalogue import Entry
 

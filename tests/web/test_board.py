@@ -65,7 +65,7 @@ def put(folder: Path, name: str, text: str, *, day: int = 1) -> Path:
     return path
 
 
-def judged(folder: Path, levels: Path) -> Judged:
+def with_demands(folder: Path, levels: Path) -> Judged:
     """What comes of a folder whose ledger has each file on the day of ``put``."""
 
     def date(key: Key, way: str) -> str:
@@ -80,7 +80,7 @@ def slow_walk(wait: int = 5, *, author: str) -> str:
 
 
 def why(folder: Path, levels: Path) -> str:
-    found = judged(folder, levels)
+    found = with_demands(folder, levels)
     assert found.runs == ()
     return " ".join(f"{each.kind} {each.why}" for each in found.apart)
 
@@ -89,7 +89,7 @@ def test_runs_are_ranked_by_what_the_simulation_says(runs: Path, levels: Path) -
     put(runs, "b/slow.txt", slow_walk(author="Bea"), day=1)
     put(runs, "a/fast.txt", replay(author="Ann"), day=2)
     put(runs, "c/record.txt", record(bytes(2) + WALKING), day=3)
-    ranking = Ranking(judged(runs, levels), exhibition(levels))
+    ranking = Ranking(with_demands(runs, levels), exhibition(levels))
     table = ranking.tables[DIGEST][FASTEST]
     assert [(each.place, each.run.player, each.run.tick) for each in table] == [
         (1, "Ann", WALK_END), (2, "me", WALK_END + 2), (3, "Bea", WALK_END + 5),
@@ -108,7 +108,7 @@ def test_runs_are_ranked_by_what_the_simulation_says(runs: Path, levels: Path) -
 def test_a_record_says_by_how_much_it_is_better(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "a.txt", slow_walk(author="Ann"), day=1)
     put(runs, "b.txt", replay(author="Bea"), day=2)
-    BoardPages(tmp_path / "site", Ranking(judged(runs, levels), exhibition(levels))).write()
+    BoardPages(tmp_path / "site", Ranking(with_demands(runs, levels), exhibition(levels))).write()
     page = (tmp_path / "site" / "board" / "index.html").read_text("utf-8")
     assert [gain for gain in re.findall(r"<td[^>]*>([^<]*)</td>", page) if gain in {"first", "0.125", "-0.125"}] == [
         "0.125", "0.125", "first", "first",
@@ -127,14 +127,14 @@ def test_medals_follow_from_the_par_times(runs: Path) -> None:
 def test_a_player_has_one_row_a_table_the_best_one(runs: Path, levels: Path) -> None:
     for wait in (7, 3, 5):
         put(runs, f"{wait}.txt", slow_walk(wait, author=" Ann  "))
-    ranking = Ranking(judged(runs, levels), exhibition(levels))
+    ranking = Ranking(with_demands(runs, levels), exhibition(levels))
     assert [(each.run.player, each.run.tick) for each in ranking.tables[DIGEST][FASTEST]] == [("Ann", WALK_END + 3)]
 
 
 def test_a_replay_may_leave_out_a_level_that_counts(runs: Path, levels: Path) -> None:
     parsed = parse_replay(replay(author="Ann"))
     put(runs, "a.txt", write_replay(replace(parsed, level=None, level_digest=DIGEST)))
-    assert len(judged(runs, levels).runs) == 1
+    assert len(with_demands(runs, levels).runs) == 1
     put(runs, "a.txt", write_replay(replace(parsed, level=None, level_digest="0" * 64)))
     assert "holds no level" in why(runs, levels)
 
@@ -212,7 +212,7 @@ def test_copies_are_named_and_the_first_one_counts(runs: Path, levels: Path) -> 
     put(runs, "again.txt", replay(author="Ann").replace("name: walk", "name: other"), day=2)
     put(runs, "bob.txt", replay(author="Bob"), day=3)
     put(runs, "cid.txt", replay(WALKING + b"\6", author="Cid"), day=4)
-    found = judged(runs, levels)
+    found = with_demands(runs, levels)
     assert [run.player for run in found.runs] == ["Ann"]
     assert [(each.file, each.kind, each.why) for each in found.apart] == [
         ("again.txt", "copy", "the same run as ann.txt"),
@@ -224,13 +224,13 @@ def test_copies_are_named_and_the_first_one_counts(runs: Path, levels: Path) -> 
 def test_a_run_that_goes_most_of_somebody_elses_way_says_so(runs: Path, levels: Path) -> None:
     put(runs, "ann.txt", slow_walk(40, author="Ann"), day=1)
     put(runs, "bob.txt", replay(bytes(40) + WALKING[:-8] + b"\0" + WALKING, author="Bob"), day=2)
-    remarks = [run.remark for run in judged(runs, levels).runs]
+    remarks = [run.remark for run in with_demands(runs, levels).runs]
     assert remarks == ["", "64 of its 65 ticks have the inputs of the run by Ann in ann.txt"]
 
 
 def test_practice_runs_are_kept_apart(runs: Path, levels: Path) -> None:
     put(runs, "run.txt", replay(practice=True))
-    assert [each.kind for each in judged(runs, levels).apart] == ["practice"]
+    assert [each.kind for each in with_demands(runs, levels).apart] == ["practice"]
 
 
 class Tags(HTMLParser):

@@ -165,7 +165,7 @@ def test_the_commands_of_the_document_run(pyodide: Path, tmp_path: Path, monkeyp
     assert lines == ["site public", "site --serve", "player export my-data.zip"]
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("NINJA_GAME_HOME", str(tmp_path / "home"))
-    monkeypatch.setattr("ninja_game.cli.web.site._serve", lambda folder, _: (folder / "index.html").open().close())
+    monkeypatch.setattr("ninja_game.cli.web._serve", lambda folder, _: (folder / "index.html").open().close())
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.setattr("ninja_game.web.pages.gallery.write_gallery", lambda folder, _: folder)
     for line in lines:

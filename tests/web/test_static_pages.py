@@ -18,7 +18,7 @@ from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.runs import judge
 from ninja_game.web.pages.exhibition import exhibition
-from ninja_game.web.pages.gallery import SORTS, write_gallery
+from ninja_game.web.pages.gallery import SORT_ORDERS, write_gallery
 from tests.support.forgeries import WALKING, replay
 from tests.support.samples import WALK
 from tests.support.visitor import LOADING, eventually
@@ -153,7 +153,7 @@ def test_gallery_is_searched_and_sorted_by_keyboard(open_page: Callable[..., Any
         page.keyboard.press("Backspace")
     page.keyboard.press("Tab")
     page.keyboard.press("Tab")
-    for _ in range([by for by, _ in SORTS].index("difficulty")):
+    for _ in range([by for by, _ in SORT_ORDERS].index("difficulty")):
         page.keyboard.press("ArrowDown")
     hard = page.evaluate(
         "Array.from(document.querySelectorAll('.card'), (each) => Number(each.dataset.difficulty ?? 99))"

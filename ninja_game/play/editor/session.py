@@ -4,28 +4,24 @@ from __future__ import annotations
 
 from pathlib import Path
 from time import monotonic
-from typing import TYPE_CHECKING
 
-from ninja_game.editor.autosave import Autosave, RecoveredDraft
 from ninja_game.editor.background import NewestJob
 from ninja_game.editor.brush import OBJECT_TYPES, placed
 from ninja_game.editor.certify import Certifier, Route, route_of
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import Source, draft_of_text, new_source, save
+from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_text, new_source, save
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_string import write_level_string
 from ninja_game.levels.findings import Finding
 from ninja_game.levels.warnings import level_findings
-from ninja_game.play.clipboard import copy_level_link, copy_text, pasted_text, write_export
+from ninja_game.play.app import App
+from ninja_game.play.clipboard import copy_level_link, copy_text, pasted_text
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.play.window import save_picture
 from ninja_game.player.saving import keep_replay
 from ninja_game.sim.level import Level
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 CHECK_SPACING = 0.1
 """Seconds from one examination of the level to the next, at least."""
@@ -60,7 +56,7 @@ class EditorSession:
     def begin(self, source: Source, found: RecoveredDraft | None = None) -> None:
         """Edit another level, or one that was found again; what was not saved of the present one is given up.
 
-        Raises FileError for what another window goes on with.
+        Raises FileError for what another window continues with.
         """
         before = self.autosave
         self._begin(source, found)
@@ -122,7 +118,7 @@ class EditorSession:
     def export_picture(self) -> None:
         """A picture of the level among the player's exports."""
         surface = thumbnail(self.draft.level, self.app.theme.palette, PICTURE_WIDTH)
-        write_export(self.app, self.name, ".png", lambda path: save_picture(surface, path))
+        self.app.write_export(self.name, ".png", lambda path: save_picture(surface, path))
 
     def copy_string(self) -> None:
         """The level as an in-game string of N, in the clipboard; in a file where there is none."""

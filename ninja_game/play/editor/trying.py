@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from ninja_game.formats.named_level import NamedLevel
+from ninja_game.play.app import App
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.level_context import GhostRun, LevelContext, Navigation
 from ninja_game.sim.level import Level
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 Left = Callable[[bytes], object]
 """Called with the inputs of the last try when the test is left."""

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pygame
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.play.app import App
 from ninja_game.play.lab.figure import FIGURE, Figure, Sheet
 from ninja_game.play.lab.figures.catalogue import FIGURES
 from ninja_game.play.level.play import RunClock
@@ -20,9 +20,6 @@ from ninja_game.play.ui.theme import Area, Theme, wrapped
 from ninja_game.play.ui.widgets import Button, Choice, Slider, Widget
 from ninja_game.play.view.render_context import OffscreenContext
 from ninja_game.play.window import save_picture
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 TEXT_TOP, NUMBERS_TOP, LINE = 394.0, 452.0, 15.0
 CONTROLS: Area = (552, 452, 200, 26)

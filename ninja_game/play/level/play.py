@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from enum import Enum
 from random import Random
-from typing import TYPE_CHECKING
 
+from ninja_game.play.app import App
 from ninja_game.play.level.ghosts import Ghost
 from ninja_game.play.replay.playback import Playback
 from ninja_game.play.view.level_view import LevelView
@@ -59,9 +59,6 @@ class RunClock:
         """How much of the next tick has passed, 0…1: where between two ticks to draw."""
         return min(1.0, self.remainder / self.tick_ms)
 
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 DEATH_PAUSE = 41
 """Ticks after a death before the message comes."""

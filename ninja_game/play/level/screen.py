@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 import pygame
 
@@ -11,23 +10,22 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.formats.links.making import replay_link
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
-from ninja_game.play.clipboard import copy_link
+from ninja_game.play.app import App, Screen
+from ninja_game.play.clipboard import copy_level_link, copy_link
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.hud import Hud, hud_view
 from ninja_game.play.level.play import DEATH_PAUSE, LevelPlay, Phase
+from ninja_game.play.menus.help import HelpScreen
+from ninja_game.play.menus.panels import Panel
 from ninja_game.play.menus.passed import EpisodePassed
-from ninja_game.play.menus.pause import PausePanel
+from ninja_game.play.menus.settings import SettingsScreen
 from ninja_game.play.replay.screen import ReplayScreen
-from ninja_game.play.screen import Screen
 from ninja_game.play.view.overlays import Overlays
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.level_context import LevelContext, Navigation
 from ninja_game.player.playthrough import EpisodeRun
 from ninja_game.player.saving import keep_replay
 from ninja_game.sim.inputs import JUMP_HELD
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 
 class LevelScreen(Screen):
@@ -249,3 +247,44 @@ ACTIONS_BY_PHASE: dict[Phase, PhaseActions] = {
     Phase.PASSED: {"confirm": LevelScreen.go_on, **_END},
 }  # fmt: skip
 """What each action does in each phase; the other actions do nothing there."""
+
+
+class PausePanel(Panel):
+    """The game waits. Space, the pause key or Esc go on."""
+
+    def __init__(self, app: App, playing: LevelScreen) -> None:
+        super().__init__(app, "Paused")
+        self.playing = playing
+
+    def rows(self) -> list[tuple[str, Callable[[], object], str]]:
+        """What can be done."""
+        return [
+            ("Resume", self.back, ""),
+            ("Retry", lambda: self._leave(self.playing.retry), ""),
+            ("Copy a link", self._copy_link, "Whoever opens the link plays this level"),
+            ("Settings", lambda: self.app.push(SettingsScreen(self.app)), ""),
+            ("Help", lambda: self.app.push(HelpScreen(self.app)), ""),
+            ("Leave the level", lambda: self._leave(self.playing.quit), ""),
+        ]
+
+    def _copy_link(self) -> None:
+        """The level as a link, in the clipboard."""
+        entry = self.playing.context.entry
+        copy_level_link(self.app, entry.named, entry.title)
+
+    def handle(self, event: InputEvent) -> None:
+        """The pause key ends the pause too, the quit key leaves."""
+        if "pause" in event.pressed:
+            self.back()
+        elif "quit" in event.pressed:
+            self._leave(self.playing.quit)
+        else:
+            super().handle(event)
+
+    def back(self) -> None:
+        """Go on playing."""
+        self._leave(self.playing.resume)
+
+    def _leave(self, then: Callable[[], object]) -> None:
+        self.app.pop()
+        then()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from random import Random
-from typing import TYPE_CHECKING
 
 import pygame
 
@@ -12,13 +11,11 @@ from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
+from ninja_game.play.app import App
 from ninja_game.play.level.play import RunClock
 from ninja_game.play.replay.playback import Playback
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.simulation import Simulation
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 REST_TICKS = 130
 """How long a replay goes on after its end or a death."""

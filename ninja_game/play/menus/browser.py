@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from os import sep
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pygame
 
@@ -15,6 +14,7 @@ from ninja_game.files.shown_text import name_problem
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.load import load_levels
+from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.screen import LevelScreen
@@ -30,9 +30,6 @@ from ninja_game.player.playthrough import LevelRun
 from ninja_game.player.progress import Mark
 from ninja_game.player.records import SavedReplay
 from ninja_game.player.scoring import seconds_text
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 ROW = 54
 PICTURE = 60

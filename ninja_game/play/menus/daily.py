@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from datetime import date
 from pathlib import Path
 from threading import Event
-from typing import TYPE_CHECKING
 
 import pygame
 
@@ -14,6 +13,7 @@ from ninja_game.backend.memories import choose_memory
 from ninja_game.errors import LevelError
 from ninja_game.files.user_folder import LEVELS
 from ninja_game.generator import daily
+from ninja_game.play.app import App
 from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.menus.level_card import draw_pars, time_and_par
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
@@ -23,9 +23,6 @@ from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.player.scoring import seconds_text
 from ninja_game.runtime import beside, require_desktop
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 LEFT, TOP, WIDE = 44, 74, 480
 SIDE, SIDE_WIDTH = 548, 200

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
 
 import pygame
 
 from ninja_game.formats.pack.index import EPISODES_PER_COLUMN
+from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.screen import LevelScreen
@@ -106,9 +106,6 @@ def draw_look(surface: pygame.Surface, theme: Theme, look: str, area: Area) -> N
         canvas.fill_rect(surface, palette.panel_edge, cx - 4.5, cy - 1, 9, 7, 1)
         canvas.circle(surface, palette.panel_edge, (cx, cy - 2), 4, 1.5)
 
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 SIDE = 392
 ROW = 84
@@ -325,7 +322,3 @@ class EpisodeGrid(ThumbnailScreen):
         if played.attempts:
             tries = f"{counted(played.attempts, 'try', 'tries')}, {counted(played.deaths, 'death', 'deaths')}"
             theme.text(surface, tries, left, y + 63, size=10, colour=theme.palette.faint)
-
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App

@@ -7,13 +7,13 @@ import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pygame
 
 from ninja_game.errors import LevelError
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.ascii.reader import parse_ascii_level
+from ninja_game.play.app import App
 from ninja_game.play.input.bindings import ACTIONS, MOVES
 from ninja_game.play.input.gamepad import pad_label
 from ninja_game.play.input.keys import Command, key_text
@@ -92,10 +92,6 @@ def strokes(text: str) -> bytes:
     return with_press_bits(inputs)
 
 
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
-
-
 class HelpPage(MenuScreen):
     """All that can be done, on one page: ``words``, then the table of ``commands``."""
 
@@ -129,9 +125,6 @@ class HelpPage(MenuScreen):
                        colour=theme.palette.faint)  # fmt: skip
             theme.text(surface, command.label, x + keys + pads + 4, y, size=10, width=356 - keys - pads)
 
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 WINDOW: Area = (240, 66, 504, 288)
 """Where the demonstration is seen: that much of the stage, at its own scale."""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
 import pygame
 
 from ninja_game import __version__
+from ninja_game.play.app import App, Screen
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.menus.attract import Attract
@@ -20,14 +20,10 @@ from ninja_game.play.menus.panels import Question
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.menus.settings import SettingsScreen
-from ninja_game.play.screen import Screen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.theme import Area
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Entry as LevelEntry
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 LEFT, WIDE, MIDDLE = 44, 232, 306
 """Where the panel lies: its left edge, its width, the height of its middle."""

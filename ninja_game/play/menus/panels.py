@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
 import pygame
 
+from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.ui.theme import wrapped
 from ninja_game.play.ui.widgets import Button, Widget
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 PANEL_WIDTH = 300
 ROW = 40

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
 import pygame
 
+from ninja_game.play.app import App
 from ninja_game.play.menus.level_card import all_gold_and_medal
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.menus.thumbnails import ThumbnailScreen
@@ -15,9 +15,6 @@ from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Episode
 from ninja_game.player.playthrough import EpisodeRun
 from ninja_game.player.scoring import seconds_text
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 PICTURE = 132
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import pygame
 
+from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.replays import watch
 from ninja_game.play.ui.list_view import ListView
@@ -14,9 +15,6 @@ from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Widget
 from ninja_game.player.scoring import seconds_text
 from ninja_game.sim.rules import TICK_MS
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 ROW = 30
 SIDE, SIDE_WIDTH = 528, 228

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import pygame
 
@@ -16,6 +16,7 @@ from ninja_game.formats.links.making import recording_link, replay_link
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay, write_replay
+from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.menus.menu_screen import MenuScreen
@@ -27,9 +28,6 @@ from ninja_game.play.ui.widgets import Widget
 from ninja_game.player.records import SavedReplay
 from ninja_game.player.saving import forget_replay
 from ninja_game.player.scoring import level_score, seconds_text
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 ROW = 34
 FILES_SHOWN = 300
@@ -210,10 +208,6 @@ def _result(outcome: str, gold: int, final_tick: int) -> str:
     if outcome == "exit":
         return seconds_text(level_score(gold, final_tick))
     return f"{OUTCOMES[outcome]}, {seconds_text(final_tick + 1)}"
-
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 
 def watch(app: App, replays: Iterable[Replay | None]) -> bool:

@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
 import pygame
 
+from ninja_game.play.app import App, Screen
 from ninja_game.play.input.bindings import ACTIONS, InputEvent
 from ninja_game.play.input.gamepad import pad_label
 from ninja_game.play.input.keys import key_label
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Panel
-from ninja_game.play.screen import Screen
 from ninja_game.play.ui.canvas import WIDTH
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.ui.theme import NINJA_COLOURS, PALETTES, Area, Theme
 from ninja_game.play.ui.widgets import TEXT, Button, Choice, Label, Slider, Widget
 from ninja_game.player.progress import FASTEST_TICK_GAIN, custom_colour_unlocked, overclock_unlocked, unlocked_colours
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 IN_REPLAYS_ONLY = frozenset({"faster", "slower", "frame_back", "frame_forward", "edit"})
 IN_LEVELS_ONLY = frozenset(

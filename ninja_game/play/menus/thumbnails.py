@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from time import perf_counter
-from typing import TYPE_CHECKING
 
 import pygame
 
+from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.player.catalogue import Entry
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 BUDGET = 0.006
 """Seconds a picture may cost beyond its first thumbnail."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import pygame
 
@@ -12,6 +11,7 @@ from ninja_game.budget import TURN_WORK, affordable_ticks, tick_cost
 from ninja_game.formats.links.making import replay_link
 from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import Replay
+from ninja_game.play.app import App, Screen
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.ghosts import Ghost
@@ -19,15 +19,11 @@ from ninja_game.play.level.hud import Hud
 from ninja_game.play.level.play import RunClock
 from ninja_game.play.replay.film import FilmJob
 from ninja_game.play.replay.playback import Playback, ReplayBar
-from ninja_game.play.screen import Screen
 from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.overlays import Overlays
 from ninja_game.player.level_context import GhostRun
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0)
 NORMAL_SPEED = SPEEDS.index(1.0)
@@ -51,7 +47,7 @@ class ReplayScreen(Screen):
 
     def __init__(self, app: App, runs: Sequence[Recording], *, editable: bool = True) -> None:
         super().__init__(app)
-        self.open_tas_editor = app.open_tas_editor if editable else None
+        self.tas_editor = app.tas_editor if editable else None
         self.runs = runs
         self.clock = RunClock()
         self.overlays = Overlays()
@@ -265,8 +261,10 @@ class ReplayScreen(Screen):
 
     def edit(self) -> None:
         """Open the TAS editor on this run, at this tick, with the others beside it."""
-        if self.open_tas_editor:
-            self.open_tas_editor(self.run, [run for run in self.runs if run is not self.run], max(0, self.tick - 1))
+        if self.tas_editor:
+            self.tas_editor(
+                self.app, self.run, [run for run in self.runs if run is not self.run], max(0, self.tick - 1)
+            )
 
     # --- picture ---
 
@@ -297,7 +295,7 @@ class ReplayScreen(Screen):
         return (
             f"{key('frame_back')} {key('frame_forward')}: tick by tick    {key('left')} {key('right')}: a second    "
             f"{key('slower')} {key('faster')}: speed    {key('export')}: film    "
-            + f"{key('edit')}: edit    " * bool(self.open_tas_editor)
+            + f"{key('edit')}: edit    " * bool(self.tas_editor)
             + f"{key('link')}: link    {key('back')}: leave"
         )
 

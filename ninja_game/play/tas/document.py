@@ -8,12 +8,12 @@ from functools import partial
 from itertools import islice
 from pathlib import Path
 from time import localtime, strftime
-from typing import TYPE_CHECKING
 
 from ninja_game.files.locking import forget
 from ninja_game.files.shown_text import file_stem
 from ninja_game.files.user_folder import REPLAYS, data_folder, free_path
 from ninja_game.formats.links.making import replay_link
+from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import Form, Menu, Row, nothing
@@ -25,9 +25,6 @@ from ninja_game.play.workspace.part import Commands
 from ninja_game.player.saving import keep_replay
 from ninja_game.tas.files import SUFFIX, branches_path, replay_of_track, same_level
 from ninja_game.tas.journal import RecoveredRun, recovered
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 HELP = """\
 A row of the roll is a tick: click L, R or J to change a key, drag to paint, click the number of a tick to go there. \

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ninja_game.errors import NinjaGameError, reason
+from ninja_game.play.app import App
 from ninja_game.play.ui.theme import Theme
 from ninja_game.play.workspace.part import Part
 from ninja_game.tas.input_track import InputTrack
 from ninja_game.tas.session import Session
 from ninja_game.tas.timeline import Trajectory
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 Span = tuple[int, int]
 """The first tick, and the first one behind the last."""

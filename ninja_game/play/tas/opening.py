@@ -12,13 +12,12 @@ from ninja_game.backend.kernel_cache import before_compiling
 from ninja_game.backend.memories import compiled_available, is_compiled
 from ninja_game.errors import NinjaGameError, reason
 from ninja_game.formats.recording import Recording
+from ninja_game.play.app import App, Screen
 from ninja_game.play.input.bindings import InputEvent
-from ninja_game.play.screen import Screen
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.runtime import beside
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
     from ninja_game.play.tas.screen import TasScreen
 
 PATIENCE_MS = 1000

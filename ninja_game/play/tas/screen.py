@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from ninja_game.formats.recording import Recording
+from ninja_game.play.app import App
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.tas.controls import TABLE
 from ninja_game.play.tas.document import TasDocument
@@ -26,7 +27,6 @@ from ninja_game.play.workspace.screen import WorkspaceScreen
 from ninja_game.tas.session import Session
 
 if TYPE_CHECKING:
-    from ninja_game.play.app import App
     from ninja_game.tas.files import OpenedRun
     from ninja_game.tas.journal import RecoveredRun
 
@@ -36,7 +36,7 @@ class TasScreen(WorkspaceScreen):
 
     ``others``: other runs of its level; ``found``: what was not saved of the run last time. Raises LevelError for a run
     on a level that cannot be played, ReplayError for another run that is of another level or has another body,
-    FileError for what another window goes on with.
+    FileError for what another window continues with.
     """
 
     table = TABLE

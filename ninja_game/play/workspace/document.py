@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
 from ninja_game.document import OccupiedError
 from ninja_game.errors import NinjaGameError, reason
+from ninja_game.play.app import App
 from ninja_game.play.menus.panels import CANCEL, Menu, Row, nothing
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 Action = Callable[[], object]
 

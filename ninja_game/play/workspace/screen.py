@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 import pygame
 
+from ninja_game.play.app import App
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.ui.widgets import Widget
 from ninja_game.play.workspace.commands import CommandTable, HeldCommand
 from ninja_game.play.workspace.part import Part
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 MOUSE = (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL)
 
@@ -60,7 +58,7 @@ class WorkspaceScreen(MenuScreen):
         if focus is not self.focus:
             self.focus = focus
             self.widgets_changed()
-        self.await_text()
+            self.await_text()
 
     def enter(self) -> None:
         super().enter()
@@ -120,6 +118,7 @@ class WorkspaceScreen(MenuScreen):
         elif typing or not self.edit_by_key(event):
             super().handle(event)
         self.follow_parts()
+        self.await_text()
 
     def edit_by_key(self, event: InputEvent) -> bool:
         """Take a key that edits without a command; whether it did."""

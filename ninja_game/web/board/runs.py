@@ -51,7 +51,6 @@ class Run:
 
     @property
     def key(self) -> Key:
-        """Which one it is."""
         return self.file, self.record
 
     @property
@@ -142,7 +141,7 @@ def _apart(chunk: Chunk, result: Result, entries: Mapping[str, Entry]) -> Apart:
         return Apart(chunk.file, chunk.first, "unreadable", _without_name(result.message, chunk.file))
     entry = entries.get(result.level_digest)
     kind = "practice" if result.practice else "refused"
-    why = "; ".join(result.problems)
+    why = "; ".join(map(str, result.problems))
     return Apart(chunk.file, result.record, kind, why, player_named(result.author), entry.title if entry else "")
 
 

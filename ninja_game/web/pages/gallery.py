@@ -70,7 +70,6 @@ def level_page(
 
 
 def level_image(entry: Entry, up: str = "", *, lazy: bool = False) -> Markup:
-    """The level's picture."""
     return tag(
         "img", src=up + picture_name(entry.digest), alt=f"Picture of the level {entry.title}",
         width=PICTURE_WIDTH, height=PICTURE_HEIGHT, loading="lazy" if lazy else None,
@@ -106,7 +105,7 @@ def medal_mark(medal: str) -> Content:
 FOLDER, BOARD = "gallery", "board"
 """Folders of a site: the gallery's pages, and those of a board."""
 
-SORTS = (("", "in playing order"), ("name", "by name"), ("difficulty", "by difficulty"), ("par", "by par time"))
+SORT_ORDERS = (("", "in playing order"), ("name", "by name"), ("difficulty", "by difficulty"), ("par", "by par time"))
 
 LONGEST_NAME = 60
 """Characters of a name in the list."""
@@ -164,7 +163,7 @@ def _episodes(shown: Exhibition) -> Mapping[str, str]:
     return {f"{number:02d}": f"{number}: {each.name}" for number, each in sorted(shown.levels.episodes.items())}
 
 
-def search(episodes: Mapping[str, str], *, sorts: Sequence[tuple[str, str]] = SORTS) -> Markup:
+def search(episodes: Mapping[str, str], *, sorts: Sequence[tuple[str, str]] = SORT_ORDERS) -> Markup:
     """The search above a list; without a script it does not show."""
     options = [tag("option", name, value=value) for value, name in sorts]
     chosen = [tag("option", name, value=value) for value, name in episodes.items()]

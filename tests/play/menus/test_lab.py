@@ -12,7 +12,7 @@ import pygame
 import pytest
 from PIL import Image
 
-from ninja_game.cli.game import lab as lab_command
+from ninja_game.cli import windows
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.lab.figure import FIGURE, Figure, room_world
 from ninja_game.play.lab.figures.catalogue import FIGURES
@@ -69,7 +69,7 @@ def test_every_figure_has_two_sentences_and_links_to_sections_that_exist(name: s
 
 
 def test_the_command_knows_every_figure() -> None:
-    assert tuple(FIGURES) == lab_command.FIGURES
+    assert tuple(FIGURES) == windows.FIGURES
 
 
 @pytest.mark.parametrize("name", FIGURES)

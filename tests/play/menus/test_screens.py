@@ -13,7 +13,7 @@ from ninja_game.formats.replay.text import Replay, write_replay
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.lab.screen import LabScreen
 from ninja_game.play.level.play import Phase
-from ninja_game.play.level.screen import LevelScreen
+from ninja_game.play.level.screen import LevelScreen, PausePanel
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.daily import DailyScreen
 from ninja_game.play.menus.episodes import EpisodeGrid
@@ -21,7 +21,6 @@ from ninja_game.play.menus.help import HelpScreen
 from ninja_game.play.menus.main_menu import MainMenu
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Question
-from ninja_game.play.menus.pause import PausePanel
 from ninja_game.play.menus.records import RecordsScreen
 from ninja_game.play.menus.replays import ReplaysScreen
 from ninja_game.play.menus.settings import PAGES, SettingsScreen

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from pathlib import Path
 
 import pygame
@@ -218,11 +217,11 @@ def test_help_page_and_viewer_come_from_the_menu(at: TasDriver) -> None:
     assert at.top() is at.screen
 
 
-def test_edit_in_the_viewer_opens_the_bench(tmp_path: Path) -> None:
+def test_edit_in_the_viewer_opens_the_tas_editor(tmp_path: Path) -> None:
     runs = load_replays(write_records(tmp_path / "demos.txt", ("a", WALK, running(23)), ("b", WALK, running(9))))
     other = load_replays(PACK / "certificates" / "00-0-first-steps.exit.replay.txt")
     with scripted_app() as (app, _):
-        app.open_tas_editor = partial(open_tas_editor, app)
+        app.tas_editor = open_tas_editor
         viewer = ReplayScreen(app, [*runs, *other])
         app.push(viewer)
         viewer.seek(5)
@@ -242,7 +241,7 @@ def test_edit_of_a_file_goes_back_into_it(tmp_path: Path) -> None:
     path.write_bytes(RUN.read_bytes())
     for changed in (False, True):
         with scripted_app() as (app, _):
-            app.open_tas_editor = partial(open_tas_editor, app)
+            app.tas_editor = open_tas_editor
             app.push(ReplayScreen(app, load_replays(path)))
             if changed:
                 path.write_text(path.read_text("utf-8").replace("name:", "; mine\nname:"), "utf-8")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from ninja_game.files.reading import LeftOut
 from ninja_game.formats.links.fragment import is_link
 from ninja_game.formats.n14.level_string import level_digest
 from ninja_game.formats.recording import Recording
+from ninja_game.play.app import App
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Form
@@ -23,9 +23,6 @@ from ninja_game.play.workspace.part import Commands
 from ninja_game.player.records import SavedReplay
 from ninja_game.tas.files import runs_of_level, same_level, track_of
 from ninja_game.tas.timeline import Timeline
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
 
 NONE_YET = "No other run is open: Ctrl+O opens one"
 

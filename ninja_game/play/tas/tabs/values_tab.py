@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
 import pygame
 
 from ninja_game.errors import NinjaGameError
+from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
 from ninja_game.play.menus.panels import Form
 from ninja_game.play.tas.editor import TasEditor
@@ -25,10 +25,7 @@ from ninja_game.search.formula.language import Numbers
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, KIND_OF, MINE
 from ninja_game.tas.watch import Watch, parse_watch
 
-if TYPE_CHECKING:
-    from ninja_game.play.app import App
-
-Found = tuple[int, int, float, float]
+WatchableObject = tuple[int, int, float, float]
 """Id, kind, x and y (px) of an object."""
 
 
@@ -38,7 +35,7 @@ class ObjectList(MenuScreen):
     title = "Objects of this level"
     foot = "Enter proposes to watch an object; Esc goes back"
 
-    def __init__(self, app: App, objects: Sequence[Found], choose: Callable[[str], object]) -> None:
+    def __init__(self, app: App, objects: Sequence[WatchableObject], choose: Callable[[str], object]) -> None:
         super().__init__(app)
         self._objects = objects
         self._choose = choose

@@ -16,7 +16,7 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.sim.rules import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
-    from ninja_game.runs.archive import Tally
+    from ninja_game.runs.archive import Totals
     from ninja_game.runs.chunks import Result
     from ninja_game.runs.verify import Verdict
 
@@ -53,7 +53,7 @@ FAILED = 1
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per recording, for programs.")
 @click.option("--quiet", "-q", is_flag=True, help="Only recordings that fail, and the summary.")
 @click.pass_context
-def command(
+def verify(
     ctx: click.Context,
     /,
     files: Sequence[Path],
@@ -83,17 +83,17 @@ def command(
       ninja-game verify archive/ -q --cluster tcp://10.0.0.5:8786
     """
     from ninja_game.formats.load import load_levels
-    from ninja_game.runs.archive import Tally, verify_all
+    from ninja_game.runs.archive import Totals, verify_all
     from ninja_game.runs.recording_reader import Unreadable
 
-    tally = Tally()
+    totals = Totals()
     processes = None if workers is None else workers == "processes"
     with ExitStack() as stack:
         results = verify_all(files, processes=processes, levels=load_levels(level) if level else (), **options)
         if report:
             results = _reported(results, report, files, stack)
         for result in with_progress(results, "run"):
-            tally.add(result)
+            totals.add(result)
             if isinstance(result, Unreadable):
                 complain(result.message)
             elif as_json:
@@ -101,8 +101,8 @@ def command(
             elif not (quiet and result.good):
                 click.echo(_row(result))
     if not as_json:
-        click.echo(_summary(tally))
-    ctx.exit(2 if tally.unreadable else FAILED if tally.failed else 0)
+        click.echo(_summary(totals))
+    ctx.exit(2 if totals.unreadable else FAILED if totals.failed else 0)
 
 
 def _reported(results: Iterable[Result], report: Path, files: Sequence[Path], stack: ExitStack) -> Iterator[Result]:
@@ -117,19 +117,19 @@ def _reported(results: Iterable[Result], report: Path, files: Sequence[Path], st
 
 def _write_table(results: Iterable[Result], out: IO[bytes]) -> Iterator[Result]:
     """The same results, written as a table as they pass."""
-    from ninja_game.runs.archive import Tally
+    from ninja_game.runs.archive import Totals
     from ninja_game.runs.recording_reader import Unreadable
 
-    tally = Tally()
+    totals = Totals()
     for result in results:
-        tally.add(result)
+        totals.add(result)
         if isinstance(result, Unreadable):
             row = f"??   {shown_text(result.message, 1000)}"
         else:
             row = click.unstyle(_row(result))
         out.write(row.encode() + b"\n")
         yield result
-    out.write(_summary(tally).encode() + b"\n")
+    out.write(_summary(totals).encode() + b"\n")
 
 
 def _row(verdict: Verdict) -> str:
@@ -140,13 +140,13 @@ def _row(verdict: Verdict) -> str:
     where = f"{shown_text(verdict.file)}:{verdict.record}"
     name = shown_text(verdict.name)
     row = f"{mark} {verdict.outcome:<7} {when:>11}  {verdict.gold:>3} gold  {score:>8}  {name}  {where}"
-    return "\n     ".join([row, *map(shown_text, verdict.problems)])
+    problems = [f"{shown_text(each.text)}. {each.hint} [{each.code}]" for each in verdict.problems]
+    return "\n     ".join([row, *problems])
 
 
-def _summary(tally: Tally) -> str:
-    """All recordings in a line."""
-    counts = ", ".join(f"{count} {outcome}" for outcome, count in sorted(tally.outcomes.items()))
-    total = tally.recordings
-    runs = f"{total} run{'s' * (total != 1)} of {tally.ticks} ticks{': ' * bool(counts)}{counts}"
-    text = f"{runs}; {tally.failed or 'none'} failed"
-    return text + (f"; {tally.unreadable} unreadable" if tally.unreadable else "")
+def _summary(totals: Totals) -> str:
+    counts = ", ".join(f"{count} {outcome}" for outcome, count in sorted(totals.outcomes.items()))
+    total = totals.recordings
+    runs = f"{total} run{'s' * (total != 1)} of {totals.ticks} ticks{': ' * bool(counts)}{counts}"
+    text = f"{runs}; {totals.failed or 'none'} failed"
+    return text + (f"; {totals.unreadable} unreadable" if totals.unreadable else "")

@@ -1,4 +1,4 @@
-"""`ninja-game levels pars`: the table of par times of a pack."""
+"""Commands for whole packs of levels."""
 
 from __future__ import annotations
 
@@ -10,9 +10,37 @@ from ninja_game.cli.run_options import with_progress
 from ninja_game.files.shown_text import shown_text
 
 
+@click.command(name="lint")
+@click.argument("pack", type=click.Path(exists=True, path_type=Path))
+@click.pass_context
+def lint(ctx: click.Context, pack: Path) -> None:
+    """Report what is odd about a pack: its index, its levels, its certificates, its table of pars.
+
+    A line says how to mend what was found, and ends in its code (docs/findings.md).
+
+    Exit code 0: nothing; 1: something is odd; 2: the pack or its index cannot be read.
+
+    \b
+    Examples:
+      ninja-game levels lint my-pack/
+      ninja-game levels lint my-pack.zip
+    """
+    from ninja_game.formats.pack.pack import Pack
+    from ninja_game.runs.packs import lint
+
+    opened = Pack(pack)
+    found = list(lint(opened))
+    for finding in found:
+        click.echo(f"{shown_text(str(finding), 500)}. {finding.hint} [{finding.code}]")
+    episodes = len(opened.episodes)
+    counted = f"{shown_text(opened.name)}: {episodes} episodes, {len(opened.levels)} levels"
+    click.echo(f"{counted}, {len(found)} findings" if found else f"{counted}, nothing odd")
+    ctx.exit(1 if found else 0)
+
+
 @click.command(name="pars")
 @click.argument("pack", type=click.Path(exists=True, file_okay=False, path_type=Path))
-def command(pack: Path) -> None:
+def pars(pack: Path) -> None:
     """Write par times and difficulties of a pack's levels into its pars.toml.
 
     They are derived from the certificates, replays in PACK/certificates: NAME.exit.replay.txt, the fastest run to the
@@ -38,3 +66,16 @@ def command(pack: Path) -> None:
     Tree(pack).write(PARS, write_pars(made))
     without = len(opened.levels) - len(made)
     click.echo(f"{len(made)} levels with pars, {without} without a sound certificate; wrote {pack / PARS}")
+
+
+@click.group(commands={"pars": pars, "lint": lint})
+def levels() -> None:
+    """Check packs of levels, and make their tables of par times.
+
+    A pack is a folder or zip with an index, pack.toml.
+
+    \b
+    Examples:
+      ninja-game levels lint my-pack/
+      ninja-game levels pars my-pack/
+    """

@@ -15,7 +15,7 @@ from ninja_game.player.player_data import PlayerData
 
 
 @click.group()
-def command() -> None:
+def player() -> None:
     """Export all data of a player to one file, or import such a file.
 
     Settings, records, own levels and replays. The game in a browser writes and reads the same file (its page menu), so
@@ -28,7 +28,7 @@ def command() -> None:
     """
 
 
-@command.command("export")
+@player.command("export")
 @click.argument("file", type=click.Path(dir_okay=False, path_type=Path))
 def export(file: Path) -> None:
     """Write all data of the player into FILE, a zip."""
@@ -39,7 +39,7 @@ def export(file: Path) -> None:
             click.echo(line, err=True)
 
 
-@command.command("import")
+@player.command("import")
 @click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
 def take_in(file: Path) -> None:
     """Import FILE. Better runs replace worse ones; nothing of yours is overwritten."""

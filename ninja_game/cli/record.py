@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from ninja_game.cli.levels.convert import Output
+from ninja_game.cli.convert import Output
 from ninja_game.cli.run_options import budget_option, choose, heartbeat, level_given, other_level_option
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
@@ -23,7 +23,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 @other_level_option
 @budget_option
 @click.option("--force", is_flag=True, help="Replace a file that exists. FILE is never replaced.")
-def command(
+def record(
     inputs: Path, output: Path | None, record: int | None, level_path: Path | None, budget: int, force: bool
 ) -> None:
     """Run inputs that a person wrote, and write the result.

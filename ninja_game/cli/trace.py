@@ -57,7 +57,7 @@ SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 @jobs_option
 @budget_option
 @click.pass_context
-def command(
+def trace(
     ctx: click.Context,
     files: Sequence[Path],
     record: int | None,

@@ -14,7 +14,7 @@ from ninja_game.cli.run_options import LevelPath, choose
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=LevelPath())
 @click.option("--record", type=click.IntRange(min=0), help="This level or recording of the file, counted from 0.")
 @click.option("--base", metavar="URL", default="", help="Address of a page with the game, which opens the link.")
-def command(files: Sequence[Path], record: int | None, base: str) -> None:
+def link(files: Sequence[Path], record: int | None, base: str) -> None:
     """Make a link that carries a level, a pack or replays.
 
     FILE is a level, a pack (a folder or zip with pack.toml) or a replay, in any format; several replays of one level

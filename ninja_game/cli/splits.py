@@ -62,7 +62,7 @@ picture_option = click.option(
 @picture_option
 @budget_option
 @click.pass_context
-def command(
+def splits(
     ctx: click.Context, files: Sequence[Path], against: Path | None, gold: bool, level_path: Path | None, form: str,
     picture: Path | None, budget: int,
 ) -> None:  # fmt: skip
@@ -146,7 +146,6 @@ def titles(recordings: Sequence[Recording]) -> list[str]:
 
 
 def _show(tables: Sequence[Table]) -> None:
-    """The tables for people."""
     from rich.console import Console
     from rich.table import Table as RichTable
 

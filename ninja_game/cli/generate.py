@@ -27,7 +27,7 @@ from ninja_game.cli import solver_options as options
     help="Write the certificate too, the solver's run to the exit.",
 )  # fmt: skip
 @click.pass_context
-def command(
+def generate(
     ctx: click.Context, /, seed: int | None, difficulty: int, output: Path | None, replay: Path | None
 ) -> None:  # fmt: skip
     """Make a new level, certified by the solver.

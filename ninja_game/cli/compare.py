@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ninja_game.cli.run_options import budget_option, choose, heartbeat, level_given, level_option
-from ninja_game.cli.runs.splits import draw, format_option, picture_option, titles
+from ninja_game.cli.splits import draw, format_option, picture_option, titles
 
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
@@ -30,7 +30,7 @@ COLUMNS = ("at", "x", "y", "tick", "other", "ahead")
 @format_option
 @picture_option
 @budget_option
-def command(
+def compare(
     first: Path, second: Path, record: int | None, against_record: int | None, level_path: Path | None, form: str,
     picture: Path | None, budget: int,
 ) -> None:  # fmt: skip
@@ -72,7 +72,6 @@ def _cells(lead: Lead) -> tuple[str, float, float, int, int, int]:
 
 
 def _show(found: Comparison, ours: Recording, theirs: Recording) -> None:
-    """The comparison for people."""
     from ninja_game.runs.compare import each_second
 
     for letter, name, positions in zip("AB", titles([ours, theirs]), found.positions, strict=True):

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import click
 
-from ninja_game.cli.game.play import pixels
 from ninja_game.cli.run_options import InputPath, heartbeat, level_given, level_option
+from ninja_game.cli.windows import pixels
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
@@ -41,7 +41,7 @@ from ninja_game.formats.links.fragment import is_link
 )  # fmt: skip
 @click.option("--keys", is_flag=True, help="Show the keys that are down.")
 @level_option
-def command(
+def film(
     replay: Path, out: Path | None, record: int, size: str, speed: float, first: int, last: int | None,
     ghosts: Sequence[Path], keys: bool, level_path: Path | None,
 ) -> None:  # fmt: skip

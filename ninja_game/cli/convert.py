@@ -37,7 +37,7 @@ FORM_OF_NAME = {
 @level_option
 @budget_option
 @click.option("--force", is_flag=True, help="Replace files that exist. IN is never replaced.")
-def command(
+def convert(
     sources: Sequence[Path], target: str, form: str | None, legend: bool, level_path: Path | None, budget: int,
     force: bool,
 ) -> None:  # fmt: skip

@@ -59,7 +59,7 @@ class GoldGoals(options.GoldCount):
 @click.option("--improve", is_flag=True, help="Shorten the runs that are kept, too.")
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per level, for programs.")
 @click.pass_context
-def command(
+def check(
     ctx: click.Context,
     /,
     levels: Sequence[Path],
@@ -121,7 +121,6 @@ class _Tally:
         self.without: dict[str, list[str]] = {"exit": [], "gold": []}
 
     def add(self, level: NamedLevel, found: Mapping[str, Certified] | NinjaGameError) -> None:
-        """Count a level."""
         self.levels += 1
         if isinstance(found, NinjaGameError):
             self.broken += 1

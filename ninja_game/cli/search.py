@@ -1,19 +1,137 @@
-"""`ninja-game search`: other keys for a span of a run, towards a goal that a person states."""
+"""Commands that search: for a run to the exit, for a shorter one, for other keys in a span."""
 
 from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from ninja_game.cli import solver_options as options
-from ninja_game.cli.run_options import InputPath, choose, level_given, level_option
+from ninja_game.cli.run_options import InputPath, LevelPath, choose, choose_level, level_given, level_option
+from ninja_game.files.shown_text import shown_text
+from ninja_game.files.user_folder import free_path
 
 if TYPE_CHECKING:
     from ninja_game.formats.recording import Recording
+    from ninja_game.formats.replay.text import Replay
     from ninja_game.search.formula.task import Found, SpanTask
+
+
+@click.command()
+@click.argument("level", type=LevelPath(dir_okay=False))
+@click.option("--record", type=click.IntRange(min=0), help="Which of a file's levels, counted from 0.")
+@options.gold_option
+@options.seconds_option(60.0)
+@options.work_option
+@options.seed_option
+@options.search_jobs_option
+@options.smooth_option
+@options.body_option
+@click.option(
+    "-o", "--output", metavar="REPLAY", type=click.Path(dir_okay=False, path_type=Path),
+    help="Where to keep the best run so far. [default: LEVEL's name and .replay.txt, in the current folder]",
+)  # fmt: skip
+@click.pass_context
+def solve(
+    ctx: click.Context,
+    /,
+    level: Path,
+    record: int | None,
+    output: Path | None,
+    jobs: int | None,
+    smooth: int | None,
+    **task_options: Any,
+) -> None:
+    """Find a run to the exit, then shorten it.
+
+    The best run so far is always in REPLAY, so that the search can be stopped at any time (Ctrl-C). Every run is played
+    again from the start by the plain memory before it is written. It needs Numba (the extra `fast`).
+
+    Exit code 0: a run was found; 1: none in the time; 2: bad input.
+
+    \b
+    Examples:
+      ninja-game solve 00-0-first-steps -o first.replay.txt
+      ninja-game solve userlevels.txt --record 17 --gold all --seconds 300 -o gold.replay.txt
+    """
+    from ninja_game.search.solve import Task, solve
+
+    chosen = choose_level(level, record)
+    output = output or free_path(Path(), level.stem, ".replay.txt")
+    task = Task(chosen.level, jobs=options.default_threads(jobs), **task_options)
+    options.check_gold(task)
+    save = options.saver(output, chosen)
+    with options.progress_line() as report:
+        run = solve(task, report=report, on_better=save)
+    if run is None:
+        click.echo(options.not_found_text(task, report.last))
+        ctx.exit(options.NOT_FOUND)
+    if smooth is not None:
+        run = options.smoothed_run(task.level, run, smooth)
+        save(run)
+    click.echo(f"{shown_text(str(output))}: {options.time_text(run.end_tick)}, {run.gold} gold")
+
+
+@click.command()
+@click.argument("replay", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.option("--record", type=click.IntRange(min=0), help="Which of a file's recordings, counted from 0.")
+@level_option
+@options.gold_option
+@options.seconds_option(60.0)
+@options.work_option
+@options.seed_option
+@options.search_jobs_option
+@options.smooth_option
+@click.option(
+    "-o", "--output", metavar="REPLAY", required=True, type=click.Path(dir_okay=False, path_type=Path),
+    help="Where to keep the best run so far.",
+)  # fmt: skip
+def improve(
+    replay: Path,
+    record: int | None,
+    level_path: Path | None,
+    output: Path,
+    jobs: int | None,
+    smooth: int | None,
+    **task_options: Any,
+) -> None:
+    """Shorten a run that exists.
+
+    REPLAY is a replay of ours or a recording $name#author#comment#level#demo#. The run must reach the exit. The best
+    run so far is always in the output file; every run is played again from the start by the plain memory before it is
+    written. It needs Numba (the extra `fast`).
+
+    \b
+    Examples:
+      ninja-game improve first.replay.txt -o shorter.replay.txt
+      ninja-game improve demos.txt --record 3 --seconds 300 -o shorter.replay.txt
+    """
+    from ninja_game.formats.load import load_replays
+    from ninja_game.search.solve import Task, solve
+
+    recordings = load_replays(replay, level=level_given(level_path))
+    recording = choose(recordings, "recordings", replay, record)
+    first = recording.inputs
+    task = Task(recording.level, body=recording.body, first=first, jobs=options.default_threads(jobs), **task_options)
+    options.check_gold(task)
+    before: list[int] = []
+    save = options.saver(output, recording, recording.author)
+
+    def keep(found: Replay) -> None:
+        before.append(found.end_tick)
+        save(found)
+
+    with options.progress_line() as report:
+        run = solve(task, report=report, on_better=keep)
+    assert run is not None  # noqa: S101 - the first run is one
+    if smooth is not None:
+        run = options.smoothed_run(task.level, run, smooth)
+        save(run)
+    gain = before[0] - run.end_tick
+    change = f"{abs(gain)} ticks {'shorter' if gain > 0 else 'longer'}" if gain else "no shorter run was found"
+    click.echo(f"{output}: {options.time_text(run.end_tick)}, {change}, {run.gold} gold")
 
 
 @click.command()
@@ -42,7 +160,7 @@ if TYPE_CHECKING:
     help="Where to keep the best run so far. [default: nowhere]",
 )  # fmt: skip
 @click.pass_context
-def command(
+def search(
     ctx: click.Context, replay: Path, first: int, last: int, goal: str, maximise: str, minimise: str, rest: bool,
     method: str, every: int, seconds: float, seed: int, jobs: int | None, record: int | None, level_path: Path | None,
     output: Path | None,

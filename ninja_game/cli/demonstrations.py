@@ -27,7 +27,7 @@ from ninja_game.cli.run_options import level_given, level_option, memory_option,
 )  # fmt: skip
 @level_option
 @memory_option
-def command(
+def demonstrations(
     files: Sequence[Path],
     output: Path | None,
     dataset: str | None,

@@ -1,1 +1,0 @@
-"""Commands with a window, and films."""

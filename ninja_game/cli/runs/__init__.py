@@ -1,1 +1,0 @@
-"""Commands about runs: verify, trace, measure, search."""

@@ -1,0 +1,227 @@
+"""Commands that open a window: the game, the editor, the TAS editor, the lab."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+import click
+
+from ninja_game.cli.run_options import (
+    InputPath,
+    LevelPath,
+    level_given,
+    level_option,
+    other_level_option,
+    window_options,
+)
+
+if TYPE_CHECKING:
+    from ninja_game.play.app import App, Screen
+
+
+@click.command()
+@click.argument("level", required=False, type=LevelPath())
+@click.option(
+    "--record", type=click.IntRange(0, 10**6), default=0, help="Begin with this level of the file, counted from 0."
+)
+@click.option(
+    "--body", type=click.Choice(["circle", "box"]), default="circle", show_default=True,
+    help="The ninja's body: the circle of the classic rules, or a box of the same size.",
+)  # fmt: skip
+@click.option("--practice", is_flag=True, help="No time limit, nothing counts.")
+@click.option("--replay", type=InputPath(dir_okay=False), help="Watch the recordings of this file or link.")
+@level_option
+@window_options
+@click.pass_context
+def play(
+    ctx: click.Context,
+    level: Path | None,
+    record: int,
+    body: Literal["circle", "box"],
+    practice: bool,
+    replay: Path | None,
+    level_path: Path | None,
+    size: str | None,
+    frames: int | None,
+    screenshot: str | None,
+) -> None:
+    """Play a level in a window.
+
+    LEVEL is a file of levels, the name of one of the game's own, or a link; without it the game begins at its menu.
+    Links hold everything that they need: no network is asked. A pack, a
+    folder or zip with pack.toml, offers its episodes; with --practice, --body or --record its levels are played one
+    after the other. The menus offer your own files and packs too: those in the folder `levels` of your folder for this
+    game, which NINJA_GAME_HOME moves; a file that is dropped on the menu Levels is copied there.
+
+    \b
+    Examples:
+      ninja-game play
+      ninja-game play my-level.txt --practice
+      ninja-game play userlevels.txt --record 17
+      ninja-game play my-pack.zip
+      ninja-game play --replay run.replay.txt
+      ninja-game play 'https://example.org/game/#level=1.…'
+      SDL_VIDEODRIVER=dummy ninja-game play --frames 40 --screenshot picture.png
+    """
+    if level is not None and replay is not None:
+        raise click.UsageError("LEVEL and --replay cannot be used together")
+    if level_path is not None and replay is None:
+        raise click.UsageError("--level is the level of what --replay names")
+    path = next((str(each) for each in (level, level_path) if each is not None), None)
+    window = pixels(size) if size else None
+
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    from ninja_game.play.main import main
+
+    code = main(
+        path,
+        body=body,
+        size=window,
+        replay_path=str(replay) if replay is not None else None,
+        practice=practice,
+        frames=frames,
+        screenshot=screenshot,
+        record=record,
+    )
+    ctx.exit(code)
+
+
+def pixels(size: str) -> tuple[int, int]:
+    """Width and height from ``WIDTHxHEIGHT``."""
+    width, _, height = size.lower().partition("x")
+    digits = re.compile("[1-9][0-9]{1,4}")
+    if not all(digits.fullmatch(part) and int(part) <= 16384 for part in (width, height)):
+        raise click.UsageError(f"--size is {size!r}; expected WIDTHxHEIGHT in px, e.g. 1584x1200")
+    return int(width), int(height)
+
+
+@click.command()
+@click.argument("level", required=False, type=LevelPath())
+@click.option("--record", type=click.IntRange(0, 10**6), default=0, help="This level of the file, counted from 0.")
+@window_options
+@click.pass_context
+def edit(
+    ctx: click.Context, level: Path | None, record: int, size: str | None, frames: int | None, screenshot: str | None
+) -> None:
+    """Make a level, or change one, in a window.
+
+    LEVEL is a file of levels, or the name of one of the game's own; without it an empty level. A readable level is
+    saved into its file, with its comments; a level of N or of the game becomes a new file among yours.
+
+    \b
+    Examples:
+      ninja-game edit
+      ninja-game edit my-level.txt
+      ninja-game edit userlevels.txt --record 17
+    """
+    from ninja_game.editor.files import Source, open_source
+    from ninja_game.files.user_folder import data_folder
+
+    window = pixels(size) if size else None
+    source = open_source(level, record) if level is not None else None
+    if source is not None and level is not None and level.is_relative_to(data_folder("levels")):
+        source = Source(source.draft)
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    from ninja_game.play.editor.screen import EditorScreen
+    from ninja_game.play.main import run_app
+
+    ctx.exit(run_app(lambda app: EditorScreen(app, source), size=window, frames=frames, screenshot=screenshot))
+
+
+@click.command()
+@click.argument("file", type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
+@other_level_option
+@click.option(
+    "--beside", multiple=True, type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="Another file with runs of the same level, to be shown beside; may be given several times.",
+)  # fmt: skip
+@click.option("--tick", type=click.IntRange(0, 10**6), default=0, help="Put the cursor on this tick.")
+@window_options
+@click.pass_context
+def tas(
+    ctx: click.Context, file: Path, record: int | None, level_path: Path | None, beside: tuple[Path, ...],
+    tick: int, size: str | None, frames: int | None, screenshot: str | None,
+) -> None:  # fmt: skip
+    """Edit a run tick by tick, in a window.
+
+    FILE is a recording of any format. On one side the level, on the other a row for each tick: its keys, and what the
+    world says after it. Change keys, take over and play on, search for something better, keep branches. A replay text
+    of ours is saved into its file; any other recording becomes a new one. Where the level was changed after the
+    recording, the run opens on the level as it is now, to be mended.
+
+    \b
+    Examples:
+      ninja-game tas best.replay.txt
+      ninja-game tas demos.txt --record 3
+      ninja-game tas best.replay.txt --beside theirs.replay.txt
+      ninja-game tas old.replay.txt --level changed.txt
+    """
+    from ninja_game.tas.files import open_run, runs_of_level
+
+    window = pixels(size) if size else None
+    opened = open_run(file, record=record, level=level_given(level_path))
+    others = [run for path in beside for run in runs_of_level(path, opened.recording)]
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    from ninja_game.play.main import run_app
+    from ninja_game.play.tas.opening import OpeningScreen
+    from ninja_game.play.tas.screen import TasScreen
+
+    def editor(app: App) -> TasScreen:
+        screen = TasScreen(app, opened, others)
+        screen.editor.go(tick)
+        return screen
+
+    def opening(app: App) -> Screen:
+        # So many pictures are pictures of the TAS editor.
+        return editor(app) if frames is not None else OpeningScreen(app, opened.recording, lambda: editor(app))
+
+    ctx.exit(run_app(opening, size=window, frames=frames, screenshot=screenshot))
+
+
+FIGURES = ("cells", "edges", "projection", "grids", "nine-cells", "pairs", "bullets", "rays", "drones", "tick")
+
+
+@click.command()
+@click.argument("figure", metavar="[FIGURE]", required=False, type=click.Choice(FIGURES))
+@window_options
+@click.option(
+    "-o", "--output", type=click.Path(dir_okay=False, path_type=Path),
+    help="Open no window: write the figure to this .png file, or its demonstration to this .gif file.",
+)  # fmt: skip
+@click.pass_context
+def lab(
+    ctx: click.Context,
+    figure: str | None,
+    size: str | None,
+    frames: int | None,
+    screenshot: str | None,
+    output: Path | None,
+) -> None:
+    """Drag, paint and watch: ten figures about how the world works.
+
+    FIGURE is the one that is shown first: cells, edges, projection, grids, nine-cells, pairs, bullets, rays, drones or
+    tick.
+
+    \b
+    Examples:
+      ninja-game lab
+      ninja-game lab rays
+      ninja-game lab edges -o edges.png
+    """
+    if output is not None and figure is None:
+        raise click.UsageError("--output needs a FIGURE")
+    window = pixels(size) if size else None
+    os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
+    if output is not None and figure is not None:
+        from ninja_game.play.lab.screen import export_figure
+
+        export_figure(figure, output)
+        return
+    from ninja_game.play.lab.screen import LabScreen
+    from ninja_game.play.main import run_app
+
+    ctx.exit(run_app(lambda app: LabScreen(app, figure or ""), size=window, frames=frames, screenshot=screenshot))
