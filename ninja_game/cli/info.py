@@ -106,7 +106,7 @@ def _sorts(level: NamedLevel) -> Counter[str]:
 
     Of more objects than can be played, which take long, how many of each kind.
     """
-    from ninja_game.formats.ascii.object_writer import best_form
+    from ninja_game.formats.ascii.writer import best_form
     from ninja_game.sim.kinds import KIND_NAMES
     from ninja_game.sim.memory.schema import CAPACITY
 
