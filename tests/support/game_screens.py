@@ -381,7 +381,7 @@ def _daily(driver: MenuDriver) -> Iterator[str]:
         assert isinstance(screen, DailyScreen)
         maker = screen._maker
         assert maker is not None
-        maker.told = "level 3 of 8"
+        maker.progress = "level 3 of 8"
         yield "daily-being-made"
         maker.problem = "No level could be made of this day: No space left"
         endless.is_alive = lambda: False
