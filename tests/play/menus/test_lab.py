@@ -182,8 +182,8 @@ def test_nine_cells_tell_those_and_leave_the_world_alone() -> None:
         objects = figure.world.objects[1 : figure.world.slots_used]
         reached = {o.slot for o in objects if o.in_grid and o.cell in near}
         # Gold that is taken ends the walk of its list: the quirk is the world's, and so the figure's.
-        assert set(told) < reached if len(told) < len(reached) else set(told) == reached
-        assert len(told) == len(reached) or "gold-taken" in events
+        assert set(asked) < reached if len(asked) < len(reached) else set(asked) == reached
+        assert len(asked) == len(reached) or "gold-taken" in events
     assert world_digest(figure.world) == digest
     gold = figure.world.objects[figure.asked()[0][0]] if figure.asked()[0] else figure.world.objects[2]
     figure.drag(gold.x, gold.y)
