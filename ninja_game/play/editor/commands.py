@@ -233,7 +233,7 @@ class EditorCommands(DocumentCommands):
             self.app.notify(str(error))
 
     def edit(self, source: Source, found: RecoveredDraft | None = None) -> None:
-        """Edit this level, or one that was found again. Raises FileError for what another window goes on with."""
+        """Edit this level, or one that was found again. Raises FileError for what another window continues with."""
         self.session.begin(source, found)
 
     def offer_recovered(self) -> None:

@@ -181,7 +181,7 @@ class Toolbar(EditorPart):
         return tools.tool, tools.symmetry, self.view.grid, tools.snap, history
 
 
-class Palette(EditorPart):
+class PalettePart(EditorPart):
     """All tiles and objects."""
 
     area = LAYOUT.palette

@@ -56,7 +56,7 @@ class EditorSession:
     def begin(self, source: Source, found: RecoveredDraft | None = None) -> None:
         """Edit another level, or one that was found again; what was not saved of the present one is given up.
 
-        Raises FileError for what another window goes on with.
+        Raises FileError for what another window continues with.
         """
         before = self.autosave
         self._begin(source, found)

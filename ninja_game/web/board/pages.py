@@ -65,7 +65,6 @@ class BoardPages:
         self.stems: dict[tuple[str, int], str] = {}
 
     def write(self) -> None:
-        """All pages."""
         for run in self.ranking.judged.runs:
             text = shared_text(run.replay, run.entry.named.level)
             self.stems[run.key] = shared_name(text)

@@ -51,7 +51,6 @@ class Run:
 
     @property
     def key(self) -> Key:
-        """Which one it is."""
         return self.file, self.record
 
     @property

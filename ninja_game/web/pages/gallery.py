@@ -70,7 +70,6 @@ def level_page(
 
 
 def level_image(entry: Entry, up: str = "", *, lazy: bool = False) -> Markup:
-    """The level's picture."""
     return tag(
         "img", src=up + picture_name(entry.digest), alt=f"Picture of the level {entry.title}",
         width=PICTURE_WIDTH, height=PICTURE_HEIGHT, loading="lazy" if lazy else None,

@@ -71,12 +71,10 @@ def _certificates(pack: Pack, entry: Entry) -> dict[str, Recording]:
 
 
 def page_name(digest: str) -> str:
-    """The file of a level's page."""
     return f"levels/{digest[:16]}.html"
 
 
 def picture_name(digest: str) -> str:
-    """The file of a level's picture."""
     return f"pictures/{digest[:16]}.png"
 
 

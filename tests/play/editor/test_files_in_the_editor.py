@@ -172,7 +172,7 @@ def test_what_another_window_goes_on_with_is_not_recovered_twice(room: Maker, tm
     present = room.editor.session.draft
     elsewhere = Autosave(tmp_path, next(recovered(tmp_path)).file)
     room.choose("Recover")
-    assert "another window goes on with this" in room.app.notice
+    assert "another window continues with this" in room.app.notice
     assert room.draft == present
     elsewhere.close()
 
