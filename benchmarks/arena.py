@@ -41,7 +41,6 @@ def link(heads: Any, nexts: Any, prevs: Any, slot: int, cell: int) -> None:
 
 @fast
 def unlink(heads: Any, nexts: Any, prevs: Any, slot: int, cell: int) -> None:
-    """Take out of a cell's list."""
     if prevs[slot]:
         nexts[prevs[slot]] = nexts[slot]
     else:
@@ -52,7 +51,6 @@ def unlink(heads: Any, nexts: Any, prevs: Any, slot: int, cell: int) -> None:
 
 @entry_point
 def loose_build(columns: int, x: Any, y: Any, heads: Any, nexts: Any, prevs: Any, cells: Any) -> None:
-    """File all objects."""
     for slot in range(1, len(x)):
         cells[slot] = cell_of(columns, x[slot], y[slot])
         link(heads, nexts, prevs, slot, cells[slot])

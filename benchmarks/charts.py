@@ -32,7 +32,6 @@ class Chart:
         print(f"{self.name}: {series}: {x:,g} {self.x} -> {value} {self.y}", flush=True)
 
     def save(self, folder: Path) -> None:
-        """Write the CSV and the picture."""
         folder.mkdir(parents=True, exist_ok=True)
         with (folder / f"{self.name}.csv").open("w", encoding="utf-8", newline="") as file:
             table = csv.writer(file, lineterminator="\n")
@@ -42,7 +41,6 @@ class Chart:
             self.draw(folder / f"{self.name}.png")
 
     def draw(self, path: Path) -> None:
-        """The picture: a line a series."""
         import matplotlib as mpl
 
         mpl.use("Agg")

@@ -118,7 +118,6 @@ class PlainWrapper(gymnasium.Env[Any, Any]):
         self.action_space = gymnasium.spaces.Discrete(6)
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
-        """Begin an episode."""
         super().reset(seed=seed, options=options)
         self._run.reset()
         return self._seen(), {}

@@ -42,7 +42,6 @@ def unfile_box(columns: int, heads: Any, nexts: Any, prevs: Any, low: Any, high:
 
 @entry_point
 def normal_build(columns: int, x: Any, y: Any, heads: Any, nexts: Any, prevs: Any, low: Any, high: Any) -> None:
-    """File all objects."""
     for slot in range(1, len(x)):
         file_box(columns, x, y, heads, nexts, prevs, low, high, slot)
 

@@ -72,7 +72,6 @@ class SearchAgent:
         return np.zeros(0, np.uint8) if actions is None else actions
 
     def search(self, level: Level, seed: int = 0) -> SearchResult:
-        """Look for a run to the exit."""
         rng = np.random.default_rng(seed)
         settings = {name: value for name, value in self.settings.items() if name != "actions"}
         walkers = EnvWorlds([level], self.worlds, goal_distance=True, **settings)

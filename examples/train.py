@@ -156,7 +156,6 @@ class Trainer:
         self._mean, self._scale = self._measure()
 
     def agent(self, training: dict[str, Any]) -> PolicyAgent:
-        """The present policy."""
         policy = self.learner.networks["policy"]
         return PolicyAgent(policy, self._mean, self._scale, self.settings, training)
 

@@ -48,8 +48,8 @@ def check_free(path: Path, there: str, known: str | None, *, replacing: bool) ->
 class RecoveryFile:
     """A copy of what is being edited, in the player's folder, for the next start if the program dies.
 
-    It is locked as long as its program lives. ``file``: that of a program that has died, to go on with. ``problem``:
-    why the copy cannot be kept, or ''. Raises FileError where another window goes on with ``file`` already.
+    It is locked as long as its program lives. ``file``: that of a program that has died, to continue with. ``problem``:
+    why the copy cannot be kept, or ''. Raises FileError where another window continues with ``file`` already.
     """
 
     def __init__(self, folder: Path, suffix: str, file: Path | None = None) -> None:
@@ -65,7 +65,7 @@ class RecoveryFile:
             self.file.parent.mkdir(parents=True, exist_ok=True)
             self._lock = hold(self.file.with_suffix(LOCK_SUFFIX))
             if self._lock is None:
-                raise FileError("another window goes on with this already", str(self.file))
+                raise FileError("another window continues with this already", str(self.file))
 
     @contextmanager
     def reporting(self) -> Iterator[None]:

@@ -185,7 +185,6 @@ def write_sound(name: str, folder: Path) -> None:
 
 
 def main() -> None:
-    """Write all of them."""
     FOLDER.mkdir(parents=True, exist_ok=True)
     for name in RECIPES:
         write_sound(name, FOLDER)

@@ -121,7 +121,6 @@ class _Tally:
         self.without: dict[str, list[str]] = {"exit": [], "gold": []}
 
     def add(self, level: NamedLevel, found: Mapping[str, Certified] | NinjaGameError) -> None:
-        """Count a level."""
         self.levels += 1
         if isinstance(found, NinjaGameError):
             self.broken += 1

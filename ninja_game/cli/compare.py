@@ -72,7 +72,6 @@ def _cells(lead: Lead) -> tuple[str, float, float, int, int, int]:
 
 
 def _show(found: Comparison, ours: Recording, theirs: Recording) -> None:
-    """The comparison for people."""
     from ninja_game.runs.compare import each_second
 
     for letter, name, positions in zip("AB", titles([ours, theirs]), found.positions, strict=True):

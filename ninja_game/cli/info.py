@@ -106,7 +106,7 @@ def _sorts(level: NamedLevel) -> Counter[str]:
 
     Of more objects than can be played, which take long, how many of each kind.
     """
-    from ninja_game.formats.ascii.object_writer import best_form
+    from ninja_game.formats.ascii.writer import best_form
     from ninja_game.sim.kinds import KIND_NAMES
     from ninja_game.sim.memory.schema import CAPACITY
 
@@ -130,7 +130,6 @@ def _facts(level: NamedLevel, run: Recording | None) -> dict[str, Any]:
 
 
 def _show(console: Console, level: NamedLevel, run: Recording | None, picture: bool) -> None:
-    """One level in full."""
     from rich.text import Text
 
     from ninja_game.levels.picture import level_picture
@@ -158,7 +157,6 @@ def _show(console: Console, level: NamedLevel, run: Recording | None, picture: b
 
 
 def _show_table(console: Console, levels: Sequence[NamedLevel], recordings: dict[tuple[str, int], Recording]) -> None:
-    """One row per level."""
     from rich.markup import escape
     from rich.table import Table
 

@@ -13,6 +13,11 @@ from ninja_game.cli.run_options import InputPath, LevelPath, choose, choose_leve
 from ninja_game.files.shown_text import shown_text
 from ninja_game.files.user_folder import free_path
 
+if TYPE_CHECKING:
+    from ninja_game.formats.recording import Recording
+    from ninja_game.formats.replay.text import Replay
+    from ninja_game.search.formula.task import Found, SpanTask
+
 
 @click.command()
 @click.argument("level", type=LevelPath(dir_okay=False))
@@ -67,10 +72,6 @@ def solve(
         run = options.smoothed_run(task.level, run, smooth)
         save(run)
     click.echo(f"{shown_text(str(output))}: {options.time_text(run.end_tick)}, {run.gold} gold")
-
-
-if TYPE_CHECKING:
-    from ninja_game.formats.replay.text import Replay
 
 
 @click.command()
@@ -131,11 +132,6 @@ def improve(
     gain = before[0] - run.end_tick
     change = f"{abs(gain)} ticks {'shorter' if gain > 0 else 'longer'}" if gain else "no shorter run was found"
     click.echo(f"{output}: {options.time_text(run.end_tick)}, {change}, {run.gold} gold")
-
-
-if TYPE_CHECKING:
-    from ninja_game.formats.recording import Recording
-    from ninja_game.search.formula.task import Found, SpanTask
 
 
 @click.command()

@@ -146,7 +146,6 @@ def titles(recordings: Sequence[Recording]) -> list[str]:
 
 
 def _show(tables: Sequence[Table]) -> None:
-    """The tables for people."""
     from rich.console import Console
     from rich.table import Table as RichTable
 

@@ -145,7 +145,6 @@ def _row(verdict: Verdict) -> str:
 
 
 def _summary(totals: Totals) -> str:
-    """All recordings in a line."""
     counts = ", ".join(f"{count} {outcome}" for outcome, count in sorted(totals.outcomes.items()))
     total = totals.recordings
     runs = f"{total} run{'s' * (total != 1)} of {totals.ticks} ticks{': ' * bool(counts)}{counts}"

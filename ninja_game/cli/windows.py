@@ -18,6 +18,9 @@ from ninja_game.cli.run_options import (
     window_options,
 )
 
+if TYPE_CHECKING:
+    from ninja_game.play.app import App, Screen
+
 
 @click.command()
 @click.argument("level", required=False, type=LevelPath())
@@ -126,10 +129,6 @@ def edit(
     from ninja_game.play.main import run_app
 
     ctx.exit(run_app(lambda app: EditorScreen(app, source), size=window, frames=frames, screenshot=screenshot))
-
-
-if TYPE_CHECKING:
-    from ninja_game.play.app import App, Screen
 
 
 @click.command()

@@ -13,7 +13,6 @@ from ninja_game.editor.draft import Draft
 from ninja_game.errors import LevelError
 from ninja_game.formats.ascii.legend import visible_parts
 from ninja_game.formats.ascii.object_lines import Listed, OddTile, read_object_line
-from ninja_game.formats.ascii.object_writer import same_record, write_object_lines
 from ninja_game.formats.ascii.problems import Problems
 from ninja_game.formats.ascii.reader import parse_ascii_level, sections
 from ninja_game.formats.ascii.writer import (
@@ -21,8 +20,10 @@ from ninja_game.formats.ascii.writer import (
     drawn_only,
     header_text,
     picture_rows,
+    same_record,
     tile_lines,
     write_ascii_level,
+    write_object_lines,
 )
 from ninja_game.formats.lines import UNCOMMENTED, numbered_lines
 from ninja_game.sim.level import ObjectSpec

@@ -12,7 +12,7 @@ from ninja_game.editor.records import carried, points
 from ninja_game.sim.kinds import EXIT, NINJA
 from ninja_game.sim.level import COLUMNS, ROWS, ObjectSpec
 
-Area = tuple[int, int, int, int]
+CellArea = tuple[int, int, int, int]
 """First column, first row, columns, rows."""
 
 ObjectPart = tuple[int, int]
@@ -35,7 +35,7 @@ class Stamp(NamedTuple):
 class Selection:
     """``area``: cells whose tiles are chosen. ``parts``: objects, or parts of them."""
 
-    area: Area | None = None
+    area: CellArea | None = None
     parts: frozenset[ObjectPart] = frozenset()
 
     def __bool__(self) -> bool:
@@ -47,19 +47,19 @@ class Selection:
         return {number for number, _ in self.parts}
 
 
-def area_between(a: Cell, b: Cell) -> Area:
+def area_between(a: Cell, b: Cell) -> CellArea:
     """The cells between two corners."""
     column, row = min(a[0], b[0]), min(a[1], b[1])
     return column, row, abs(a[0] - b[0]) + 1, abs(a[1] - b[1]) + 1
 
 
-def cells_of(area: Area) -> list[Cell]:
+def cells_of(area: CellArea) -> list[Cell]:
     """All cells of an area, row by row."""
     column, row, columns, rows = area
     return [(i, j) for j in range(row, row + rows) for i in range(column, column + columns)]
 
 
-WHOLE: Area = (1, 1, COLUMNS, ROWS)
+WHOLE: CellArea = (1, 1, COLUMNS, ROWS)
 """All cells of a level."""
 
 
@@ -107,7 +107,7 @@ def filled(draft: Draft, cell: Cell) -> list[Cell]:
     return sorted(found)
 
 
-def chosen_in(draft: Draft, area: Area) -> Selection:
+def chosen_in(draft: Draft, area: CellArea) -> Selection:
     """An area with all parts of objects that lie in it."""
     column, row, columns, rows = area
     inside = {

@@ -14,8 +14,7 @@ from ninja_game.formats.n14.demo import parse_demo, write_demo
 from ninja_game.formats.n14.level_file import LevelRecord, is_demo, read_level_file
 from ninja_game.formats.n14.level_string import parse_level_string, write_level_string
 from ninja_game.formats.named_level import is_level_file, level_of_replay
-from ninja_game.formats.replay.includes import included_beside
-from ninja_game.formats.replay.input_text import read_inputs
+from ninja_game.formats.replay.input_text import included_beside, read_inputs
 from ninja_game.formats.replay.text import Replay, is_replay, parse_replay
 from ninja_game.formats.tas_lines import in_our_notation, is_tas_text
 from ninja_game.sim.inputs import Demo, fitted_demo

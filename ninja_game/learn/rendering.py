@@ -49,7 +49,6 @@ class EpisodePicture:
         self.begin(level, body)
 
     def begin(self, level: Level, body: Body) -> None:
-        """Show the start of a level."""
         from ninja_game.play.view.level_view import LevelView
 
         self._simulation = Simulation(level, body=body)
@@ -92,7 +91,6 @@ class EpisodePicture:
         return self._pygame.surfarray.array3d(self._surface).swapaxes(0, 1).copy()
 
     def close(self) -> None:
-        """Close the window."""
         if self._window is not None:
             self._window = None
             self._pygame.display.quit()

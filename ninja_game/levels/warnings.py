@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from math import dist
 
-from ninja_game.formats.ascii.object_writer import best_form
 from ninja_game.formats.ascii.places import place_text
+from ninja_game.formats.ascii.writer import best_form
 from ninja_game.levels.findings import Finding, found
 from ninja_game.levels.object_checks import oddities
 from ninja_game.levels.reach import Ground

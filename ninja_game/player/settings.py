@@ -35,11 +35,7 @@ InputNames = Mapping[str, tuple[str, ...]]
 class Settings:
     """Every setting. ``keys`` and ``pad`` hold only the actions whose inputs are not the default ones.
 
-    ``volume`` and ``loop_volume``: 0 to 99. ``dead_zone``: share of a stick's way that counts as rest. ``site``:
-    address of the page with the game to which links lead, "" for none. ``ninja_colour``: "" or "#rrggbb".
-    ``frame_limit``: pictures a second, 0: as the display. ``window_width`` and ``window_height``: px, 0: as it fits.
-    Of the TAS editor: ``text_scale``, ``level_width`` and ``tabs_height`` in percent, 0: as it suits the window;
-    ``play_speed`` in percent.
+    What each means and may be: ``RULES``, and docs/settings.md.
     """
 
     palette: str = DEFAULT_PALETTE
@@ -81,17 +77,18 @@ class Rule(NamedTuple):
     table: str
     fits: Callable[[Any], bool]
     expected: str
+    meaning: str
 
 
-def _flag(table: str) -> Rule:
-    return Rule(table, lambda value: isinstance(value, bool), "true or false")
+def _flag(table: str, meaning: str) -> Rule:
+    return Rule(table, lambda value: isinstance(value, bool), "true or false", meaning)
 
 
-def _whole(table: str, low: int, high: int) -> Rule:
+def _whole(table: str, low: int, high: int, meaning: str) -> Rule:
     def fits(value: Any) -> bool:
         return isinstance(value, int) and not isinstance(value, bool) and low <= value <= high
 
-    return Rule(table, fits, f"a whole number from {low} to {high}")
+    return Rule(table, fits, f"a whole number from {low} to {high}", meaning)
 
 
 def _is_share(value: Any) -> bool:
@@ -126,30 +123,51 @@ def _is_bindings(value: Any) -> bool:
 
 
 RULES = {
-    "palette": Rule("look", _is_word, "the name of a palette, such as 'classic'"),
-    "ninja_colour": Rule("look", _is_colour, "'' or a colour such as '#186285'"),
-    "fullscreen": _flag("look"),
-    "smooth": _flag("look"),
-    "reduced_motion": _flag("look"),
-    "reduced_gore": _flag("look"),
-    "show_ghost": _flag("look"),
-    "show_keys": _flag("look"),
-    "show_frame_time": _flag("look"),
-    "frame_limit": _whole("look", 0, 1000),
-    "window_width": _whole("look", 0, 16384),
-    "window_height": _whole("look", 0, 16384),
-    "volume": _whole("sound", 0, 99),
-    "loop_volume": _whole("sound", 0, 99),
-    "text_scale": _whole("tas", 0, 400),
-    "level_width": _whole("tas", 0, 99),
-    "tabs_height": _whole("tas", 0, 99),
-    "play_speed": _whole("tas", 10, 800),
-    "practice": _flag("play"),
-    "name": Rule("play", _is_name, "at most 40 printable characters"),
-    "site": Rule("play", _is_site, "'' or an address such as 'https://example.org/game/'"),
-    "dead_zone": Rule("pad", _is_share, "a number from 0.05 to 0.95"),
-    "keys": Rule("", _is_bindings, "lists of names of keys, such as jump = ['z', 'lshift']"),
-    "pad": Rule("", _is_bindings, "lists of names of buttons, such as jump = ['a']"),
+    "palette": Rule("look", _is_word, "the name of a palette, such as 'classic'", "colours of the picture"),
+    "ninja_colour": Rule(
+        "look", _is_colour, "'' or a colour such as '#186285'", "of the ninja; empty: as the palette has it"
+    ),
+    "fullscreen": _flag("look", "the whole screen instead of a window"),
+    "smooth": _flag("look", "positions between two ticks are drawn"),
+    "reduced_motion": _flag("look", "fewer particles; nothing plays behind the menus"),
+    "reduced_gore": _flag("look", "no blood"),
+    "show_ghost": _flag("look", "the best run plays along"),
+    "show_keys": _flag("look", "the keys that are held, while one plays"),
+    "show_frame_time": _flag("look", "ms that a picture takes"),
+    "frame_limit": _whole("look", 0, 1000, "pictures a second; 0: as the display"),
+    "window_width": _whole("look", 0, 16384, "px; 0: as it fits the screen"),
+    "window_height": _whole("look", 0, 16384, "px; 0: as it fits the screen"),
+    "volume": _whole("sound", 0, 99, "of single sounds"),
+    "loop_volume": _whole("sound", 0, 99, "of sounds that go on"),
+    "text_scale": _whole("tas", 0, 400, "size of the text in the TAS editor, percent; 0: as it suits the window"),
+    "level_width": _whole(
+        "tas", 0, 99, "of the level in the TAS editor, percent of the window; 0: as it suits the window"
+    ),
+    "tabs_height": _whole(
+        "tas", 0, 99, "of the tabs in the TAS editor, percent of the window; 0: as it suits the window"
+    ),
+    "play_speed": _whole("tas", 10, 800, "of playing in the TAS editor, percent"),
+    "practice": _flag("play", "practice mode: saving states, rewinding, slow motion; nothing counts"),
+    "name": Rule("play", _is_name, "at most 40 printable characters", "of the player, in replays"),
+    "site": Rule(
+        "play",
+        _is_site,
+        "'' or an address such as 'https://example.org/game/'",
+        "address of the page with the game to which links lead",
+    ),
+    "dead_zone": Rule("pad", _is_share, "a number from 0.05 to 0.95", "share of a stick's way that counts as rest"),
+    "keys": Rule(
+        "",
+        _is_bindings,
+        "lists of names of keys, such as jump = ['z', 'lshift']",
+        "keys of each action that has others than the default ones",
+    ),
+    "pad": Rule(
+        "",
+        _is_bindings,
+        "lists of names of buttons, such as jump = ['a']",
+        "buttons of each action that has others than the default ones",
+    ),
 }
 """By setting. Bindings are tables of their own: ``[keys]`` and ``[pad-buttons]``."""
 
@@ -159,8 +177,6 @@ if TYPE_CHECKING:
 
 VERSION = 1
 BINDING_TABLES = {"keys": "keys", "pad": "pad-buttons"}
-OLD_KEYS = {"ninja_colour": "flavour"}
-"""What a setting was once called in its table; the old key is read, and goes when the setting is written."""
 
 COMMENT = "Settings of ninja-game. What is missing or wrong here has its default; comments stay."
 MAX_BYTES = 2**16
@@ -222,8 +238,8 @@ def _settings_of(data: Mapping[str, Any]) -> tuple[Settings, list[str]]:
         expected = rule.expected
         if name not in BINDING_TABLES:
             if isinstance(found, Mapping):
-                place = f"{place}.{_key(name)}"
-                found = found.get(_key(name), found.get(OLD_KEYS.get(name, "")))
+                place = f"{place}.{key_of(name)}"
+                found = found.get(key_of(name))
             else:
                 expected = f"the table [{place}]"
         if found is None:
@@ -246,7 +262,8 @@ def _shown(value: object) -> str:
         return "a number of very many digits"
 
 
-def _key(name: str) -> str:
+def key_of(name: str) -> str:
+    """What a setting is called in the file."""
     return name.replace("_", "-")
 
 
@@ -313,8 +330,7 @@ def _put(document: TOMLDocument, name: str, before: Any, after: Any) -> None:
         document[table_name] = tomlkit.table()
         table = document[table_name]
     if name not in BINDING_TABLES:
-        table[_key(name)] = after
-        table.pop(OLD_KEYS.get(name, ""), None)
+        table[key_of(name)] = after
         return
     for action in {**before, **after}:
         if action not in after:

@@ -19,7 +19,7 @@ from ninja_game.backend.memories import open_worlds
 from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget
 from ninja_game.errors import ArgumentError
 from ninja_game.formats.n14.level_string import level_digest
-from ninja_game.formats.replay.sections import Waypoint
+from ninja_game.formats.replay.headers import Waypoint
 from ninja_game.formats.replay.text import WAYPOINT_TICKS, Replay
 from ninja_game.sim.digest import replay_digest
 from ninja_game.sim.inputs import check_inputs, fitted_inputs

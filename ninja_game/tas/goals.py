@@ -21,7 +21,7 @@ SAME_PLACE, SAME_VELOCITY = 0.5, 0.05
 """How far an end that is the same may be from the run's own, px and px/tick."""
 
 
-class Wanted(NamedTuple):
+class SpanGoal(NamedTuple):
     """Goal and measure as formulas, ``least`` and ``rest`` as in a SpanTask."""
 
     goal: str = ""
@@ -57,31 +57,31 @@ class SearchedSpan:
         return {**found, "vx": found["x"] - found["prev_x"], "vy": found["y"] - found["prev_y"]}
 
 
-def be_there(span: SearchedSpan) -> Wanted:
+def be_there(span: SearchedSpan) -> SpanGoal:
     """Be where the run is at the end of the span, earlier."""
     end = span.end
-    return Wanted(f"distance({end['x']:.6g}, {end['y']:.6g}) < {NEAR:g}")
+    return SpanGoal(f"distance({end['x']:.6g}, {end['y']:.6g}) < {NEAR:g}")
 
 
-def go_beyond(span: SearchedSpan) -> Wanted:
+def go_beyond(span: SearchedSpan) -> SpanGoal:
     """Pass, earlier, the upright line at the end of the span."""
     start, end = span.start, span.end
     # Rounded so that the run itself has passed the line at its end.
     if end["x"] >= start["x"]:
-        return Wanted(f"x >= {floor(end['x'] * 1000) / 1000:.7g}")
-    return Wanted(f"x <= {ceil(end['x'] * 1000) / 1000:.7g}")
+        return SpanGoal(f"x >= {floor(end['x'] * 1000) / 1000:.7g}")
+    return SpanGoal(f"x <= {ceil(end['x'] * 1000) / 1000:.7g}")
 
 
-def be_fast(span: SearchedSpan) -> Wanted:
+def be_fast(span: SearchedSpan) -> SpanGoal:
     """End the span with the greatest speed."""
-    return Wanted(_alive(span.last), "speed")
+    return SpanGoal(_alive(span.last), "speed")
 
 
-def stay_alive(span: SearchedSpan) -> Wanted:
-    return Wanted(_alive(span.last))
+def stay_alive(span: SearchedSpan) -> SpanGoal:
+    return SpanGoal(_alive(span.last))
 
 
-def collect(span: SearchedSpan) -> Wanted:
+def collect(span: SearchedSpan) -> SpanGoal:
     """Take the piece of gold nearest to the span's end that the run has not taken by then.
 
     Raises ArgumentError where there is none.
@@ -93,10 +93,10 @@ def collect(span: SearchedSpan) -> Wanted:
     if not pieces:
         raise ArgumentError("no gold is left at the end of the span")
     id_ = min(pieces, key=lambda each: float(np.hypot(each[2] - end["x"], each[3] - end["y"])))[0]
-    return Wanted(f"taken({id_})")
+    return SpanGoal(f"taken({id_})")
 
 
-def same_end(span: SearchedSpan) -> Wanted:
+def same_end(span: SearchedSpan) -> SpanGoal:
     """Be as at the end of the span, place, velocity and state, earlier; the rest of the run follows as it is."""
     end = span.end
     parts = [
@@ -105,12 +105,12 @@ def same_end(span: SearchedSpan) -> Wanted:
         f"state == {end['state']:.0f}",
         *([f"gold >= {end['gold']:.0f}"] if end["gold"] else []),
     ]
-    return Wanted(" and ".join(parts), rest=_is_passed(span))
+    return SpanGoal(" and ".join(parts), rest=_is_passed(span))
 
 
-def same_state(span: SearchedSpan) -> Wanted:
+def same_state(span: SearchedSpan) -> SpanGoal:
     """Be exactly in the state of the end of the span, earlier: all that decides what follows, by its digest."""
-    return Wanted(f"difference({span.last - 1}) == 0", rest=_is_passed(span))
+    return SpanGoal(f"difference({span.last - 1}) == 0", rest=_is_passed(span))
 
 
 def _is_passed(span: SearchedSpan) -> bool:
@@ -119,7 +119,7 @@ def _is_passed(span: SearchedSpan) -> bool:
     return outcome == "exit" and tick >= span.last
 
 
-PRESETS: tuple[tuple[str, str, Callable[[SearchedSpan], Wanted]], ...] = (
+PRESETS: tuple[tuple[str, str, Callable[[SearchedSpan], SpanGoal]], ...] = (
     ("Same end, sooner", "The same place, speed and state; the rest follows", same_end),
     ("Same end exactly, sooner", "By the digest of all that decides what follows", same_state),
     ("Be there sooner", "Where the run is at the end of the span", be_there),

@@ -44,7 +44,6 @@ class PageServices:
         return [code for code in map(scancode_named, self.app.controls.keys.get(action, ())) if code]
 
     def notify(self, text: str) -> None:
-        """Show a line below the stage."""
         self.app.notify(text)
 
     def flush(self) -> None:

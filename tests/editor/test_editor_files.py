@@ -13,13 +13,15 @@ import pytest
 
 from ninja_game.document import History, OccupiedError, digest_of_file
 from ninja_game.editor.ascii_text import ascii_text, reads_as, updated_text
-from ninja_game.editor.autosave import FOLDER, Autosave, recovered
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import (
+    FOLDER,
+    Autosave,
     draft_of,
     draft_of_text,
     new_source,
     open_source,
+    recovered,
     save,
 )
 from ninja_game.editor.motion import Motion
@@ -282,7 +284,7 @@ def test_an_autosave_names_its_file_wherever_the_next_editor_starts(
 
 
 def test_an_autosave_goes_when_the_draft_is_saved_or_left(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("ninja_game.editor.autosave.SPACING", 0.0)
+    monkeypatch.setattr("ninja_game.editor.files.SPACING", 0.0)
     source = new_source()
     draft = source.draft.with_tiles({(9, 9): 1})
     autosave = Autosave(tmp_path)
@@ -314,7 +316,7 @@ def test_a_damaged_autosave_and_a_folder_that_cannot_be_written_stop_nothing(tmp
 KILLED = """
 import sys, time
 from pathlib import Path
-from ninja_game.editor.autosave import Autosave
+from ninja_game.editor.files import Autosave
 from ninja_game.editor.files import new_source
 source = new_source()
 autosave = Autosave(Path(sys.argv[1]))

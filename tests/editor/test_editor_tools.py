@@ -1,4 +1,4 @@
-"""The workbench by presses, moves and releases: what a hand at the mouse does, without a window."""
+"""The tools by presses, moves and releases: what a hand at the mouse does, without a window."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ninja_game.editor.motion import CLOCKWISE, MIRROR
 from ninja_game.editor.records import points, word
 from ninja_game.editor.stamp import Selection
 from ninja_game.editor.tools import EditorTools
-from ninja_game.formats.ascii.object_writer import best_form
+from ninja_game.formats.ascii.writer import best_form
 from ninja_game.sim import kinds
 from ninja_game.sim.level import Level, ObjectSpec
 

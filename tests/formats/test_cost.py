@@ -12,7 +12,7 @@ import pytest
 
 from ninja_game.errors import ReplayError
 from ninja_game.formats.load import load_replays
-from ninja_game.formats.replay import includes, input_text
+from ninja_game.formats.replay import input_text
 from ninja_game.formats.replay.input_runs import Marker
 from ninja_game.formats.replay.input_text import read_inputs
 from ninja_game.formats.tas_lines import write_celeste
@@ -155,7 +155,7 @@ def test_what_is_taken_in_again_is_read_once(monkeypatch: pytest.MonkeyPatch, tm
 
 
 def test_all_that_is_taken_in_together_has_a_limit(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(includes, "MAX_BYTES", 2**20)
+    monkeypatch.setattr(input_text, "MAX_BYTES", 2**20)
     for name in "ab":
         (tmp_path / f"{name}.txt").write_text("R\n" + ";" * 2**19)
     main = tmp_path / "run.txt"

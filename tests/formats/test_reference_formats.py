@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from ninja_game.formats.n14.demo import parse_demo, write_demo
-from ninja_game.formats.n14.legacy_demo import parse_legacy_demo, write_legacy_demo
+from ninja_game.formats.n14.demo import parse_demo, parse_legacy_demo, write_demo, write_legacy_demo
 from ninja_game.formats.n14.level_file import LevelRecord, read_level_file, write_level_file
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.recording import demo_replay, parse_replays

@@ -312,7 +312,7 @@ def test_long_run_keeps_few_states_and_every_moment_stays_exact(monkeypatch: pyt
         assert played.simulation.digest() == digests[tick]
 
 
-def test_without_a_bench_nothing_is_edited() -> None:
+def test_without_a_tas_editor_nothing_is_edited() -> None:
     with scripted_app((396, 300)) as (app, _):
         screen = ReplayScreen(app, [TAKE])
         app.push(screen)

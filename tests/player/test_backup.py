@@ -17,7 +17,7 @@ from click.testing import CliRunner
 
 from ninja_game.cli.main import cli
 from ninja_game.editor.ascii_text import ascii_text
-from ninja_game.editor.autosave import recovered
+from ninja_game.editor.files import recovered
 from ninja_game.errors import FileError
 from ninja_game.files.tree import Tree
 from ninja_game.player.backup import MOST_REPLAYS, MOST_ROWS, _Folder, read_backup, write_backup

@@ -12,6 +12,7 @@ from hypothesis import given, settings as hypothesis_settings, strategies as st
 
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.settings import MOST_INPUTS, RULES, Settings, read_settings, write_changes
+from tools.draw import settings_page
 
 PRINTABLE = st.text(st.characters(exclude_categories=["Cs", "Cc", "Cf", "Zl", "Zp", "Zs", "Co", "Cn"]), max_size=30)
 BINDINGS = st.dictionaries(PRINTABLE, st.lists(PRINTABLE, max_size=3).map(tuple), max_size=4)
@@ -56,7 +57,7 @@ MINE = """# my settings
 version = 1
 
 [look]
-flavour = "#112233"  # like the sea
+ninja-colour = "#112233"  # like the sea
 palette = "dark"     # easier at night
 
 [keys]
@@ -79,14 +80,17 @@ def test_comments_and_everything_not_changed_stay(tmp_path: Path) -> None:
         assert line in text
 
 
-def test_old_key_goes_when_its_setting_is_written(tmp_path: Path) -> None:
+def test_a_wrong_binding_is_reported_and_another_setting_still_saved(tmp_path: Path) -> None:
     path = tmp_path / "settings.toml"
     path.write_text(MINE)
     settings, messages = read_settings(path)
     assert "settings.toml: keys is" in messages[0]
     write_changes(settings, settings.changed(ninja_colour="#445566"), path)
-    assert "flavour" not in path.read_text()
     assert read_settings(path)[0].ninja_colour == "#445566"
+
+
+def test_page_of_the_settings_has_each_with_its_default() -> None:
+    assert settings_page.PAGE.read_text("utf-8") == settings_page.page()
 
 
 def test_two_games_change_only_what_their_players_changed(tmp_path: Path) -> None:

@@ -14,8 +14,7 @@ from unittest.mock import patch
 
 import pygame
 
-from ninja_game.play.editor.overlay import Overlay
-from ninja_game.play.editor.view import EditorView
+from ninja_game.play.editor.view import EditorView, Overlay
 from ninja_game.play.menus.thumbnails import Thumbnails
 from ninja_game.play.ui.canvas import Canvas
 from ninja_game.play.ui.lettering import Lettering
@@ -93,7 +92,7 @@ class DrawLog:
             (Thumbnails, "draw", lambda _, __, e, x, y, w: f"thumbnail of {e.title!r} at {_at(x, y)} width {w:g}"),
             (Backdrop, "_place", self._place),
             (Backdrop, "update", self._backdrop),
-            (EditorView, "draw", self._desk),
+            (EditorView, "draw", self._view),
             (Overlay, "_frame", lambda _, area, c: f"frame {self._colour(c)} round cells {_at(*area)}"),
             (Overlay, "_ghost_tile", lambda _, cell, tile: f"ghost of tile {tile} in cell {_at(*cell)}"),
         ]
@@ -142,7 +141,7 @@ class DrawLog:
 
     # --- lines of what has many parameters ---
 
-    def _desk(self, view: EditorView, *_: Any, **__: Any) -> str:
+    def _view(self, view: EditorView, *_: Any, **__: Any) -> str:
         """The level with its marks is painted again, too."""
         view._laid_out = ()
         return ""

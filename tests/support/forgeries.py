@@ -6,9 +6,8 @@ from dataclasses import replace
 from itertools import repeat
 
 from ninja_game import parse_level, record_replay, write_replay
-from ninja_game.formats.n14.demo import write_demo
-from ninja_game.formats.n14.legacy_demo import write_legacy_demo
-from ninja_game.formats.replay.sections import Waypoint
+from ninja_game.formats.n14.demo import write_demo, write_legacy_demo
+from ninja_game.formats.replay.headers import Waypoint
 from ninja_game.formats.replay.text import Replay
 from ninja_game.sim.inputs import Demo
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME

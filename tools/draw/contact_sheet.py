@@ -171,7 +171,6 @@ def grid(pictures: list[tuple[str, pygame.Surface]], width: int, palette: Palett
 
 
 def main() -> int:
-    """Paint the sheet."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, default=ROOT / "docs" / "contact-sheet.png")
     parser.add_argument("--part", choices=["things", "palettes", "screens", "all"], default="all")

@@ -20,7 +20,6 @@ FIGURES = ("cells.png", "edges.png", "nine-cells.png", "rays.png", "drones.png",
 
 
 def draw_tile(picture: Picture, tile: int, centre: Point, zoom: float) -> None:
-    """One tile."""
     corners = [(centre[0] + x * zoom, centre[1] + y * zoom) for x, y in outline(tile)]
     if corners:
         picture.polygon(corners, SOLID)

@@ -85,7 +85,6 @@ def sheet(
 
 
 def main(argv: list[str]) -> int:
-    """Write the picture."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("levels", nargs="+", type=Path)
     parser.add_argument("--out", type=Path, required=True)

@@ -21,7 +21,6 @@ class Picture:
         self.box(0, 0, width, height, PAPER)
 
     def box(self, x: float, y: float, width: float, height: float, fill: str, stroke: str = "none") -> None:
-        """A rectangle."""
         self.parts.append(
             f'<rect x="{x:g}" y="{y:g}" width="{width:g}" height="{height:g}" fill="{fill}" stroke="{stroke}"/>'
         )
@@ -40,7 +39,6 @@ class Picture:
         )
 
     def circle(self, centre: Point, radius: float, fill: str = "none", stroke: str = INK, width: float = 1) -> None:
-        """A circle."""
         self.parts.append(
             f'<circle cx="{centre[0]:.2f}" cy="{centre[1]:.2f}" r="{radius:g}" '
             f'fill="{fill}" stroke="{stroke}" stroke-width="{width:g}"/>'
@@ -66,12 +64,10 @@ class Picture:
         self.polygon([end, left, right], colour)
 
     def svg(self) -> str:
-        """The picture as a text."""
         width, height = self.size
         box = f'viewBox="0 0 {width:g} {height:g}" width="{width:g}" height="{height:g}"'
         head = f'<svg xmlns="http://www.w3.org/2000/svg" {box}>'
         return "\n".join([head, *self.parts, "</svg>"]) + "\n"
 
     def save(self, path: Path) -> None:
-        """Write the picture."""
         path.write_text(self.svg(), encoding="utf-8")

@@ -102,7 +102,6 @@ def measure_load(app: App, seconds: float) -> float:
 
 
 def main() -> int:
-    """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--display", action="store_true", help="use the real display")
     parser.add_argument("--level", type=Path, help="measure on this level")

@@ -87,7 +87,6 @@ def number(value: float) -> str:
 
 
 def table_of_levels(rows: Mapping[str, Mapping[str, float]]) -> str:
-    """A line for each level."""
     wide = max([len(name) for name in rows] + [20])
     lines = [" " * wide + "".join(f"{key:>9}" for key in ROWS)]
     for place, end in enumerate(("25 %", "median", "75 %")):
@@ -172,7 +171,6 @@ def tell_levels(paths: Sequence[Path], pack: Pack) -> None:
 
 
 def main() -> None:
-    """Tables, or plots."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("levels", nargs="*", type=Path, help="single levels; without them the whole pack")
     parser.add_argument("--pack", type=Path, default=ROOT / "levels")

@@ -110,7 +110,6 @@ def noticed(recording: Recording, kind: str) -> Iterator[tuple[int, bool]]:
 
 
 def main() -> None:
-    """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--certificates", type=int, default=CERTIFICATES)
     arguments = parser.parse_args()

@@ -41,7 +41,6 @@ def three_visits(chromium: Any, address: str) -> dict[str, tuple[float, float]]:
 
 
 def main() -> None:
-    """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--visits", type=int, default=5, help="browsers that visit, each three times")
     visits = parser.parse_args().visits

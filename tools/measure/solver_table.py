@@ -89,12 +89,10 @@ def _note(found: list[float], began: float, _: Replay) -> None:
 
 
 def rows(file: Path) -> list[dict[str, Any]]:
-    """The results in a file."""
     return [json.loads(line) for line in file.read_text(encoding="utf-8").splitlines()] if file.exists() else []
 
 
 def print_table(file: Path) -> None:
-    """The results as Markdown."""
     fastest, tas = people("rta"), people("tas")
     print("| level | solver | people | ratio | tool-assisted | first run after, s | CPU used, s |")
     print("|---|---|---|---|---|---|---|")

@@ -54,7 +54,6 @@ def long_run() -> tuple[Level, bytes]:
 
 
 def write_run(folder: Path) -> Path:
-    """The run as a file."""
     level, inputs = long_run()
     path = folder / "long.replay.txt"
     path.write_text(write_replay(Replay(inputs, len(inputs) - 1, "", name="long", level=level)), "utf-8")

@@ -16,15 +16,15 @@ from typing import Any, NamedTuple
 import numpy as np
 import pygame
 
-from ninja_game.editor import autosave
+from ninja_game.editor import files as editor_files
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.files import draft_of_text
 from ninja_game.errors import DAMAGED, NinjaGameError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import file_stem, shown_text
 from ninja_game.files.user_folder import RECORDS
-from ninja_game.formats.ascii.object_writer import same_record
 from ninja_game.formats.ascii.reader import parse_ascii_level, write_ascii_level
+from ninja_game.formats.ascii.writer import same_record
 from ninja_game.formats.links.fragment import read_link, watched, write_link
 from ninja_game.formats.links.making import recordings_of as watched_recordings
 from ninja_game.formats.load import load_levels, load_replays
@@ -359,7 +359,7 @@ DOORS: dict[str, Door] = {
     "board": _of_file(lambda path: read_board(path, datetime(2026, 1, 1, tzinfo=UTC))),
     "journal": _of_file(_journal, "tas/odd.jsonl", 6),
     "branches": Door(_branches),
-    "autosave": _of_file(lambda path: list(autosave.recovered(path.parent.parent)), "editing/odd.json"),
+    "autosave": _of_file(lambda path: list(editor_files.recovered(path.parent.parent)), "editing/odd.json"),
     "backup": Door(_backup, 2),
     "database": Door(_database, 1),
     "database rows": Door(_rows, 1),

@@ -16,7 +16,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from random import Random
 
-from ninja_game.editor.autosave import recovered
+from ninja_game.editor.files import recovered
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest

@@ -1,4 +1,4 @@
-"""The list below the picture of an ASCII level: a line of words to object records (`object_writer` goes back)."""
+"""The list below the picture of an ASCII level: a line of words to object records (`writer` goes back)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""Demos, the recordings of the game: ``<length>:<word>|<word>|…``, 4 bits a tick, 7 ticks a word (game.md §4.1)."""
+"""Demos, the recordings of the game: ``<length>:<word>|<word>|…``, 4 bits a tick, 7 ticks a word (game.md §4.1).
+
+Those of older versions begin with ``A`` and have 3 bits a tick, no trigger and no length (game.md §4.2); their reader's
+two defects are kept, so that such texts play here as they play there.
+"""
 
 from __future__ import annotations
 
@@ -6,9 +10,8 @@ import math
 import re
 
 from ninja_game.errors import DemoError
-from ninja_game.formats.n14.legacy_demo import parse_legacy_demo
 from ninja_game.formats.numbers import format_number, parse_number
-from ninja_game.sim.inputs import MAX_TICKS, Demo, check_inputs, fitted_demo
+from ninja_game.sim.inputs import MAX_TICKS, Demo, check_inputs, fitted_demo, with_press_bits
 
 TICKS_PER_WORD = 7
 _PLAIN_WORD = re.compile(r"0|[1-9][0-9]{0,14}")
@@ -66,3 +69,101 @@ def write_demo(demo: Demo) -> str:
             word = word << 4 | keys
         words.append(str(word))
     return f"{format_number(demo.length)}:{'|'.join(words)}"
+
+
+MAX_DIGITS = 50_000
+"""The game stops recording at 5000 words of ten ticks."""
+
+_RUN_DIGIT = "7"
+_SAME_DIGITS = re.compile(r"([0-7])\1{4,66}")
+_DIGIT_RUN = re.compile(r"7([0-7])([0-7]{2})|7.*", re.DOTALL)
+_RUN_OFFSET = 4
+
+_SAME_CHARS = re.compile(r"(.)\1{2,49}", re.DOTALL)
+_RUN_CODES = range(103, 151)
+_CODE_OFFSET = 100
+
+_PADDING = "3"
+_FIRST_PAIR, _LAST_PAIR, _BACKSLASH = 34, 98, 92
+_CHAR_OF_PAIR = {
+    f"{value:02o}": chr(_FIRST_PAIR + value + (_FIRST_PAIR + value >= _BACKSLASH)) for value in range(64)
+}  # fmt: skip
+
+_KEYS_OF_DIGIT = bytes.maketrans(b"01234567", bytes(range(8)))
+_DIGIT_OF_KEYS = bytes.maketrans(bytes(range(16)), b"0120456401204564")
+
+
+def parse_legacy_demo(text: str, *, length: float | None = None) -> Demo:
+    """The inputs in a legacy demo text; all of it is played if ``length`` is not given.
+
+    Raises DemoError, with the column, for what the game cannot have written.
+    """
+    if not text.startswith("A"):
+        raise DemoError("not a legacy demo", column=1, found=repr(text[:1]), expected="'A'")
+    # Defect (b): a last 3 is dropped also when it was not padding, and what it leaves of a run with it.
+    digits = _DIGIT_RUN.sub(_expanded, _digits_of_chars(text).removesuffix(_PADDING))
+    _check_length(len(digits))
+    return fitted_demo(
+        with_press_bits(digits.encode("ascii").translate(_KEYS_OF_DIGIT)),
+        float(len(digits)) if length is None else length,
+    )
+
+
+def _digits_of_chars(text: str) -> str:
+    """The digit pairs of the characters after the ``A``, character runs expanded."""
+    pairs = []
+    count = 0
+    place = 1
+    while place < len(text):
+        code = ord(text[place])
+        if code in _RUN_CODES:
+            times = code - _CODE_OFFSET
+            pairs.append(_pair(text, place + 1) * times)
+            place += 3  # defect (a): the character behind a run is lost
+        else:
+            times = 1
+            pairs.append(_pair(text, place))
+            place += 1
+        count += times * 2
+        _check_length(count)
+    return "".join(pairs)
+
+
+def _pair(text: str, place: int) -> str:
+    """The two octal digits of the character at ``place``."""
+    code = ord(text[place]) if place < len(text) else 0
+    if not _FIRST_PAIR <= code <= _LAST_PAIR or code == _BACKSLASH:
+        raise DemoError(
+            "a character that no legacy demo has here",
+            column=place + 1,
+            found=repr(text[place]) if code else "the end of the text",
+            expected='one of " to b, no backslash',
+        )
+    return f"{code - _FIRST_PAIR - (code > _BACKSLASH):02o}"
+
+
+def _expanded(run: re.Match[str]) -> str:
+    """The digits of a run; none for an incomplete one."""
+    return run[1] * (int(run[2], 8) + _RUN_OFFSET) if run[1] else ""
+
+
+def _check_length(digits: int) -> None:
+    """Raise DemoError for more than the game records (one digit may be padding)."""
+    if digits > MAX_DIGITS + 1:
+        raise DemoError("a legacy demo that is too long", found=f"{digits} ticks", expected=f"at most {MAX_DIGITS}")
+
+
+def write_legacy_demo(demo: Demo) -> str:
+    """The legacy text of a demo's inputs, padded to whole words; triggers and length are lost.
+
+    Left and right together are written as neither. Raises DemoError for more ticks than the game records.
+    """
+    check_inputs(demo.inputs)
+    padded = len(demo.inputs) // 10 * 10 + 10
+    _check_length(padded - 1)
+    digits = demo.inputs.translate(_DIGIT_OF_KEYS).decode("ascii").ljust(padded, "0")
+    digits = _SAME_DIGITS.sub(lambda run: f"{_RUN_DIGIT}{run[1]}{len(run[0]) - _RUN_OFFSET:02o}", digits)
+    if len(digits) % 2:
+        digits += _PADDING
+    chars = "".join(_CHAR_OF_PAIR[digits[place : place + 2]] for place in range(0, len(digits), 2))
+    return "A" + _SAME_CHARS.sub(lambda run: chr(_CODE_OFFSET + len(run[0])) + run[1], chars)

@@ -141,7 +141,6 @@ class NearObjects(Part):
 
     @property
     def box(self) -> Box:
-        """Float32 (count, 20)."""
         low, high, _ = self._range()
         return Box(np.tile(low, (self.count, 1)), np.tile(high, (self.count, 1)), dtype=np.float32)
 
@@ -156,7 +155,6 @@ class NearObjects(Part):
 
     @property
     def kernel(self) -> Callable[..., None]:
-        """``observe_objects``."""
         return observe_objects
 
     def tables(self, setting: Setting) -> tuple[Any, ...]:
@@ -239,13 +237,11 @@ class LevelPlanes(Part):
 
     @property
     def box(self) -> Box:
-        """(15, 23, 31)."""
         shape = (len(PLANES), ROWS, COLUMNS)
         return Box(0.0, 1.0, shape, np.float32) if self.normalised else Box(0, HIGHEST, shape, np.uint8)
 
     @property
     def kernel(self) -> Callable[..., None]:
-        """``observe_planes``."""
         return observe_planes
 
     def tables(self, setting: Setting) -> tuple[Any, ...]:

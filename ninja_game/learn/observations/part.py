@@ -46,7 +46,6 @@ class Setting:
 
     @property
     def count(self) -> int:
-        """How many worlds there are."""
         return len(self.changed)
 
     def objects(self, *kinds: int) -> list[list[tuple[World, Object]]]:
@@ -107,7 +106,6 @@ class Part(ABC):
 
     @property
     def length(self) -> int:
-        """How many values it has."""
         return int(np.prod(self.box.shape))
 
 

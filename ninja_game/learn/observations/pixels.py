@@ -133,13 +133,11 @@ class Pixels(Part):
 
     @property
     def box(self) -> Box:
-        """(height, width)."""
         shape = (self.height, self.width)
         return Box(0.0, 1.0, shape, np.float32) if self.normalised else Box(0, 255, shape, np.uint8)
 
     @property
     def kernel(self) -> Callable[..., None]:
-        """``observe_pixels``."""
         return observe_pixels
 
     def tables(self, setting: Setting) -> tuple[Any, ...]:

@@ -101,7 +101,6 @@ class LocalTiles(Part):
 
     @property
     def kernel(self) -> Callable[..., None]:
-        """By its form."""
         return observe_distances if self.form == "distance" else observe_tiles
 
     def tables(self, setting: Setting) -> tuple[Any, ...]:
@@ -191,12 +190,10 @@ class Rays(Part):
 
     @property
     def box(self) -> Box:
-        """Float32 (count,)."""
         return Box(0.0, 1.0 if self.normalised else self.reach, (self.count,), np.float32)
 
     @property
     def kernel(self) -> Callable[..., None]:
-        """``observe_rays``."""
         return observe_rays
 
     def tables(self, setting: Setting) -> tuple[Any, ...]:

@@ -76,14 +76,12 @@ class StateVector(Part):
 
     @property
     def box(self) -> Box:
-        """Float32 (30,)."""
         low, high, scale = np.array(list(FIELDS.values()), np.float64).T
         divided = scale if self.normalised else np.ones(len(FIELDS))
         return Box((low / divided).astype(np.float32), (high / divided).astype(np.float32), dtype=np.float32)
 
     @property
     def kernel(self) -> Callable[..., None]:
-        """``observe_state``."""
         return observe_state
 
     def tables(self, setting: Setting) -> tuple[Any, ...]:
@@ -253,12 +251,10 @@ class TimeLeft(Part):
 
     @property
     def box(self) -> Box:
-        """Float32 (1,)."""
         return Box(0.0, 1.0 if self.normalised else LONGEST, (1,), np.float32)
 
     @property
     def kernel(self) -> Callable[..., None]:
-        """``observe_time``."""
         return observe_time
 
     def tables(self, setting: Setting) -> tuple[Any, ...]:
@@ -299,14 +295,12 @@ class Guide(Part):
 
     @property
     def box(self) -> Box:
-        """Float32 (17,)."""
         slopes = len(RADII) * len(DIRECTIONS)
         low = np.array([-1.0] * slopes + [0.0], np.float32)
         return Box(low, np.array([1.0] * slopes + [1.0 if self.normalised else FARTHEST], np.float32), dtype=np.float32)
 
     @property
     def kernel(self) -> Callable[..., None]:
-        """``observe_guide``."""
         return observe_guide
 
     def tables(self, setting: Setting) -> tuple[Any, ...]:

@@ -1,14 +1,14 @@
-"""What each command of the editor does: tools, files, tests, views."""
+"""What each command of the editor does: tools, files, tests, views; the choice of a level, and the help page."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ninja_game.editor.autosave import RecoveredDraft, recovered
 from ninja_game.editor.brush import SNAPS
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import SUFFIX, Source, draft_of, new_source, open_source
+from ninja_game.editor.files import SUFFIX, RecoveredDraft, Source, draft_of, new_source, open_source, recovered
 from ninja_game.editor.motion import CLOCKWISE, FLIP, MIRROR, SYMMETRIES
 from ninja_game.editor.records import points
 from ninja_game.editor.stamp import everything
@@ -18,15 +18,52 @@ from ninja_game.files.shown_text import file_stem
 from ninja_game.files.user_folder import free_path
 from ninja_game.formats.ascii.writer import HEADER_KEYS
 from ninja_game.play.app import App
-from ninja_game.play.editor.marks import finding_points
+from ninja_game.play.editor.controls import COMMANDS
 from ninja_game.play.editor.palette_view import PaletteView
-from ninja_game.play.editor.panels import LevelChoice, help_page
 from ninja_game.play.editor.session import EditorSession
+from ninja_game.play.editor.sheet import finding_points
 from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.editor.view import EditorView
+from ninja_game.play.menus.browser import Browser
+from ninja_game.play.menus.help import HelpPage
 from ninja_game.play.menus.panels import Form, Menu, nothing
+from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.play.workspace.document import Action, DocumentCommands
 from ninja_game.player.catalogue import Entry
+
+
+class LevelChoice(Browser):
+    """The browser of levels, to choose one for the editor."""
+
+    title = "Open a level"
+
+    def __init__(self, app: App, choose: Callable[[Entry], object]) -> None:
+        super().__init__(app)
+        self._choose = choose
+        self.list.hint = "Enter opens the level in the editor"
+
+    def build(self) -> Sequence[Widget]:
+        return [*list(super().build())[:3], Button((436, 470, 320, 32), "Edit", lambda: self._play(self.list.index))]
+
+    def _play(self, index: int, *, practice: bool = False) -> None:
+        if index < len(self.shown):
+            self.app.pop()
+            self._choose(self.shown[index])
+
+
+_WORDS = """\
+A first level: draw a floor with the left mouse button. Take the ninja from the objects at the right and click where \
+it begins; take the exit, click where it is, then where its switch is. Test plays the level, Certify lets the solver \
+look for a run, Save (in File) puts it into the menu Levels.
+The right button erases, the middle one picks. Doors go to the nearest side of a cell; then click where the switch is. \
+Tiles: 1 to 8 choose a shape, Q W A S its solid corner, E is full, D empty. Objects: the keys that the palette shows; \
+W A S D turn them. Without a mouse: arrows move the pointer, Space draws, Shift and arrows move what is selected."""
+
+
+def help_page(app: App) -> HelpPage:
+    """What one has to know to begin, and all commands."""
+    return HelpPage(app, "The editor", _WORDS, COMMANDS)
+
 
 NAMELESS = "My level"
 """What a level is called if its maker gives it no name."""
@@ -196,7 +233,7 @@ class EditorCommands(DocumentCommands):
             self.app.notify(str(error))
 
     def edit(self, source: Source, found: RecoveredDraft | None = None) -> None:
-        """Edit this level, or one that was found again. Raises FileError for what another window goes on with."""
+        """Edit this level, or one that was found again. Raises FileError for what another window continues with."""
         self.session.begin(source, found)
 
     def offer_recovered(self) -> None:

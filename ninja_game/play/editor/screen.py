@@ -13,7 +13,7 @@ from ninja_game.play.app import App
 from ninja_game.play.editor.commands import EditorCommands
 from ninja_game.play.editor.controls import DIRECTION_KEYS, OBJECT_TYPE_OF_KEY, TABLE, tile_of_key
 from ninja_game.play.editor.palette_view import PaletteView
-from ninja_game.play.editor.parts import FilePart, Findings, Palette, Properties, StatusLine, Toolbar
+from ninja_game.play.editor.parts import FilePart, Findings, PalettePart, Properties, StatusLine, Toolbar
 from ninja_game.play.editor.session import EditorSession
 from ninja_game.play.editor.view import LAYOUT, EditorView
 from ninja_game.play.input.bindings import InputEvent
@@ -38,7 +38,7 @@ class EditorScreen(WorkspaceScreen):
         self.commands = EditorCommands(app, self.session, self.view, self.palette)
         self.properties = Properties(self.view)
         self._parts: list[Part] = [
-            self.view, Toolbar(self.view, self.run), Palette(self.view, self.palette), self.properties,
+            self.view, Toolbar(self.view, self.run), PalettePart(self.view, self.palette), self.properties,
             Findings(self.view, self.commands.go_to_finding), FilePart(self.view), StatusLine(self.view),
         ]  # fmt: skip
         self._dragged_to: InputEvent | None = None

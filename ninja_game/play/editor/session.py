@@ -5,12 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from time import monotonic
 
-from ninja_game.editor.autosave import Autosave, RecoveredDraft
 from ninja_game.editor.background import NewestJob
 from ninja_game.editor.brush import OBJECT_TYPES, placed
 from ninja_game.editor.certify import Certifier, Route, route_of
 from ninja_game.editor.draft import Draft
-from ninja_game.editor.files import Source, draft_of_text, new_source, save
+from ninja_game.editor.files import Autosave, RecoveredDraft, Source, draft_of_text, new_source, save
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.editor.tools import EditorTools
 from ninja_game.errors import NinjaGameError
@@ -57,7 +56,7 @@ class EditorSession:
     def begin(self, source: Source, found: RecoveredDraft | None = None) -> None:
         """Edit another level, or one that was found again; what was not saved of the present one is given up.
 
-        Raises FileError for what another window goes on with.
+        Raises FileError for what another window continues with.
         """
         before = self.autosave
         self._begin(source, found)

@@ -36,7 +36,7 @@ class TasScreen(WorkspaceScreen):
 
     ``others``: other runs of its level; ``found``: what was not saved of the run last time. Raises LevelError for a run
     on a level that cannot be played, ReplayError for another run that is of another level or has another body,
-    FileError for what another window goes on with.
+    FileError for what another window continues with.
     """
 
     table = TABLE

@@ -39,7 +39,7 @@ class Part:
         return {}
 
     def mouse(self, event: pygame.Event, x: float, y: float) -> bool:
-        """A mouse event in its area, or one that ends or goes on with a drag that began there; whether it was used.
+        """A mouse event in its area, or one that ends or continues with a drag that began there; whether it was used.
 
         ``x``, ``y``: logical px of the window.
         """

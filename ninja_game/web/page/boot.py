@@ -36,7 +36,6 @@ def start(host: Any, level: str | None = None, replay: str | None = None) -> Non
 
 
 def app() -> App:
-    """The running game."""
     return _Game.app
 
 

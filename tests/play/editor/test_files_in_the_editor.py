@@ -13,11 +13,10 @@ import pytest
 
 from ninja_game.cli.main import cli
 from ninja_game.editor.ascii_text import ascii_text
-from ninja_game.editor.autosave import FOLDER, Autosave, recovered
-from ninja_game.editor.files import Source, new_source, open_source
+from ninja_game.editor.files import FOLDER, Autosave, Source, new_source, open_source, recovered
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
-from ninja_game.play.editor.panels import LevelChoice
+from ninja_game.play.editor.commands import LevelChoice
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
@@ -173,7 +172,7 @@ def test_what_another_window_goes_on_with_is_not_recovered_twice(room: Maker, tm
     present = room.editor.session.draft
     elsewhere = Autosave(tmp_path, next(recovered(tmp_path)).file)
     room.choose("Recover")
-    assert "another window goes on with this" in room.app.notice
+    assert "another window continues with this" in room.app.notice
     assert room.draft == present
     elsewhere.close()
 
@@ -213,7 +212,7 @@ def test_a_path_that_somebody_put_among_the_autosaves_by_hand_counts_for_nothing
 def test_what_is_drawn_when_a_signal_ends_the_program_is_kept(
     room: Maker, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ninja_game.editor.autosave.SPACING", 1e9)
+    monkeypatch.setattr("ninja_game.editor.files.SPACING", 1e9)
     room.drag((300, 300))
     session = room.editor.session
 

@@ -29,7 +29,7 @@ def run() -> Path:
 
 
 @pytest.fixture(name="at")
-def bench_with_a_run(run: Path, tmp_path: Path) -> Iterator[TasDriver]:
+def tas_editor_with_a_run(run: Path, tmp_path: Path) -> Iterator[TasDriver]:
     driver = TasDriver(tmp_path / "player", Path(copy(run, tmp_path / "run.replay.txt")))
     try:
         yield driver

@@ -91,7 +91,7 @@ def test_a_dragged_border_and_the_size_of_letters_are_remembered(at: TasDriver, 
     again.close()
 
 
-def test_a_bench_that_opens_at_a_tick_has_it_in_the_middle_of_the_roll(at: TasDriver) -> None:
+def test_a_tas_editor_that_opens_at_a_tick_has_it_in_the_middle_of_the_roll(at: TasDriver) -> None:
     screen = TasScreen(at.app, open_run(RUN))
     screen.editor.go(90)
     at.app.replace(screen)

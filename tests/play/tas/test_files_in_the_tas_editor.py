@@ -217,7 +217,7 @@ def test_help_page_and_viewer_come_from_the_menu(at: TasDriver) -> None:
     assert at.top() is at.screen
 
 
-def test_edit_in_the_viewer_opens_the_bench(tmp_path: Path) -> None:
+def test_edit_in_the_viewer_opens_the_tas_editor(tmp_path: Path) -> None:
     runs = load_replays(write_records(tmp_path / "demos.txt", ("a", WALK, running(23)), ("b", WALK, running(9))))
     other = load_replays(PACK / "certificates" / "00-0-first-steps.exit.replay.txt")
     with scripted_app() as (app, _):

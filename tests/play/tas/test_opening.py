@@ -44,7 +44,7 @@ def opened(at: MenuDriver) -> None:
     at.frames(2)
 
 
-def test_the_window_says_what_is_done_until_the_bench_is_there(at: MenuDriver, loaded: Event) -> None:
+def test_the_window_says_what_is_done_until_the_tas_editor_is_there(at: MenuDriver, loaded: Event) -> None:
     open_tas_editor(at.app, load_replays(RUN)[0], [], 17)
     at.frames(2)
     screen = at.top()

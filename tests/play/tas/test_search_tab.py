@@ -231,7 +231,7 @@ def test_a_run_gets_shorter_by_what_the_list_says(at: TasDriver, tab: SearchTab,
         assert gain.split(" tick")[0] == str(before - len(at.editor.track))
 
 
-def test_a_search_is_cancelled_by_hand_and_when_the_bench_is_left(
+def test_a_search_is_cancelled_by_hand_and_when_the_tas_editor_is_left(
     at: TasDriver, tab: SearchTab, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert module.CLOSING_SECONDS <= 0.5, "nobody waits longer for a TAS editor to close"

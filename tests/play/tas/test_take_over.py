@@ -149,7 +149,7 @@ def test_after_the_end_it_shows_what_follows_and_ends(at: TasDriver) -> None:
     assert f"tick {end}" in at.app.notice
 
 
-def test_leaving_the_bench_ends_it_and_keeps_what_was_played(at: TasDriver) -> None:
+def test_leaving_the_tas_editor_ends_it_and_keeps_what_was_played(at: TasDriver) -> None:
     taken = take_over(at)
     at.keys.script = [2, *random_keys(10)]
     at.frames(11)

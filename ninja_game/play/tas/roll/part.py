@@ -8,10 +8,9 @@ import pygame
 
 from ninja_game.play.menus.panels import Menu
 from ninja_game.play.tas.editor import TasEditor, TasPart
-from ninja_game.play.tas.roll.columns import COLUMNS, Column, RollLayout, layout_of
 from ninja_game.play.tas.roll.commands import RollCommands
 from ninja_game.play.tas.roll.facts import compared, different_rows, in_words, keys_in_words, row_facts
-from ninja_game.play.tas.roll.rows import RowSheet
+from ninja_game.play.tas.roll.rows import COLUMNS, Column, RollLayout, RowSheet, layout_of
 from ninja_game.play.ui.theme import Theme, mixed
 from ninja_game.play.workspace.part import Commands
 from ninja_game.tas.input_track import InputTrack

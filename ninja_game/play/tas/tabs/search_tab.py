@@ -23,7 +23,7 @@ from ninja_game.search.formula.language import FormulaError
 from ninja_game.search.formula.methods import KEPT, fewest_ticks
 from ninja_game.search.formula.task import Found, SpanTask, score_in_words
 from ninja_game.sim.rules import TICKS_PER_SECOND
-from ninja_game.tas.goals import PRESETS, SearchedSpan, Wanted
+from ninja_game.tas.goals import PRESETS, SearchedSpan, SpanGoal
 from ninja_game.tas.input_track import InputTrack, first_difference
 from ninja_game.tas.timeline import Timeline
 
@@ -203,7 +203,7 @@ class SearchTab(Tab):
         self.rest: object = False
         self.method: object = "auto"
         self.results: SpanResults | None = None
-        self._preset: tuple[Callable[[SearchedSpan], Wanted], Wanted] | None = None
+        self._preset: tuple[Callable[[SearchedSpan], SpanGoal], SpanGoal] | None = None
         self.found: tuple[Found, ...] = ()
         self.goal = EntryField(
             "x > 400, taken(12), distance(300, 200) < 6 ...", self.start, longest=LONGEST, hint=_NAMES
@@ -265,7 +265,7 @@ class SearchTab(Tab):
         rows = [(name, partial(self._fill, make), hint) for name, hint, make in PRESETS]
         self.editor.app.push(Menu(self.editor.app, "Presets", rows))
 
-    def _fill(self, make: Callable[[SearchedSpan], Wanted]) -> None:
+    def _fill(self, make: Callable[[SearchedSpan], SpanGoal]) -> None:
         try:
             wanted = make(SearchedSpan(self.editor.session, *self.span))
         except NinjaGameError as error:

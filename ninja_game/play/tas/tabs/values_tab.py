@@ -25,7 +25,7 @@ from ninja_game.search.formula.language import Numbers
 from ninja_game.sim.kinds import DOOR, EXIT, GOLD, KIND_NAMES, KIND_OF, MINE
 from ninja_game.tas.watch import Watch, parse_watch
 
-Found = tuple[int, int, float, float]
+WatchableObject = tuple[int, int, float, float]
 """Id, kind, x and y (px) of an object."""
 
 
@@ -35,7 +35,7 @@ class ObjectList(MenuScreen):
     title = "Objects of this level"
     foot = "Enter proposes to watch an object; Esc goes back"
 
-    def __init__(self, app: App, objects: Sequence[Found], choose: Callable[[str], object]) -> None:
+    def __init__(self, app: App, objects: Sequence[WatchableObject], choose: Callable[[str], object]) -> None:
         super().__init__(app)
         self._objects = objects
         self._choose = choose

@@ -12,9 +12,7 @@ from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import DRONE_MOVE, LAUNCHER_FLIGHT
 
-MOVING_KINDS = frozenset(
-    {kinds.BOUNCE_BLOCK, kinds.THWUMP, kinds.FLOOR_GUARD, kinds.DRONE, kinds.TURRET, kinds.LAUNCHER}
-)
+MOVING_KINDS = frozenset(kind.number for kind in kinds.KINDS if kind.moves)
 _FLAGS = {
     kinds.GOLD: "taken", kinds.MINE: "exploded", kinds.EXIT: "is_open", kinds.DOOR: "switched", kinds.DRONE: "chasing",
 }  # fmt: skip
