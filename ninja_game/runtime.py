@@ -34,7 +34,7 @@ def require_desktop() -> None:
         raise NinjaGameError(ONLY_ON_A_DESKTOP)
 
 
-def beside(work: Callable[[], object], failed: Callable[[str], object]) -> Thread:
+def run_in_background(work: Callable[[], object], failed: Callable[[str], object]) -> Thread:
     """Do some work in a thread of its own. Where there are none, it is done when this comes back.
 
     ``failed``: called there with a sentence for the user if the work raises anything at all; nobody waits for what has

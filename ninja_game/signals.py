@@ -20,10 +20,10 @@ GRACE = 1.2
 
 _ENDING = (signal.SIGINT, signal.SIGTERM)
 
-told = threading.Event()
+announced = threading.Event()
 """The command has said itself that it was stopped; what remains may take its time."""
 
-arrived: list[BaseException] = []
+received: list[BaseException] = []
 """What the first signal has raised; Python may have lost it, or made another error of it."""
 
 raising = threading.Event()
@@ -66,19 +66,19 @@ def _on_signal(number: int, _: object) -> None:
     """The first signal raises an exception in the command that is at work; the next ones leave it to clean up."""
     if not raising.is_set():
         _end(number)
-    if not arrived:
-        arrived.append(KeyboardInterrupt() if number == signal.SIGINT else Terminated())
-        raise arrived[0]
+    if not received:
+        received.append(KeyboardInterrupt() if number == signal.SIGINT else Terminated())
+        raise received[0]
 
 
 def _forget_signals(ignored: sys.UnraisableHookArgs) -> None:
     """Say nothing of a signal that came where Python loses exceptions, nor of what fails because of it."""
-    if not arrived:
+    if not received:
         sys.__unraisablehook__(ignored)
 
 
 @contextmanager
-def held_back() -> Iterator[None]:
+def signals_deferred() -> Iterator[None]:
     """Start processes in here: signals wait until it is over, and what is started never hears Ctrl-C.
 
     So no process is left half started. A terminal sends Ctrl-C to all processes: the one that started the others ends
@@ -117,7 +117,7 @@ def _end(number: int) -> None:
         for child in _known("multiprocessing", "active_children")() or ():
             child.kill()
         _known("ninja_game.files.writing", "discard_unfinished")()
-        if not told.is_set():
+        if not announced.is_set():
             os.write(2, b"ninja-game: interrupted\n" if number == signal.SIGINT else b"ninja-game: terminated\n")
     finally:
         os._exit(128 + number)

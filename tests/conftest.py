@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -25,6 +26,20 @@ os.environ.setdefault("SDL_VIDEODRIVER", "dummy")
 os.environ.setdefault("SDL_AUDIODRIVER", "dummy")
 
 ROOT = Path(__file__).resolve().parent.parent
+
+
+@pytest.fixture
+def own_fields() -> Iterator[None]:
+    """A memory, plain and compiled, in which an object has the fields of its kind only (support/own_fields.py)."""
+    from tests.support.own_fields import own_fields_only
+
+    with own_fields_only():
+        yield
+
+
+@pytest.fixture(autouse=os.environ.get("OWN_FIELDS") == "1")
+def _own_fields_everywhere(own_fields: None) -> None:
+    """With OWN_FIELDS=1 every test runs in that memory."""
 
 
 @pytest.fixture(scope="session")

@@ -13,7 +13,6 @@ import pytest
 import ninja_game
 import ninja_game.learn
 from ninja_game.files.reading import MAX_BYTES
-from ninja_game.player.settings import RULES
 from ninja_game.sim.inputs import MAX_TICKS
 from ninja_game.sim.memory.schema import CAPACITY
 
@@ -124,13 +123,6 @@ def test_every_tool_is_listed_with_its_module_name() -> None:
     modules = {".".join(path.relative_to(ROOT / "tools").with_suffix("").parts) for path in scripts} - {"dev"}
     assert {name for name in re.findall(r"^\| `([\w.]+)", page, re.MULTILINE) if "." not in name or "/" not in name}
     assert set(re.findall(r"^\| `([\w.]+)[ `]", page, re.MULTILINE)) == modules
-
-
-def test_every_setting_is_documented_in_its_table() -> None:
-    page = (ROOT / "docs" / "player-data.md").read_text("utf-8")
-    rows = dict(re.findall(r"^\| `\[([\w-]+)\]`[^|]*\| (.*) \|$", page, re.MULTILINE))
-    tables = {name.replace("_", "-"): rule.table for name, rule in RULES.items() if rule.table}
-    assert not [name for name, table in tables.items() if f"`{name}`" not in rows[table]]
 
 
 def test_security_page_states_the_limits_that_hold() -> None:

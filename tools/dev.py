@@ -46,7 +46,7 @@ DEVELOPMENT = ("cluster", "dev", "fast", "film", "learn", "minari", "plots", "tr
 USES = {"play": (), "film": ("film",), "verify": ("cluster", "fast"), "demonstrations": ("fast", "learn", "minari")}
 """The extras that commands of the game use; those that are not here may use Numba."""
 PROGRAMS = {"benchmark": "benchmarks", "golden": "tools.golden", "change-rules": "tools.change_rules"}
-DRAWINGS = ("draw.how_it_works", "draw.legend", "draw.screens", "draw.settings_page")
+DRAWINGS = ("draw.how_it_works", "draw.screens", "draw.settings_page")
 PICTURE_TESTS = ("tests/play/test_recorded_screens.py", "tests/play/test_pictures.py", "tests/play/test_sound.py")
 LINT = (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",), ("lint-imports",))
 

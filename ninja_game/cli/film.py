@@ -77,15 +77,15 @@ def film(
 
     ghost_runs = tuple(others)
     film = Film(recordings[record], width_and_height, speed, ghosts=ghost_runs, keys=keys, first=first, last=last)
-    told = "looking for the end of the run"
+    progress = "looking for the end of the run"
 
     def report(made: int) -> bool:
-        nonlocal told
-        told = f"{made:,} of {count:,} pictures"
+        nonlocal progress
+        progress = f"{made:,} of {count:,} pictures"
         return True
 
     try:
-        with heartbeat(lambda: told):
+        with heartbeat(lambda: progress):
             count = len(film.moments)
             write_film(film, path, report)
     except OSError as error:

@@ -20,7 +20,7 @@ from ninja_game import __version__
 from ninja_game.cli.terminal import guard_terminal
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.shown_text import shown_text
-from ninja_game.signals import Terminated, arrived, end_on_signals, leave_signals, raising, told
+from ninja_game.signals import Terminated, announced, end_on_signals, leave_signals, raising, received
 
 GROUPS = {
     "game": {
@@ -161,10 +161,10 @@ def _stopped(error: BaseException | None) -> int:
     """
     while error and not isinstance(error, (click.Abort, KeyboardInterrupt, Terminated)):
         error = error.__cause__ or error.__context__
-    error = next(iter(arrived), error)
+    error = next(iter(received), error)
     if not error:
         return 0
-    told.set()
+    announced.set()
     complain("terminated" if isinstance(error, Terminated) else "interrupted")
     return TERMINATED if isinstance(error, Terminated) else INTERRUPTED
 

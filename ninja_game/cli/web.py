@@ -40,8 +40,8 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int) -> None
     from platformdirs import user_cache_path
 
     from ninja_game.files.user_folder import data_folder
-    from ninja_game.web.pages.exhibition import exhibition
     from ninja_game.web.pages.gallery import write_gallery
+    from ninja_game.web.pages.published import published_levels
     from ninja_game.web.site.build import build_site
 
     cache = user_cache_path("ninja-game", appauthor=False)
@@ -52,7 +52,7 @@ def site(out: Path | None, pyodide: Path | None, serve: bool, port: int) -> None
             click.echo(f"{file.name:<28} {file.size:>11,} bytes, {file.compressed:>10,} compressed by gzip")
     size, compressed = sum(file.size for file in files), sum(file.compressed for file in files)
     click.echo(f"{f'{folder}: {len(files)} files':<28} {size:>11,} bytes, {compressed:>10,} compressed by gzip")
-    gallery = write_gallery(folder, exhibition(data_folder("levels")))
+    gallery = write_gallery(folder, published_levels(data_folder("levels")))
     click.echo(f"{gallery}: pictures and pages of the game's levels")
     if serve:
         _serve(folder, port)
@@ -94,7 +94,7 @@ def board(
 
     FOLDER holds replays, as people send them to a repository; nothing in them is believed but the inputs. Runs on
     other levels, with another body, under other rules, practice runs, copies and whatever says something that is not
-    so are kept apart, with the reason. `ninja-game site OUT` puts the page with the game next to the board, which shows
+    so are kept out, with the reason. `ninja-game site OUT` puts the page with the game next to the board, which shows
     each run. How to keep a board in a repository: docs/board.md.
 
     \b
@@ -111,7 +111,7 @@ def board(
     from ninja_game.web.board.ranking import Ranking
     from ninja_game.web.board.report import board_text, changes, dates_of, plain, read_board, summary
     from ninja_game.web.board.runs import judge
-    from ninja_game.web.pages.exhibition import exhibition
+    from ninja_game.web.pages.published import published_levels
 
     if site:
         check_site(site, folder)
@@ -120,7 +120,7 @@ def board(
     now = datetime.now(UTC)
     ledger = check or data
     before = read_board(ledger, now) if ledger and ledger.exists() else ({}, {})
-    shown = exhibition(levels or data_folder("levels"))
+    shown = published_levels(levels or data_folder("levels"))
     judged = judge(folder, shown, dates=dates_of(before, now) if ledger else None, jobs=jobs)
     ranking = Ranking(judged, shown)
     if site:
@@ -130,7 +130,7 @@ def board(
     if data:
         write_atomically(data, board_text(judged), keep=[folder])
     if not check:
-        for each in judged.apart:
+        for each in judged.rejected:
             click.echo(f"{each.kind}: {plain(each.file)}: {plain(each.why)}")
         click.echo(summary(judged))
         return

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from threading import Condition
 from typing import Generic, TypeVar
 
-from ninja_game.runtime import beside
+from ninja_game.runtime import run_in_background
 
 Job = TypeVar("Job")
 Result = TypeVar("Result")
@@ -32,7 +32,7 @@ class NewestJob(Generic[Job, Result]):
             self._waiting[:] = [job]
             if not self._busy:
                 self._busy = True
-                beside(self._run, self._fail)
+                run_in_background(self._run, self._fail)
 
     @property
     def idle(self) -> bool:
@@ -50,7 +50,7 @@ class NewestJob(Generic[Job, Result]):
     def _fail(self, why: str) -> None:
         """Go on with a newer job, if there is one."""
         self.problem = why
-        beside(self._run, self._fail)
+        run_in_background(self._run, self._fail)
 
     def _next(self) -> list[Job]:
         """The job that waits, in a list; with an empty one the thread is over."""

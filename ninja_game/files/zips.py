@@ -10,11 +10,12 @@ import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any
 from zipfile import ZIP_DEFLATED, ZIP_STORED, BadZipFile, ZipFile, ZipInfo
 
-import numpy as np
-from numpy.typing import NDArray
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 _ENTRY = b"PK\1\2"
 _BLOCK = 2**20
@@ -99,6 +100,8 @@ def read_array(archive: ZipFile, entry: ZipInfo, wanted: np.dtype[Any], *, most:
 
     ``most``: along each of at most so many ``dimensions``. Raises an error of UNREADABLE for any other.
     """
+    import numpy as np  # packs are read where there is none, as in the page
+
     data = unpacked(archive, entry)
     header = _HEADER.match(data)
     if not header:

@@ -223,7 +223,7 @@ class App:
         self.notice, self._notice_ms = text, ms
         self.stack.redraw_all()
 
-    def tell_problems(self) -> None:
+    def report_problems(self) -> None:
         """Show what is wrong with the player's files and has not been shown yet."""
         text = self.player.new_messages()
         if text:
@@ -388,10 +388,10 @@ def build_app(
     app = App(player, bindings, sound, size=size, tas_editor=tas_editor)
     player.open_records()
     if bindings.unknown:
-        player.tell(f"settings.toml: no key is called {shown_text(', '.join(bindings.unknown), 60)}.")
+        player.report(f"settings.toml: no key is called {shown_text(', '.join(bindings.unknown), 60)}.")
     if settings.palette not in PALETTES:
-        player.tell(f"settings.toml: there is no palette {settings.palette}: {', '.join(PALETTES)}.")
-    app.tell_problems()
+        player.report(f"settings.toml: there is no palette {settings.palette}: {', '.join(PALETTES)}.")
+    app.report_problems()
     return app
 
 

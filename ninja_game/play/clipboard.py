@@ -13,14 +13,14 @@ from ninja_game.formats.named_level import NamedLevel
 from ninja_game.play.app import App
 
 
-def copy_text(app: App, text: str, *, title: str, suffix: str, told: str = "") -> None:
-    """Put a text into the clipboard, and say so (``told``); else into a file called ``title`` + ``suffix``."""
+def copy_text(app: App, text: str, *, title: str, suffix: str, notice: str = "") -> None:
+    """Put a text into the clipboard, and say so (``notice``); else into a file called ``title`` + ``suffix``."""
     try:
         pygame.scrap.put_text(text)
     except pygame.error:
         app.write_export(title, suffix, text + "\n")
     else:
-        app.notify(told or f"In the clipboard: {len(text):,} characters")
+        app.notify(notice or f"In the clipboard: {len(text):,} characters")
 
 
 def pasted_text() -> str:

@@ -266,9 +266,9 @@ def _replay(theirs: Records, number: int, memory: str) -> Replay | None:
             (recording,) = parse_replays(write_replay(replay))
             if not (problems := verify_recording(recording, memory, budget=PAGE_BUDGET).problems):
                 return replace(replay, name=replay.name[:LONGEST], author=replay.author[:LONGEST])
-            theirs.store.tell(f"A replay in the records does not do what it says ({problems[0]}).")
+            theirs.store.report(f"A replay in the records does not do what it says ({problems[0]}).")
     except NinjaGameError as error:
-        theirs.store.tell(f"A replay in the records is damaged ({error}).")
+        theirs.store.report(f"A replay in the records is damaged ({error}).")
     return None
 
 

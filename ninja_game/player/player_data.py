@@ -47,7 +47,7 @@ class PlayerData:
         """All messages so far."""
         return self._messages + (self.store.messages if "store" in self.__dict__ else [])
 
-    def tell(self, message: str) -> None:
+    def report(self, message: str) -> None:
         """Add a message."""
         self._messages.append(message)
 

@@ -99,7 +99,7 @@ class Records:
                     practice=bool(practice),
                 )  # fmt: skip
             except NinjaGameError as error:
-                self.store.tell(f"A replay in the records is damaged ({error}).")
+                self.store.report(f"A replay in the records is damaged ({error}).")
         return None
 
     def forget_replay(self, number: int) -> bool:

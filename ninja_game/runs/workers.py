@@ -24,7 +24,7 @@ from typing import Any, Protocol, TypeVar
 
 from ninja_game.errors import NinjaGameError
 from ninja_game.files.user_folder import how_to_install
-from ninja_game.signals import held_back
+from ninja_game.signals import signals_deferred
 
 J = TypeVar("J")
 R = TypeVar("R")
@@ -103,7 +103,7 @@ class Local:
         """A future of ``function(job)``. This starts processes."""
         if self._processes:
             function = partial(_in_limits, function)
-        with held_back(), _safe_path():
+        with signals_deferred(), _safe_path():
             try:
                 return self._executor.submit(function, job)
             except BrokenProcessPool:

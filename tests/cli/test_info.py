@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game.cli.main import cli
+from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.levels.picture import level_picture
 from tests.support.samples import NO_NINJA, SPIKED, WALK, running, write_records
@@ -125,3 +128,11 @@ def test_a_record_of_an_unknown_type_is_warned_of(tmp_path: Path) -> None:
     result = info(source)
     assert result.exit_code == 0
     assert "warning: 2 records create nothing (unknown type), the first is '99'" in result.stdout
+
+
+def test_levels_and_packs_are_read_without_numpy() -> None:
+    """The page has none, and its import takes longer than all of `info`."""
+    read = f"import ninja_game; print(len(ninja_game.load_levels({str(data_folder('levels'))!r})))"
+    code = f"import sys; sys.modules['numpy'] = None; {read}"
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert result.stdout == "100\n", result.stderr

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from ninja_game.backend.memories import compiled_available
-from ninja_game.signals import GRACE, held_back
+from ninja_game.signals import GRACE, signals_deferred
 from tests.support.samples import WALK, WALK_END, running, write_records
 from tests.support.stopping import COMMANDS, ended, make_work
 
@@ -133,7 +133,7 @@ def test_a_signal_that_waits_while_python_starts_ends_the_program(number: signal
 
 def test_a_signal_waits_until_processes_have_started() -> None:
     done = []
-    with pytest.raises(KeyboardInterrupt), held_back():  # noqa: PT012 - it is raised behind the block
+    with pytest.raises(KeyboardInterrupt), signals_deferred():  # noqa: PT012 - it is raised behind the block
         signal.raise_signal(signal.SIGINT)
         done.append("all of it")
     assert done == ["all of it"]

@@ -78,7 +78,7 @@ def test_who_waits_is_told_and_a_fault_leaves_its_traceback(
 ) -> None:
     monkeypatch.setattr(runtime, "IN_PAGE", in_page)
     told: list[str] = []
-    thread = runtime.beside(raising(why), told.append)
+    thread = runtime.run_in_background(raising(why), told.append)
     if not in_page:
         thread.join(LONGEST)
     assert told == [why]

@@ -124,7 +124,7 @@ def test_death_goes_on_as_a_corpse_then_offers_retry_and_replay(
     screen.attempt.lifetime = 1
     frames(app, 2)
     assert phase_of(screen) is Phase.DEAD
-    assert screen.play.view.doll is not None
+    assert screen.play.view.ragdoll is not None
     tick = screen.attempt.simulation.tick
     frames(app, DEATH_PAUSE + 2)
     assert screen.attempt.simulation.tick == tick + DEATH_PAUSE + 2

@@ -82,7 +82,7 @@ def always_alike() -> list[object]:
     patches = [patch(name, lambda seed=None: Random(seed or 1)) for name in WITHOUT_CHANCE]
     return [
         instead_of_ours(), *patches, patch("ninja_game.player.records.now_text", lambda: DATE),
-        patch("ninja_game.editor.background.beside", lambda work, _: work()),
+        patch("ninja_game.editor.background.run_in_background", lambda work, _: work()),
         patch("ninja_game.play.editor.session.CHECK_SPACING", 0.0),
     ]  # fmt: skip
 
@@ -376,12 +376,12 @@ def _daily(driver: MenuDriver) -> Iterator[str]:
     endless = Mock(is_alive=lambda: True)
     with ExitStack() as stack:
         stack.enter_context(patch("ninja_game.play.menus.daily.date", Today))
-        stack.enter_context(patch("ninja_game.play.menus.daily.beside", lambda *_: endless))
+        stack.enter_context(patch("ninja_game.play.menus.daily.run_in_background", lambda *_: endless))
         screen = driver.open("Daily")
         assert isinstance(screen, DailyScreen)
         maker = screen._maker
         assert maker is not None
-        maker.told = "level 3 of 8"
+        maker.progress = "level 3 of 8"
         yield "daily-being-made"
         maker.problem = "No level could be made of this day: No space left"
         endless.is_alive = lambda: False
@@ -405,7 +405,7 @@ def _daily(driver: MenuDriver) -> Iterator[str]:
 
 def _film(driver: MenuDriver) -> Iterator[str]:
     """A film that is being made of a replay."""
-    with patch("ninja_game.play.replay.film.beside", lambda *_: Thread()):
+    with patch("ninja_game.play.replay.film.run_in_background", lambda *_: Thread()):
         screen = ReplayScreen(driver.app, [load_replays(bundled_replays()[1])[0]])
         driver.app.push(screen)
         driver.frames(40)

@@ -25,9 +25,9 @@ from ninja_game.web.board.collect import MOST_RECORDS
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import FASTEST, HIGHEST, Ranking
 from ninja_game.web.board.report import DATE
-from ninja_game.web.board.runs import Judged, Key, judge
-from ninja_game.web.pages.exhibition import exhibition
+from ninja_game.web.board.runs import Key, ValidatedRuns, judge
 from ninja_game.web.pages.frame import POLICY, tag
+from ninja_game.web.pages.published import published_levels
 from tests.support.forgeries import FORGERIES, GOLD_LATER, WALKING, record, replay
 from tests.support.samples import SPIKED, WALK, WALK_END
 
@@ -65,13 +65,13 @@ def put(folder: Path, name: str, text: str, *, day: int = 1) -> Path:
     return path
 
 
-def with_demands(folder: Path, levels: Path) -> Judged:
+def with_demands(folder: Path, levels: Path) -> ValidatedRuns:
     """What comes of a folder whose ledger has each file on the day of ``put``."""
 
     def date(key: Key, way: str) -> str:
         return datetime.fromtimestamp((folder / key[0]).lstat().st_mtime, UTC).strftime(DATE) if way else ""
 
-    return judge(folder, exhibition(levels), dates=date, jobs=1)
+    return judge(folder, published_levels(levels), dates=date, jobs=1)
 
 
 def slow_walk(wait: int = 5, *, author: str) -> str:
@@ -82,14 +82,14 @@ def slow_walk(wait: int = 5, *, author: str) -> str:
 def why(folder: Path, levels: Path) -> str:
     found = with_demands(folder, levels)
     assert found.runs == ()
-    return " ".join(f"{each.kind} {each.why}" for each in found.apart)
+    return " ".join(f"{each.kind} {each.why}" for each in found.rejected)
 
 
 def test_runs_are_ranked_by_what_the_simulation_says(runs: Path, levels: Path) -> None:
     put(runs, "b/slow.txt", slow_walk(author="Bea"), day=1)
     put(runs, "a/fast.txt", replay(author="Ann"), day=2)
     put(runs, "c/record.txt", record(bytes(2) + WALKING), day=3)
-    ranking = Ranking(with_demands(runs, levels), exhibition(levels))
+    ranking = Ranking(with_demands(runs, levels), published_levels(levels))
     table = ranking.tables[DIGEST][FASTEST]
     assert [(each.place, each.run.player, each.run.tick) for each in table] == [
         (1, "Ann", WALK_END), (2, "me", WALK_END + 2), (3, "Bea", WALK_END + 5),
@@ -108,7 +108,7 @@ def test_runs_are_ranked_by_what_the_simulation_says(runs: Path, levels: Path) -
 def test_a_record_says_by_how_much_it_is_better(runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "a.txt", slow_walk(author="Ann"), day=1)
     put(runs, "b.txt", replay(author="Bea"), day=2)
-    BoardPages(tmp_path / "site", Ranking(with_demands(runs, levels), exhibition(levels))).write()
+    BoardPages(tmp_path / "site", Ranking(with_demands(runs, levels), published_levels(levels))).write()
     page = (tmp_path / "site" / "board" / "index.html").read_text("utf-8")
     assert [gain for gain in re.findall(r"<td[^>]*>([^<]*)</td>", page) if gain in {"first", "0.125", "-0.125"}] == [
         "0.125", "0.125", "first", "first",
@@ -119,7 +119,7 @@ def test_medals_follow_from_the_par_times(runs: Path) -> None:
     certificates = [path for path in bundled_replays() if ".exit." in path.name][:3]
     for path in certificates:
         put(runs, path.name, path.read_text("utf-8"))
-    pack = exhibition(data_folder("levels")) if data_folder("levels").is_dir() else pytest.skip("no levels")
+    pack = published_levels(data_folder("levels")) if data_folder("levels").is_dir() else pytest.skip("no levels")
     ranking = Ranking(judge(runs, pack, jobs=1), pack)
     assert ranking.standings[0].medals["author"] == len(certificates)
 
@@ -127,7 +127,7 @@ def test_medals_follow_from_the_par_times(runs: Path) -> None:
 def test_a_player_has_one_row_a_table_the_best_one(runs: Path, levels: Path) -> None:
     for wait in (7, 3, 5):
         put(runs, f"{wait}.txt", slow_walk(wait, author=" Ann  "))
-    ranking = Ranking(with_demands(runs, levels), exhibition(levels))
+    ranking = Ranking(with_demands(runs, levels), published_levels(levels))
     assert [(each.run.player, each.run.tick) for each in ranking.tables[DIGEST][FASTEST]] == [("Ann", WALK_END + 3)]
 
 
@@ -214,7 +214,7 @@ def test_copies_are_named_and_the_first_one_counts(runs: Path, levels: Path) -> 
     put(runs, "cid.txt", replay(WALKING + b"\6", author="Cid"), day=4)
     found = with_demands(runs, levels)
     assert [run.player for run in found.runs] == ["Ann"]
-    assert [(each.file, each.kind, each.why) for each in found.apart] == [
+    assert [(each.file, each.kind, each.why) for each in found.rejected] == [
         ("again.txt", "copy", "the same run as ann.txt"),
         ("bob.txt", "copy", "a copy of the run by Ann in ann.txt"),
         ("cid.txt", "copy", "a copy of the run by Ann in ann.txt"),
@@ -228,9 +228,9 @@ def test_a_run_that_goes_most_of_somebody_elses_way_says_so(runs: Path, levels: 
     assert remarks == ["", "64 of its 65 ticks have the inputs of the run by Ann in ann.txt"]
 
 
-def test_practice_runs_are_kept_apart(runs: Path, levels: Path) -> None:
+def test_practice_runs_are_kept_out(runs: Path, levels: Path) -> None:
     put(runs, "run.txt", replay(practice=True))
-    assert [each.kind for each in with_demands(runs, levels).apart] == ["practice"]
+    assert [each.kind for each in with_demands(runs, levels).rejected] == ["practice"]
 
 
 class Tags(HTMLParser):
@@ -253,7 +253,7 @@ class Tags(HTMLParser):
 
 
 def board_of(runs: Path, levels: Path, out: Path) -> Path:
-    shown = exhibition(levels)
+    shown = published_levels(levels)
     BoardPages(out, Ranking(judge(runs, shown, jobs=1), shown)).write()
     return out / "board"
 
@@ -335,7 +335,7 @@ def test_check_tells_what_a_change_does(runs: Path, levels: Path, tmp_path: Path
     code, text = check(runs, levels, "--check", str(data))
     assert (code, text.splitlines()[0]) == (
         0,
-        "nothing has changed: 1 run by 1 player on 1 level; apart: 1 refused",
+        "nothing has changed: 1 run by 1 player on 1 level; rejected: 1 refused",
     )
     put(runs, "ann.txt", replay(author="A`nn"), day=2)
     code, text = check(runs, levels, "--check", str(data))
@@ -359,7 +359,7 @@ def test_check_refuses_a_changed_run(runs: Path, levels: Path, tmp_path: Path) -
 
 
 @pytest.mark.parametrize(
-    "text", ["", "{}", "[]", '{"version": 2}', '{"version": 1, "runs": [1], "apart": []}', "[" * 99_999]
+    "text", ["", "{}", "[]", '{"version": 2}', '{"version": 1, "runs": [1], "rejected": []}', "[" * 99_999]
 )
 def test_check_against_something_else_is_an_error(text: str, runs: Path, levels: Path, tmp_path: Path) -> None:
     put(runs, "bea.txt", replay())

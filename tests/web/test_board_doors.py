@@ -26,7 +26,7 @@ from ninja_game.web.board.copies import ALIGNED, course_of, edit_distance, neare
 from ninja_game.web.board.pages import check_site
 from ninja_game.web.board.players import Players, folded
 from ninja_game.web.board.runs import judge
-from ninja_game.web.pages.exhibition import exhibition
+from ninja_game.web.pages.published import published_levels
 from tests.support.forgeries import WALKING, record, replay
 from tests.support.reference import require_reference
 from tests.web.test_board import levels, put, runs, slow_walk  # noqa: F401
@@ -49,7 +49,7 @@ def rows(path: Path, part: str = "runs") -> dict[str, dict[str, object]]:
 def backdated(path: Path, date: str, *files: str) -> None:
     """Move files of a ledger to a date."""
     data = json.loads(path.read_text("utf-8"))
-    for row in (*data["runs"], *data["apart"]):
+    for row in (*data["runs"], *data["rejected"]):
         if row["file"] in files:
             row["added"] = date
     path.write_text(json.dumps(data), "utf-8")
@@ -96,7 +96,7 @@ def test_the_board_asks_no_other_program() -> None:
 
 
 def empty_ledger(folder: Path) -> Path:
-    return put(folder, "empty.json", '{"version": 2, "runs": [], "apart": []}')
+    return put(folder, "empty.json", '{"version": 2, "runs": [], "rejected": []}')
 
 
 def test_a_run_keeps_the_date_at_which_the_board_took_it_in(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
@@ -131,9 +131,9 @@ def test_the_first_one_in_the_ledger_owns_the_run(tmp_path: Path, levels: Path, 
 def test_without_a_ledger_nobody_is_called_a_copier(levels: Path, runs: Path) -> None:  # noqa: F811
     put(runs, "zoe.txt", slow_walk(author="Zoe"), day=1)
     put(runs, "ann.txt", slow_walk(author="Ann"), day=9)
-    found = judge(runs, exhibition(levels), jobs=1)
+    found = judge(runs, published_levels(levels), jobs=1)
     assert [(run.player, run.added) for run in found.runs] == [("Ann", "")]
-    assert [each.why for each in found.apart] == ["the same run as ann.txt"]
+    assert [each.why for each in found.rejected] == ["the same run as ann.txt"]
 
 
 ROW: dict[str, object] = {
@@ -158,7 +158,7 @@ BROKEN: dict[str, dict[str, object]] = {
 @pytest.mark.parametrize("broken", BROKEN)
 @pytest.mark.parametrize("option", ["--check", "--json"])
 def test_a_broken_ledger_is_named_and_stays(broken: str, option: str, tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
-    text = json.dumps({"version": 2, "runs": [ROW | {"file": "first.txt"}, ROW | BROKEN[broken]], "apart": []})
+    text = json.dumps({"version": 2, "runs": [ROW | {"file": "first.txt"}, ROW | BROKEN[broken]], "rejected": []})
     data = put(tmp_path, JSON, text)
     put(runs, "ann.txt", replay(author="Ann"))
     code, said = board(runs, levels, option, str(data), "--site", str(tmp_path / "site"))
@@ -166,7 +166,9 @@ def test_a_broken_ledger_is_named_and_stays(broken: str, option: str, tmp_path: 
     assert data.read_text("utf-8") == text
 
 
-@pytest.mark.parametrize("text", ['{"version": 1, "runs": [], "apart": []}', "", '{"version": 2, "runs": {}}', "[1]"])
+@pytest.mark.parametrize(
+    "text", ['{"version": 1, "runs": [], "rejected": []}', "", '{"version": 2, "runs": {}}', "[1]"]
+)
 def test_another_file_is_not_taken_for_a_ledger(text: str, tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
     data = put(tmp_path, JSON, text)
     assert board(runs, levels, "--json", str(data))[0] == 2
@@ -187,14 +189,14 @@ def test_one_odd_file_does_not_stop_the_others(tmp_path: Path, levels: Path, run
 
 def test_a_record_without_a_level_counts_where_one_level_does(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
     put(runs, "ann.txt", record(level=""))
-    found = judge(runs, exhibition(levels / "00-0-level.txt"), jobs=1)
+    found = judge(runs, published_levels(levels / "00-0-level.txt"), jobs=1)
     assert [run.player for run in found.runs] == ["me"]
 
 
 def test_inputs_alone_take_in_no_other_file(tmp_path: Path, levels: Path, runs: Path) -> None:  # noqa: F811
     put(runs, "ann.tas", "Read,part.txt\n   1,R\n")
-    found = judge(runs, exhibition(levels / "00-0-level.txt"), jobs=1)
-    assert [each.why for each in found.apart] == ["inputs without a level; send a replay, or a record of N"]
+    found = judge(runs, published_levels(levels / "00-0-level.txt"), jobs=1)
+    assert [each.why for each in found.rejected] == ["inputs without a level; send a replay, or a record of N"]
 
 
 # --- where the pages go ---
@@ -280,7 +282,7 @@ def certificate() -> tuple[Path, bytes, str]:
 
 
 def test_one_key_changed_in_one_tick_is_told(tmp_path: Path) -> None:
-    shown = exhibition(data_folder("levels"))
+    shown = published_levels(data_folder("levels"))
     path, _, text = certificate()
     put(tmp_path, "runs/ann.txt", path.read_text("utf-8").replace("author:", "author: Ann #"))
     put(tmp_path, "runs/mallory.txt", text)
@@ -302,7 +304,7 @@ def test_a_near_copy_makes_no_next_one_a_players_own(tmp_path: Path) -> None:
     sent = [("Ann", first), ("Eve", changed[0]), ("Eve", changed[1]), ("Ann", last)]
     for number, (author, inputs) in enumerate(sent):
         put(tmp_path, f"runs/{number}.txt", write_replay(record_replay(recording.level, inputs, author=author)))
-    found = judge(tmp_path / "runs", exhibition(data_folder("levels")), jobs=1)
+    found = judge(tmp_path / "runs", published_levels(data_folder("levels")), jobs=1)
     assert [(run.player, bool(run.remark)) for run in found.runs] == [
         ("Ann", False), ("Eve", True), ("Eve", True), ("Ann", False),
     ]  # fmt: skip

@@ -12,8 +12,8 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.runs import judge
-from ninja_game.web.pages.exhibition import exhibition
 from ninja_game.web.pages.gallery import write_gallery
+from ninja_game.web.pages.published import published_levels
 from tests.support.forgeries import WALKING, replay
 from tests.support.samples import WALK
 from tests.support.visitor import Visitor
@@ -27,7 +27,7 @@ def test_rows_are_watched_together_and_levels_are_played(site: Path, chromium: A
     runs.mkdir()
     (runs / "ann.txt").write_text(replay(author="Ann"), "utf-8")
     (runs / "bob.txt").write_text(replay(bytes(5) + WALKING + b"\2", author="Bob"), "utf-8")
-    shown = exhibition(levels)
+    shown = published_levels(levels)
     BoardPages(out, Ranking(judge(runs, shown, jobs=1), shown)).write()
     write_gallery(out, shown)
     with served(out) as address, ExitStack() as stack:

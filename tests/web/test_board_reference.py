@@ -13,7 +13,7 @@ from ninja_game.runs.conversion import replay_texts
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.runs import judge
-from ninja_game.web.pages.exhibition import exhibition
+from ninja_game.web.pages.published import published_levels
 from tests.support.reference import levels, recordings, require_reference
 
 SECONDS = 60
@@ -41,20 +41,20 @@ def test_all_recordings_are_a_board_within_a_minute(tmp_path: Path) -> None:
         (tmp_path / "runs" / name).write_text(text, "utf-8")
     pack = write_pack(tmp_path / "levels")
     start = time.process_time()
-    shown = exhibition(pack)
+    shown = published_levels(pack)
     ranking = Ranking(judge(tmp_path / "runs", shown), shown)
     BoardPages(tmp_path / "site", ranking).write()
     used = time.process_time() - start
     judged = ranking.judged
-    assert len(judged.runs) + len(judged.apart) == len(rows) == 1108
+    assert len(judged.runs) + len(judged.rejected) == len(rows) == 1108
     for run in judged.runs:
         row = rows[run.file]
         assert (run.tick, run.gold, run.score, run.player) == (row.end_tick, row.gold, row.score_ticks, row.source)
-    whys = Counter("copy" if each.kind == "copy" else each.why.split()[0] for each in judged.apart)
+    whys = Counter("copy" if each.kind == "copy" else each.why.split()[0] for each in judged.rejected)
     assert set(whys) == {"copy", "possible_by_keyboard", "level_digest"}
     assert whys["possible_by_keyboard"] == 19
     assert all(
-        rows[each.file].source != "rta" for each in judged.apart if each.kind == "refused" and "keyboard" in each.why
+        rows[each.file].source != "rta" for each in judged.rejected if each.kind == "refused" and "keyboard" in each.why
     )
     assert len(list((tmp_path / "site" / "board" / "levels").iterdir())) == len(shown.entries)
     assert used <= SECONDS

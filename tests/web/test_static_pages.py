@@ -17,8 +17,8 @@ from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.web.board.pages import BoardPages
 from ninja_game.web.board.ranking import Ranking
 from ninja_game.web.board.runs import judge
-from ninja_game.web.pages.exhibition import exhibition
 from ninja_game.web.pages.gallery import SORT_ORDERS, write_gallery
+from ninja_game.web.pages.published import published_levels
 from tests.support.forgeries import WALKING, replay
 from tests.support.samples import WALK
 from tests.support.visitor import LOADING, eventually
@@ -48,7 +48,7 @@ def board_of_hostile_names(folder: Path) -> Path:
         bad = name.replace("/", "").replace("\0", "")[:60]
         (runs / f"{bad}.txt").write_text(f"{name}\n{name}", "utf-8")
     (levels / "pack.toml").write_text("\n".join(index), "utf-8")
-    shown = exhibition(levels)
+    shown = published_levels(levels)
     ranking = Ranking(judge(runs, shown, jobs=1), shown)
     assert len(ranking.judged.runs) == 2 * len(HOSTILE)
     BoardPages(folder / "site", ranking).write()
@@ -59,7 +59,7 @@ def board_of_hostile_names(folder: Path) -> Path:
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the hostile board and a gallery of a few levels of ours."""
     folder = board_of_hostile_names(tmp_path_factory.mktemp("pages"))
-    write_gallery(folder, exhibition(data_folder("levels")))
+    write_gallery(folder, published_levels(data_folder("levels")))
     (folder / "index.html").write_text("<!doctype html><title>the game</title>", "utf-8")
     return folder
 
@@ -140,7 +140,7 @@ def test_gallery_is_searched_and_sorted_by_keyboard(open_page: Callable[..., Any
     page = open_page("gallery/index.html", viewport=PHONE)
     levels = page.locator(".card:visible")
     count = levels.count()
-    assert count == len(exhibition(data_folder("levels")).entries)
+    assert count == len(published_levels(data_folder("levels")).entries)
     page.keyboard.press("Tab")
     assert page.locator(":focus").inner_text() == "To the content"
     page.keyboard.press("Enter")
@@ -169,7 +169,7 @@ def test_gallery_is_searched_and_sorted_by_keyboard(open_page: Callable[..., Any
 
 def test_everything_is_read_without_a_script(open_page: Callable[..., Any]) -> None:
     page = open_page("gallery/index.html", java_script_enabled=False)
-    assert page.locator(".card:visible").count() == len(exhibition(data_folder("levels")).entries)
+    assert page.locator(".card:visible").count() == len(published_levels(data_folder("levels")).entries)
     assert page.locator("form.search").is_hidden()
     page.locator(".card a").first.click()
     page.get_by_role("heading", name="Par times").wait_for()

@@ -34,7 +34,7 @@ from ninja_game.player.scoring import seconds_text
 ROW = 54
 PICTURE = 60
 SIDE, SIDE_WIDTH = 436, 320
-SORTS: list[tuple[str, object]] = [
+SORT_ORDERS: list[tuple[str, object]] = [
     ("My levels first", "listed"),
     ("Name", "name"),
     ("Author", "author"),
@@ -86,7 +86,7 @@ class Browser(ThumbnailScreen):
             (SIDE + 166, 470, 154, 32), "Practise", lambda: self._play(self.list.index, practice=True),
             hint="No clock, quick save, rewind, slow motion; no records",
         )  # fmt: skip
-        sort = Choice((288, 66, 132, 32), "", SORTS, lambda: self.sort, self._sort, hint="How the list is sorted")
+        sort = Choice((288, 66, 132, 32), "", SORT_ORDERS, lambda: self.sort, self._sort, hint="How the list is sorted")
         change = Button((SIDE + 166, 510, 71, 32), "Edit", self._change, hint="Open it in the editor")
         link = Button((SIDE + 249, 510, 71, 32), "Copy link", self._copy_link, hint="Whoever opens the link plays it")
         return [

@@ -22,20 +22,20 @@ from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.player.scoring import seconds_text
-from ninja_game.runtime import beside, require_desktop
+from ninja_game.runtime import require_desktop, run_in_background
 
 LEFT, TOP, WIDE = 44, 74, 480
 SIDE, SIDE_WIDTH = 548, 200
 
 
 class _Maker:
-    """A thread that makes the level of a day. ``told``: how it stands; ``problem``: why there is none."""
+    """A thread that makes the level of a day. ``progress``: how it stands; ``problem``: why there is none."""
 
     def __init__(self, levels: Path, day: date) -> None:
-        self.told = "starting; the first time it compiles, which takes a minute or two"
+        self.progress = "starting; the first time it compiles, which takes a minute or two"
         self.problem = ""
         self.stop = Event()
-        self._thread = beside(lambda: self._run(levels, day), self._fail)
+        self._thread = run_in_background(lambda: self._run(levels, day), self._fail)
 
     @property
     def working(self) -> bool:
@@ -45,14 +45,14 @@ class _Maker:
     def _run(self, levels: Path, day: date) -> None:
         require_desktop()
         choose_memory("compiled")
-        if not daily.make_daily(levels, day, report=self._tell, stop=self.stop):
+        if not daily.make_daily(levels, day, report=self._report, stop=self.stop):
             self.problem = "No level could be made of this day."
 
     def _fail(self, why: str) -> None:
         self.problem = f"No level could be made of this day: {why}"
 
-    def _tell(self, text: str) -> None:
-        self.told = text
+    def _report(self, text: str) -> None:
+        self.progress = text
 
 
 class DailyScreen(ThumbnailScreen):
@@ -119,8 +119,8 @@ class DailyScreen(ThumbnailScreen):
             self._find()
             self.message = self.message or maker.problem
             super().enter()
-        if maker.told != self._shown or not maker.working:
-            self._shown = maker.told
+        if maker.progress != self._shown or not maker.working:
+            self._shown = maker.progress
             self.redraw = True
 
     def _play(self, *, practice: bool = False) -> None:
@@ -142,7 +142,7 @@ class DailyScreen(ThumbnailScreen):
             self.app.canvas.frame_rect(surface, palette.panel_edge, LEFT, TOP, WIDE, WIDE * 25 / 33, 1)
             if self._maker:
                 theme.text(surface, "The level of the day is being made", LEFT + 20, TOP + 150, size=14)
-                theme.text(surface, self._maker.told, LEFT + 20, TOP + 178, size=11, colour=palette.faint)
+                theme.text(surface, self._maker.progress, LEFT + 20, TOP + 178, size=11, colour=palette.faint)
         else:
             self._draw_entry(surface, entry)
         if self.message:

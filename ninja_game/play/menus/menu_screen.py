@@ -62,7 +62,7 @@ class MenuScreen(Screen):
         self.focus = wanted if wanted in able else next(iter(able), None)
         self._direction.end()
         self.await_text()
-        self.app.tell_problems()
+        self.app.report_problems()
 
     def await_text(self) -> None:
         """Have the system say what is typed, where there is a field for it."""

@@ -27,7 +27,7 @@ from ninja_game.play.view.level_view import LevelView
 from ninja_game.play.view.render_context import OffscreenContext
 from ninja_game.player.level_context import GhostRun
 from ninja_game.player.settings import Settings
-from ninja_game.runtime import beside, require_desktop
+from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.sim.rules import TICKS_PER_SECOND
 from ninja_game.simulation import Simulation
 
@@ -239,7 +239,7 @@ class FilmJob:
 
     def start(self) -> None:
         """Begin."""
-        self._thread = beside(self._make, self._fail)
+        self._thread = run_in_background(self._make, self._fail)
 
     def cancel(self) -> None:
         """Give up, and wait until it is given up."""

@@ -15,7 +15,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App, Screen
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH
-from ninja_game.runtime import beside
+from ninja_game.runtime import run_in_background
 
 if TYPE_CHECKING:
     from ninja_game.play.tas.screen import TasScreen
@@ -80,7 +80,7 @@ class OpeningScreen(Screen):
         self._waited_ms = 0
         self._shown = ""
         before_compiling.append(self._note_compiling)
-        self._thread = beside(lambda: prepare(run), self._note_problem)
+        self._thread = run_in_background(lambda: prepare(run), self._note_problem)
 
     def _note_compiling(self) -> None:
         self._compiles = True

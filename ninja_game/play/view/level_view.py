@@ -71,7 +71,7 @@ class LevelView:
         self.effects = Effects(self.particles, self._rng)
         self.object_animation = ObjectAnimation(simulation.world)
         self.ninja_animation = NinjaAnimation(simulation.world, self._rng)
-        self.doll: Ragdoll | None = None
+        self.ragdoll: Ragdoll | None = None
         self._covered: list[pygame.Rect] = []
         self._look: tuple[object, ...] = ()
         self._book: SpriteBook | None = None
@@ -107,7 +107,7 @@ class LevelView:
         self.object_animation.reset(world)
         self.ninja_animation.reset(world)
         self.effects.reset()
-        self.doll = None
+        self.ragdoll = None
         self._mended += self._backdrop.reset(world, self.object_animation)
         for ghost in self.ghosts:
             ghost.on_seek(world.tick)
@@ -122,23 +122,23 @@ class LevelView:
     def _follow_death(self, world: World) -> None:
         """Become a corpse, or go on as one; a revived ninja (objects.md §3) gets up."""
         if world.ninja.state != DEAD:
-            self.doll = None
+            self.ragdoll = None
             return
-        if self.doll is None:
+        if self.ragdoll is None:
             self._fall_down(world)
-        if self.doll is not None:
-            self.doll.step(self.simulation.tiles, world)
+        if self.ragdoll is not None:
+            self.ragdoll.step(self.simulation.tiles, world)
 
     def _fall_down(self, world: World) -> None:
         n = world.ninja
         now, before = self.ninja_animation.pose(1.0).moved(n.x, n.y), self.ninja_animation.pose(0.5).moved(n.x, n.y)
         velocity = n.x - n.prev_x, n.y - n.prev_y
-        self.doll = Ragdoll(now, before, velocity, self.ninja_animation.facing, self._rng, self._corpse_hit)
+        self.ragdoll = Ragdoll(now, before, velocity, self.ninja_animation.facing, self._rng, self._corpse_hit)
         for event in world.events[: world.event_count]:
             if event.kind == DIED:
                 gory = not self.app.settings.reduced_gore
-                self.doll.shove(event.cause, (event.dx, event.dy), event.y, n.y, whole=not gory)
-                if self.doll.dismembered:
+                self.ragdoll.shove(event.cause, (event.dx, event.dy), event.y, n.y, whole=not gory)
+                if self.ragdoll.dismembered:
                     self.effects.blood(n.x, n.y, 0.0, -2.0, 12)
 
     def _corpse_hit(self, x: float, y: float, into: float, along: float) -> None:
@@ -223,8 +223,8 @@ class LevelView:
         Particles.draw(self.particles.front, target, now)
 
     def _draw_ninja(self, fraction: float) -> None:
-        if self.doll is not None:
-            draw_ragdoll(self.target, self.doll, fraction, self.colour)
+        if self.ragdoll is not None:
+            draw_ragdoll(self.target, self.ragdoll, fraction, self.colour)
         else:
             at = self.object_animation.ninja_place(fraction)
             draw_ninja(self.target, self.ninja_animation, at, fraction, self.colour)

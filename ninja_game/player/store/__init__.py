@@ -52,7 +52,7 @@ class Store:
             return self._open(self.path, STARTS_WAIT, OPENING_SECONDS)
         except (sqlite3.Error, OtherVersionError, OSError) as error:
             self.problem = f"the records cannot be opened ({_reason(error)})"
-            self.tell(f"{self.problem[0].upper()}{self.problem[1:]}; until they can, they are kept in memory only.")
+            self.report(f"{self.problem[0].upper()}{self.problem[1:]}; until they can, they are kept in memory only.")
             return copy_in_memory(self.path)
 
     def _open(self, path: Path, turn: float, wait: float) -> sqlite3.Connection:
@@ -77,7 +77,7 @@ class Store:
         return connection
 
     def _move_aside(self, path: Path, why: str, text: str) -> None:
-        self.tell(f"{text}. They are kept as {quarantine(path, why).name}; new ones are begun.")
+        self.report(f"{text}. They are kept as {quarantine(path, why).name}; new ones are begun.")
 
     def _open_again(self) -> None:
         """Try once more to open the file; what was saved in memory meanwhile waits in ``_pending``."""
@@ -104,14 +104,14 @@ class Store:
         except sqlite3.Error as error:
             if self.connection.in_transaction:
                 raise
-            self.tell(f"The records cannot be read ({error}).")
+            self.report(f"The records cannot be read ({error}).")
             return []
         sound = [row for row in found if [type(value) for value in row] == list(kinds)]
         if len(sound) < len(found):
-            self.tell("Some of the records are damaged; they are left out.")
+            self.report("Some of the records are damaged; they are left out.")
         return sound
 
-    def tell(self, message: str) -> None:
+    def report(self, message: str) -> None:
         """Note a message for the player, once."""
         if message not in self.messages:
             self.messages.append(message)

@@ -6,7 +6,7 @@ from threading import Event, Thread
 from time import monotonic
 
 from ninja_game.errors import ArgumentError
-from ninja_game.runtime import beside, require_desktop
+from ninja_game.runtime import require_desktop, run_in_background
 from ninja_game.search.formula.methods import METHODS, search_span
 from ninja_game.search.formula.task import Found, SpanTask
 
@@ -45,7 +45,7 @@ class SpanSearch:
     def start(self) -> None:
         """Begin; a second call does nothing."""
         if self._thread is None:
-            self._thread = beside(self._work, self._fail)
+            self._thread = run_in_background(self._work, self._fail)
 
     def cancel(self) -> None:
         """End the search soon, within the time of one round of trials; what was found stays. Does not wait."""

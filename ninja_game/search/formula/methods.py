@@ -64,10 +64,10 @@ class Results:
             if any(np.array_equal(found.keys[: found.ticks], old.keys[: old.ticks]) for old in self.best):
                 continue
             self.best = tuple(sorted([*self.best, found])[:KEPT])
-        self.tell()
+        self.report()
         return trials
 
-    def tell(self) -> None:
+    def report(self) -> None:
         """Report how it stands."""
         self.going = self._report(self.worlds.ticks_run, self.best)
 
@@ -181,7 +181,7 @@ def beam(task: SpanTask, step: int, results: Results, rng: np.random.Generator, 
         picked[:KEPT] = found[-KEPT:]
         results.try_all(np.stack((picked * (WORLDS // len(picked) + 1))[:WORLDS], axis=1))
     else:
-        results.tell()
+        results.report()
 
 
 def _different(batch: Batch, orders: list[NDArray[np.intp]], most: int) -> NDArray[np.intp]:

@@ -14,10 +14,10 @@ from ninja_game.player.catalogue import Entry
 from ninja_game.player.scoring import seconds_text
 from ninja_game.web.board.ranking import FASTEST, HIGHEST, Ranked, Ranking
 from ninja_game.web.board.report import summary
-from ninja_game.web.board.runs import Apart, Run
-from ninja_game.web.pages.exhibition import page_name, shared_name, shared_text, watch_address
+from ninja_game.web.board.runs import Rejected, Run
 from ninja_game.web.pages.frame import REPLAYS, Content, Markup, Pages, joined, page, section, table, tag
 from ninja_game.web.pages.gallery import BOARD, medal_mark, write_levels
+from ninja_game.web.pages.published import page_name, shared_name, shared_text, watch_address
 
 NEWEST, LEADING, TOGETHER = 40, 25, 4
 """Rows of the newest records and of the players on the first page; runs that are watched together."""
@@ -26,8 +26,10 @@ LONGEST_NAME = 40
 """Characters of a name in a table."""
 
 HEADS = {FASTEST: "Fastest", HIGHEST: "Highest score"}
-LINKS = [("index.html", "Board"), ("players.html", "Players"), ("episodes.html", "Episodes"), ("apart.html", "Apart")]
-WHY_APART = {
+LINKS = [
+    ("index.html", "Board"), ("players.html", "Players"), ("episodes.html", "Episodes"), ("rejected.html", "Rejected"),
+]  # fmt: skip
+WHY_REJECTED = {
     "practice": "Practice runs",
     "copy": "Copies of runs",
     "refused": "Runs that do not count",
@@ -74,7 +76,7 @@ class BoardPages:
         self.pages.write("index.html", self._first())
         self.pages.write("players.html", page("Players", self._players(len(self.ranking.standings)), links=self.links))
         self.pages.write("episodes.html", page("Episodes", *self._episodes(), links=self.links))
-        self.pages.write("apart.html", page("Apart", *self._apart(), links=self.links))
+        self.pages.write("rejected.html", page("Rejected", *self._rejected(), links=self.links))
         self.pages.clear("players")
 
     # --- parts of several pages ---
@@ -174,14 +176,14 @@ class BoardPages:
             found.append(section(f"Episode {number}: {episode.name}", tag("p", *levels), best))
         return found or [tag("p", "These levels have no episodes.")]
 
-    def _apart(self) -> list[Content]:
-        apart = self.ranking.judged.apart
-        counts = Counter(each.kind for each in apart)
+    def _rejected(self) -> list[Content]:
+        rejected = self.ranking.judged.rejected
+        counts = Counter(each.kind for each in rejected)
         found: list[Content] = []
-        for kind, title in WHY_APART.items():
+        for kind, title in WHY_REJECTED.items():
             rows = [
                 (_place(each), shown_text(each.player, LONGEST_NAME), shown_text(each.level, LONGEST_NAME), each.why)
-                for each in apart
+                for each in rejected
                 if each.kind == kind
             ]
             if rows:
@@ -195,8 +197,8 @@ def _player_page(player: str) -> str:
     return f"players/{sha256(player.encode('utf-8', 'replace')).hexdigest()[:16]}.html"
 
 
-def _place(apart: Apart) -> str:
-    return apart.file + (f", record {apart.record}" if apart.record else "")
+def _place(rejected: Rejected) -> str:
+    return rejected.file + (f", record {rejected.record}" if rejected.record else "")
 
 
 def _time(run: Run) -> str:

@@ -9,8 +9,8 @@ from functools import cached_property
 
 from ninja_game.formats.pack.pars import MARGINS
 from ninja_game.player.catalogue import Episode
-from ninja_game.web.board.runs import Judged, Run
-from ninja_game.web.pages.exhibition import Exhibition
+from ninja_game.web.board.runs import Run, ValidatedRuns
+from ninja_game.web.pages.published import PublishedLevels
 
 Order = Callable[[Run], tuple[int, ...]]
 
@@ -53,7 +53,7 @@ class Standing:
 class Ranking:
     """Everything that the pages tell of the runs of a folder."""
 
-    def __init__(self, judged: Judged, shown: Exhibition) -> None:
+    def __init__(self, judged: ValidatedRuns, shown: PublishedLevels) -> None:
         self.judged = judged
         self.shown = shown
         self.by_level: dict[str, list[Run]] = defaultdict(list)

@@ -15,7 +15,7 @@ from ninja_game.files.shown_text import shown_text
 from ninja_game.play.ui.theme import counted
 from ninja_game.player.scoring import seconds_text
 from ninja_game.web.board.ranking import ORDERS, Ranking
-from ninja_game.web.board.runs import Apart, Dates, Judged, Key, Run
+from ninja_game.web.board.runs import Dates, Key, Rejected, Run, ValidatedRuns
 
 VERSION = 2
 DATE = "%Y-%m-%dT%H:%M:%SZ"
@@ -29,14 +29,15 @@ _FIELDS = {
         "file": str, "record": int, "player": str, "level": str, "level_name": str,
         "tick": int, "gold": int, "score": int, "way": str, "added": str,
     },
-    "apart": {"file": str, "record": int, "kind": str, "why": str, "way": str, "added": str},
+    "rejected": {"file": str, "record": int, "kind": str, "why": str, "way": str, "added": str},
 }  # fmt: skip
 
 
-def board_data(judged: Judged) -> dict[str, Any]:
+def board_data(judged: ValidatedRuns) -> dict[str, Any]:
     """The board as plain values: nothing in it but the dates depends on time or machine."""
     runs = sorted(judged.runs, key=lambda run: run.key)
-    return {"version": VERSION, "runs": list(map(_run_data, runs)), "apart": list(map(_apart_data, judged.apart))}
+    rejected = list(map(_rejected_data, judged.rejected))
+    return {"version": VERSION, "runs": list(map(_run_data, runs)), "rejected": rejected}
 
 
 def _run_data(run: Run) -> dict[str, Any]:
@@ -47,29 +48,29 @@ def _run_data(run: Run) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _apart_data(apart: Apart) -> dict[str, Any]:
-    return {key: getattr(apart, key) for key in _FIELDS["apart"]}
+def _rejected_data(rejected: Rejected) -> dict[str, Any]:
+    return {key: getattr(rejected, key) for key in _FIELDS["rejected"]}
 
 
-def board_text(judged: Judged) -> str:
+def board_text(judged: ValidatedRuns) -> str:
     """The same as JSON, a run a line, so that a difference of two reads well."""
     data = board_data(judged)
-    lines = {key: ",\n".join("  " + json.dumps(row) for row in data[key]) for key in ("runs", "apart")}
-    return f'{{"version": {VERSION}, "runs": [\n{lines["runs"]}\n], "apart": [\n{lines["apart"]}\n]}}\n'
+    lines = {key: ",\n".join("  " + json.dumps(row) for row in data[key]) for key in ("runs", "rejected")}
+    return f'{{"version": {VERSION}, "runs": [\n{lines["runs"]}\n], "rejected": [\n{lines["rejected"]}\n]}}\n'
 
 
 def read_board(path: Path, now: datetime) -> tuple[Rows, Rows]:
-    """The runs and what is apart in a file of ``board_text``, by file and record. Raises FormatError, OSError."""
+    """The runs and what is rejected in a file of ``board_text``, by file and record. Raises FormatError, OSError."""
     try:
         data = json.loads(read_utf8(path))
         if data["version"] != VERSION:
             found = f"version {str(data['version'])[:20]}"
             hint = "to start again, remove it: all runs get one date then, and go by the names of their files"
             raise FormatError("a board of another version", str(path), found=found, expected=str(VERSION), hint=hint)
-        runs, apart = (_rows(path, key, data[key], now) for key in _FIELDS)
+        runs, rejected = (_rows(path, key, data[key], now) for key in _FIELDS)
     except (ValueError, TypeError, KeyError, RecursionError):
         raise FormatError("not a board", str(path), expected="a file that `ninja-game board --json` wrote") from None
-    return runs, apart
+    return runs, rejected
 
 
 def _rows(path: Path, part: str, rows: list[dict[str, Any]], now: datetime) -> Rows:
@@ -112,17 +113,17 @@ def dates_of(before: tuple[Rows, Rows], now: datetime) -> Dates:
 
 def changes(ranking: Ranking, before: tuple[Rows, Rows]) -> Iterator[tuple[bool, str]]:
     """What is different from the board before: whether it may be, and a line about it."""
-    runs, apart = before
+    runs, rejected = before
     now = {run.key: _run_data(run) for run in ranking.judged.runs}
     for run in sorted(ranking.judged.runs, key=lambda run: run.key):
         if run.key not in runs:
             yield True, f"new: {_place(run.key)}: {_achieved(ranking, run)}"
         elif now[run.key] != runs[run.key]:
             yield False, f"changed: {_place(run.key)}: {_achieved(ranking, run)}"
-    here = set(now) | {(each.file, each.record) for each in ranking.judged.apart}
-    for each in ranking.judged.apart:
+    here = set(now) | {(each.file, each.record) for each in ranking.judged.rejected}
+    for each in ranking.judged.rejected:
         key = each.file, each.record
-        if key not in apart or apart[key].get("why") != each.why:
+        if key not in rejected or rejected[key].get("why") != each.why:
             yield each.kind == "practice", f"{each.kind}: {_place(key)}: {plain(each.why)}"
     for key, row in sorted(runs.items()):
         if key not in here:
@@ -154,11 +155,11 @@ def plain(text: str) -> str:
     return shown_text(text, 300).replace("`", "'")
 
 
-def summary(judged: Judged) -> str:
+def summary(judged: ValidatedRuns) -> str:
     """All of it in a line."""
     players, levels = {run.player for run in judged.runs}, {run.entry.digest for run in judged.runs}
     counts = ("run", judged.runs), ("player", players), ("level", levels)
     runs, by, on = (counted(len(each), name, f"{name}s") for name, each in counts)
-    kinds = Counter(each.kind for each in judged.apart)
-    apart = ", ".join(f"{kinds[kind]} {IN_WORDS[kind]}" for kind in sorted(kinds))
-    return f"{runs} by {by} on {on}; apart: {apart or 'none'}"
+    kinds = Counter(each.kind for each in judged.rejected)
+    rejected = ", ".join(f"{kinds[kind]} {IN_WORDS[kind]}" for kind in sorted(kinds))
+    return f"{runs} by {by} on {on}; rejected: {rejected or 'none'}"

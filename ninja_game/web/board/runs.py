@@ -18,7 +18,7 @@ from ninja_game.runs.verify import Verdict
 from ninja_game.web.board.collect import Sent, sent_below
 from ninja_game.web.board.copies import Course, course_of, nearest
 from ninja_game.web.board.players import Players, player_named
-from ninja_game.web.pages.exhibition import Exhibition
+from ninja_game.web.pages.published import PublishedLevels
 
 Key = tuple[str, int]
 """A run's file, as a path in the folder, and its record there."""
@@ -65,7 +65,7 @@ class Run:
 
 
 @dataclass(frozen=True)
-class Apart:
+class Rejected:
     """A run, or a file, that does not count. ``kind``: "practice", "copy", "refused" or "unreadable".
 
     ``way``, ``added``: of a copy, as a run has them.
@@ -82,14 +82,16 @@ class Apart:
 
 
 @dataclass(frozen=True)
-class Judged:
-    """All of a folder: ``runs`` in the order in which they were added, ``apart`` by file."""
+class ValidatedRuns:
+    """All of a folder: ``runs`` in the order in which they were added, ``rejected`` by file."""
 
     runs: tuple[Run, ...]
-    apart: tuple[Apart, ...]
+    rejected: tuple[Rejected, ...]
 
 
-def judge(folder: Path, shown: Exhibition, *, dates: Dates | None = None, jobs: int | None = None) -> Judged:
+def judge(
+    folder: Path, shown: PublishedLevels, *, dates: Dates | None = None, jobs: int | None = None
+) -> ValidatedRuns:
     """Simulate every run below a folder again, on the levels that are shown. Raises OSError.
 
     ``dates``: those of the board's ledger; without it runs go by the names of their files.
@@ -98,14 +100,14 @@ def judge(folder: Path, shown: Exhibition, *, dates: Dates | None = None, jobs: 
     levels = [entry.named for entry in shown.entries.values()]
     results = verify_all((), chunks=[sent.chunk for sent in found], levels=levels, strict=True, jobs=jobs)
     runs: list[Run] = []
-    apart: list[Apart] = []
+    rejected: list[Rejected] = []
     for sent, result in zip(found, results, strict=True):
         if isinstance(result, Verdict) and result.good:
             runs.append(_run(result, sent, shown.entries, dates))
         else:
-            apart.append(_apart(sent.chunk, result, shown.entries))
+            rejected.append(_rejected(sent.chunk, result, shown.entries))
     counted, copies = _without_copies(_of_players(sorted(runs, key=_first)))
-    return Judged(tuple(counted), tuple(sorted([*apart, *copies], key=lambda each: (each.file, each.record))))
+    return ValidatedRuns(tuple(counted), tuple(sorted([*rejected, *copies], key=lambda each: (each.file, each.record))))
 
 
 def _first(run: Run) -> tuple[str, Key]:
@@ -135,14 +137,14 @@ def _of_players(runs: list[Run]) -> list[Run]:
     return found
 
 
-def _apart(chunk: Chunk, result: Result, entries: Mapping[str, Entry]) -> Apart:
+def _rejected(chunk: Chunk, result: Result, entries: Mapping[str, Entry]) -> Rejected:
     """What does not count, and why."""
     if isinstance(result, Unreadable):
-        return Apart(chunk.file, chunk.first, "unreadable", _without_name(result.message, chunk.file))
+        return Rejected(chunk.file, chunk.first, "unreadable", _without_name(result.message, chunk.file))
     entry = entries.get(result.level_digest)
     kind = "practice" if result.practice else "refused"
     why = "; ".join(map(str, result.problems))
-    return Apart(chunk.file, result.record, kind, why, player_named(result.author), entry.title if entry else "")
+    return Rejected(chunk.file, result.record, kind, why, player_named(result.author), entry.title if entry else "")
 
 
 def _without_name(message: str, name: str) -> str:
@@ -156,10 +158,10 @@ def _without_name(message: str, name: str) -> str:
     return _LINE.sub("line ", message.strip())
 
 
-def _without_copies(runs: list[Run]) -> tuple[list[Run], list[Apart]]:
+def _without_copies(runs: list[Run]) -> tuple[list[Run], list[Rejected]]:
     """The runs without those that do what an earlier one does; near copies of an earlier one are marked."""
     on_level: dict[str, list[Run]] = defaultdict(list)
-    copies: list[Apart] = []
+    copies: list[Rejected] = []
     ways: dict[tuple[str, str], Run] = {}
     for run in runs:
         first = ways.setdefault((run.entry.digest, run.way), run)
@@ -169,7 +171,7 @@ def _without_copies(runs: list[Run]) -> tuple[list[Run], list[Apart]]:
             stolen = first.player != run.player and first.added < run.added
             what = f"a copy of the run by {first.player} in" if stolen else "the same run as"
             why = f"{what} {first.file}"
-            copies.append(Apart(*run.key, "copy", why, run.player, run.entry.title, run.way, run.added))
+            copies.append(Rejected(*run.key, "copy", why, run.player, run.entry.title, run.way, run.added))
     kept = [run for level in on_level.values() for run in _remarked(level)]
     return sorted(kept, key=_first), copies
 

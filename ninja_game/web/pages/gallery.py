@@ -15,9 +15,10 @@ from ninja_game.player.catalogue import Entry
 from ninja_game.player.scoring import seconds_text
 from ninja_game.sim.kinds import KIND_NAMES
 from ninja_game.sim.level import makes_object
-from ninja_game.web.pages.exhibition import (
+from ninja_game.web.pages.frame import Content, Markup, Pages, definitions, joined, page, section, table, tag
+from ninja_game.web.pages.published import (
     PICTURE_WIDTH,
-    Exhibition,
+    PublishedLevels,
     page_name,
     picture,
     picture_name,
@@ -25,7 +26,6 @@ from ninja_game.web.pages.exhibition import (
     shared_text,
     watch_address,
 )
-from ninja_game.web.pages.frame import Content, Markup, Pages, definitions, joined, page, section, table, tag
 
 UP = "../"
 PICTURE_HEIGHT = PICTURE_WIDTH * 600 // 792
@@ -98,7 +98,7 @@ def _pars(pars: Pars) -> Markup:
 
 
 def medal_mark(medal: str) -> Content:
-    """A small mark for a medal, "" for none; its letter tells it apart, not only its colour."""
+    """A small mark for a medal, "" for none; its letter tells it rejected, not only its colour."""
     return tag("span", medal[0].upper(), class_=f"medal {medal}", title=medal) if medal in MARGINS else joined()
 
 
@@ -113,7 +113,7 @@ LONGEST_NAME = 60
 Links = Sequence[tuple[str, str]]
 
 
-def write_gallery(out: Path, shown: Exhibition, *, game: str = "index.html") -> Path:
+def write_gallery(out: Path, shown: PublishedLevels, *, game: str = "index.html") -> Path:
     """Write ``out/gallery/`` and the certificates into ``out/replays/``; the gallery's first page.
 
     ``game``: name of the page with the game in ``out``. Raises FileError where ``out/gallery`` holds something else.
@@ -127,7 +127,12 @@ def write_gallery(out: Path, shown: Exhibition, *, game: str = "index.html") -> 
 
 
 def write_levels(
-    pages: Pages, shown: Exhibition, game: str, name: str, links: Links, more: Callable[[Entry], Content] | None = None
+    pages: Pages,
+    shown: PublishedLevels,
+    game: str,
+    name: str,
+    links: Links,
+    more: Callable[[Entry], Content] | None = None,
 ) -> None:
     """Write pictures, level pages and their list into a folder of pages.
 
@@ -149,7 +154,7 @@ def write_levels(
     pages.clear("pictures")
 
 
-def _list(shown: Exhibition) -> list[Content]:
+def _list(shown: PublishedLevels) -> list[Content]:
     """The list of levels with its search, which only a script makes visible."""
     count = len(shown.entries)
     lead = f"{shown.name}{f' by {shown.author}' if shown.author else ''}: {count} level{'s' * (count != 1)}."
@@ -158,7 +163,7 @@ def _list(shown: Exhibition) -> list[Content]:
     return [tag("p", lead, class_="lead"), comment, search(_episodes(shown)), cards]
 
 
-def _episodes(shown: Exhibition) -> Mapping[str, str]:
+def _episodes(shown: PublishedLevels) -> Mapping[str, str]:
     """Numbers and names of the episodes."""
     return {f"{number:02d}": f"{number}: {each.name}" for number, each in sorted(shown.levels.episodes.items())}
 

@@ -91,7 +91,7 @@ def compiled(library: Files, game: Files, pyodide: Mapping[str, bytes]) -> tuple
         _write(place / "work" / "library", _texts(library))
         _write(place / "work" / "game", _texts(game))
         _write(place / "work", {"compiling.py": Path(__file__).with_name("compiling.py").read_bytes()})
-        words = [node, str(Path(__file__).with_suffix(".mjs")), str(place / "pyodide"), str(place / "work")]
+        words = [node, str(Path(__file__).with_name("bytecode.mjs")), str(place / "pyodide"), str(place / "work")]
         try:
             subprocess.run(words, capture_output=True, text=True, check=True, timeout=_WAIT)  # noqa: S603 - our own words
         except (OSError, subprocess.SubprocessError) as error:

@@ -176,16 +176,16 @@ def test_nine_cells_tell_those_and_leave_the_world_alone() -> None:
     figure = NineCells()
     digest = world_digest(figure.world)
     for _ in demonstrated(figure, 60):
-        told, events = figure.told()
+        asked, events = figure.objects_asked()
         centre = cell_at(figure.x, figure.y)
         near = {centre + dx + STRIDE * dy for dx in (-1, 0, 1) for dy in (-1, 0, 1)}
         objects = figure.world.objects[1 : figure.world.slots_used]
         reached = {o.slot for o in objects if o.in_grid and o.cell in near}
         # Gold that is taken ends the walk of its list: the quirk is the world's, and so the figure's.
-        assert set(told) < reached if len(told) < len(reached) else set(told) == reached
-        assert len(told) == len(reached) or "gold-taken" in events
+        assert set(asked) < reached if len(asked) < len(reached) else set(asked) == reached
+        assert len(asked) == len(reached) or "gold-taken" in events
     assert world_digest(figure.world) == digest
-    gold = figure.world.objects[figure.told()[0][0]] if figure.told()[0] else figure.world.objects[2]
+    gold = figure.world.objects[figure.objects_asked()[0][0]] if figure.objects_asked()[0] else figure.world.objects[2]
     figure.drag(gold.x, gold.y)
     assert "gold-taken" in numbers(figure)["events"] or "died" in numbers(figure)["events"]
 

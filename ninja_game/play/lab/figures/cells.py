@@ -73,7 +73,7 @@ class NineCells(Figure):
         self.tiles, self.world = room_world(self.room, self.objects)
         self.asked = self.touched = 0
 
-    def told(self) -> tuple[list[int], list[str]]:
+    def objects_asked(self) -> tuple[list[int], list[str]]:
         """The slots of the notified objects, in order, and the events that follow; the world stays as it is."""
         w = self.world
         before = save_plain(w)
@@ -86,11 +86,11 @@ class NineCells(Figure):
 
     def numbers(self) -> list[tuple[str, str]]:
         """Who is asked of how many, and what happens."""
-        told, events = self.told()
-        names = [KIND_NAMES[self.world.objects[slot].kind] for slot in told]
+        asked, events = self.objects_asked()
+        names = [KIND_NAMES[self.world.objects[slot].kind] for slot in asked]
         return [
             ("objects in the level", str(self.world.id_count)),
-            ("objects told", f"{len(told)}: {', '.join(names)}" if told else "0"),
+            ("objects asked", f"{len(asked)}: {', '.join(names)}" if asked else "0"),
             ("events", ", ".join(events) or "none"),
         ]
 
@@ -104,11 +104,11 @@ class NineCells(Figure):
             sheet.shade(cell, p.switch if offset else p.good, 60)
             sheet.text(str(number), CENTRE_X[cell] - 8, CENTRE_Y[cell] - 7, size=9, colour=p.faint)
         sheet.grid()
-        told, _ = self.told()
+        asked, _ = self.objects_asked()
         for shape in hit_shapes(self.world):
             if not shape.ninja:
                 sheet.body(p.bad if shape.lethal else p.gold, shape.x, shape.y, shape.half, box=not shape.round)
-        for number, slot in enumerate(told, 1):
+        for number, slot in enumerate(asked, 1):
             o = self.world.objects[slot]
             sheet.circle(p.good, o.x, o.y, 8.5, 2)
             sheet.text(str(number), o.x, o.y, size=10)

@@ -251,7 +251,7 @@ class LevelPicture:
         corpse = self._corpse(end, inputs, min(start - end, _FALL)) if outcome == "dead" and start > end else None
         self._go(start, inputs)
         if self._view is not None and corpse is not None:
-            self._view.doll = corpse
+            self._view.ragdoll = corpse
 
     def _go(self, moment: int, inputs: bytes) -> None:
         """Be at the moment after this many ticks, as if nothing had been seen before."""
@@ -267,7 +267,7 @@ class LevelPicture:
             return None
         self._go(end, inputs)
         self._play(inputs[: end + 1])
-        corpse, world = self._view.doll, self.run.world
+        corpse, world = self._view.ragdoll, self.run.world
         for _ in range(ticks - 1):
             if corpse is not None:
                 corpse.step(self.run.tiles, world)

@@ -180,9 +180,9 @@ class RollCommands:
         markers = [Marker(tick - first, name) for tick, name in self._editor.track.markers if first <= tick < last]
         text = "\n".join(write_inputs(self._editor.track.inputs[first:last], markers))
         if text:
-            told = f"{last - first} tick{'s' * (last - first > 1)} copied"
+            notice = f"{last - first} tick{'s' * (last - first > 1)} copied"
             title = self._editor.session.about.name or "inputs"
-            copy_text(self._editor.app, text, title=title, suffix=".inputs.txt", told=told)
+            copy_text(self._editor.app, text, title=title, suffix=".inputs.txt", notice=notice)
         else:
             self._editor.app.notify(BEHIND)
 

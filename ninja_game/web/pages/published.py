@@ -28,7 +28,7 @@ CERTIFICATES = ("exit", "gold")
 
 
 @dataclass(frozen=True)
-class Exhibition:
+class PublishedLevels:
     """Levels with what is known of them. ``runs``: by level digest the certificates there are, "exit" or "gold"."""
 
     name: str
@@ -46,15 +46,15 @@ class Exhibition:
         return found
 
 
-def exhibition(path: Path) -> Exhibition:
+def published_levels(path: Path) -> PublishedLevels:
     """The levels of a pack, or of any file or folder. Raises NinjaGameError, OSError."""
     if not is_pack(path):
         entries = tuple(Entry(level, "yours") for level in load_levels(path))
-        return Exhibition(path.stem, "", "", EpisodeSet("", path.stem, (), {}, entries))
+        return PublishedLevels(path.stem, "", "", EpisodeSet("", path.stem, (), {}, entries))
     pack = Pack(path)
     levels = episode_set(pack, "")
     runs = {entry.digest: _certificates(pack, entry) for entry in levels.levels}
-    return Exhibition(pack.name, pack.index.author, pack.index.comment, levels, runs)
+    return PublishedLevels(pack.name, pack.index.author, pack.index.comment, levels, runs)
 
 
 def _certificates(pack: Pack, entry: Entry) -> dict[str, Recording]:
