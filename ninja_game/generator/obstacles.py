@@ -11,7 +11,7 @@ from ninja_game.sim import kinds
 from ninja_game.sim.level import ObjectSpec
 from ninja_game.sim.rules import CELL
 
-MOST_ENEMIES, MOST_MINES, MOST_OBJECTS = 7, 21, 88
+MOST_MINES, MOST_OBJECTS = 21, 88
 SAFE = 150.0
 """px from the ninja's start in which nothing waits."""
 BESIDE = 190.0

@@ -138,7 +138,10 @@ def expand(
                 action = followed_code(first, played)
             counters.ticks += played
             if w.outcome == OUTCOME_RUNNING and played > 0:
-                keep_child(index, action, played, start, memory, goal, known, backed_up, resolution)
+                if known is not None:
+                    keep_along(index, action, start, memory, goal, known, resolution)
+                elif w.tick < LIFETIME + GOLD_BONUS * w.gold:
+                    keep_child(index, action, played, start, memory, goal, backed_up, resolution)
             elif w.outcome == OUTCOME_EXIT and w.gold >= goal.gold:
                 keep_run(index, action, played, w.tick, memory, known)
     return MORE
@@ -200,30 +203,17 @@ def keep_run(parent: int, action: int, played: int, tick: int, memory: SearchMem
 
 
 @fast
-def keep_child(
-    parent: int, action: int, played: int, start: Start, memory: SearchMemory, goal: Goal, known: KnownRun | None,
-    backed_up: BackedUpHeuristic, resolution: Resolution,
-) -> None:  # fmt: skip
-    """Make a node of the scratch world if it is not a duplicate and may still lead to a shorter run than the best."""
+def keep_along(
+    parent: int, action: int, start: Start, memory: SearchMemory, goal: Goal, known: KnownRun, resolution: Resolution
+) -> None:
+    """Make a node of the scratch world if it is not a duplicate and may lead to a shorter run than the known one.
+
+    Its ticks to go are those that the known run still has from its row that is most like the scratch world.
+    """
     w = start.worlds[1]
-    if known is None and w.tick >= LIFETIME + GOLD_BONUS * w.gold:
-        return
     switch_state = switch_state_of(w, goal, memory.counters[0], memory.nodes[parent].switch_state)
     if switch_state < 0:
         return
-    if known is None:
-        keep_toward(parent, action, played, switch_state, start, memory, goal, backed_up, resolution)
-    else:
-        keep_along(parent, action, switch_state, start, memory, goal, known, resolution)
-
-
-@fast
-def keep_along(
-    parent: int, action: int, switch_state: int, start: Start, memory: SearchMemory, goal: Goal, known: KnownRun,
-    resolution: Resolution,
-) -> None:  # fmt: skip
-    """The same, by the ticks that the known run still has from its row that is most like the scratch world."""
-    w = start.worlds[1]
     _, to_go = nearest(known, w, goal.masks[switch_state])
     run_ticks = w.tick + to_go
     delay = known.max_delay if w.tick < known.span[1] else -LEAST_GAIN
@@ -238,14 +228,20 @@ def keep_along(
 
 
 @fast
-def keep_toward(
-    parent: int, action: int, played: int, switch_state: int, start: Start, memory: SearchMemory, goal: Goal,
+def keep_child(
+    parent: int, action: int, played: int, start: Start, memory: SearchMemory, goal: Goal,
     backed_up: BackedUpHeuristic, resolution: Resolution,
 ) -> None:  # fmt: skip
-    """The same, by the distance field of the switch state, or by the backed-up heuristic of an earlier search."""
+    """The same on the way to the exit or to the end of a leg.
+
+    Its ticks to go are those of the switch state's distance field, or of the backed-up heuristic of an earlier search.
+    """
     w = start.worlds[1]
     counters = memory.counters[0]
     source = memory.nodes[parent]
+    switch_state = switch_state_of(w, goal, counters, source.switch_state)
+    if switch_state < 0:
+        return
     tick = w.tick
     best = counters.best_ticks
     to_go = estimate(goal, switch_state, point_at(w.ninja.x, w.ninja.y), source.to_go)

@@ -137,6 +137,17 @@ def test_more_markers_than_a_text_may_hold_are_told(monkeypatch: pytest.MonkeyPa
         load_replays(main)
 
 
+def test_more_ticks_than_demos_of_older_versions_may_hold_together_are_told(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    path = tmp_path / "old.txt"
+    path.write_text(f"$n#a#c#{WALK}#AR5L7#\n" * 3)
+    (first, *_) = load_replays(path)
+    monkeypatch.setattr("ninja_game.formats.recording.MOST_LEGACY_TICKS", 2 * first.ticks)
+    with pytest.raises(ReplayError, match=r"old\.txt:3: the demos of older versions .* are too long together"):
+        load_replays(path)
+
+
 def test_what_is_taken_in_again_is_read_once(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     (tmp_path / "part.txt").write_text("#here R*2 L ; a comment")
     main = tmp_path / "run.txt"
