@@ -35,7 +35,7 @@ from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import KILLERS, is_place
 from ninja_game.player.records import Records, level_score
 from ninja_game.player.store import Store
-from ninja_game.player.store.migrations import MIGRATIONS, TABLES
+from ninja_game.player.store.schema import SCHEMA, TABLES, VERSION, OtherVersionError
 from ninja_game.runs.verify import verify_recording
 from ninja_game.sim.memory.interface import BODIES
 
@@ -155,9 +155,11 @@ def _opened(path: Path) -> Store:
     try:
         with closing(sqlite3.connect(path)) as db:
             ((version,),) = db.execute("PRAGMA user_version")
+            if version != VERSION:
+                raise ValueError(f"records {OtherVersionError(version)}")
             there = set(db.execute(_SCHEMA))
             # A trigger, a check, a default or an index of another would be run when the records are opened.
-            if other := there ^ _our_schema(version):
+            if other := there ^ _our_schema():
                 raise ValueError("the {} {} is not ours".format(*min(other)))
             for name in TABLES & {name for _, name, *_ in there}:
                 ((rows,),) = db.execute(f"SELECT count(*) FROM {name}")
@@ -178,13 +180,12 @@ def _opened(path: Path) -> Store:
     return store
 
 
-def _our_schema(version: int) -> set[tuple[str, ...]]:
-    """What records of a version hold when the game has made them. Raises ValueError for an unknown version."""
-    if not 0 < version <= len(MIGRATIONS):
-        raise ValueError(f"records of version {version}, of a newer game" if version > 0 else "no records")
+@cache
+def _our_schema() -> set[tuple[str, ...]]:
+    """What records hold when the game has made them."""
     with closing(sqlite3.connect(":memory:")) as db:
-        for script in MIGRATIONS[:version]:
-            db.executescript(script)
+        for statement in SCHEMA:
+            db.execute(statement)
         return set(db.execute(_SCHEMA))
 
 

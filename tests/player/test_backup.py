@@ -240,7 +240,8 @@ COUNTING = "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHER
         ("CREATE TABLE more (a)", "the table more is not ours"),
         ("UPDATE replay SET level_text = level_text || hex(zeroblob(600000))", "a level of"),
         ("UPDATE replay SET inputs = zeroblob(2000000)", "replays of"),
-        ("PRAGMA user_version = 99", "newer game"),
+        ("PRAGMA user_version = 99", "a game that is newer"),
+        ("PRAGMA user_version = 4", "a game that is older"),
     ],
 )
 def test_records_that_hold_too_much_or_more_than_rows_change_nothing(statement: str, said: str, tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ from ninja_game.player.playthrough import EpisodeRun, LevelRun
 from ninja_game.player.progress import UNLOCKED
 from ninja_game.player.saving import keep_replay
 from ninja_game.player.store import Store, schema
-from ninja_game.player.store.migrations import MIGRATIONS, VERSION
+from ninja_game.player.store.schema import VERSION
 from tests.support.players import deadly_level, entry, episode, played, player_data, short_level
 
 
@@ -40,15 +40,16 @@ def test_record_and_its_replay_come_back_equal(tmp_path: Path) -> None:
     )  # fmt: skip
 
 
-def test_newer_file_is_set_aside(tmp_path: Path) -> None:
+@pytest.mark.parametrize("version, age", [(VERSION + 1, "newer"), (VERSION - 1, "older")])
+def test_file_of_another_version_is_set_aside(tmp_path: Path, version: int, age: str) -> None:
     path = tmp_path / "records.sqlite"
     Store(path).close()
     with sqlite3.connect(path) as db:
-        db.execute(f"PRAGMA user_version = {VERSION + 1}")
+        db.execute(f"PRAGMA user_version = {version}")
     db.close()
     store = Store(path)
-    assert "newer game" in store.messages[0]
-    assert (tmp_path / "records.newer-1.sqlite").is_file()
+    assert f"a game that is {age}: version {version} instead of {VERSION}" in store.messages[0]
+    assert (tmp_path / f"records.{age}-1.sqlite").is_file()
 
 
 def test_someone_elses_database_is_set_aside(tmp_path: Path) -> None:
@@ -71,10 +72,12 @@ def test_setting_aside_never_overwrites(tmp_path: Path) -> None:
     ]
 
 
-def test_older_version_is_migrated_with_its_records(tmp_path: Path) -> None:
-    old = sqlite3.connect(tmp_path / "records.sqlite")
-    old.executescript(Path(__file__).with_name("records-version-2.sql").read_text("utf-8"))
-    old.close()
+def test_file_of_this_version_opens_with_its_records(tmp_path: Path) -> None:
+    made = sqlite3.connect(tmp_path / "records.sqlite")
+    made.executescript(Path(__file__).with_name(f"records-version-{VERSION}.sql").read_text("utf-8"))
+    tables = "SELECT type, name, sql FROM sqlite_master WHERE sql IS NOT NULL ORDER BY name"
+    assert made.execute(tables).fetchall() == Store(None).connection.execute(tables).fetchall(), "backups compare them"
+    made.close()
     data = player_data(tmp_path, episode())
     assert data.store.connection.execute("PRAGMA user_version").fetchone()[0] == VERSION
     assert not data.messages
@@ -93,16 +96,12 @@ def test_older_version_is_migrated_with_its_records(tmp_path: Path) -> None:
     assert (data.statistics.deaths()["mine"], data.statistics.played().passes) == (1, 6)
 
 
-def test_failing_migration_leaves_the_old_file_as_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = tmp_path / "records.sqlite"
-    Store(path).close()
-    monkeypatch.setattr(schema, "MIGRATIONS", (*MIGRATIONS, "CREATE TABLE more (x);\nCREATE TABLE death (x);"))
-    monkeypatch.setattr(schema, "VERSION", VERSION + 1)
+def test_tables_are_made_whole_or_not_at_all(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(schema, "SCHEMA", (*schema.SCHEMA, "CREATE TABLE death (x)"))
     with pytest.raises(sqlite3.OperationalError):
-        schema.open_database(str(path))
-    db = sqlite3.connect(path)
-    assert db.execute("PRAGMA user_version").fetchone()[0] == VERSION
-    assert not db.execute("SELECT * FROM sqlite_master WHERE name = 'more'").fetchall()
+        schema.open_database(str(tmp_path / "records.sqlite"))
+    with sqlite3.connect(tmp_path / "records.sqlite") as db:
+        assert not db.execute("SELECT * FROM sqlite_master").fetchall()
     db.close()
 
 

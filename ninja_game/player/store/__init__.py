@@ -15,7 +15,7 @@ from typing import Any
 
 from ninja_game.files.locking import locked
 from ninja_game.files.user_folder import quarantine
-from ninja_game.player.store.schema import OPENING_SECONDS, NewerFileError, copy_in_memory, open_database
+from ninja_game.player.store.schema import OPENING_SECONDS, OtherVersionError, copy_in_memory, open_database
 
 GAME_WAIT_MS, LAST_WAIT_MS = 200, 3000
 """How long a save waits for another program that writes: during play, where it holds up the picture, and at the end."""
@@ -30,7 +30,7 @@ Work = Callable[[], Sequence[str]]
 class Store:
     """An open database. ``path``: None for one in memory, which forgets.
 
-    A damaged file, or one from a newer game, is moved aside and a new one begun. If the file cannot be opened or
+    A damaged file, or one of another version, is moved aside and a new one begun. If the file cannot be opened or
     written, the session continues with a copy in memory, and ``problem`` says why what is saved would not last.
     ``messages``: what the player should know. ``epoch`` changes whenever something read before may be out of date.
     """
@@ -50,13 +50,13 @@ class Store:
             return open_database(":memory:")
         try:
             return self._open(self.path, STARTS_WAIT, OPENING_SECONDS)
-        except (sqlite3.Error, NewerFileError, OSError) as error:
+        except (sqlite3.Error, OtherVersionError, OSError) as error:
             self.problem = f"the records cannot be opened ({_reason(error)})"
             self.report(f"{self.problem[0].upper()}{self.problem[1:]}; until they can, they are kept in memory only.")
             return copy_in_memory(self.path)
 
     def _open(self, path: Path, turn: float, wait: float) -> sqlite3.Connection:
-        """The file, or a new one where it had to be moved aside. Raises sqlite3.Error, NewerFileError, OSError.
+        """The file, or a new one where it had to be moved aside. Raises sqlite3.Error, OtherVersionError, OSError.
 
         ``turn`` and ``wait``: seconds to wait for others that are opening it, and for one that has locked it.
         """
@@ -64,8 +64,8 @@ class Store:
         with locked(path, turn):
             try:
                 connection = open_database(str(path), seconds=wait)
-            except NewerFileError:
-                self._move_aside(path, "newer", "The records were written by a newer game")
+            except OtherVersionError as error:
+                self._move_aside(path, error.age, f"The records were {error}")
                 connection = open_database(str(path))
             except sqlite3.OperationalError:
                 # Locked, read-only, no room: the file itself is sound.
@@ -85,7 +85,7 @@ class Store:
             return
         try:
             connection = self._open(self.path, GAME_WAIT_MS / 1000, GAME_WAIT_MS / 1000)
-        except (sqlite3.Error, NewerFileError, OSError) as error:
+        except (sqlite3.Error, OtherVersionError, OSError) as error:
             self.problem = f"the records cannot be opened ({_reason(error)})"
             return
         self.connection.close()
@@ -191,6 +191,6 @@ class Store:
 
 
 def _reason(error: Exception) -> str:
-    if isinstance(error, NewerFileError):
-        return "they were written by a newer game"
+    if isinstance(error, OtherVersionError):
+        return f"they were {error}"
     return (error.strerror if isinstance(error, OSError) else None) or str(error)

@@ -1,14 +1,11 @@
-"""How a file of records is opened, checked and brought up to date (`docs/player-data.md`)."""
+"""The tables of the records, and how a file of them is opened and checked (`docs/player-data.md`)."""
 
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 from urllib.parse import quote
-
-from ninja_game.player.store.migrations import MIGRATIONS, TABLES, VERSION
 
 APPLICATION_ID = 0x6E696E6A
 """Tells our files from other people's SQLite files."""
@@ -23,8 +20,79 @@ _WRITE_VERSION = 18
 """Place of the byte in a file's header that is 1 or 2 where SQLite may write it."""
 
 
-class NewerFileError(Exception):
-    """The file was written by a newer game."""
+VERSION = 5
+"""Of the tables, in a file's header; raise it with every change of them."""
+
+SCHEMA = (
+    """CREATE TABLE replay (
+        id INTEGER PRIMARY KEY,
+        level TEXT NOT NULL,          -- digest of the level
+        level_text TEXT NOT NULL,     -- the level itself, exact
+        name TEXT NOT NULL,
+        player TEXT NOT NULL,
+        body TEXT NOT NULL,
+        outcome TEXT NOT NULL,
+        final_tick INTEGER NOT NULL,
+        gold INTEGER NOT NULL,
+        score INTEGER NOT NULL,       -- ticks
+        digest TEXT NOT NULL,         -- of the world after the final tick
+        inputs BLOB NOT NULL,         -- one byte a tick
+        made_at TEXT NOT NULL,        -- UTC, ISO 8601
+        kept INTEGER NOT NULL         -- the player asked for it
+    , practice INTEGER NOT NULL DEFAULT 0)""",
+    """CREATE TABLE level_best (
+        level TEXT NOT NULL, body TEXT NOT NULL,
+        replay INTEGER NOT NULL REFERENCES replay (id),
+        PRIMARY KEY (level, body)
+    ) WITHOUT ROWID""",
+    "CREATE TABLE death (killer TEXT PRIMARY KEY, times INTEGER NOT NULL) WITHOUT ROWID",
+    """CREATE TABLE played (
+        level TEXT PRIMARY KEY,
+        attempts INTEGER NOT NULL, passes INTEGER NOT NULL, deaths INTEGER NOT NULL,
+        ticks INTEGER NOT NULL, gold INTEGER NOT NULL
+    ) WITHOUT ROWID""",
+    "CREATE TABLE fact (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
+    """CREATE TABLE episode_replay (
+        episode TEXT NOT NULL, body TEXT NOT NULL,
+        place INTEGER NOT NULL,       -- of its level in the episode, from 0
+        replay INTEGER NOT NULL REFERENCES replay (id),
+        PRIMARY KEY (episode, body, place)
+    ) WITHOUT ROWID""",
+    """CREATE TABLE "episode_best" (
+        episode TEXT NOT NULL,        -- digest of its levels
+        body TEXT NOT NULL,
+        score INTEGER NOT NULL,
+        made_at TEXT NOT NULL,
+        PRIMARY KEY (episode, body)
+    ) WITHOUT ROWID""",
+    """CREATE TABLE level_mark (
+        level TEXT NOT NULL, body TEXT NOT NULL,
+        fastest INTEGER NOT NULL,     -- tick of the earliest exit contact
+        most_gold INTEGER NOT NULL,   -- pieces in the passed run that took the most
+        PRIMARY KEY (level, body)
+    ) WITHOUT ROWID""",
+    """CREATE TABLE "progress" (
+        pack TEXT NOT NULL,           -- its name; '' for the game's own
+        grid_column INTEGER NOT NULL,
+        reached_episode INTEGER NOT NULL, reached_level INTEGER NOT NULL,
+        beaten_episode INTEGER NOT NULL, beaten_level INTEGER NOT NULL,
+        PRIMARY KEY (pack, grid_column)
+    ) WITHOUT ROWID""",
+)
+"""A backup's tables are compared with these to the letter: in a file of this version they are written exactly so."""
+
+TABLES = {"replay", "level_best", "level_mark", "episode_best", "episode_replay", "progress", "death", "played", "fact"}
+
+
+class OtherVersionError(Exception):
+    """The file was written by a newer game, or by an older one whose files are not read any more.
+
+    ``age``: "newer" or "older".
+    """
+
+    def __init__(self, version: int) -> None:
+        self.age = "newer" if version > VERSION else "older"
+        super().__init__(f"written by a game that is {self.age}: version {version} instead of {VERSION}")
 
 
 def open_database(name: str, source: Path | None = None, seconds: float = OPENING_SECONDS) -> sqlite3.Connection:
@@ -32,7 +100,7 @@ def open_database(name: str, source: Path | None = None, seconds: float = OPENIN
 
     ``source``: copied into it first. ``seconds``: how long to wait for another program that has locked the file.
 
-    Raises NewerFileError; sqlite3.OperationalError where the file cannot be used now (locked, read-only, no room);
+    Raises OtherVersionError; sqlite3.OperationalError where the file cannot be used now (locked, read-only, no room);
     another sqlite3.DatabaseError where it is damaged or not ours.
     """
     connection = sqlite3.connect(name, timeout=seconds, isolation_level=None)
@@ -48,7 +116,8 @@ def open_database(name: str, source: Path | None = None, seconds: float = OPENIN
             connection.execute("PRAGMA journal_mode = WAL")
         connection.execute("PRAGMA synchronous = FULL")
         connection.execute("PRAGMA foreign_keys = ON")
-        _migrate(connection)
+        if connection.execute("PRAGMA user_version").fetchone()[0] != VERSION:
+            _create(connection)
     except UnicodeDecodeError:
         # What SQLite says about a damaged schema holds its bytes, and Python fails to make a text of them.
         connection.close()
@@ -63,7 +132,7 @@ def copy_in_memory(path: Path) -> sqlite3.Connection:
     """A database in memory with what a file holds that cannot be written; empty where it cannot be read either."""
     try:
         return open_database(":memory:", path)
-    except (sqlite3.Error, NewerFileError):
+    except (sqlite3.Error, OtherVersionError):
         return open_database(":memory:")
 
 
@@ -86,9 +155,9 @@ def _text(data: bytes) -> str:
 
 
 def _check_file(connection: sqlite3.Connection, name: str) -> None:
-    """Raise sqlite3.DatabaseError unless this is a sound file of ours or an empty one, NewerFileError for a newer.
+    """Raise sqlite3.DatabaseError unless this is a sound file of ours or an empty one.
 
-    Raises sqlite3.OperationalError where it can be read only, or not now.
+    Raises OtherVersionError for another version; sqlite3.OperationalError where it can be read only, or not now.
     """
     version = connection.execute("PRAGMA user_version").fetchone()[0]
     application = connection.execute("PRAGMA application_id").fetchone()[0]
@@ -104,8 +173,8 @@ def _check_file(connection: sqlite3.Connection, name: str) -> None:
         raise
     if not empty and application != APPLICATION_ID:
         raise sqlite3.DatabaseError("not a file of this game")
-    if version > VERSION:
-        raise NewerFileError
+    if version not in {0, VERSION}:
+        raise OtherVersionError(version)
     if connection.execute("PRAGMA quick_check(1)").fetchone()[0] != "ok":
         raise sqlite3.DatabaseError("its pages contradict each other")
 
@@ -116,41 +185,27 @@ def _forbids_writing(name: str) -> bool:
         return file.read(_WRITE_VERSION + 1)[_WRITE_VERSION:] > b"\2"
 
 
-def _migrate(connection: sqlite3.Connection) -> None:
-    """Bring a file up to VERSION, in one transaction; a second process that does the same meanwhile waits."""
-    if connection.execute("PRAGMA user_version").fetchone()[0] == VERSION:
-        return
+def _create(connection: sqlite3.Connection) -> None:
+    """Make the tables of a new file, in one transaction; a second process that does the same meanwhile waits."""
     connection.execute("BEGIN IMMEDIATE")
     try:
-        version = connection.execute("PRAGMA user_version").fetchone()[0]
-        for script in MIGRATIONS[version:]:
-            for statement in _statements(script):
+        if connection.execute("PRAGMA user_version").fetchone()[0] != VERSION:
+            for statement in SCHEMA:
                 connection.execute(statement)
-        connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
-        connection.execute(f"PRAGMA user_version = {VERSION}")
+            connection.execute(f"PRAGMA application_id = {APPLICATION_ID}")
+            connection.execute(f"PRAGMA user_version = {VERSION}")
     except BaseException:
         connection.execute("ROLLBACK")
         raise
     connection.execute("COMMIT")
 
 
-def _statements(script: str) -> Iterator[str]:
-    """The single statements of a script (``executescript`` would end the transaction)."""
-    statement = ""
-    for line in script.splitlines(keepends=True):
-        statement += line
-        if sqlite3.complete_statement(statement):
-            yield statement
-            statement = ""
-
-
 def _check_tables(connection: sqlite3.Connection) -> None:
     """Raise sqlite3.DatabaseError where a table is missing, too many or other than in a sound file of its version."""
     version = connection.execute("PRAGMA user_version").fetchone()[0]
     with closing(sqlite3.connect(":memory:", isolation_level=None)) as sound:
-        for script in MIGRATIONS[:version]:
-            for statement in _statements(script):
-                sound.execute(statement)
+        for statement in SCHEMA if version else ():
+            sound.execute(statement)
         for table in sorted(TABLES):
             if _shape(connection, table) != _shape(sound, table):
                 raise sqlite3.DatabaseError(f"the table {table} is not as it should be")
