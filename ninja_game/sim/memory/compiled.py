@@ -92,6 +92,7 @@ class CompiledWorlds(Worlds):
         self._jump_held = self._ninja["jump_held"]
         self._ticks_at_once = max(1, SLICE // self.slots)
         self.level_of = np.zeros(count, np.intp)
+        self._levels_played: list[int] = []
         self.load(range(count), np.arange(count) % len(tables))
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -100,6 +101,7 @@ class CompiledWorlds(Worlds):
 
     def __setstate__(self, state: tuple[Any, ...]) -> None:
         self.states[:], self.level_of[:], self._events[:], self._event_count[:] = state
+        self._levels_played = []
 
     def kernel(self, entry: Kernel[R]) -> Kernel[R]:
         return self._compiled(entry)
@@ -111,7 +113,13 @@ class CompiledWorlds(Worlds):
         return int(self._jump_held[index])
 
     def step(self, keys: int, index: int = 0) -> None:
-        self._step(self.maps, self.level_of[index], self.worlds, index, keys)
+        levels = self._levels_played or self._played()
+        self._step(self.maps, levels[index], self.worlds, index, keys)
+
+    def _played(self) -> list[int]:
+        """Which level each world plays, as Python's own numbers: one of NumPy costs a tenth of a tick."""
+        self._levels_played = self.level_of.tolist()
+        return self._levels_played
 
     def kill(self, cause: int, dx: float, dy: float, index: int = 0) -> None:
         self._compiled(kill_ninja)(self.worlds, index, cause, dx, dy)
@@ -119,7 +127,7 @@ class CompiledWorlds(Worlds):
     def run(self, inputs: bytes, index: int = 0) -> RunRecord:
         keys = np.frombuffer(inputs, np.uint8)
         places, states = np.empty(2 * len(keys)), np.empty(len(keys), np.uint8)
-        kernel, level = self._compiled(run_world), self.level_of[index]
+        kernel, level = self._compiled(run_world), self._played()[index]
         ticks = 0
         for first, last in self._slices(len(keys)):
             here = places[2 * first : 2 * last], states[first:last]
@@ -134,7 +142,7 @@ class CompiledWorlds(Worlds):
         widths = (len(TRACED_PLACES), len(TRACED_NUMBERS), 2 * len(columns), len(columns), len(columns), width)
         kinds = (np.float64, np.int32, np.float64, np.int32, np.uint8, np.uint8)
         record = TraceRecord(*(np.zeros(ticks * wide, kind) for wide, kind in zip(widths, kinds, strict=True)))
-        kernel, level = self._compiled(trace_world), self.level_of[index]
+        kernel, level = self._compiled(trace_world), self._played()[index]
         for first, last in self._slices(ticks):
             here = [part[first * wide : last * wide] for part, wide in zip(record, widths, strict=True)]
             kernel(self.maps, level, self.worlds, index, keys[first:last], columns, *here)
@@ -170,6 +178,7 @@ class CompiledWorlds(Worlds):
         for index, number in zip(which, levels, strict=True):
             self.restore(self._all_states[self.count + number], index)
             self.level_of[index] = number
+        self._levels_played = []
 
     def save_many(self, which: Any) -> NDArray[np.uint8]:
         states: NDArray[np.uint8] = self.states[which]
@@ -178,6 +187,7 @@ class CompiledWorlds(Worlds):
     def restore_many(self, states: Any, which: Any, levels: Any) -> None:
         """A state holds its level's objects."""
         self.states[which], self.level_of[which], self._event_count[which] = states, levels, 0
+        self._levels_played = []
 
     def run_rows(self, inputs: Any, first: int, last: int, *, stop: bool) -> int:
         ticks: int = self._compiled(run_worlds)(self.maps, self.level_of, self.worlds, inputs, first, last, int(stop))

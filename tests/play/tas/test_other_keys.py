@@ -37,7 +37,7 @@ def test_keys_that_only_one_run_has_are_marked(at: TasDriver) -> None:
     turned, jumped = dict.fromkeys(range(20, 25), KEY_LEFT | KEY_RIGHT), dict.fromkeys(range(25, 30), JUMP_HELD)
     assert differing(at) == turned | jumped | dict.fromkeys(range(60, 64), KEY_RIGHT)
     at.event(pygame.MOUSEMOTION, *at.cell(22, "left"))
-    assert at.editor.hint == "22:  R   run 0: L"
+    assert at.editor.hint == "22: R; run 0: L"
     at.press("g")
     assert differing(at) == {}
     at.press("k")
