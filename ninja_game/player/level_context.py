@@ -64,7 +64,6 @@ class LevelContext:
 
     @property
     def level(self) -> Level:
-        """The level to play now."""
         return self.entry.named.level
 
     @property

@@ -57,7 +57,6 @@ class Gamepads:
 
     @property
     def count(self) -> int:
-        """How many pads there are."""
         return len(self._open)
 
     def changes(self, event: pygame.Event) -> list[Change]:

@@ -238,7 +238,6 @@ class FilmJob:
         self._thread: Thread
 
     def start(self) -> None:
-        """Begin."""
         self._thread = run_in_background(self._make, self._fail)
 
     def cancel(self) -> None:
@@ -249,7 +248,6 @@ class FilmJob:
 
     @property
     def percent(self) -> int:
-        """How much of it is made."""
         return min(99, 100 * self._made // self._count)
 
     def _report(self, made: int) -> bool:

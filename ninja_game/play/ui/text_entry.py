@@ -13,7 +13,7 @@ from ninja_game.play.input.keys import chord
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import PAD, TEXT, Widget
 
-LONGEST = 40
+MAX_ENTRY = 40
 """How many characters can be typed unless a field says otherwise."""
 DOUBLE_MS = 400
 """A second click within so many ms selects a word, a third one everything."""
@@ -34,7 +34,7 @@ class TextEntry(Widget):
         text: str,
         put: Callable[[str], object],
         *,
-        longest: int = LONGEST,
+        longest: int = MAX_ENTRY,
         hint: str = "",
         proposed: bool = False,
     ) -> None:
@@ -50,11 +50,9 @@ class TextEntry(Widget):
 
     @property
     def text(self) -> str:
-        """What is in it."""
         return self.edited.text
 
     def show(self, text: str) -> None:
-        """Put another text in it, the cursor at its end."""
         self.edited = EditedText(text, self.edited.longest)
 
     # --- keys ---
@@ -123,7 +121,6 @@ class TextEntry(Widget):
         return True
 
     def drag(self, x: float, y: float) -> bool:
-        """Select up to there."""
         if self._clicks == 1:
             self.edited.go(self._place_at(x), select=True)
         return True
@@ -197,7 +194,6 @@ class EditedText:
 
     @property
     def selected(self) -> str:
-        """What is selected."""
         return self.text[slice(*self.span)]
 
     def go(self, place: int, *, select: bool = False) -> None:
@@ -215,7 +211,6 @@ class EditedText:
             self.go(self._beyond(way) if word else self.cursor + way, select=select)
 
     def select_all(self) -> None:
-        """Select everything."""
         self.anchor, self.cursor = 0, len(self.text)
 
     def select_word(self, place: int) -> None:

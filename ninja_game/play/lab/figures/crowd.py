@@ -46,7 +46,6 @@ class Crowd:
 
     @property
     def objects(self) -> list[Object]:
-        """All of them."""
         return self.world.objects[1:]
 
     def neighbours(self, cell: int, offsets: tuple[int, ...] | list[int] = NINE_CELLS) -> Iterator[Object]:

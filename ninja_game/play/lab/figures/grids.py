@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import cache
 from itertools import pairwise
 
-from ninja_game.play.lab.figure import FIELD, Control, Figure, Setting, Sheet, choice, slider
+from ninja_game.play.lab.figure import FIELD, Control, Figure, FigureSetting, Sheet, choice, slider
 from ninja_game.play.lab.figures.crowd import LEFT, TOP, Crowd, Work
 from ninja_game.sim.grid import cell_at
 from ninja_game.sim.memory.object_fields import Object
@@ -34,17 +34,15 @@ class LooseGrid(Figure):
     name = "grids"
     view = FIELD
     start = (LEFT + 300, TOP + 180)
-    count, radius = Setting(60, "fill"), Setting(8, "resize")
+    count, radius = FigureSetting(60, "fill"), FigureSetting(8, "resize")
     plot = 0
 
     def reset(self) -> None:
-        """The objects where they began."""
         super().reset()
         self.fill()
         self.works = Work(0, 0), Work(0, 0)
 
     def fill(self) -> None:
-        """As many other objects."""
         self.crowd = Crowd(self.count, self.radius)
 
     def resize(self) -> None:
@@ -52,7 +50,6 @@ class LooseGrid(Figure):
         self.crowd.radius = self.radius
 
     def controls(self) -> Sequence[Control]:
-        """How many, how large, what is plotted."""
         return [
             slider("Objects", (10, 400, 10), self, "count"),
             slider("Radius, px", (2, 11, 1), self, "radius"),
@@ -60,13 +57,11 @@ class LooseGrid(Figure):
         ]
 
     def demonstrate(self, tick: int) -> None:
-        """The question wanders; more and more objects."""
         super().demonstrate(tick)
         if tick % 120 == 0:
             self.count = (30, 60, 120)[tick // 120 % 3]
 
     def tick(self) -> None:
-        """All fly on."""
         self.works = self.crowd.move()
 
     def asked(self) -> tuple[set[int], set[int]]:
@@ -77,7 +72,6 @@ class LooseGrid(Figure):
         return {cell + offset for offset in NINE_CELLS}, set(self.crowd.cells_of(probe))
 
     def numbers(self) -> list[tuple[str, str]]:
-        """Both grids, side by side."""
         (loose, normal), (nine, four) = self.works, self.asked()
         in_nine = sum(o.cell in nine for o in self.crowd.objects)
         in_four = sum(bool(self.crowd.cells_of(o) & four) for o in self.crowd.objects)
@@ -90,7 +84,6 @@ class LooseGrid(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        """The lists as chains, the question, the plot."""
         p = sheet.palette
         nine, four = self.asked()
         for cell in nine:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from ninja_game.play.lab.figure import FIELD, Control, Figure, Setting, Sheet, choice, slider
+from ninja_game.play.lab.figure import FIELD, Control, Figure, FigureSetting, Sheet, choice, slider
 from ninja_game.play.lab.figures.crowd import FIVE_CELLS, Crowd
 from ninja_game.sim.grid import cell_at, grid_move
 from ninja_game.sim.memory.object_fields import Object
@@ -16,11 +16,10 @@ class FiveCells(Figure):
 
     name = "pairs"
     view = FIELD
-    count = Setting(60)
+    count = FigureSetting(60)
     speed: float = 4
 
     def reset(self) -> None:
-        """Another scan of the same objects."""
         super().reset()
         self.crowd = Crowd(self.count, 11)
         self.pairs: Iterator[tuple[Object, Object]] = self.crowd.five_cell_pairs()
@@ -31,19 +30,16 @@ class FiveCells(Figure):
         self.truth = {(a.slot, b.slot) for a, b in combinations(objects, 2) if self.crowd.meet(a, b)}
 
     def controls(self) -> Sequence[Control]:
-        """How many, how fast."""
         return [
             slider("Objects", (10, 200, 10), self, "count"),
             slider("Tests a tick", (1, 40, 1), self, "speed"),
         ]
 
     def demonstrate(self, tick: int) -> None:
-        """Scan; then begin again with more."""
         if self.done and tick % 80 == 0:
             self.count = self.count % 120 + 30
 
     def tick(self) -> None:
-        """Some more tests."""
         for _ in range(int(self.speed)):
             pair = next(self.pairs, None)
             if pair is None:
@@ -55,7 +51,6 @@ class FiveCells(Figure):
                 self.found.append((a, b))
 
     def numbers(self) -> list[tuple[str, str]]:
-        """What is found, against all pairs."""
         found, count = set(self.found), self.count
         return [
             ("objects", str(count)),
@@ -89,18 +84,16 @@ class Bullets(Figure):
 
     name = "bullets"
     view = FIELD
-    count = Setting(1000)
+    count = FigureSetting(1000)
     filed = False
 
     def reset(self) -> None:
-        """Targets and bullets where they began."""
         super().reset()
         self.targets = Crowd(60, 10, speed=0.5)
         self.bullets = Crowd(self.count, 1, speed=4, seed=2)
         self.hits = self.list_changes = self.tests = 0
 
     def controls(self) -> Sequence[Control]:
-        """How many, filed or not."""
         return [
             slider("Bullets", (100, 3000, 100), self, "count"),
             choice("Filed too", (("no", False), ("yes", True)), self, "filed"),
@@ -138,7 +131,6 @@ class Bullets(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        """Targets and bullets."""
         p = sheet.palette
         sheet.grid()
         for o in self.targets.objects:
