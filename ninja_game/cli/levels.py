@@ -55,7 +55,7 @@ def pars(pack: Path) -> None:
     from ninja_game.formats.pack.files import PARS
     from ninja_game.formats.pack.pack import Pack
     from ninja_game.formats.pack.pars import MARGINS, write_pars
-    from ninja_game.player.scoring import seconds_text
+    from ninja_game.player.records import seconds_text
     from ninja_game.runs.packs import make_pars
 
     opened = Pack(pack)

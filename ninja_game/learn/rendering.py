@@ -33,7 +33,7 @@ class EpisodePicture:
         import pygame
 
         from ninja_game.play.ui.canvas import Canvas
-        from ninja_game.play.view.render_context import OffscreenContext
+        from ninja_game.play.view.level_view import OffscreenContext
 
         self._pygame = pygame
         self._canvas = Canvas

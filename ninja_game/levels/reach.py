@@ -20,7 +20,7 @@ from ninja_game.sim.states import LOCKED, TRAP
 def _made_door(world: World, record: ObjectSpec) -> Object:
     """The door that the game makes of a well-formed record."""
     door = Object()
-    door.x, door.y = record.values[:2]
+    door.kind, (door.x, door.y) = DOOR, record.values[:2]
     create_door(world, door, record.values)
     grid_remove(world, door)
     return door

@@ -7,7 +7,7 @@ from typing import Any
 
 from ninja_game.budget import NO_LIMIT
 from ninja_game.formats.replay.text import Replay
-from ninja_game.player.scoring import level_score
+from ninja_game.player.records import level_score
 from ninja_game.runs.run import record_replay
 from ninja_game.sim.inputs import MAX_DEMO_TICKS, Demo, pressed
 from ninja_game.sim.level import Level

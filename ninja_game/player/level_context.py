@@ -9,9 +9,8 @@ from ninja_game.formats.pack.pars import Pars
 from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.player_data import PlayerData
-from ninja_game.player.progress import next_par
+from ninja_game.player.progress import SELF, killer_of, next_par
 from ninja_game.player.saving import count_of, told
-from ninja_game.player.statistics import SELF, killer_of
 from ninja_game.sim.level import Level
 from ninja_game.sim.rules import LIFETIME
 from ninja_game.simulation import Body

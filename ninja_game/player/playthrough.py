@@ -18,8 +18,8 @@ from ninja_game.player.catalogue import Entry, Episode
 from ninja_game.player.level_context import LevelContext, Navigation
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import UNLOCKED, Progress, new_unlocks
+from ninja_game.player.records import seconds_text
 from ninja_game.player.saving import EPISODE_BEST, count_of, replay_of, save_best, told
-from ninja_game.player.scoring import seconds_text
 from ninja_game.player.store import Work
 from ninja_game.simulation import Body, Simulation
 

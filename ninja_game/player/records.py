@@ -11,10 +11,10 @@ from typing import NamedTuple
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string, write_level_string
 from ninja_game.formats.replay.text import OUTCOMES, Replay
-from ninja_game.player.scoring import level_score
 from ninja_game.player.store import Store
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import BODIES
+from ninja_game.sim.rules import GOLD_BONUS, LIFETIME, TICK_MS
 
 NEWEST_SHOWN = 500
 """Replays listed at most, the newest first."""
@@ -210,3 +210,22 @@ _DROP_UNNEEDED = f"DELETE FROM replay WHERE {_UNNEEDED}"
 def _digest(replay: Replay) -> str:
     assert replay.level is not None  # noqa: S101 - attempts give replays with their levels
     return replay.level_digest or level_digest(replay.level)
+
+
+def level_score(gold: int, exit_tick: int) -> int:
+    """Score of a passed level in ticks: ``gold`` pieces taken, exit touched in tick ``exit_tick`` (from 0).
+
+    >>> level_score(3, 600)
+    3240
+    """
+    return LIFETIME + GOLD_BONUS * gold - exit_tick
+
+
+def seconds_text(ticks: int) -> str:
+    """Ticks as seconds with three decimals (game.md §1.3).
+
+    >>> seconds_text(3600), seconds_text(1), seconds_text(10176)
+    ('90.000', '0.025', '254.400')
+    """
+    whole, rest = divmod(ticks * TICK_MS, 1000)
+    return f"{whole}.{rest:03d}"

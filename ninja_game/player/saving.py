@@ -10,7 +10,7 @@ from ninja_game.player.attempt import Attempt
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.progress import has_all_gold, medal_of
-from ninja_game.player.scoring import level_score, seconds_text
+from ninja_game.player.records import level_score, seconds_text
 from ninja_game.player.store import Work
 
 SAVED = ": saved"

@@ -206,7 +206,7 @@ def keep_run(parent: int, action: int, played: int, tick: int, memory: SearchMem
 def keep_along(
     parent: int, action: int, start: Start, memory: SearchMemory, goal: Goal, known: KnownRun, resolution: Resolution
 ) -> None:
-    """Make a node of the scratch world if it is no duplicate and may lead to a shorter run than the known one.
+    """Make a node of the scratch world if it is not a duplicate and may lead to a shorter run than the known one.
 
     Its ticks to go are those that the known run still has from its row that is most like the scratch world.
     """

@@ -15,7 +15,7 @@ def is_traced(w: World, slot: int) -> bool:
 
 @fast
 def place_of(w: World, slot: int) -> tuple[float, float]:
-    """Where an object is, px: a turret's aim point, the rocket in flight of a launcher, the filing point of a door."""
+    """Where an object is, px: a turret's aim point, a launcher's rocket in flight, the grid point of a door."""
     o = w.objects[slot]
     if o.kind == kinds.TURRET:
         return o.aim_x, o.aim_y

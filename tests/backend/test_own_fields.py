@@ -89,3 +89,9 @@ def test_searches_along_a_run() -> None:
     settings = SpanSettings(Resolution(cell=4.0, speed=0.35, macro=3, jitter=5), 8.0, 64.0, 0.9, 2.0)
     searches.search(10, 60, settings, seed=1, ticks=3_000, spend=lambda _: True)
     assert searches._search.ticks >= 3_000
+
+
+def test_doors_of_a_checked_level_are_doors() -> None:
+    from ninja_game.levels.warnings import level_findings
+
+    assert isinstance(level_findings(LOCKED), list)

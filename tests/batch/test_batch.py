@@ -215,7 +215,7 @@ def test_a_box_is_a_box() -> None:
     assert batch.digest(0) == run.digest()
 
 
-def test_a_crew_does_every_item_once_and_raises_what_fails() -> None:
+def test_a_pool_does_every_item_once_and_raises_what_fails() -> None:
     seen: list[int] = []
     lock = threading.Lock()
 

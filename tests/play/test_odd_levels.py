@@ -7,9 +7,8 @@ import pytest
 
 from ninja_game.formats.n14.level_string import parse_level_string
 from ninja_game.play.ui.theme import PALETTES
-from ninja_game.play.view.level_view import LevelView
+from ninja_game.play.view.level_view import LevelView, OffscreenContext
 from ninja_game.play.view.overlays import OVERLAY_ACTIONS, Overlays
-from ninja_game.play.view.render_context import OffscreenContext
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.sim.death import kill
 from ninja_game.sim.states import EXPLOSIVE

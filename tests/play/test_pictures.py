@@ -18,9 +18,8 @@ from ninja_game.formats.load import load_levels, load_replays
 from ninja_game.play.lab.screen import export_figure
 from ninja_game.play.ui.theme import PALETTES
 from ninja_game.play.view import level_view
-from ninja_game.play.view.level_view import LevelView
+from ninja_game.play.view.level_view import LevelView, OffscreenContext
 from ninja_game.play.view.overlays import OVERLAY_ACTIONS, Overlays
-from ninja_game.play.view.render_context import OffscreenContext
 from ninja_game.play.view.sprites.thumbnail import thumbnail
 from ninja_game.player.settings import Settings
 from ninja_game.sim.death import kill

@@ -9,9 +9,8 @@ import pytest
 from ninja_game.formats.load import load_replays
 from ninja_game.play.level.play import Phase
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.view.level_view import LevelView
+from ninja_game.play.view.level_view import LevelView, OffscreenContext
 from ninja_game.play.view.overlays import OVERLAY_ACTIONS
-from ninja_game.play.view.render_context import OffscreenContext
 from ninja_game.player.level_context import GhostRun
 from ninja_game.simulation import Simulation
 from tests.support.own_pack import PACK

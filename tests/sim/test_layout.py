@@ -30,7 +30,7 @@ needs_numba = pytest.mark.skipif(not compiled_available(), reason="Numba is not 
 
 
 def span(name: str) -> range:
-    """The bytes of a field of a thing."""
+    """The bytes of a field of an object."""
     assert OBJECT.fields is not None
     dtype, offset = OBJECT.fields[name][:2]
     return range(offset, offset + dtype.itemsize)
@@ -42,7 +42,7 @@ def test_fields_of_one_kind_never_overlap(kind: type) -> None:
         assert not set(span(one.name)) & set(span(other.name)), (one.name, other.name)
 
 
-def test_the_header_lies_alike_in_every_thing_and_kinds_share_what_is_behind_it() -> None:
+def test_the_header_lies_alike_in_every_object_and_kinds_share_what_is_behind_it() -> None:
     header = {byte for field in fields_of(Header) for byte in span(field.name)}
     assert header == set(range(len(header)))
     assert OBJECT.itemsize < sum(len(span(field.name)) for field in fields_of(Object))

@@ -20,8 +20,7 @@ from ninja_game.play.menus.help import room_level
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas, Colour, Point
 from ninja_game.play.ui.theme import Area, Palette, Theme
 from ninja_game.play.ui.widgets import Choice, Slider, Widget
-from ninja_game.play.view.level_view import LevelView
-from ninja_game.play.view.render_context import OffscreenContext
+from ninja_game.play.view.level_view import LevelView, OffscreenContext
 from ninja_game.play.view.sprites.tile_sheet import outline
 from ninja_game.player.settings import Settings
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, EXISTS, UNIT_X, UNIT_Y

@@ -18,7 +18,7 @@ from ninja_game.play.ui.canvas import HEIGHT, WIDTH
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.theme import Area, Theme, wrapped
 from ninja_game.play.ui.widgets import Button, Choice, Slider, Widget
-from ninja_game.play.view.render_context import OffscreenContext
+from ninja_game.play.view.level_view import OffscreenContext
 from ninja_game.play.window import save_picture
 
 TEXT_TOP, NUMBERS_TOP, LINE = 394.0, 452.0, 15.0

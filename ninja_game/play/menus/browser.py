@@ -18,9 +18,8 @@ from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_level_link
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.menus.level_card import all_gold_and_medal, draw_pars, where_from
 from ninja_game.play.menus.replays import watch
-from ninja_game.play.menus.thumbnails import ThumbnailScreen
+from ninja_game.play.menus.thumbnails import ThumbnailScreen, all_gold_and_medal, draw_pars, where_from
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.text_entry import TextEntry
 from ninja_game.play.ui.theme import Area, Theme, counted, unreadable
@@ -28,8 +27,7 @@ from ninja_game.play.ui.widgets import Button, Choice, Widget
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.player.progress import Mark
-from ninja_game.player.records import SavedReplay
-from ninja_game.player.scoring import seconds_text
+from ninja_game.player.records import SavedReplay, seconds_text
 
 ROW = 54
 PICTURE = 60

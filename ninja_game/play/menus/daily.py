@@ -15,13 +15,12 @@ from ninja_game.files.user_folder import LEVELS
 from ninja_game.generator import daily
 from ninja_game.play.app import App
 from ninja_game.play.level.screen import LevelScreen
-from ninja_game.play.menus.level_card import draw_pars, time_and_par
-from ninja_game.play.menus.thumbnails import ThumbnailScreen
+from ninja_game.play.menus.thumbnails import ThumbnailScreen, draw_pars, time_and_par
 from ninja_game.play.ui.theme import counted, wrapped
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.player.catalogue import Entry
 from ninja_game.player.playthrough import LevelRun
-from ninja_game.player.scoring import seconds_text
+from ninja_game.player.records import seconds_text
 from ninja_game.runtime import require_desktop, run_in_background
 
 LEFT, TOP, WIDE = 44, 74, 480

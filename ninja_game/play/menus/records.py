@@ -13,7 +13,7 @@ from ninja_game.play.menus.replays import watch
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import Widget
-from ninja_game.player.scoring import seconds_text
+from ninja_game.player.records import seconds_text
 from ninja_game.sim.rules import TICK_MS
 
 ROW = 30

@@ -25,9 +25,8 @@ from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.ui.list_view import ListView
 from ninja_game.play.ui.theme import Area, Theme, unreadable
 from ninja_game.play.ui.widgets import Widget
-from ninja_game.player.records import SavedReplay
+from ninja_game.player.records import SavedReplay, level_score, seconds_text
 from ninja_game.player.saving import forget_replay
-from ninja_game.player.scoring import level_score, seconds_text
 
 ROW = 34
 FILES_SHOWN = 300

@@ -8,17 +8,18 @@ from typing import TYPE_CHECKING, Protocol
 
 import pygame
 
-from ninja_game.play.ui.canvas import Point
-from ninja_game.play.ui.theme import Palette
+from ninja_game.play.audio.player import AudioOutput
+from ninja_game.play.ui.canvas import Canvas, Point
+from ninja_game.play.ui.theme import Palette, Theme, palette_named
 from ninja_game.play.view.effects.effects import Effects
 from ninja_game.play.view.effects.particles import Particles
 from ninja_game.play.view.ninja.ninja_animation import NinjaAnimation, draw_ghost, draw_ninja, draw_ragdoll
 from ninja_game.play.view.ninja.ragdoll import Ragdoll
-from ninja_game.play.view.render_context import RenderContext
 from ninja_game.play.view.sprites.backdrop import Backdrop
 from ninja_game.play.view.sprites.drawing import DrawTarget, SpriteBook
 from ninja_game.play.view.sprites.moving_sprites import draw_moving
 from ninja_game.play.view.sprites.object_animation import ObjectAnimation
+from ninja_game.player.settings import Settings
 from ninja_game.sim.events import DIED
 from ninja_game.sim.memory.schema import World
 from ninja_game.sim.states import DEAD
@@ -244,3 +245,25 @@ class LevelView:
     def also_covered(self, rect: pygame.Rect) -> None:
         """Something else was drawn over the level there; it is taken away before the next picture."""
         self._covered.append(rect)
+
+
+class RenderContext(Protocol):
+    """Where a level is shown."""
+
+    theme: Theme
+    canvas: Canvas
+    audio_output: AudioOutput
+
+    @property
+    def settings(self) -> Settings:
+        """What the player has chosen."""
+
+
+class OffscreenContext:
+    """A silent context without a window, for pictures and films. ``size``: px."""
+
+    def __init__(self, size: tuple[int, int], settings: Settings | None = None) -> None:
+        self.settings = settings or Settings()
+        self.canvas = Canvas(size)
+        self.theme = Theme(palette_named(self.settings.palette), self.canvas)
+        self.audio_output = AudioOutput()

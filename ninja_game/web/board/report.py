@@ -13,7 +13,7 @@ from ninja_game.errors import FormatError
 from ninja_game.files.reading import read_utf8
 from ninja_game.files.shown_text import shown_text
 from ninja_game.play.ui.theme import counted
-from ninja_game.player.scoring import seconds_text
+from ninja_game.player.records import seconds_text
 from ninja_game.web.board.ranking import ORDERS, Ranking
 from ninja_game.web.board.runs import Dates, Key, Rejected, Run, ValidatedRuns
 

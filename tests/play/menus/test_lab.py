@@ -19,8 +19,7 @@ from ninja_game.play.lab.figures.catalogue import FIGURES
 from ninja_game.play.lab.figures.cells import CellsTouched, NineCells
 from ninja_game.play.lab.figures.drones import WalkingEnemies
 from ninja_game.play.lab.figures.edges import STATES, EdgeStates
-from ninja_game.play.lab.figures.grids import LooseGrid
-from ninja_game.play.lab.figures.meetings import Bullets, FiveCells
+from ninja_game.play.lab.figures.grids import Bullets, FiveCells, LooseGrid
 from ninja_game.play.lab.figures.one_tick import PHASES, PLAYED, OneTick
 from ninja_game.play.lab.figures.projection import PUSH, Projection
 from ninja_game.play.lab.figures.rays import RayCast

@@ -14,8 +14,8 @@ from ninja_game.play.level.screen import LevelScreen
 from ninja_game.play.main import first_screen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.episodes import NAMED, Cells, EpisodeGrid
-from ninja_game.play.menus.level_card import time_and_par
 from ninja_game.play.menus.main_menu import MainMenu
+from ninja_game.play.menus.thumbnails import time_and_par
 from ninja_game.player.progress import Mark
 from tests.support.draw_log import DrawLog
 from tests.support.menu_driver import MenuDriver

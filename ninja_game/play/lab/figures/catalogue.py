@@ -6,8 +6,7 @@ from ninja_game.play.lab.figure import Figure
 from ninja_game.play.lab.figures.cells import CellsTouched, NineCells
 from ninja_game.play.lab.figures.drones import WalkingEnemies
 from ninja_game.play.lab.figures.edges import EdgeStates
-from ninja_game.play.lab.figures.grids import LooseGrid
-from ninja_game.play.lab.figures.meetings import Bullets, FiveCells
+from ninja_game.play.lab.figures.grids import Bullets, FiveCells, LooseGrid
 from ninja_game.play.lab.figures.one_tick import OneTick
 from ninja_game.play.lab.figures.projection import Projection
 from ninja_game.play.lab.figures.rays import RayCast

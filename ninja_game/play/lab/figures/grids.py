@@ -2,15 +2,109 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from functools import cache
-from itertools import pairwise
+from itertools import combinations, pairwise
+from random import Random
+from typing import NamedTuple
 
-from ninja_game.play.lab.figure import FIELD, Control, Figure, FigureSetting, Sheet, choice, slider
-from ninja_game.play.lab.figures.crowd import LEFT, TOP, Crowd, Work
-from ninja_game.sim.grid import cell_at
+from ninja_game.play.lab.figure import FIELD, FIGURE, Control, Figure, FigureSetting, Sheet, choice, slider
+from ninja_game.sim.grid import cell_at, grid_insert, grid_move
 from ninja_game.sim.memory.object_fields import Object
+from ninja_game.sim.memory.schema import World
 from ninja_game.sim.objects.dispatch import NINE_CELLS
+from ninja_game.sim.rules import STRIDE
+
+LEFT, TOP = FIELD.left, FIELD.top
+RIGHT, BOTTOM = LEFT + FIGURE[2] / FIELD.zoom, TOP + FIGURE[3] / FIELD.zoom
+
+FIVE_CELLS = (0, 1, STRIDE - 1, STRIDE, STRIDE + 1)
+"""The rest of the own list, and the lists right, below left, below, below right: every pair of neighbours once."""
+
+
+class Work(NamedTuple):
+    """What a tick cost: insertions and removals in lists, and tests of two objects."""
+
+    list_changes: int
+    tests: int
+
+
+class Crowd:
+    """``count`` discs of ``radius`` px that fly about and are filed in the loose grid of a world of their own."""
+
+    def __init__(self, count: int, radius: float, *, speed: float = 1.5, seed: int = 1) -> None:
+        rng = Random(seed)  # noqa: S311 - presentation
+        self.radius = radius
+        self.world = World()
+        self.world.objects += [Object() for _ in range(count)]
+        self.velocities = [(0.0, 0.0)]
+        for slot in range(1, count + 1):
+            o = self.world.objects[slot]
+            o.slot = slot
+            o.x, o.y = rng.uniform(LEFT + 10, RIGHT - 10), rng.uniform(TOP + 10, BOTTOM - 10)
+            self.velocities.append((rng.uniform(-speed, speed), rng.uniform(-speed, speed)))
+            grid_insert(self.world, o)
+
+    @property
+    def objects(self) -> list[Object]:
+        return self.world.objects[1:]
+
+    def neighbours(self, cell: int, offsets: tuple[int, ...] | list[int] = NINE_CELLS) -> Iterator[Object]:
+        """The objects in the lists of some cells about one, in the lists' order."""
+        for offset in offsets:
+            slot = self.world.heads[cell + offset]
+            while slot:
+                yield self.world.objects[slot]
+                slot = self.world.objects[slot].next
+
+    def cells_of(self, o: Object) -> frozenset[int]:
+        """The cells that an object's box touches, as a normal grid files it."""
+        r = self.radius
+        return frozenset(cell_at(o.x + dx, o.y + dy) for dx in (-r, r) for dy in (-r, r))
+
+    def move(self) -> tuple[Work, Work]:
+        """Let a tick pass. What it cost the loose grid, and what it would have cost a normal one."""
+        loose = normal = 0
+        for o in self.objects:
+            before = self.cells_of(o)
+            self.step(o)
+            # A removal and an insertion, if the cell is another one.
+            loose += 2 * grid_move(self.world, o)
+            normal += len(before ^ self.cells_of(o))
+        filed = Counter(cell for o in self.objects for cell in self.cells_of(o))
+        normal_tests = sum(filed[cell] - 1 for o in self.objects for cell in self.cells_of(o))
+        loose_tests = sum(1 for o in self.objects for _ in self.neighbours(o.cell))
+        return Work(loose, loose_tests - len(self.objects)), Work(normal, normal_tests)
+
+    def step(self, o: Object) -> None:
+        """Fly on; at the walls turn back."""
+        vx, vy = self.velocities[o.slot]
+        o.x, o.y = o.x + vx, o.y + vy
+        if not LEFT + self.radius < o.x < RIGHT - self.radius:
+            vx, o.x = -vx, min(max(o.x, LEFT + self.radius), RIGHT - self.radius)
+        if not TOP + self.radius < o.y < BOTTOM - self.radius:
+            vy, o.y = -vy, min(max(o.y, TOP + self.radius), BOTTOM - self.radius)
+        self.velocities[o.slot] = vx, vy
+
+    def meet(self, a: Object, b: Object) -> bool:
+        """Whether two discs overlap."""
+        return (a.x - b.x) ** 2 + (a.y - b.y) ** 2 < (2 * self.radius) ** 2
+
+    def five_cell_pairs(self) -> Iterator[tuple[Object, Object]]:
+        """All pairs that could meet, each once: for every object the rest of its list, then four neighbours' lists."""
+        for cell, head in enumerate(self.world.heads):
+            slot = head
+            while slot:
+                o = self.world.objects[slot]
+                rest = o.next
+                while rest:
+                    yield o, self.world.objects[rest]
+                    rest = self.world.objects[rest].next
+                for other in self.neighbours(cell, FIVE_CELLS[1:]):
+                    yield o, other
+                slot = o.next
+
 
 MEASURED = (25, 50, 100, 200, 400)
 """Numbers of objects at which the plot is measured."""
@@ -115,3 +209,132 @@ class LooseGrid(Figure):
         sheet.line(p.faint, (x, y + h), (x + w, y + h))
         sheet.text(f"a tick: up to {most}", x + w - 55, y - 12, size=8)
         sheet.text(f"objects: up to {MEASURED[-1]}", x + w - 55, y + h + 11, size=8)
+
+
+class FiveCells(Figure):
+    """The scan for all pairs in slow motion."""
+
+    name = "pairs"
+    view = FIELD
+    count = FigureSetting(60)
+    speed: float = 4
+
+    def reset(self) -> None:
+        super().reset()
+        self.crowd = Crowd(self.count, 11)
+        self.pairs: Iterator[tuple[Object, Object]] = self.crowd.five_cell_pairs()
+        self.tested: list[tuple[Object, Object]] = []
+        self.found: list[tuple[int, int]] = []
+        self.done = False
+        objects = self.crowd.objects
+        self.truth = {(a.slot, b.slot) for a, b in combinations(objects, 2) if self.crowd.meet(a, b)}
+
+    def controls(self) -> Sequence[Control]:
+        return [
+            slider("Objects", (10, 200, 10), self, "count"),
+            slider("Tests a tick", (1, 40, 1), self, "speed"),
+        ]
+
+    def demonstrate(self, tick: int) -> None:
+        if self.done and tick % 80 == 0:
+            self.count = self.count % 120 + 30
+
+    def tick(self) -> None:
+        for _ in range(int(self.speed)):
+            pair = next(self.pairs, None)
+            if pair is None:
+                self.done = True
+                return
+            self.tested.append(pair)
+            if self.crowd.meet(*pair):
+                a, b = sorted((pair[0].slot, pair[1].slot))
+                self.found.append((a, b))
+
+    def numbers(self) -> list[tuple[str, str]]:
+        found, count = set(self.found), self.count
+        return [
+            ("objects", str(count)),
+            ("tests so far", f"{len(self.tested)}{', done' if self.done else ''}"),
+            ("tests of all pairs", f"{count * (count - 1) // 2} (n x n: {count * count})"),
+            ("pairs found", f"{len(found)} of {len(self.truth)}"),
+            ("found twice", str(len(self.found) - len(found))),
+            ("missed", str(len(self.truth - found)) if self.done else "not done yet"),
+        ]
+
+    def draw(self, sheet: Sheet) -> None:
+        """The five cells of the present test, the pairs found."""
+        p = sheet.palette
+        if self.tested and not self.done:
+            cell = self.tested[-1][0].cell
+            for offset in FIVE_CELLS:
+                sheet.shade(cell + offset, p.switch if offset else p.good, 90)
+        sheet.grid()
+        for o in self.crowd.objects:
+            sheet.circle(p.faint, o.x, o.y, self.crowd.radius, 1.2)
+        for a, b in self.found:
+            one, two = self.crowd.world.objects[a], self.crowd.world.objects[b]
+            sheet.line(p.accent, (one.x, one.y), (two.x, two.y), 3)
+        if self.tested and not self.done:
+            one, two = self.tested[-1]
+            sheet.line(p.ninja, (one.x, one.y), (two.x, two.y), 1.5)
+
+
+class Bullets(Figure):
+    """Many bullets against a few targets, with and without filing the bullets."""
+
+    name = "bullets"
+    view = FIELD
+    count = FigureSetting(1000)
+    filed = False
+
+    def reset(self) -> None:
+        super().reset()
+        self.targets = Crowd(60, 10, speed=0.5)
+        self.bullets = Crowd(self.count, 1, speed=4, seed=2)
+        self.hits = self.list_changes = self.tests = 0
+
+    def controls(self) -> Sequence[Control]:
+        return [
+            slider("Bullets", (100, 3000, 100), self, "count"),
+            choice("Filed too", (("no", False), ("yes", True)), self, "filed"),
+        ]
+
+    def demonstrate(self, tick: int) -> None:
+        """Filed for three seconds, then not."""
+        self.filed = tick // 120 % 2 == 1
+
+    def tick(self) -> None:
+        """All fly on; every bullet asks the nine cells for targets."""
+        targets, bullets = self.targets, self.bullets
+        self.hits = self.list_changes = self.tests = 0
+        for o in targets.objects:
+            targets.step(o)
+            self.list_changes += 2 * grid_move(targets.world, o)
+        for o in bullets.objects:
+            bullets.step(o)
+            cell = cell_at(o.x, o.y)
+            if self.filed:
+                self.list_changes += 2 * grid_move(bullets.world, o)
+                # Whoever walks the lists meets the other bullets too.
+                self.tests += sum(1 for _ in bullets.neighbours(cell)) - 1
+            for target in targets.neighbours(cell):
+                self.tests += 1
+                self.hits += (o.x - target.x) ** 2 + (o.y - target.y) ** 2 < targets.radius**2
+
+    def numbers(self) -> list[tuple[str, str]]:
+        """What a tick costs."""
+        return [
+            ("bullets, targets", f"{self.count}, {len(self.targets.objects)}"),
+            ("hits in this tick", str(self.hits)),
+            ("list changes", str(self.list_changes)),
+            ("objects looked at", str(self.tests)),
+        ]
+
+    def draw(self, sheet: Sheet) -> None:
+        p = sheet.palette
+        sheet.grid()
+        for o in self.targets.objects:
+            sheet.circle(p.switch, o.x, o.y, self.targets.radius, 1.5)
+        size = max(2, round(2 * sheet.canvas.scale))
+        for o in self.bullets.objects:
+            sheet.surface.fill(p.bad if self.filed else p.ninja, (*sheet.canvas.point(o.x, o.y), size, size))

@@ -10,10 +10,9 @@ import pygame
 from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.ui.canvas import HEIGHT, WIDTH, Canvas, Lens, Point
 from ninja_game.play.ui.theme import Palette
-from ninja_game.play.view.level_view import LevelView
+from ninja_game.play.view.level_view import LevelView, OffscreenContext
 from ninja_game.play.view.ninja.ninja_animation import NinjaAnimation
 from ninja_game.play.view.ninja.ragdoll import Ragdoll
-from ninja_game.play.view.render_context import OffscreenContext
 from ninja_game.sim.inputs import fitted_inputs
 from ninja_game.sim.memory.schema import World
 from ninja_game.simulation import SaveState, Simulation
