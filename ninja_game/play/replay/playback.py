@@ -128,5 +128,5 @@ class ReplayBar:
     @staticmethod
     def write(surface: pygame.Surface, theme: Theme, tick: int, end: int, speed: str) -> pygame.Rect:
         """Tick and speed as text."""
-        text = f"{min(tick, end)} / {end}   {speed}"
+        text = f"{min(tick, end)} / {end}, {speed}"
         return theme.text(surface, text, 768, 583, size=9, colour=theme.palette.on_tile, align="right")

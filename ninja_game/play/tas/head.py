@@ -40,11 +40,11 @@ class Head(TasPart):
             width=right / 2 - 62,
         )
         x = title.right / theme.canvas.scale + 12
-        saved = "" if not session.file.path and session.is_saved else "  saved" if session.is_saved else "  not saved"
+        saved = "" if not session.file.path and session.is_saved else ", saved" if session.is_saved else ", not saved"
         state = session.journal.problem or file + saved
         theme.text(surface, state, x, 9, size=9.5, colour=palette.on_tile, width=right - 224 - x)
         words = {"exit": f"exit in tick {end}", "dead": f"dead in tick {end}"}.get(outcome, "no exit yet")
-        seconds = f"  {(end + 1) / TICKS_PER_SECOND:.3f} s" if end >= 0 else ""
+        seconds = f", {(end + 1) / TICKS_PER_SECOND:.3f} s" if end >= 0 else ""
         theme.text(surface, words + seconds, right, 8, size=11, bold=True, colour=palette.on_tile, align="right")
 
 
@@ -70,11 +70,11 @@ class Foot(TasPart):
         editor, palette, (_, y, w, _) = self.editor, theme.palette, self.area
         theme.canvas.fill_rect(surface, palette.tile, *self.area)
         first, last = editor.selection
-        selected = f"   {last - first} selected" if last - first > 1 else ""
+        selected = f", {last - first} selected" if last - first > 1 else ""
         timeline = editor.session.timeline
-        known = "" if timeline.complete else f"   simulated up to {timeline.simulated_until}"
+        known = "" if timeline.complete else f", simulated up to {timeline.simulated_until}"
         other = editor.others[editor.chosen % len(editor.others)] if editor.others and editor.ghosts else None
-        beside = f"   beside {theme.fit(other.name, 110, 9.5)}" if other else ""
+        beside = f", beside {theme.fit(other.name, 110, 9.5)}" if other else ""
         text = f"tick {editor.cursor} of {len(editor.track)}{selected}{known}{beside}"
         theme.text(surface, text, 8, y + 5, size=9.5, colour=palette.on_tile)
         hint = editor.hint or "Click L R J to change keys; Enter: take over; F: search; F1: help"

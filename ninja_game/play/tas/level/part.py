@@ -243,16 +243,16 @@ class LevelPart(TasPart):
         if take_over.on:
             now = "press a key to begin" if take_over.waiting else "tick by tick" if take_over.still else "your keys"
             go_on = "go on" if take_over.still else "pause"
-            text = f"Taken over: {now}.   Enter: end   Space: {go_on}   . ,: a tick on, back"
+            text = f"Taken over: {now}. Enter: end; Space: {go_on}; . and ,: step"
         elif self.playing.on:
-            text = "Playing.   Space: stop"
+            text = "Playing. Space: stop"
         else:
-            text = "Space: play   Enter: take over"
+            text = "Space: play; Enter: take over"
         x, y, w, h = self.area
         palette, y = theme.palette, y + h - LINE
         theme.canvas.fill_rect(surface, palette.tile, x, y, w, LINE)
         zoom = self.picture.camera.zoom
-        speed = f"zoom {zoom:.1f}   " * (zoom > 1) + f"x {SPEEDS[self.playing.speed]:g}"
+        speed = f"zoom {zoom:.1f}, " * (zoom > 1) + f"speed x {SPEEDS[self.playing.speed]:g}"
         right = theme.text(surface, speed, x + w - 6, y + 1, size=LETTERS, colour=palette.on_tile, align="right")
         room = right.left / theme.canvas.scale - x - 12
         theme.text(surface, text, x + 6, y + 1, size=LETTERS, colour=palette.on_tile, bold=take_over.on, width=room)

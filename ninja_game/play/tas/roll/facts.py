@@ -182,7 +182,7 @@ def changed_ticks(track: InputTrack, saved: InputTrack) -> range | bytes:
 def keys_in_words(row: RowFacts, other: str) -> str:
     """The keys of a row, and those of the run that is compared, which is called ``other``."""
     ours, theirs = (KEY_NAMES[keys & KEYS_DOWN] for keys in (row.keys, row.keys ^ row.differs))
-    return f"{row.tick}:  {ours}   {other}: {theirs}"
+    return f"{row.tick}: {ours}; {other}: {theirs}"
 
 
 def in_words(row: RowFacts, *, numbers: bool) -> str:
