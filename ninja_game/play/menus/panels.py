@@ -109,7 +109,7 @@ class Menu(Panel):
         return self._rows
 
 
-class Form(Menu):
+class FormPanel(Menu):
     """Fields to fill in above two buttons. ``fields``: prompt, text, how many characters fit in.
 
     The text of a single field is a proposal.

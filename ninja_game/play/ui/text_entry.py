@@ -202,13 +202,13 @@ class EditedText:
         if not select:
             self.anchor = self.cursor
 
-    def step(self, way: int, *, word: bool = False, select: bool = False) -> None:
+    def step(self, direction: int, *, word: bool = False, select: bool = False) -> None:
         """Go to the right (1) or left (-1): by a character, a word, or to the end of what was selected."""
         first, last = self.span
         if first < last and not (word or select):
-            self.go(last if way > 0 else first)
+            self.go(last if direction > 0 else first)
         else:
-            self.go(self._beyond(way) if word else self.cursor + way, select=select)
+            self.go(self._beyond(direction) if word else self.cursor + direction, select=select)
 
     def select_all(self) -> None:
         self.anchor, self.cursor = 0, len(self.text)
@@ -240,20 +240,20 @@ class EditedText:
         if self._past:
             self.text, self.cursor, self.anchor = self._past.pop()
 
-    def erase(self, way: int, *, word: bool = False) -> None:
+    def erase(self, direction: int, *, word: bool = False) -> None:
         """Take out what is selected; else the character, or the word, at the right (1) or left (-1)."""
         if self.cursor == self.anchor:
-            self.step(way, word=word, select=True)
+            self.step(direction, word=word, select=True)
         self.put("")
 
-    def _beyond(self, way: int) -> int:
+    def _beyond(self, direction: int) -> int:
         """The end of the next word at the right (1), or the begin of the one at the left (-1)."""
-        place, behind = self.cursor, 0 if way > 0 else 1
-        end = len(self.text) if way > 0 else 0
+        place, behind = self.cursor, 0 if direction > 0 else 1
+        end = len(self.text) if direction > 0 else 0
         while place != end and not self.text[place - behind].isalnum():
-            place += way
+            place += direction
         while place != end and self.text[place - behind].isalnum():
-            place += way
+            place += direction
         return place
 
 
