@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from unicodedata import category, normalize
 
-LONGEST = 200
+MAX_SHOWN = 200
 """How many characters of a text are shown; no name of a level or player comes near."""
 
 MOST_NAME_BYTES = 200
@@ -23,7 +23,7 @@ _RESERVED = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[1-9¹²³])
 """Names that mean devices on Windows, whatever their suffix."""
 
 
-def shown_text(text: str, longest: int = LONGEST) -> str:
+def shown_text(text: str, longest: int = MAX_SHOWN) -> str:
     r"""The text as one line of printable characters, for terminals, reports and windows.
 
     White space becomes one blank, so that no name fills a line up to where another seems to begin. Every other
@@ -56,7 +56,7 @@ def file_stem(text: str, otherwise: str = "") -> str:
     >>> file_stem("Über - the hill?"), file_stem("../..", "replay"), file_stem("AUX.1")
     ('über-the-hill', 'replay', '_aux.1')
     """
-    stem = _NOT_IN_NAMES.sub("-", normalize("NFC", text[:LONGEST].lower()))[:_LONGEST_STEM].strip("-.")
+    stem = _NOT_IN_NAMES.sub("-", normalize("NFC", text[:MAX_SHOWN].lower()))[:_LONGEST_STEM].strip("-.")
     return "_" * (_RESERVED.fullmatch(stem) is not None) + stem or otherwise
 
 

@@ -105,7 +105,6 @@ class ScreenStack:
         self._uncover()
 
     def clear(self) -> None:
-        """Leave every screen."""
         while self._screens:
             self._screens.pop().leave()
 
@@ -195,7 +194,6 @@ class App:
 
     @property
     def surface(self) -> pygame.Surface:
-        """The window's picture."""
         return self.window.surface
 
     @property
@@ -409,7 +407,6 @@ class BossScreen(Screen):
         pygame.display.set_caption("Budget")
 
     def leave(self) -> None:
-        """Call the window by its name again."""
         pygame.display.set_caption(TITLE)
 
     def handle(self, event: InputEvent) -> None:

@@ -52,7 +52,6 @@ class Window:
 
     @property
     def surface(self) -> pygame.Surface:
-        """What is drawn on."""
         surface = pygame.display.get_surface()
         assert surface is not None  # noqa: S101 - the window is open
         return surface

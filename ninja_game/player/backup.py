@@ -23,7 +23,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 from ninja_game.budget import PAGE_BUDGET
 from ninja_game.errors import DAMAGED, FileError, NinjaGameError
 from ninja_game.files.reading import files_in, read_bytes
-from ninja_game.files.shown_text import LONGEST, name_key, name_problem, shown_text
+from ninja_game.files.shown_text import MAX_SHOWN, name_key, name_problem, shown_text
 from ninja_game.files.tree import Tree
 from ninja_game.files.user_folder import EXPORTS, LEVELS, RECORDS, REPLAYS, SETTINGS, quarantine
 from ninja_game.files.writing import write_atomically
@@ -263,7 +263,7 @@ def _replay(theirs: Records, number: int, memory: str) -> Replay | None:
         if replay and replay.level and replay.level_digest == level_digest(replay.level):
             (recording,) = parse_replays(write_replay(replay))
             if not (problems := verify_recording(recording, memory, budget=PAGE_BUDGET).problems):
-                return replace(replay, name=replay.name[:LONGEST], author=replay.author[:LONGEST])
+                return replace(replay, name=replay.name[:MAX_SHOWN], author=replay.author[:MAX_SHOWN])
             theirs.store.report(f"A replay in the records does not do what it says ({problems[0]}).")
     except NinjaGameError as error:
         theirs.store.report(f"A replay in the records is damaged ({error}).")

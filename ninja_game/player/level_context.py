@@ -63,7 +63,6 @@ class LevelContext:
 
     @property
     def level(self) -> Level:
-        """The level to play now."""
         return self.entry.named.level
 
     @property

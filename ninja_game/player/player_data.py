@@ -43,11 +43,9 @@ class PlayerData:
 
     @property
     def messages(self) -> list[str]:
-        """All messages so far."""
         return self._messages + (self.store.messages if "store" in self.__dict__ else [])
 
     def report(self, message: str) -> None:
-        """Add a message."""
         self._messages.append(message)
 
     def new_messages(self) -> str:

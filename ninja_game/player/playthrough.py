@@ -127,7 +127,6 @@ class EpisodeRun(LevelContext):
 
     @property
     def title(self) -> str:
-        """Episode, number and name of the present level."""
         return self.episode.title(self.position)
 
     @property

@@ -9,7 +9,7 @@ import pygame
 import pytest
 
 from ninja_game.play.input.keys import SCANCODES
-from ninja_game.play.menus.panels import Form
+from ninja_game.play.menus.panels import FormPanel
 from ninja_game.play.ui.text_entry import EditedText, TextEntry
 from tests.support.menu_driver import MenuDriver
 
@@ -21,7 +21,9 @@ class Writer(MenuDriver):
 
     def __init__(self, folder: Path) -> None:
         super().__init__(folder)
-        self.form = Form(self.app, "Two fields", [("first", "one two-three", 40), ("second", "", 200)], "Yes", print)
+        self.form = FormPanel(
+            self.app, "Two fields", [("first", "one two-three", 40), ("second", "", 200)], "Yes", print
+        )
         self.app.push(self.form)
         self.frames(2)
 

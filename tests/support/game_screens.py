@@ -383,7 +383,7 @@ def _daily(driver: MenuDriver) -> Iterator[str]:
         assert maker is not None
         maker.progress = "level 3 of 8"
         yield "daily-being-made"
-        maker.problem = "No level could be made of this day: No space left"
+        maker.problem = "No level could be made for this day: No space left"
         endless.is_alive = lambda: False
         driver.frames(2)
         yield "daily-problem"

@@ -24,7 +24,7 @@ class ScriptedKeys(Bindings):
 
     script: list[int]
 
-    def held(self) -> int:
+    def poll(self) -> int:
         """The next tick's input; nothing where the script has ended."""
         return self.script.pop(0) if self.script else 0
 

@@ -41,7 +41,7 @@ def busy(ticks: int, make: Any) -> Callable[[App], object]:
     busy_level, busy_run, restless = make
 
     def show(app: App) -> None:
-        app.controls.held = restless().held  # type: ignore[method-assign]
+        app.controls.poll = restless().poll  # type: ignore[method-assign]
         screen = LevelScreen(app, busy_run(app.player, Entry(NamedLevel("busy", "", "", busy_level(), ""), "yours")))
         app.push(screen)
         frames(app, 1)
@@ -122,11 +122,11 @@ def show_scene(app: App, scene: Scene) -> None:
     _, palette, show = scene
     random.seed(1)
     kept, play.Random = play.Random, lambda seed=None: Random(seed or 1)  # type: ignore[assignment,attr-defined]
-    held = app.controls.held
+    poll = app.controls.poll
     try:
         app.stack.clear()
         app.notice = ""
         app.change_settings(palette=palette)
         show(app)
     finally:
-        play.Random, app.controls.held = kept, held  # type: ignore[attr-defined,method-assign]
+        play.Random, app.controls.poll = kept, poll  # type: ignore[attr-defined,method-assign]

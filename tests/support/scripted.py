@@ -33,7 +33,7 @@ class ScriptedControls(Bindings):
         self.held_bits = 0
         self.script: Iterator[int] | None = None
 
-    def held(self) -> int:
+    def poll(self) -> int:
         if self.script is not None:
             return next(self.script, 0)
         return self.held_bits

@@ -60,7 +60,7 @@ class Restless(Bindings):
             for _ in range(rng.randrange(4, 20)):
                 yield bits
 
-    def held(self) -> int:
+    def poll(self) -> int:
         """The next of the keys."""
         return next(self._keys)
 

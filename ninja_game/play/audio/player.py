@@ -99,7 +99,6 @@ class AudioPlayer(AudioOutput):
                 return
 
     def quiet(self) -> None:
-        """End all sounds."""
         if self.works:
             pygame.mixer.stop()
 

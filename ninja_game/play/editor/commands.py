@@ -26,7 +26,7 @@ from ninja_game.play.editor.trying import TryScreen
 from ninja_game.play.editor.view import EditorView
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.panels import Form, Menu, nothing
+from ninja_game.play.menus.panels import FormPanel, Menu, nothing
 from ninja_game.play.ui.widgets import Button, Widget
 from ninja_game.play.workspace.document import Action, DocumentCommands
 from ninja_game.player.catalogue import Entry
@@ -207,7 +207,7 @@ class EditorCommands(DocumentCommands):
             session.tools.history.change(replace(session.draft, name=name))
             self.save_to(folder / f"{file_stem(name, 'level')}{SUFFIX}", then)
 
-        self.app.push(Form(self.app, "Save as", fields, "Save", on_accept))
+        self.app.push(FormPanel(self.app, "Save as", fields, "Save", on_accept))
 
     def about(self) -> None:
         """Name, author, comment, what the level teaches."""
@@ -219,7 +219,7 @@ class EditorCommands(DocumentCommands):
             tools.finish()
             tools.history.change(Draft(tools.draft.level, *texts))
 
-        self.app.push(Form(self.app, "About the level", fields, "OK", on_accept))
+        self.app.push(FormPanel(self.app, "About the level", fields, "OK", on_accept))
 
     def open(self) -> None:
         self.unless_unsaved(lambda: self.app.push(LevelChoice(self.app, self.edit_entry)))

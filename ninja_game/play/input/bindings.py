@@ -38,7 +38,6 @@ class Bindings:
         self.bind(keys or {}, pad or {})
 
     def bind(self, keys: Inputs, pad: Inputs) -> None:
-        """Take other bindings."""
         self.unknown = sorted({name for names in keys.values() for name in names if not scancode_named(name)})
         self.keys = {}
         for action, default in ACTIONS.items():
@@ -59,8 +58,11 @@ class Bindings:
         ]
         self._move_pad = [(bit, set(self.pad[action])) for action, bit in MOVES]
 
-    def held(self) -> int:
-        """What is held right now: 1 left + 2 right + 4 jump, read from the devices at this moment."""
+    def poll(self) -> int:
+        """Read the devices: what is held right now, 1 left + 2 right + 4 jump.
+
+        A tap of the jump key since the last poll counts as held, once.
+        """
         pygame.event.pump()
         state = pygame.key.get_pressed()
         pads = self.pads.down
@@ -156,8 +158,8 @@ ACTIONS: dict[str, Action] = {
     "overlay_cells": Action("Show cells", ("5",)),
     "faster": Action("Replay: faster", ("equals", "kp_plus"), ("rightshoulder",)),
     "slower": Action("Replay: slower", ("minus", "kp_minus"), ("leftshoulder",)),
-    "frame_back": Action("Replay: a tick back", ("comma",)),
-    "frame_forward": Action("Replay: a tick on", ("period",)),
+    "frame_back": Action("Replay: previous tick", ("comma",)),
+    "frame_forward": Action("Replay: next tick", ("period",)),
     "export": Action("Replay: export", ("e",)),
     "edit": Action("Replay: edit", ("t",)),
     "link": Action("Copy a link", ("c",)),

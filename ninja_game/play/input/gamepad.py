@@ -57,7 +57,6 @@ class Gamepads:
 
     @property
     def count(self) -> int:
-        """How many pads there are."""
         return len(self._open)
 
     def changes(self, event: pygame.Event) -> list[Change]:
@@ -113,9 +112,9 @@ class Gamepads:
     def _axis(self, instance: int, name: str, value: float) -> list[Change]:
         """Both directions of a stick's axis; a trigger only has the one."""
         changes = []
-        for side, way in (("-", -value), ("+", value)):
+        for side, depth in (("-", -value), ("+", value)):
             held = name + side in self._down.get(instance, ())
-            down = way > self.dead_zone * (RELEASE_SHARE if held else 1.0)
+            down = depth > self.dead_zone * (RELEASE_SHARE if held else 1.0)
             changes += self._set(instance, name + side, down)
         return changes
 

@@ -140,11 +140,9 @@ class Sheet:
 
     @property
     def palette(self) -> Palette:
-        """The colours."""
         return self.theme.palette
 
     def close(self) -> None:
-        """End drawing: the frame."""
         self.surface.set_clip(None)
         self.theme.canvas.frame_rect(self.surface, self.palette.panel_edge, *FIGURE, 1)
 
@@ -154,14 +152,12 @@ class Sheet:
         self.theme.text(self.surface, text, at[0], at[1] - size / 2, size=size, colour=colour, align="centre")
 
     def grid(self) -> None:
-        """The lines between cells."""
         upright: list[tuple[Point, Point]] = [((CELL * k, 0), (CELL * k, HEIGHT)) for k in range(34)]
         level: list[tuple[Point, Point]] = [((0, CELL * k), (WIDTH, CELL * k)) for k in range(26)]
         for a, b in upright + level:
             pygame.draw.line(self.surface, self.palette.panel_edge, self.canvas.point(*a), self.canvas.point(*b))
 
     def shade(self, cell: int, colour: Colour, alpha: int = 70) -> None:
-        """Mark a cell."""
         if EXISTS[cell]:
             ink = pygame.Color(colour)
             self.canvas.fill_rect(
@@ -169,7 +165,6 @@ class Sheet:
             )
 
     def tiles(self, level: TileMap) -> None:
-        """All tiles that are seen."""
         for cell, tile in enumerate(level.tiles):
             x, y = CENTRE_X[cell], CENTRE_Y[cell]
             seen = self.area.inflate(200, 200).collidepoint(self.canvas.point(x, y))
@@ -259,7 +254,7 @@ def figure_texts() -> dict[str, dict[str, Any]]:
     return tomllib.loads((data_folder("assets") / "lab" / "figures.toml").read_text("utf-8"))
 
 
-class Setting(Generic[Value]):
+class FigureSetting(Generic[Value]):
     """A value of a figure that a control changes. ``then``: the method that follows a change, by name."""
 
     def __init__(self, value: Value, then: str = "reset") -> None:
@@ -298,7 +293,6 @@ class Figure:
         self.reset()
 
     def reset(self) -> None:
-        """Begin again."""
         self.x, self.y = self.start
 
     def controls(self) -> Sequence[Control]:
@@ -333,7 +327,6 @@ class Figure:
         return []
 
     def draw(self, sheet: Sheet) -> None:
-        """Show it."""
         raise NotImplementedError
 
 

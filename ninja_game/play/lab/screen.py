@@ -46,7 +46,6 @@ class LabScreen(MenuScreen):
 
     @property
     def figure(self) -> Figure:
-        """The chosen figure."""
         return self.figures[self.list.index]
 
     def build(self) -> Sequence[Widget]:
@@ -71,12 +70,10 @@ class LabScreen(MenuScreen):
         self.focus_on(next(widget for widget in self.widgets if isinstance(widget, FigureArea)))
 
     def demonstrate(self) -> None:
-        """Begin the demonstration."""
         self.reset()
         self.shows, self.ticks = True, 0
 
     def reset(self) -> None:
-        """The figure as it was at first."""
         self.figure.reset()
         self.handle_press()
 
@@ -106,7 +103,6 @@ class LabScreen(MenuScreen):
             self.redraw = True
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """Text and numbers."""
         super().draw_frame(surface)
         theme, (x, _, w, _) = self.app.theme, FIGURE
         lines = [line for text in self.figure.text for line in wrapped(theme, text, w, 10.5)]
@@ -138,24 +134,20 @@ class FigureArea(Widget):
         return left + (x - FIGURE[0]) / zoom, top + (y - FIGURE[1]) / zoom
 
     def click(self, x: float, y: float) -> bool:
-        """The mouse button goes down."""
         self.screen.handle_press()
         self.screen.figure.press(*self._world(x, y))
         return True
 
     def drag(self, x: float, y: float) -> bool:
-        """The mouse moves with its button down."""
         self.screen.figure.drag(*self._world(x, y))
         return True
 
     def confirm(self) -> bool:
-        """Press at the handle."""
         self.screen.handle_press()
         self.screen.figure.press(self.screen.figure.x, self.screen.figure.y)
         return True
 
     def nudge(self, action: str) -> bool:
-        """An arrow key moves the handle."""
         if action == "page_down":
             self.screen.go_on()
             return True
@@ -166,7 +158,6 @@ class FigureArea(Widget):
         return True
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """The figure, its frame accented with the focus."""
         sheet = Sheet(surface, theme, self.screen.figure.view)
         self.screen.figure.draw(sheet)
         sheet.close()

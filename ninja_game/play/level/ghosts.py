@@ -77,7 +77,6 @@ class Ghost:
         return self.simulation.tick - before
 
     def place(self, fraction: float) -> Point:
-        """Where to draw it."""
         (bx, by), (x, y) = self._before, self._now
         return bx + (x - bx) * fraction, by + (y - by) * fraction
 

@@ -106,7 +106,7 @@ class LevelPlay:
 
     def _wait_at_start(self) -> None:
         self._go_to(Phase.READY)
-        self._held_before = self.app.controls.held()
+        self._held_before = self.app.controls.poll()
         self.keys = 0
         self.after_end = 0
         self.killer = ""
@@ -126,17 +126,14 @@ class LevelPlay:
         self.changed = True
 
     def begin(self) -> None:
-        """Start to play."""
         self._go_to(Phase.PLAY)
 
     def pause(self) -> None:
-        """Stop time."""
         self._phase_before = self.phase
         self._go_to(Phase.PAUSED)
 
     def resume(self) -> None:
-        """Go on after a pause."""
-        self._held_before = self.app.controls.held()
+        self._held_before = self.app.controls.poll()
         self._go_to(self._phase_before)
 
     def retry(self, *, ignored: int = 0) -> None:
@@ -219,7 +216,7 @@ class LevelPlay:
 
     def _wait_for_move(self) -> None:
         """Any move begins; keys that were down before do not count until they are pressed again."""
-        held = self.app.controls.held()
+        held = self.app.controls.poll()
         self._held_before &= held
         if held & ~self._held_before:
             self.begin()
@@ -228,7 +225,7 @@ class LevelPlay:
         """So many ticks, each with the keys of its moment."""
         for _ in range(due):
             # Sampled right before the tick: as late as can be.
-            self.keys = self.app.controls.held() if self.phase is Phase.PLAY else 0
+            self.keys = self.app.controls.poll() if self.phase is Phase.PLAY else 0
             self.attempt.tick(self.keys)
             self.view.on_tick()
             self.tools.on_tick()
@@ -285,7 +282,6 @@ class PracticeTools:
         self.playback.note()
 
     def quick_save(self) -> None:
-        """Keep this moment."""
         self.saved = self.attempt.save()
 
     def quick_load(self) -> bool:
@@ -297,7 +293,6 @@ class PracticeTools:
         return True
 
     def rewind(self, ticks: int) -> None:
-        """Go back in time."""
         attempt = self.attempt
         target = max(0, attempt.simulation.tick - ticks)
         self.playback.seek(target)

@@ -50,7 +50,6 @@ class LevelScreen(Screen):
 
     @property
     def attempt(self) -> Attempt:
-        """The present try."""
         return self.play.attempt
 
     def enter(self) -> None:
@@ -65,16 +64,13 @@ class LevelScreen(Screen):
     # --- what keys and the pause panel do ---
 
     def begin(self) -> None:
-        """Start to play."""
         self.play.begin()
 
     def pause(self) -> None:
-        """Stop time, and offer what can be done."""
         self.play.pause()
         self.app.push(PausePanel(self.app, self))
 
     def resume(self) -> None:
-        """Go on after a pause."""
         self.play.resume()
 
     def back(self) -> None:
@@ -119,7 +115,6 @@ class LevelScreen(Screen):
             self.app.notify("    ".join(self.context.notices))
 
     def quit(self) -> None:
-        """Leave the level."""
         self.context.gave_up(self.attempt)
         self.context.data.store.flush()
         self._leave_to(self.context.way_out)
@@ -132,7 +127,6 @@ class LevelScreen(Screen):
             app.pop()
 
     def give_up(self) -> None:
-        """The suicide key."""
         self.play.give_up()
 
     def run_on(self) -> None:
@@ -141,7 +135,6 @@ class LevelScreen(Screen):
             self.play.hold()
 
     def watch_replay(self) -> None:
-        """The attempt again, from its inputs."""
         if self.play.may_watch:
             context = self.context
             replay = Replay.of_inputs(
@@ -160,14 +153,12 @@ class LevelScreen(Screen):
         self.app.notify(keep_replay(player, self.attempt.replay(self.context.title, player.settings.name)))
 
     def copy_link(self) -> None:
-        """This run as a link, in the clipboard."""
         title, name = self.context.title, self.app.player.settings.name
         copy_link(self.app, lambda: replay_link([self.attempt.replay(title, name)]), title=title)
 
     # --- events ---
 
     def handle(self, event: InputEvent) -> None:
-        """Keys and clicks, by phase."""
         if event.raw.type == pygame.WINDOWFOCUSLOST and self.phase is Phase.PLAY:
             self.pause()
         if self.context.practice_mode and self.phase in {Phase.PLAY, Phase.DEAD, Phase.PASSED}:
@@ -206,13 +197,11 @@ class LevelScreen(Screen):
     # --- time and picture ---
 
     def update(self, real_ms: int) -> None:
-        """Let the world go on, if it does."""
         self.play.update(real_ms)
         self.redraw = self.redraw or self.play.changed
         self.play.changed = False
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """The world, and what is written over it."""
         view = self.play.view
         changed = view.draw(surface, self.play.fraction, whole=self.redraw)
         written = Hud(self.app.theme).draw(surface, hud_view(self.play))
@@ -257,7 +246,6 @@ class PausePanel(Panel):
         self.playing = playing
 
     def rows(self) -> list[tuple[str, Callable[[], object], str]]:
-        """What can be done."""
         return [
             ("Resume", self.back, ""),
             ("Retry", lambda: self._leave(self.playing.retry), ""),
@@ -268,7 +256,6 @@ class PausePanel(Panel):
         ]
 
     def _copy_link(self) -> None:
-        """The level as a link, in the clipboard."""
         entry = self.playing.context.entry
         copy_level_link(self.app, entry.named, entry.title)
 
@@ -282,7 +269,6 @@ class PausePanel(Panel):
             super().handle(event)
 
     def back(self) -> None:
-        """Go on playing."""
         self._leave(self.playing.resume)
 
     def _leave(self, then: Callable[[], object]) -> None:

@@ -154,7 +154,6 @@ class Browser(ThumbnailScreen):
 
     @property
     def selected(self) -> Entry | None:
-        """The selected level."""
         return self.shown[self.list.index] if self.list.index < len(self.shown) else None
 
     def _select(self, _index: int) -> None:

@@ -38,17 +38,16 @@ class _Maker:
 
     @property
     def working(self) -> bool:
-        """Whether it goes on."""
         return self._thread.is_alive()
 
     def _run(self, levels: Path, day: date) -> None:
         require_desktop()
         choose_memory("compiled")
         if not daily.make_daily(levels, day, report=self._report, stop=self.stop):
-            self.problem = "No level could be made of this day."
+            self.problem = "No level could be made for this day."
 
     def _fail(self, why: str) -> None:
-        self.problem = f"No level could be made of this day: {why}"
+        self.problem = f"No level could be made for this day: {why}"
 
     def _report(self, text: str) -> None:
         self.progress = text
@@ -92,7 +91,6 @@ class DailyScreen(ThumbnailScreen):
             self._maker = None
 
     def build(self) -> Sequence[Widget]:
-        """What can be done with a level that is there."""
         return [self.play, self.practice]
 
     def _find(self) -> None:
@@ -133,14 +131,13 @@ class DailyScreen(ThumbnailScreen):
             self.redraw = True
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """The picture at the left, the facts beside it."""
         super().draw_frame(surface)
         theme, palette, entry = self.app.theme, self.app.theme.palette, self.entry
         theme.text(surface, f"{self.day:%A}, {self.day.isoformat()}", SIDE, TOP, size=12, colour=palette.faint)
         if entry is None:
             self.app.canvas.frame_rect(surface, palette.panel_edge, LEFT, TOP, WIDE, WIDE * 25 / 33, 1)
             if self._maker:
-                theme.text(surface, "The level of the day is being made", LEFT + 20, TOP + 150, size=14)
+                theme.text(surface, "Making the level of the day", LEFT + 20, TOP + 150, size=14)
                 theme.text(surface, self._maker.progress, LEFT + 20, TOP + 178, size=11, colour=palette.faint)
         else:
             self._draw_entry(surface, entry)

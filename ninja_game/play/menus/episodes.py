@@ -139,12 +139,10 @@ class EpisodeGrid(ThumbnailScreen):
 
     @property
     def number(self) -> int:
-        """The selected episode's number."""
         return self.grid.numbers[self.grid.index] if self.grid.numbers else -1
 
     @property
     def episode(self) -> Episode | None:
-        """The selected episode, where there is one."""
         return self.pack.episodes.get(self.number)
 
     def _selected(self, _index: int) -> None:
@@ -192,7 +190,7 @@ class EpisodeGrid(ThumbnailScreen):
         names = [("The game's own" if not pack.key else pack.name, pack.key) for pack in self.packs]
         choice = Choice(
             (LEFT, 62, WIDE, 26), "", names, lambda: self.pack.key, self._set_pack,
-            hint="Whose levels; packs lie in the folder levels of your folder",
+            hint="Level pack; put packs into the folder levels of your player folder",
         )  # fmt: skip
         return [self.grid, choice, self.practice, self.rows]
 
@@ -205,7 +203,6 @@ class EpisodeGrid(ThumbnailScreen):
         self.practice.area = LEFT, self._below, WIDE, 30
 
     def handle(self, event: InputEvent) -> None:
-        """The link key copies a link to the pack."""
         if "link" in event.pressed and self.pack.files:
             copy_link(self.app, self.pack.files.link, title=self.pack.name)
         else:

@@ -104,11 +104,9 @@ class HelpPage(MenuScreen):
         self._commands = [command for command in commands if command.keys or command.pad]
 
     def build(self) -> Sequence[Widget]:
-        """One way back."""
         return [Button((640, 536, 112, 24), "Back", self.back, size=10)]
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """The words, then the table in two columns."""
         super().draw_frame(surface)
         theme = self.app.theme
         lines = [line for text in self._words.split("\n") for line in wrapped(theme, text, WIDTH - 80, 10)]
@@ -149,16 +147,14 @@ class HelpScreen(MenuScreen):
         self.pages = read_pages()
         self.topics = [page.title for page in self.pages] + [KEYS_TITLE]
         self.list = ListView((44, 66, 168, 18 * 26), 26, self._draw_topic, lambda _: None, selected=self._show)
-        self.list.hint = "Up and down choose a topic"
+        self.list.hint = "Up and down: choose a topic"
         self.demonstration: Demonstration | None = None
         self.list.fill(self.topics)
 
     def build(self) -> Sequence[Widget]:
-        """The topics; one way back that can be clicked."""
         return [self.list, Button((612, 506, 132, 30), "Back", self.back)]
 
     def _show(self, index: int) -> None:
-        """Begin the demonstration of a topic."""
         page = self.pages[index] if index < len(self.pages) else None
         if page is None or self.demonstration is None or self.demonstration.page is not page:
             self.demonstration = Demonstration(self.app, page) if page is not None else None
@@ -170,13 +166,11 @@ class HelpScreen(MenuScreen):
         return self.demonstration.page if self.demonstration else None
 
     def update(self, real_ms: int) -> None:
-        """The demonstration goes on."""
         super().update(real_ms)
         if self.demonstration is not None:
             self.demonstration.update(real_ms)
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """Everything, or only the demonstration."""
         whole = self.redraw
         super().draw(surface)
         if self.demonstration is None:
@@ -185,7 +179,6 @@ class HelpScreen(MenuScreen):
         return None if whole else rects
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """The text of the selected page."""
         super().draw_frame(surface)
         theme = self.app.theme
         x, y, _, h = WINDOW
@@ -229,9 +222,9 @@ class HelpScreen(MenuScreen):
             theme.text(surface, self.app.controls.name(action), x, y, size=10.5, bold=True, width=76)
             theme.text(surface, entry.label, x + 80, y, size=10.5, width=178)
         x, y, _, h = WINDOW
-        theme.text(surface, "All of them can be changed in the settings.", x, y + h + 86, size=12.5)
+        theme.text(surface, "All keys can be changed in the settings.", x, y + h + 86, size=12.5)
         if self.app.controls.pads.count:
-            theme.text(surface, "A gamepad works everywhere too.", x, y + h + 106, size=12.5)
+            theme.text(surface, "A gamepad works everywhere, too.", x, y + h + 106, size=12.5)
 
 
 class Demonstration:
@@ -253,7 +246,6 @@ class Demonstration:
         self._whole = True
 
     def update(self, real_ms: int) -> None:
-        """Let time pass."""
         for _ in range(self.clock.ticks_due(real_ms)):
             tick = self.playback.tick
             if tick >= len(self.page.inputs) + REST_TICKS:

@@ -73,7 +73,6 @@ class MainMenu(MenuScreen):
         return lambda: self.app.push(screen(self.app))
 
     def build(self) -> Sequence[Widget]:
-        """A button for each entry."""
         x, y, w, h = self.panel
         entries = self.entries()
         row = (h - HEAD - FOOT) / len(entries)
@@ -89,16 +88,13 @@ class MainMenu(MenuScreen):
         return LEFT, max(12, min(MIDDLE - height / 2, HEIGHT - 36 - height)), WIDE, height
 
     def back(self) -> None:
-        """Ask before the game ends."""
         self.app.push(Question(self.app, "Leave the game?", "Leave", self.app.quit))
 
     def update(self, real_ms: int) -> None:
-        """The replay behind goes on."""
         super().update(real_ms)
         self.attract.update(real_ms)
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """The replay, and the menu over it."""
         changed = self.attract.draw(surface, whole=self.redraw)
         canvas, theme = self.app.canvas, self.app.theme
         x, y, w, h = self.panel
@@ -117,7 +113,6 @@ class MainMenu(MenuScreen):
         return None if changed is None else changed + written
 
     def _draw_foot(self, surface: pygame.Surface) -> None:
-        """The hint."""
         canvas, theme, palette = self.app.canvas, self.app.theme, self.app.theme.palette
         text = self.focus.hint if self.focus else ""
         canvas.fill_rect(surface, palette.tile, 0, HEIGHT - 24, WIDTH, 24)

@@ -46,7 +46,6 @@ class MenuScreen(Screen):
 
     @property
     def player(self) -> PlayerData:
-        """The player's data."""
         return self.app.player
 
     def build(self) -> Sequence[Widget]:
@@ -93,7 +92,6 @@ class MenuScreen(Screen):
         return taken
 
     def handle(self, event: InputEvent) -> None:
-        """Give an event to the widget that it concerns."""
         if event.raw.type in (pygame.MOUSEMOTION, pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP, pygame.MOUSEWHEEL):
             self._handle_mouse(event.raw)
             return
@@ -123,15 +121,12 @@ class MenuScreen(Screen):
             self._next()
 
     def back(self) -> None:
-        """The back key."""
         self.app.pop()
 
     def chime(self, name: str) -> None:
-        """A sound of the menus."""
         self.app.audio_output.play(name)
 
     def focus_on(self, widget: Widget | None) -> None:
-        """Give a widget the focus."""
         if widget is not None and widget is not self.focus:
             self.focus = widget
             self.chime("menu-move")

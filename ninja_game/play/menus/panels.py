@@ -37,7 +37,6 @@ class Panel(MenuScreen):
         self.title = title
 
     def rows(self) -> list[Row]:
-        """The buttons."""
         raise NotImplementedError
 
     @property
@@ -46,7 +45,6 @@ class Panel(MenuScreen):
         return (WIDTH - PANEL_WIDTH) / 2, (HEIGHT - height) / 2, PANEL_WIDTH, height
 
     def build(self) -> Sequence[Widget]:
-        """The buttons one below another."""
         x, y, w, _ = self._box
         return [
             Button((x + 30, y + 48 + ROW * k, w - 60, 32), text, action, hint=hint, size=12)
@@ -108,11 +106,10 @@ class Menu(Panel):
         return close_and_do
 
     def rows(self) -> list[Row]:
-        """The buttons."""
         return self._rows
 
 
-class Form(Menu):
+class FormPanel(Menu):
     """Fields to fill in above two buttons. ``fields``: prompt, text, how many characters fit in.
 
     The text of a single field is a proposal.
@@ -131,7 +128,6 @@ class Form(Menu):
         return [("", lambda: None, "")] * len(self._fields) + self._rows
 
     def build(self) -> Sequence[Widget]:
-        """The fields, then the buttons."""
         x, y, w, _ = self._box
         alone = len(self._fields) == 1
         places = [(x + 30, y + 48 + ROW * k, w - 60, 30) for k in range(len(self._fields))]

@@ -29,11 +29,9 @@ class EpisodePassed(ThumbnailScreen):
 
     @property
     def next_episode(self) -> Episode | None:
-        """The episode after this one, of its column."""
         return self.player.catalogue.following(self.run.episode)
 
     def build(self) -> Sequence[Widget]:
-        """On, or back."""
         following = self.next_episode
         buttons: list[Widget] = []
         if following is not None:
@@ -43,7 +41,6 @@ class EpisodePassed(ThumbnailScreen):
         return [*buttons, watch, Button((400, 482, 156, 30), "Episodes", self.back)]
 
     def go_on(self) -> None:
-        """The next episode."""
         if self.next_episode is not None:
             practice_mode = self.player.settings.practice
             self._play(EpisodeRun(self.player, self.next_episode, practice_mode=practice_mode))
@@ -55,7 +52,6 @@ class EpisodePassed(ThumbnailScreen):
             watch(self.app, [self.player.records.replay(number) for number in best.replays])
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """The levels in a row, the score below."""
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         episode = self.run.episode

@@ -42,7 +42,6 @@ class RecordsScreen(MenuScreen):
         self.list.empty = "No records yet: pass a level"
 
     def build(self) -> Sequence[Widget]:
-        """The list."""
         self.rows = self._rows()
         self.list.fill(self.rows)
         return [self.list]
@@ -68,18 +67,17 @@ class RecordsScreen(MenuScreen):
             rows.append(RecordRow("Other levels", None, (), True))
         others.sort(key=lambda saved: saved.name.casefold())
         return rows + [
-            RecordRow(saved.name or "nameless", saved.score, (saved.id,), False, saved.made_at[:10]) for saved in others
+            RecordRow(saved.name or "unnamed", saved.score, (saved.id,), False, saved.made_at[:10]) for saved in others
         ]
 
     def _say(self, index: int) -> None:
         """The hint of the selected row."""
-        self.list.hint = "Enter: watch it" if self.rows[index].replays else "Nothing to watch yet"
+        self.list.hint = "Enter: watch" if self.rows[index].replays else "Nothing to watch yet"
 
     def _watch(self, index: int) -> None:
         watch(self.app, [self.player.records.replay(number) for number in self.rows[index].replays])
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """The heads, and the statistics."""
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         theme.text(surface, "Your best", 44, 68, size=14, bold=True)

@@ -35,7 +35,7 @@ FILES_SHOWN = 300
 
 OUTCOMES = {"exit": "passed", "dead": "death", "running": "unfinished"}
 YOU = "you"
-HINT = "Enter: watch it. Delete: remove a saved one. E: write it as a text file. C: copy a link to it"
+HINT = "Enter: watch. Delete: remove a saved replay. E: save as a text file. C: copy a link"
 
 
 class ReplayRow(NamedTuple):
@@ -75,7 +75,6 @@ class ReplaysScreen(MenuScreen):
         return [self.list]
 
     def arranged(self, rows: list[ReplayRow]) -> list[ReplayRow]:
-        """The rows that are shown."""
         return rows
 
     def places(self) -> list[tuple[str, Iterable[Path | LeftOut]]]:
@@ -103,7 +102,6 @@ class ReplaysScreen(MenuScreen):
         self.choose(self.rows[index].source)
 
     def choose(self, source: SavedReplay | Recording) -> None:
-        """Watch a replay."""
         if isinstance(source, Recording):
             watch_recording(self.app, source)
         else:
@@ -123,19 +121,17 @@ class ReplaysScreen(MenuScreen):
         source = row.source
         replay = source.replay if isinstance(source, Recording) else self.player.records.replay(source.id)
         if replay is None:
-            self.message = "Only replays of this game can be written"
+            self.message = "Only replays of this game can be saved as text"
         else:
             try:
                 file = export_path(self.player.folder, row.text, ".replay.txt")
                 write_atomically(file, write_replay(replay))
-                self.message = f"Written: {file}"
+                self.message = f"Saved as {file}"
             except (OSError, NinjaGameError) as error:
                 self.message = str(error)
         self.redraw = True
 
     def _copy_link(self, row: ReplayRow) -> None:
-        """A replay as a link, in the clipboard."""
-
         def make() -> str:
             if isinstance(row.source, Recording):
                 return recording_link([row.source])
@@ -150,7 +146,7 @@ class ReplaysScreen(MenuScreen):
         if action == "delete" and isinstance(source, SavedReplay):
             number = source.id
             if number in {best.id for best in self.player.records.level_bests().values()}:
-                self.message = "This is a personal best; it stays"
+                self.message = "A personal best cannot be removed"
                 self.redraw = True
                 return
             self.app.push(Question(self.app, "Remove this replay?", "Remove", lambda: self._forget(number)))
@@ -163,7 +159,6 @@ class ReplaysScreen(MenuScreen):
         self.redraw = True
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """The heads of the columns."""
         super().draw_frame(surface)
         theme, palette = self.app.theme, self.app.theme.palette
         places = (54, "left"), (340, "left"), (598, "right"), (734, "right")
@@ -189,7 +184,7 @@ class ReplaysScreen(MenuScreen):
 def _row_of(saved: SavedReplay) -> ReplayRow:
     what = _result(saved.outcome, saved.gold, saved.final_tick)
     when = saved.made_at[:16].replace("T", "  ")
-    return ReplayRow(saved.name or "nameless", saved.player or YOU, what, when, saved.outcome == "exit", saved)
+    return ReplayRow(saved.name or "unnamed", saved.player or YOU, what, when, saved.outcome == "exit", saved)
 
 
 def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
@@ -199,7 +194,7 @@ def _row_of_recording(recording: Recording, when: str) -> ReplayRow:
     else:
         result = _result(replay.outcome, replay.gold, replay.final_tick)
     passed = replay.outcome == "exit"
-    return ReplayRow(recording.name or "nameless", recording.author, result, when, passed, recording)
+    return ReplayRow(recording.name or "unnamed", recording.author, result, when, passed, recording)
 
 
 def _result(outcome: str, gold: int, final_tick: int) -> str:

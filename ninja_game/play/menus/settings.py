@@ -58,7 +58,7 @@ class Conflict(Panel):
         """To leave it comes first, so that a hasty key does no harm."""
         label = ACTIONS[self.action].label
         return [
-            ("Leave it as it was", self.back, ""),
+            ("Cancel", self.back, ""),
             (f"Only {label}", self._take, ""),
             ("Use it for both", self._share, ""),
         ]
@@ -101,7 +101,6 @@ class Capture(Screen):
         return True
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """What to do."""
         if not self.redraw:
             return []
         theme = self.app.theme
@@ -109,7 +108,7 @@ class Capture(Screen):
         what = "key" if self.table.device == "keys" else "button, or move a stick,"
         theme.text(surface, ACTIONS[self.action].label, 396, 262, size=16, align="centre", bold=True)
         theme.text(surface, f"Press a {what} for it", 396, 292, size=12, align="centre")
-        theme.text(surface, "Esc leaves it as it was", 396, 318, size=10, colour=theme.palette.faint, align="centre")
+        theme.text(surface, "Esc cancels", 396, 318, size=10, colour=theme.palette.faint, align="centre")
         return None
 
 
@@ -151,7 +150,7 @@ class BindingTable(ListView):
         self.device = device
         self.actions = actions
         self.slot = 0
-        self.hint = "Left and right choose a place, Enter takes a new press, Delete clears it"
+        self.hint = "Left and right: choose a slot. Enter: set it. Delete: clear it"
         self.fill(actions)
 
     def inputs(self, action: str) -> tuple[str, ...]:
@@ -185,7 +184,6 @@ class BindingTable(ListView):
         return super().nudge(action)
 
     def click(self, x: float, y: float) -> bool:
-        """The cell that is clicked."""
         left, width = self._cells()
         if left <= x < left + SLOTS * width:
             self.slot = int((x - left) // width)
@@ -249,22 +247,19 @@ class SettingsScreen(MenuScreen):
         self.page = PAGES[0]
         self.tables: dict[str, BindingTable] = {}
         self.tabs = ListView((40, TOP - 4, 158, 40 * len(PAGES)), 40, self._draw_tab, self._go_in, selected=self._show)
-        self.tabs.hint = "Up and down choose a page, Right goes to it, Esc leaves the settings"
+        self.tabs.hint = "Up and down: choose a page. Right: go to it. Esc: leave the settings"
         self.tabs.fill(PAGES)
 
     def build(self) -> Sequence[Widget]:
-        """The pages, and the present page's widgets."""
         return [self.tabs, *self._page_widgets()]
 
     def _show(self, index: int) -> None:
-        """Show the page that is selected."""
         if self.page != PAGES[index]:
             self.page = PAGES[index]
             self.enter()
             self.redraw = True
 
     def _go_in(self, _index: int) -> None:
-        """To the first widget of the page."""
         self.focus_on(next(widget for widget in self.widgets[1:] if widget.focusable))
 
     def back(self) -> None:
@@ -335,14 +330,14 @@ class SettingsScreen(MenuScreen):
         widgets: list[Widget] = [
             self._choice(0, "Practice mode", "practice", SWITCH, PRACTICE_HINT),
             Label((LEFT, TOP + STEP + 10, 200, 14), "Your name, in replays:"),
-            TextEntry((LEFT + 220, TOP + STEP, WIDTH_OF_ROW - 220, HEIGHT_OF_ROW), "nameless",
+            TextEntry((LEFT + 220, TOP + STEP, WIDTH_OF_ROW - 220, HEIGHT_OF_ROW), "unnamed",
                       self.player.settings.name, lambda text: self.change(name=text)),
         ]  # fmt: skip
         if overclock_unlocked(self.player.columns_complete, self.player.columns_present):
             widgets.append(
                 Slider(self._area(2), "Overclock, ms", (0, FASTEST_TICK_GAIN, 1), lambda: self.app.overclock,
                        lambda value: setattr(self.app, "overclock", round(value)),
-                       hint="Shorter ticks, until the game ends; scores count as ever")
+                       hint="Shorter ticks, until the game ends; scores count as usual")
             )  # fmt: skip
         text = f"Your levels: {self.player.folder / 'levels'}"
         return [*widgets, Label((LEFT, TOP + STEP * 10 + 16, 500, 12), text, size=9.5, faint=True)]
@@ -350,7 +345,6 @@ class SettingsScreen(MenuScreen):
     # --- picture ---
 
     def draw_frame(self, surface: pygame.Surface) -> None:
-        """The frame, a line between pages and widgets."""
         super().draw_frame(surface)
         canvas, palette = self.app.canvas, self.app.theme.palette
         canvas.fill_rect(surface, palette.panel_edge, 204, 64, 1, 490)

@@ -74,7 +74,6 @@ class ThumbnailScreen(MenuScreen):
         self.thumbnails = Thumbnails(app)
 
     def update(self, real_ms: int) -> None:
-        """Make pictures that were asked for."""
         super().update(real_ms)
         self.redraw = self.thumbnails.work() or self.redraw
 

@@ -237,7 +237,6 @@ class FilmJob:
         self._thread: Thread
 
     def start(self) -> None:
-        """Begin."""
         self._thread = run_in_background(self._make, self._fail)
 
     def cancel(self) -> None:
@@ -248,7 +247,6 @@ class FilmJob:
 
     @property
     def percent(self) -> int:
-        """How much of it is made."""
         return min(99, 100 * self._made // self._count)
 
     def _report(self, made: int) -> bool:

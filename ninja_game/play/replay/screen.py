@@ -56,7 +56,6 @@ class ReplayScreen(Screen):
         self.show(0)
 
     def show(self, index: int) -> None:
-        """Watch one of the runs, from its start."""
         self.index = index % len(self.runs)
         self.run = run = self.runs[self.index]
         inputs = run.inputs[: affordable_ticks(run.level)]
@@ -84,7 +83,6 @@ class ReplayScreen(Screen):
         self.redraw = True
 
     def enter(self) -> None:
-        """Start the clock."""
         self.clock.reset()
         pygame.key.stop_text_input()
 
@@ -160,7 +158,6 @@ class ReplayScreen(Screen):
             self.app.audio_output.quiet()
 
     def update(self, real_ms: int) -> None:
-        """Play on."""
         if self.export and self.export.done:
             self.app.notify(self.export.result)
             self.export = None
@@ -199,7 +196,6 @@ class ReplayScreen(Screen):
     # --- keys and mouse ---
 
     def handle(self, event: InputEvent) -> None:
-        """Keys, and the mouse on the bar."""
         target = self.bar.handle(event.raw, self.app.canvas, self.length)
         if target is not None:
             self.seek(target)
@@ -228,7 +224,6 @@ class ReplayScreen(Screen):
         return deed is not None
 
     def toggle_pause(self) -> None:
-        """Stop or go on."""
         self.paused = not self.paused
         self.still_ms = 0
         self.clock.reset()
@@ -256,7 +251,6 @@ class ReplayScreen(Screen):
             self.export.start()
 
     def copy_link(self) -> None:
-        """This run as a link, in the clipboard."""
         copy_link(self.app, lambda: replay_link([_with_claims(self.run)]), title=self.run.title)
 
     def edit(self) -> None:
@@ -269,7 +263,6 @@ class ReplayScreen(Screen):
     # --- picture ---
 
     def draw(self, surface: pygame.Surface) -> list[pygame.Rect] | None:
-        """The world, the bar, the keys pressed."""
         still = self.paused or self.bar.dragging or self.still_ms > 0
         changed = self.view.draw(surface, 1.0 if still else self.clock.fraction, whole=self.redraw)
         theme, bar = self.app.theme, self.bar

@@ -16,7 +16,7 @@ from ninja_game.formats.links.making import replay_link
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.panels import Form, Menu, Row, nothing
+from ninja_game.play.menus.panels import FormPanel, Menu, Row, nothing
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.tas.controls import COMMANDS
 from ninja_game.play.tas.editor import TasEditor
@@ -97,7 +97,9 @@ class TasDocument(DocumentCommands):
                 self.app.notify(f"Not saved: there is no folder {path.parent}")
 
         self.app.push(
-            Form(self.app, f"Save in {folder.absolute()}", [("Name or path of the file", name, 300)], "Save", on_accept)
+            FormPanel(
+                self.app, f"Save in {folder.absolute()}", [("Name or path of the file", name, 300)], "Save", on_accept
+            )
         )
 
     def saved_text(self, path: Path) -> str:

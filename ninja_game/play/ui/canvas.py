@@ -83,7 +83,6 @@ class Canvas:
         return rect
 
     def line(self, surface: pygame.Surface, colour: Colour, a: Point, b: Point, width: float = 1) -> pygame.Rect:
-        """A straight line."""
         return pygame.draw.aaline(surface, colour, self.exact(*a), self.exact(*b), self.px(width))
 
     def circle(
@@ -94,7 +93,6 @@ class Canvas:
         return pygame.draw.aacircle(surface, colour, self.point(*centre), max(1, round(radius * self.scale)), ring)
 
     def polygon(self, surface: pygame.Surface, colour: Colour, points: Sequence[Point]) -> pygame.Rect:
-        """A filled polygon."""
         corners = [self.exact(x, y) for x, y in points]
         rect = pygame.draw.polygon(surface, colour, corners)
         for a, b in zip(corners, (*corners[1:], corners[0]), strict=True):

@@ -59,7 +59,6 @@ class ListView(Widget):
             self.selected(self.index)
 
     def confirm(self) -> bool:
-        """Choose the selected one."""
         if self.count:
             self.choose(self.index)
         return True
@@ -120,7 +119,6 @@ class ListView(Widget):
         return True
 
     def drag(self, x: float, y: float) -> bool:
-        """Scroll by the bar."""
         hidden = self.lines - self.visible_lines
         if hidden <= 0 or x < self.area[0] + self.area[2] - BAR - 30:
             return False
@@ -129,7 +127,6 @@ class ListView(Widget):
         return True
 
     def wheel(self, steps: int) -> bool:
-        """Scroll."""
         self.first = min(max(0, self.first - steps), max(0, self.lines - self.visible_lines))
         return True
 

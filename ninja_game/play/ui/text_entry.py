@@ -13,7 +13,7 @@ from ninja_game.play.input.keys import chord
 from ninja_game.play.ui.theme import Area, Theme
 from ninja_game.play.ui.widgets import PAD, TEXT, Widget
 
-LONGEST = 40
+MAX_ENTRY = 40
 """How many characters can be typed unless a field says otherwise."""
 DOUBLE_MS = 400
 """A second click within so many ms selects a word, a third one everything."""
@@ -34,7 +34,7 @@ class TextEntry(Widget):
         text: str,
         put: Callable[[str], object],
         *,
-        longest: int = LONGEST,
+        longest: int = MAX_ENTRY,
         hint: str = "",
         proposed: bool = False,
     ) -> None:
@@ -50,11 +50,9 @@ class TextEntry(Widget):
 
     @property
     def text(self) -> str:
-        """What is in it."""
         return self.edited.text
 
     def show(self, text: str) -> None:
-        """Put another text in it, the cursor at its end."""
         self.edited = EditedText(text, self.edited.longest)
 
     # --- keys ---
@@ -123,7 +121,6 @@ class TextEntry(Widget):
         return True
 
     def drag(self, x: float, y: float) -> bool:
-        """Select up to there."""
         if self._clicks == 1:
             self.edited.go(self._place_at(x), select=True)
         return True
@@ -197,7 +194,6 @@ class EditedText:
 
     @property
     def selected(self) -> str:
-        """What is selected."""
         return self.text[slice(*self.span)]
 
     def go(self, place: int, *, select: bool = False) -> None:
@@ -206,16 +202,15 @@ class EditedText:
         if not select:
             self.anchor = self.cursor
 
-    def step(self, way: int, *, word: bool = False, select: bool = False) -> None:
+    def step(self, direction: int, *, word: bool = False, select: bool = False) -> None:
         """Go to the right (1) or left (-1): by a character, a word, or to the end of what was selected."""
         first, last = self.span
         if first < last and not (word or select):
-            self.go(last if way > 0 else first)
+            self.go(last if direction > 0 else first)
         else:
-            self.go(self._beyond(way) if word else self.cursor + way, select=select)
+            self.go(self._beyond(direction) if word else self.cursor + direction, select=select)
 
     def select_all(self) -> None:
-        """Select everything."""
         self.anchor, self.cursor = 0, len(self.text)
 
     def select_word(self, place: int) -> None:
@@ -245,20 +240,20 @@ class EditedText:
         if self._past:
             self.text, self.cursor, self.anchor = self._past.pop()
 
-    def erase(self, way: int, *, word: bool = False) -> None:
+    def erase(self, direction: int, *, word: bool = False) -> None:
         """Take out what is selected; else the character, or the word, at the right (1) or left (-1)."""
         if self.cursor == self.anchor:
-            self.step(way, word=word, select=True)
+            self.step(direction, word=word, select=True)
         self.put("")
 
-    def _beyond(self, way: int) -> int:
+    def _beyond(self, direction: int) -> int:
         """The end of the next word at the right (1), or the begin of the one at the left (-1)."""
-        place, behind = self.cursor, 0 if way > 0 else 1
-        end = len(self.text) if way > 0 else 0
+        place, behind = self.cursor, 0 if direction > 0 else 1
+        end = len(self.text) if direction > 0 else 0
         while place != end and not self.text[place - behind].isalnum():
-            place += way
+            place += direction
         while place != end and self.text[place - behind].isalnum():
-            place += way
+            place += direction
         return place
 
 

@@ -29,7 +29,6 @@ class Widget:
 
     @property
     def centre(self) -> tuple[float, float]:
-        """Its middle."""
         x, y, w, h = self.area
         return x + w / 2, y + h / 2
 
@@ -47,7 +46,6 @@ class Widget:
         return False
 
     def click(self, x: float, y: float) -> bool:
-        """A mouse click in it."""
         return self.confirm()
 
     def drag(self, x: float, y: float) -> bool:
@@ -63,7 +61,6 @@ class Widget:
         return False
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """Show it."""
         raise NotImplementedError
 
     def draw_base(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
@@ -87,7 +84,6 @@ class Label(Widget):
         self.faint = faint
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """The text, its top at the area's."""
         x, y, _, _ = self.area
         colour = theme.palette.faint if self.faint else theme.palette.text
         theme.text(surface, self.text, x, y, size=self.size, colour=colour)
@@ -105,13 +101,11 @@ class Button(Widget):
         self.size = size
 
     def confirm(self) -> bool:
-        """Do it."""
         if self.enabled:
             self.action()
         return True
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """The text in its panel."""
         self.draw_base(surface, theme, focused=focused)
         x, y, w, h = self.area
         colour = theme.palette.text if self.enabled else theme.palette.faint
@@ -153,11 +147,9 @@ class Choice(Widget):
         return True
 
     def confirm(self) -> bool:
-        """The next value."""
         return self._step(1)
 
     def nudge(self, action: str) -> bool:
-        """The value before or after."""
         return self._step(-1 if action == "left" else 1) if action in ("left", "right") else False
 
     def click(self, x: float, y: float) -> bool:
@@ -171,7 +163,6 @@ class Choice(Widget):
         return (x + w * 0.5, w * 0.5) if self.text else (x, w)
 
     def draw(self, surface: pygame.Surface, theme: Theme, *, focused: bool) -> None:
-        """The text left, the value between arrows right."""
         self.draw_base(surface, theme, focused=focused)
         x, y, w, h = self.area
         top = y + (h - TEXT) / 2
@@ -210,11 +201,9 @@ class Slider(Widget):
         return self._take(self.get() + (self.step if action == "right" else -self.step))
 
     def click(self, x: float, y: float) -> bool:
-        """The number at that place."""
         return self.drag(x, y)
 
     def drag(self, x: float, y: float) -> bool:
-        """The number at that place."""
         left, width = self._track()
         return self._take(self.low + (self.high - self.low) * (x - left) / width)
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from ninja_game.play.view.overlays import Overlays
 
 
-class Ghost(Protocol):
+class DrawnGhost(Protocol):
     """Another run's ninja that is shown too."""
 
     ninja_animation: NinjaAnimation
@@ -56,17 +56,17 @@ class LevelView:
 
     def __init__(
         self,
-        app: RenderContext,
+        context: RenderContext,
         simulation: Simulation,
         *,
         seed: int = 0,
         audible: bool = True,
     ) -> None:
-        self.app = app
+        self.context = context
         self.simulation = simulation
         self.audible = audible
         self._rng = Random(seed)  # noqa: S311 - presentation
-        self.ghosts: Sequence[Ghost] = ()
+        self.ghosts: Sequence[DrawnGhost] = ()
         self.overlays: Overlays | None = None
         self.particles = Particles()
         self.effects = Effects(self.particles, self._rng)
@@ -91,7 +91,7 @@ class LevelView:
         for ghost in self.ghosts:
             ghost.on_tick()
         if self.audible:
-            self.app.audio_output.play_events(world)
+            self.context.audio_output.play_events(world)
 
     def on_death(self) -> None:
         """Take note of a death between two ticks: out of time, or by the player's own hand."""
@@ -100,7 +100,7 @@ class LevelView:
         self.effects.on_tick(self.simulation.tiles, world)
         self._follow_death(world)
         if self.audible:
-            self.app.audio_output.play_events(world)
+            self.context.audio_output.play_events(world)
 
     def on_seek(self) -> None:
         """Forget what was seen: the world was restarted or put back to another moment."""
@@ -116,7 +116,7 @@ class LevelView:
             self._fall_down(world)
 
     def _follow_options(self) -> None:
-        options = self.app.settings
+        options = self.context.settings
         self.effects.gore = not options.reduced_gore
         self.particles.thin = 0.35 if options.reduced_motion else 1.0
 
@@ -137,14 +137,14 @@ class LevelView:
         self.ragdoll = Ragdoll(now, before, velocity, self.ninja_animation.facing, self._rng, self._corpse_hit)
         for event in world.events[: world.event_count]:
             if event.kind == DIED:
-                gory = not self.app.settings.reduced_gore
+                gory = not self.context.settings.reduced_gore
                 self.ragdoll.shove(event.cause, (event.dx, event.dy), event.y, n.y, whole=not gory)
                 if self.ragdoll.dismembered:
                     self.effects.blood(n.x, n.y, 0.0, -2.0, 12)
 
     def _corpse_hit(self, x: float, y: float, into: float, along: float) -> None:
         if into > 1.0 and self.audible:
-            self.app.audio_output.corpse(into)
+            self.context.audio_output.corpse(into)
         if into > 3.0:
             self.effects.blood(x, y, 0.0, -1.0, 1)
         if along * along > 0.3 and self._rng.random() < 0.12:
@@ -154,8 +154,8 @@ class LevelView:
 
     def _layout(self) -> None:
         """Make what depends on the window's size and the palette."""
-        self.canvas = self.app.canvas
-        palette = self.app.theme.palette
+        self.canvas = self.context.canvas
+        palette = self.context.theme.palette
         if self._book is None or (self._book.scale, self._book.palette) != (self.canvas.scale, palette):
             self._book = SpriteBook(self.canvas.scale, palette)
         book = self._book
@@ -167,12 +167,11 @@ class LevelView:
         self._whole = True
 
     def _wanted_look(self) -> tuple[object, ...]:
-        return self.app.canvas, self.app.theme.palette.name
+        return self.context.canvas, self.context.theme.palette.name
 
     @property
     def colour(self) -> pygame.Color:
-        """The ninja's colour."""
-        chosen = self.app.settings.ninja_colour
+        chosen = self.context.settings.ninja_colour
         return pygame.Color(chosen) if chosen else self.target.palette.ninja
 
     def draw(self, surface: pygame.Surface, fraction: float = 1.0, *, whole: bool = False) -> list[pygame.Rect] | None:
@@ -182,7 +181,7 @@ class LevelView:
         """
         if self._look != self._wanted_look():
             self._layout()
-        if not self.app.settings.smooth:
+        if not self.context.settings.smooth:
             fraction = 1.0
         whole = whole or self._whole
         self._whole = False
@@ -217,7 +216,7 @@ class LevelView:
         target.begin(surface)
         Particles.draw(self.particles.rear, target, now)
         draw_moving(target, self.simulation.world, self.object_animation, fraction)
-        if self.app.settings.show_ghost:
+        if self.context.settings.show_ghost:
             for ghost in self.ghosts:
                 draw_ghost(target, ghost.ninja_animation, ghost.place(fraction), fraction, ghost.colour(target.palette))
         self._draw_ninja(fraction)

@@ -105,7 +105,6 @@ class WorkspaceScreen(MenuScreen):
         return super().capture(event)
 
     def handle(self, event: InputEvent) -> None:
-        """The mouse, then commands, then the widgets."""
         command = self.meaning(event)
         if event.raw.type == pygame.KEYDOWN:
             self.held.end()

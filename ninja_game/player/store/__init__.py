@@ -160,7 +160,6 @@ class Store:
         self._pending.append(work)
 
     def flush(self) -> None:
-        """Save what waits."""
         if self._pending:
             self._open_again()
             if not self.problem:

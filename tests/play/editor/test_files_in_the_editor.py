@@ -20,7 +20,7 @@ from ninja_game.play.editor.commands import LevelChoice
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menus.browser import Browser
 from ninja_game.play.menus.main_menu import MainMenu
-from ninja_game.play.menus.panels import Form, Menu
+from ninja_game.play.menus.panels import FormPanel, Menu
 from ninja_game.player.backup import read_backup, write_backup
 from ninja_game.signals import Terminated
 from tests.support.level_maker import ROOM, Maker
@@ -62,7 +62,7 @@ def test_a_name_is_asked_for_where_there_is_none(maker: Maker, tmp_path: Path) -
     maker.open("Editor")
     maker.drag((300, 300))
     maker.chord("s", pygame.KMOD_LCTRL)
-    assert isinstance(maker.top(), Form)
+    assert isinstance(maker.top(), FormPanel)
     for _ in range(8):
         maker.press("backspace")
     maker.type("bd")
@@ -114,7 +114,7 @@ def test_saving_first_goes_on_with_what_was_asked(maker: Maker, tmp_path: Path, 
     maker.choose(asked)
     maker.choose("Save")
     if not named:
-        assert isinstance(maker.top(), Form)
+        assert isinstance(maker.top(), FormPanel)
         maker.choose("Save")
     assert len(list((tmp_path / "levels").iterdir())) == 1
     if asked == "New":

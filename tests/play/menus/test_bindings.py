@@ -40,7 +40,7 @@ def test_keys_that_there_are_not_leave_the_defaults_and_are_named(tmp_path: Path
     app = build_app(tmp_path)
     assert app.controls.keys["jump"] == ACTIONS["jump"].keys
     assert app.controls.keys["left"] == ("q",)
-    assert app.controls.held() == 0
+    assert app.controls.poll() == 0
     assert "no key is called odd, scancode-512, scancode-999" in app.notice
     app.player.close()
 
@@ -84,10 +84,10 @@ def test_menu_keys_cannot_be_taken_away(bindings: Bindings) -> None:
 def test_stick_presses_beyond_the_dead_zone_and_does_not_flutter(bindings: Bindings) -> None:
     assert bindings.decode(axis(-0.3)).pressed == ()
     assert "left" in bindings.decode(axis(-0.4)).pressed
-    assert bindings.held() == 1
+    assert bindings.poll() == 1
     assert bindings.decode(axis(-0.32)).released == ()
     assert "left" in bindings.decode(axis(-0.2)).released
-    assert bindings.held() == 0
+    assert bindings.poll() == 0
 
 
 def test_stick_thrown_across_releases_one_side_and_presses_the_other() -> None:
@@ -106,9 +106,9 @@ def test_event_is_decoded_into_all_its_meanings(bindings: Bindings) -> None:
 
 def test_pad_that_is_pulled_out_lets_go_of_everything(bindings: Bindings) -> None:
     bindings.decode(axis(1.0))
-    assert bindings.held() == 2
+    assert bindings.poll() == 2
     assert "right" in bindings.decode(pygame.Event(pygame.JOYDEVICEREMOVED, instance_id=5)).released
-    assert bindings.held() == 0
+    assert bindings.poll() == 0
 
 
 def test_hats_and_axes_of_unknown_pads_work_too(bindings: Bindings) -> None:
@@ -120,8 +120,8 @@ def test_hats_and_axes_of_unknown_pads_work_too(bindings: Bindings) -> None:
 
 def test_tap_between_two_ticks_still_jumps_once(bindings: Bindings) -> None:
     bindings.decode(key("z"))
-    assert bindings.held() == 4
-    assert bindings.held() == 0
+    assert bindings.poll() == 4
+    assert bindings.poll() == 0
 
 
 def test_labels_follow_the_device_used_last(bindings: Bindings) -> None:

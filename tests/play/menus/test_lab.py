@@ -22,7 +22,7 @@ from ninja_game.play.lab.figures.edges import STATES, EdgeStates
 from ninja_game.play.lab.figures.grids import Bullets, FiveCells, LooseGrid
 from ninja_game.play.lab.figures.one_tick import PHASES, PLAYED, OneTick
 from ninja_game.play.lab.figures.projection import PUSH, Projection
-from ninja_game.play.lab.figures.rays import Rays
+from ninja_game.play.lab.figures.rays import RayCast
 from ninja_game.play.lab.screen import FILM_TICKS, FigureArea, LabScreen, export_figure, figure_pictures
 from ninja_game.play.menus.help import room_level
 from ninja_game.sim.collision.box import collide_box
@@ -217,7 +217,7 @@ def test_bullets_hit_the_same_filed_or_not() -> None:
 
 
 def test_rays_visit_the_cells_between_and_name_what_a_loose_grid_misses() -> None:
-    figure, missed_ever = Rays(), 0
+    figure, missed_ever = RayCast(), 0
     for _ in demonstrated(figure, 240):
         asked, stopped, end = figure.asked()
         reach = end if stopped else (figure.x, figure.y)

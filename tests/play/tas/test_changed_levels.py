@@ -11,7 +11,7 @@ from ninja_game import verify_recording
 from ninja_game.errors import ReplayError
 from ninja_game.formats.load import load_replays
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
-from ninja_game.play.menus.panels import Form, Menu
+from ninja_game.play.menus.panels import FormPanel, Menu
 from ninja_game.sim.inputs import KEY_RIGHT
 from ninja_game.tas.files import RunFile, open_run
 from tests.support.samples import WALK, WALK_END, replay_of_walk, running, write_records
@@ -48,7 +48,7 @@ def test_the_question_leads_to_the_run_on_the_changed_level_and_to_a_new_recordi
     assert at.session.timeline.end[1] == "exit"
     at.chord("s", pygame.KMOD_LCTRL)
     form = at.top()
-    assert isinstance(form, Form)
+    assert isinstance(form, FormPanel)
     assert form.texts == ["walk-2"]
     form.texts[0] = "walk"
     at.choose("Save")

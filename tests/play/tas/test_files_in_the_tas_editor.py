@@ -9,7 +9,7 @@ import pygame
 from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.load import load_replays
 from ninja_game.play.menus.help import HelpPage
-from ninja_game.play.menus.panels import Form, Menu
+from ninja_game.play.menus.panels import FormPanel, Menu
 from ninja_game.play.replay.screen import ReplayScreen
 from ninja_game.play.tas.controls import COMMANDS
 from ninja_game.play.tas.opening import open_tas_editor
@@ -80,7 +80,7 @@ def test_it_is_saved_under_another_name_and_asks_before_it_replaces(at: TasDrive
     change(at)
     at.chord("s", CTRL, SHIFT)
     form = at.top()
-    assert isinstance(form, Form)
+    assert isinstance(form, FormPanel)
     form.texts[0] = "taken"
     at.choose("Save")
     assert at.top().title == "A file named taken.replay.txt already exists"  # type: ignore[attr-defined]
@@ -91,13 +91,13 @@ def test_it_is_saved_under_another_name_and_asks_before_it_replaces(at: TasDrive
     assert "changed by another program" in at.top().title  # type: ignore[attr-defined]
     at.choose("Save under another name")
     form = at.top()
-    assert isinstance(form, Form)
+    assert isinstance(form, FormPanel)
     form.texts[0] = "nowhere/b"
     at.choose("Save")
     assert "there is no folder" in at.app.notice
     at.chord("s", CTRL, SHIFT)
     form = at.top()
-    assert isinstance(form, Form)
+    assert isinstance(form, FormPanel)
     form.texts[0] = str(path.with_name("a:b.replay.txt"))
     at.choose("Save")
     assert at.session.file.path == path.with_name("a-b.replay.txt")

@@ -13,7 +13,7 @@ import pytest
 
 from ninja_game.errors import ReplayError
 from ninja_game.formats.load import load_replays
-from ninja_game.play.menus.panels import Form
+from ninja_game.play.menus.panels import FormPanel
 from ninja_game.play.replay.screen import SPEEDS
 from ninja_game.play.tas.level.other_runs import OtherRunScreen
 from ninja_game.play.tas.level.paths import shown_span
@@ -203,7 +203,7 @@ def test_an_object_under_the_mouse_is_named_and_can_be_watched(at: TasDriver) ->
     cursor = at.editor.cursor
     at.event(pygame.MOUSEBUTTONDOWN, *place, button=3)
     at.event(pygame.MOUSEBUTTONUP, *place, button=3)
-    assert isinstance(at.top(), Form)
+    assert isinstance(at.top(), FormPanel)
     at.press("return")
     assert at.screen.tab.name == "Values"
     tab = next(tab for tab in at.screen.tabs if isinstance(tab, ValuesTab))

@@ -17,7 +17,7 @@ PAD, PLAIN = 77, 78
 @pytest.fixture(autouse=True)
 def keys_of_the_devices(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is held is read from the devices."""
-    monkeypatch.setattr(ScriptedKeys, "held", Bindings.held)
+    monkeypatch.setattr(ScriptedKeys, "poll", Bindings.poll)
 
 
 def button(at: TasDriver, name: str, *, down: bool = True) -> None:

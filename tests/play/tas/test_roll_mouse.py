@@ -6,7 +6,7 @@ import pygame
 import pytest
 
 from ninja_game.formats.replay.input_runs import Marker
-from ninja_game.play.menus.panels import Form, Menu
+from ninja_game.play.menus.panels import FormPanel, Menu
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 from ninja_game.tas.input_track import InputTrack
 from tests.support.tas_driver import TasDriver
@@ -76,7 +76,7 @@ def test_a_double_click_on_the_number_names_the_tick(at: TasDriver, monkeypatch:
         assert at.top() is at.screen, "half a second between them: two clicks"
         monkeypatch.setattr(pygame.time, "get_ticks", lambda ms=ms: ms)
         at.mouse(*at.cell(9, "tick"))
-    assert isinstance(at.top(), Form)
+    assert isinstance(at.top(), FormPanel)
     at.write("first jump")
     at.press("return")
     assert Marker(9, "first-jump") in at.editor.track.markers

@@ -9,7 +9,7 @@ import numpy as np
 import pygame
 import pytest
 
-from ninja_game.play.menus.panels import Form
+from ninja_game.play.menus.panels import FormPanel
 from ninja_game.play.tas.tabs.plot import TickRange
 from ninja_game.play.tas.tabs.values_tab import ObjectList, ValuesTab, shown_value, watched_values
 from ninja_game.sim.inputs import Input
@@ -43,7 +43,7 @@ def test_values_are_those_of_a_straight_run_also_after_an_edit(at: TasDriver, ta
 
 def test_a_formula_is_asked_for_and_its_value_shown(at: TasDriver, tab: ValuesTab) -> None:
     at.press("v")
-    assert isinstance(at.top(), Form)
+    assert isinstance(at.top(), FormPanel)
     at.write("x > 100")
     at.press("return")
     assert at.top() is at.screen
@@ -60,7 +60,7 @@ def test_what_is_wrong_with_a_formula_is_told_with_its_column_and_asked_again(at
     at.press("return")
     assert at.app.notice.startswith("Column 6")
     form = at.top()
-    assert isinstance(form, Form)
+    assert isinstance(form, FormPanel)
     assert form.texts == ["vx + colour"]
     at.write("(9999)")
     form.texts[0] = "object_x(9999)"
@@ -75,7 +75,7 @@ def test_an_object_is_found_by_its_id(at: TasDriver, tab: ValuesTab) -> None:
     assert isinstance(at.top(), ObjectList)
     at.press("return")
     form = at.top()
-    assert isinstance(form, Form)
+    assert isinstance(form, FormPanel)
     at.press("return")
     assert [each.watch.text for each in tab.watched][3:] == form.texts
     assert at.session.timeline.watched

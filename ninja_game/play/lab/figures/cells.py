@@ -25,16 +25,13 @@ class CellsTouched(Figure):
     box = False
 
     def controls(self) -> Sequence[Control]:
-        """Which body."""
         return [choice("Body", BODIES, self, "box")]
 
     @property
     def cell(self) -> int:
-        """The cell that holds the body's centre."""
         return cell_at(self.x, self.y)
 
     def numbers(self) -> list[tuple[str, str]]:
-        """Where it is, and what it touches."""
         cell, touched = self.cell, touched_cells(self.x, self.y, self.cell)
         names = [f"({COLUMN[each]}, {ROW[each]})" for each in touched]
         return [
@@ -68,7 +65,6 @@ class NineCells(Figure):
     start = (155.0, 100.0)
 
     def reset(self) -> None:
-        """All objects are there again."""
         super().reset()
         self.tiles, self.world = room_world(self.room, self.objects)
         self.asked = self.touched = 0
@@ -85,7 +81,6 @@ class NineCells(Figure):
         return [int(call.arguments["o"]) for call in calls if call.name == "touch"], events
 
     def numbers(self) -> list[tuple[str, str]]:
-        """Who is asked of how many, and what happens."""
         asked, events = self.objects_asked()
         names = [KIND_NAMES[self.world.objects[slot].kind] for slot in asked]
         return [

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ninja_game.formats.ascii.legend import DIRECTION_WORDS
 from ninja_game.formats.ascii.object_forms import MOVEMENTS
-from ninja_game.play.lab.figure import ELSEWHERE, Control, Figure, Setting, Sheet, Stage, choice
+from ninja_game.play.lab.figure import ELSEWHERE, Control, Figure, FigureSetting, Sheet, Stage, choice
 from ninja_game.play.lab.figures.edges import STATES
 from ninja_game.sim.collision.tiles import CENTRE_X, CENTRE_Y, NEIGHBOUR_OFFSET, UNIT_X, UNIT_Y
 from ninja_game.sim.grid import cell_at
@@ -24,17 +24,15 @@ class WalkingEnemies(Figure):
 
     name = "drones"
     start = (180.0, 90.0)
-    movement = Setting("surface-cw")
+    movement = FigureSetting("surface-cw")
 
     def reset(self) -> None:
-        """The drones where they began, the doors closed."""
         super().reset()
         drones = [f"zap drone {place} {self.movement} right" for place in ("3,2", "5,4", "13,7")]
         self.stage = Stage(self.room, [*self.objects, *drones, ELSEWHERE])
         self.decided: dict[int, tuple[int, int, int]] = {}
 
     def controls(self) -> Sequence[Control]:
-        """How they move."""
         return [choice("Movement", [(name.replace("-", " "), name) for name in MOVEMENTS], self, "movement")]
 
     def _of_kind(self, kind: int) -> list[Object]:
@@ -86,7 +84,6 @@ class WalkingEnemies(Figure):
         return found
 
     def numbers(self) -> list[tuple[str, str]]:
-        """Each drone's last decision."""
         rows = []
         for number, o in enumerate(self._of_kind(DRONE), 1):
             tried = ", ".join(f"{DIRECTIONS[direction]} {STATES[state]}" for direction, state in self.tried(o))

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
-from ninja_game.play.lab.figure import Control, Figure, Setting, Sheet, choice, room_world, slider
+from ninja_game.play.lab.figure import Control, Figure, FigureSetting, Sheet, choice, room_world, slider
 from ninja_game.sim.collision.tiles import (
     CENTRE_X,
     CENTRE_Y,
@@ -33,10 +33,9 @@ class EdgeStates(Figure):
     start = (180.0, 156.0)
     tile: float = 1
     side = 1
-    is_open = Setting(False, "move_door")
+    is_open = FigureSetting(False, "move_door")
 
     def reset(self) -> None:
-        """The first tiles again."""
         super().reset()
         self.rows = [list(row) for row in self.room]
         self._rebuild()
@@ -72,7 +71,6 @@ class EdgeStates(Figure):
             self._rebuild()
 
     def nudge(self, dx: int, dy: int) -> None:
-        """An arrow key chooses the next cell."""
         self.drag(self.x + 24 * dx, self.y + 24 * dy)
 
     def demonstrate(self, tick: int) -> None:
@@ -82,11 +80,9 @@ class EdgeStates(Figure):
 
     @property
     def cell(self) -> int:
-        """The chosen cell."""
         return cell_at(self.x, self.y)
 
     def numbers(self) -> list[tuple[str, str]]:
-        """The rule, step by step, for the chosen side."""
         neighbour = self.cell + NEIGHBOUR_OFFSET[self.side]
         own = FACE[4 * self.tiles.tiles[self.cell] + self.side]
         other = FACE[4 * self.tiles.tiles[neighbour] + (self.side ^ 2)]
@@ -100,7 +96,6 @@ class EdgeStates(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        """Tiles, edges, the chosen cell and side."""
         p = sheet.palette
         sheet.tiles(self.tiles)
         sheet.grid()

@@ -9,7 +9,7 @@ from itertools import combinations, pairwise
 from random import Random
 from typing import NamedTuple
 
-from ninja_game.play.lab.figure import FIELD, FIGURE, Control, Figure, Setting, Sheet, choice, slider
+from ninja_game.play.lab.figure import FIELD, FIGURE, Control, Figure, FigureSetting, Sheet, choice, slider
 from ninja_game.sim.grid import cell_at, grid_insert, grid_move
 from ninja_game.sim.memory.object_fields import Object
 from ninja_game.sim.memory.schema import World
@@ -48,7 +48,6 @@ class Crowd:
 
     @property
     def objects(self) -> list[Object]:
-        """All of them."""
         return self.world.objects[1:]
 
     def neighbours(self, cell: int, offsets: tuple[int, ...] | list[int] = NINE_CELLS) -> Iterator[Object]:
@@ -129,17 +128,15 @@ class LooseGrid(Figure):
     name = "grids"
     view = FIELD
     start = (LEFT + 300, TOP + 180)
-    count, radius = Setting(60, "fill"), Setting(8, "resize")
+    count, radius = FigureSetting(60, "fill"), FigureSetting(8, "resize")
     plot = 0
 
     def reset(self) -> None:
-        """The objects where they began."""
         super().reset()
         self.fill()
         self.works = Work(0, 0), Work(0, 0)
 
     def fill(self) -> None:
-        """As many other objects."""
         self.crowd = Crowd(self.count, self.radius)
 
     def resize(self) -> None:
@@ -147,7 +144,6 @@ class LooseGrid(Figure):
         self.crowd.radius = self.radius
 
     def controls(self) -> Sequence[Control]:
-        """How many, how large, what is plotted."""
         return [
             slider("Objects", (10, 400, 10), self, "count"),
             slider("Radius, px", (2, 11, 1), self, "radius"),
@@ -155,13 +151,11 @@ class LooseGrid(Figure):
         ]
 
     def demonstrate(self, tick: int) -> None:
-        """The question wanders; more and more objects."""
         super().demonstrate(tick)
         if tick % 120 == 0:
             self.count = (30, 60, 120)[tick // 120 % 3]
 
     def tick(self) -> None:
-        """All fly on."""
         self.works = self.crowd.move()
 
     def asked(self) -> tuple[set[int], set[int]]:
@@ -172,7 +166,6 @@ class LooseGrid(Figure):
         return {cell + offset for offset in NINE_CELLS}, set(self.crowd.cells_of(probe))
 
     def numbers(self) -> list[tuple[str, str]]:
-        """Both grids, side by side."""
         (loose, normal), (nine, four) = self.works, self.asked()
         in_nine = sum(o.cell in nine for o in self.crowd.objects)
         in_four = sum(bool(self.crowd.cells_of(o) & four) for o in self.crowd.objects)
@@ -185,7 +178,6 @@ class LooseGrid(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        """The lists as chains, the question, the plot."""
         p = sheet.palette
         nine, four = self.asked()
         for cell in nine:
@@ -224,11 +216,10 @@ class FiveCells(Figure):
 
     name = "pairs"
     view = FIELD
-    count = Setting(60)
+    count = FigureSetting(60)
     speed: float = 4
 
     def reset(self) -> None:
-        """Another scan of the same objects."""
         super().reset()
         self.crowd = Crowd(self.count, 11)
         self.pairs: Iterator[tuple[Object, Object]] = self.crowd.five_cell_pairs()
@@ -239,19 +230,16 @@ class FiveCells(Figure):
         self.truth = {(a.slot, b.slot) for a, b in combinations(objects, 2) if self.crowd.meet(a, b)}
 
     def controls(self) -> Sequence[Control]:
-        """How many, how fast."""
         return [
             slider("Objects", (10, 200, 10), self, "count"),
             slider("Tests a tick", (1, 40, 1), self, "speed"),
         ]
 
     def demonstrate(self, tick: int) -> None:
-        """Scan; then begin again with more."""
         if self.done and tick % 80 == 0:
             self.count = self.count % 120 + 30
 
     def tick(self) -> None:
-        """Some more tests."""
         for _ in range(int(self.speed)):
             pair = next(self.pairs, None)
             if pair is None:
@@ -263,7 +251,6 @@ class FiveCells(Figure):
                 self.found.append((a, b))
 
     def numbers(self) -> list[tuple[str, str]]:
-        """What is found, against all pairs."""
         found, count = set(self.found), self.count
         return [
             ("objects", str(count)),
@@ -297,18 +284,16 @@ class Bullets(Figure):
 
     name = "bullets"
     view = FIELD
-    count = Setting(1000)
+    count = FigureSetting(1000)
     filed = False
 
     def reset(self) -> None:
-        """Targets and bullets where they began."""
         super().reset()
         self.targets = Crowd(60, 10, speed=0.5)
         self.bullets = Crowd(self.count, 1, speed=4, seed=2)
         self.hits = self.list_changes = self.tests = 0
 
     def controls(self) -> Sequence[Control]:
-        """How many, filed or not."""
         return [
             slider("Bullets", (100, 3000, 100), self, "count"),
             choice("Filed too", (("no", False), ("yes", True)), self, "filed"),
@@ -346,7 +331,6 @@ class Bullets(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        """Targets and bullets."""
         p = sheet.palette
         sheet.grid()
         for o in self.targets.objects:

@@ -42,7 +42,6 @@ class OneTick(Figure):
     speed: float = 4
 
     def reset(self) -> None:
-        """The world as it begins."""
         super().reset()
         self.stage = Stage(self.room, self.objects)
         self.at = 0.0
@@ -56,11 +55,9 @@ class OneTick(Figure):
         self.at = 0.0
 
     def controls(self) -> Sequence[Control]:
-        """The keys, and how slow."""
         return [choice("Keys", KEYS, self, "keys"), slider("Calls a second", (1, 400, 1), self, "speed")]
 
     def press(self, x: float, y: float) -> None:
-        """The next call."""
         self._forward(1)
 
     def drag(self, x: float, y: float) -> None:
@@ -71,7 +68,6 @@ class OneTick(Figure):
         self._forward(len(self.calls) if dy > 0 else max(dx, 0))
 
     def demonstrate(self, tick: int) -> None:
-        """Slow at first, then fast."""
         self.speed = 12 if tick % 480 < 320 else 400
 
     def _forward(self, calls: float) -> None:

@@ -8,7 +8,18 @@ from typing import NamedTuple
 
 from ninja_game.editor.brush import tile_name
 from ninja_game.formats.ascii.legend import TILE_CHARS
-from ninja_game.play.lab.figure import Call, Control, Figure, Setting, Sheet, View, choice, room_world, slider, watch
+from ninja_game.play.lab.figure import (
+    Call,
+    Control,
+    Figure,
+    FigureSetting,
+    Sheet,
+    View,
+    choice,
+    room_world,
+    slider,
+    watch,
+)
 from ninja_game.play.lab.figures.cells import BODIES
 from ninja_game.play.ui.canvas import Point
 from ninja_game.sim.collision.box import collide_box
@@ -57,23 +68,20 @@ class Projection(Figure):
     name = "projection"
     view = View(24 * (COLUMN - 2), 24 * (ROW - 1), 4.5)
     start = (24 * COLUMN + 6.0, 24 * ROW - 2.0)
-    tile = Setting(2, "rebuild")
+    tile = FigureSetting(2, "rebuild")
     box = False
 
     def reset(self) -> None:
-        """The body back, the counts at 0."""
         super().reset()
         self.by_edge = self.shape_tests = 0
         self.rebuild()
 
     def rebuild(self) -> None:
-        """A world with nothing but the tile."""
         rows = [["."] * 14 for _ in range(9)]
         rows[ROW - 1][COLUMN - 1] = TILE_CHARS[self.tile]
         self.tiles, self.world = room_world(["".join(row) for row in rows])
 
     def controls(self) -> Sequence[Control]:
-        """The tile and the body."""
         return [
             slider("Tile", (1, 33, 1), self, "tile", lambda number: tile_name(int(number))),
             choice("Body", BODIES, self, "box"),
@@ -108,7 +116,6 @@ class Projection(Figure):
         self.shape_tests += push.shape_tests
 
     def numbers(self) -> list[tuple[str, str]]:
-        """What ran, what it gave, what it cost."""
         push = self.push()
         (x, y), (to_x, to_y) = push.points[0], push.points[-1]
         pushes = [call.arguments for call in push.calls if call.name == PUSH]

@@ -15,7 +15,7 @@ from ninja_game.sim.rules import GOLD_RADIUS, RADIUS
 NINJA: Point = (292.0, 172.0)
 
 
-class Rays(Figure):
+class RayCast(Figure):
     """Drag both ends of a ray."""
 
     name = "rays"
@@ -23,23 +23,19 @@ class Rays(Figure):
     moves = "end"
 
     def reset(self) -> None:
-        """Both ends where they began."""
         super().reset()
         self.from_x, self.from_y = 60.0, 70.0
         self.tiles, self.world = room_world(self.room, self.objects)
         self.world.ninja.x, self.world.ninja.y = NINJA
 
     def controls(self) -> Sequence[Control]:
-        """Which end the arrows move."""
         return [choice("Arrows move", (("the end", "end"), ("the start", "start")), self, "moves")]
 
     def press(self, x: float, y: float) -> None:
-        """Take the nearer end."""
         self.moves = "start" if dist((x, y), (self.from_x, self.from_y)) < dist((x, y), (self.x, self.y)) else "end"
         self.drag(x, y)
 
     def drag(self, x: float, y: float) -> None:
-        """Move the end that was taken."""
         kept = self.x, self.y
         super().drag(x, y)
         if self.moves == "start":
@@ -47,12 +43,10 @@ class Rays(Figure):
             self.x, self.y = kept
 
     def nudge(self, dx: int, dy: int) -> None:
-        """Move the chosen end."""
         x, y = (self.from_x, self.from_y) if self.moves == "start" else (self.x, self.y)
         self.drag(x + dx, y + dy)
 
     def demonstrate(self, tick: int) -> None:
-        """The end goes round."""
         self.moves = "end"
         super().demonstrate(tick)
 
@@ -89,7 +83,6 @@ class Rays(Figure):
         return found
 
     def numbers(self) -> list[tuple[str, str]]:
-        """What it costs and finds."""
         asked, stopped, (x, y) = self.asked()
         ray = self.from_x, self.from_y, self.x, self.y
         inside, missed = self.met()
@@ -103,7 +96,6 @@ class Rays(Figure):
         ]
 
     def draw(self, sheet: Sheet) -> None:
-        """Cells in their order, the ray, what it meets."""
         p = sheet.palette
         asked, stopped, end = self.asked()
         for number, cell in enumerate(self.visited, 1):

@@ -15,7 +15,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.play.app import App
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import Form
+from ninja_game.play.menus.panels import FormPanel
 from ninja_game.play.menus.replays import FILES_SHOWN, ReplayRow, ReplaysScreen
 from ninja_game.play.tas.editor import OtherRun, TasEditor
 from ninja_game.play.ui.widgets import Button, Widget
@@ -147,7 +147,7 @@ class OtherRunScreen(ReplaysScreen):
 
     def _ask(self) -> None:
         fields = [("path of a file, or a link", "", 200)]
-        form = Form(self.app, "Runs from a file", fields, "Show them", lambda texts: self.open_file(texts[0]))
+        form = FormPanel(self.app, "Runs from a file", fields, "Show them", lambda texts: self.open_file(texts[0]))
         self.app.push(form)
 
     def open_file(self, text: str) -> None:

@@ -112,7 +112,7 @@ class TakeOver:
         self.still = False
         self.tick = editor.cursor
         editor.go(self.tick)
-        self._held_before = editor.app.controls.held()
+        self._held_before = editor.app.controls.poll()
 
     def end(self) -> None:
         """The run is edited as before; all that was played is one edit."""
@@ -155,7 +155,7 @@ class TakeOver:
         editor, tick = self.editor, self.tick + 1
         session = editor.session
         if not self._ended(self.tick):
-            keys = editor.app.controls.held()
+            keys = editor.app.controls.poll()
             if not editor.attempt(lambda: session.change(editor.track.replaced(tick, tick + 1, [keys]), ticks=0)):
                 self.end()
                 return
@@ -169,7 +169,7 @@ class TakeOver:
             return
         if self.waiting:
             # Keys that were down before do not count until they are pressed again.
-            held = self.editor.app.controls.held()
+            held = self.editor.app.controls.poll()
             self._held_before &= held
             self.waiting = not held & ~self._held_before
             self.playing.clock.reset()

@@ -9,7 +9,7 @@ from ninja_game.errors import ArgumentError, NinjaGameError
 from ninja_game.formats.replay.input_runs import Marker, write_inputs
 from ninja_game.formats.replay.input_text import Inputs
 from ninja_game.play.clipboard import copy_text, pasted_text
-from ninja_game.play.menus.panels import Form
+from ninja_game.play.menus.panels import FormPanel
 from ninja_game.play.tas.editor import Span, TasEditor
 from ninja_game.play.tas.roll.facts import changes, compared
 from ninja_game.play.workspace.part import Commands
@@ -73,7 +73,7 @@ class RollCommands:
         """Ask for a tick or a marker's name, and go there."""
         editor = self._editor
         editor.app.push(
-            Form(editor.app, "Go to", [("Tick or name", "", 100)], "Go", lambda texts: self.go_to(texts[0]))
+            FormPanel(editor.app, "Go to", [("Tick or name", "", 100)], "Go", lambda texts: self.go_to(texts[0]))
         )
 
     def go_to(self, text: str) -> None:
@@ -213,7 +213,9 @@ class RollCommands:
         editor, tick = self._editor, self._editor.cursor
         name = next((name for at, name in editor.track.markers if at == tick), "")
         fields = [("Marker name (empty removes it)", name, 100)]
-        editor.app.push(Form(editor.app, f"Tick {tick}", fields, "Name it", lambda texts: self._name(tick, texts[0])))
+        editor.app.push(
+            FormPanel(editor.app, f"Tick {tick}", fields, "Name it", lambda texts: self._name(tick, texts[0]))
+        )
 
     def _name(self, tick: int, text: str) -> None:
         words = "-".join(text.split())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pygame
 
-from ninja_game.play.menus.panels import Form, Question
+from ninja_game.play.menus.panels import FormPanel, Question
 from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row
 from ninja_game.play.ui.theme import Area, Theme
@@ -71,7 +71,7 @@ class BranchesTab(Tab):
             self.list.index = [each for each, _ in self.tree].index(number)
 
         app = self.editor.app
-        app.push(Form(app, "Keep the run as a branch", [("its name", name, LONGEST)], "Keep", kept))
+        app.push(FormPanel(app, "Keep the run as a branch", [("its name", name, LONGEST)], "Keep", kept))
 
     def checkout(self) -> None:
         """Go on from the chosen branch."""
@@ -94,7 +94,7 @@ class BranchesTab(Tab):
         def renamed(texts: list[str]) -> None:
             session.rename_branch(number, texts[0].strip() or old)
 
-        app.push(Form(app, "Rename the branch", [("its name", old, LONGEST)], "Rename", renamed))
+        app.push(FormPanel(app, "Rename the branch", [("its name", old, LONGEST)], "Rename", renamed))
 
     def drop(self) -> None:
         """Forget the chosen branch, after a question."""

@@ -12,7 +12,7 @@ import pygame
 from ninja_game.errors import NinjaGameError
 from ninja_game.play.app import App
 from ninja_game.play.menus.menu_screen import MenuScreen
-from ninja_game.play.menus.panels import Form
+from ninja_game.play.menus.panels import FormPanel
 from ninja_game.play.tas.editor import TasEditor
 from ninja_game.play.tas.tabs.plot import TickRange, colour_of, draw_lane
 from ninja_game.play.tas.tabs.tab import SMALL, UNPLACED, Rows, Tab, put_in_a_row, what_is_wrong
@@ -170,7 +170,9 @@ class ValuesTab(Tab):
     def ask(self, text: str = "") -> None:
         self.editor.show_tab(self.name)
         fields = [("speed, x > 400, object_x(12) ...", text, LONGEST)]
-        self.editor.app.push(Form(self.editor.app, "Watch a value", fields, "Watch", lambda texts: self.add(texts[0])))
+        self.editor.app.push(
+            FormPanel(self.editor.app, "Watch a value", fields, "Watch", lambda texts: self.add(texts[0]))
+        )
 
     def add(self, text: str) -> None:
         """Watch a formula; what is wrong with it is reported, and the question is put again."""

@@ -41,7 +41,6 @@ class Particles:
         self._count = 0.0
 
     def clear(self) -> None:
-        """Away with all."""
         self.front.clear()
         self.rear.clear()
 

@@ -33,7 +33,6 @@ class Pose(NamedTuple):
         return Pose(*((x * facing * c - y * s, x * facing * s + y * c) for x, y in self))
 
     def moved(self, dx: float, dy: float) -> Pose:
-        """Moved as a whole."""
         return Pose(*((x + dx, y + dy) for x, y in self))
 
 

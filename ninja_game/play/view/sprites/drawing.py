@@ -79,7 +79,6 @@ class DrawTarget:
         self.covered: list[pygame.Rect] = []
 
     def begin(self, surface: pygame.Surface) -> None:
-        """Start a picture."""
         self.surface = surface
         self.covered = []
 
@@ -103,7 +102,6 @@ class DrawTarget:
             self.covered.append(rect.inflate(2, 2))
 
     def disc(self, colour: Colour, x: float, y: float, radius: float) -> None:
-        """A small filled circle."""
         if is_near(x, y):
             px = max(1, round(radius * self.canvas.scale))
             rect = pygame.draw.aacircle(self.surface, colour, self.canvas.point(x, y), px)
@@ -123,7 +121,6 @@ class SpriteBook:
         self._kept: OrderedDict[SpriteKey, Sprite] = OrderedDict()
 
     def sprite(self, key: SpriteKey) -> Sprite:
-        """The sprite of a key."""
         found = self._kept.get(key)
         if found is None:
             drawing = key.drawing

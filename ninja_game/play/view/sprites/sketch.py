@@ -54,7 +54,6 @@ class Sketch:
         return self._ax * self._fine_by + x * self._zoom, self._ay * self._fine_by + y * self._zoom
 
     def polygon(self, colour: Colour, points: Sequence[Point]) -> None:
-        """A filled polygon."""
         pygame.draw.polygon(self._fine, colour, [self._at(x, y) for x, y in points])
 
     def box(self, colour: Colour, x: float, y: float, w: float, h: float) -> None:
@@ -69,7 +68,6 @@ class Sketch:
         self.box(fill, x + width, y + width, w - 2 * width, h - 2 * width)
 
     def disc(self, colour: Colour, x: float, y: float, radius: float) -> None:
-        """A filled circle."""
         pygame.draw.circle(self._fine, colour, self._at(x, y), radius * self._zoom)
 
     def ring(self, colour: Colour, x: float, y: float, radius: float, width: float) -> None:
@@ -91,7 +89,6 @@ class Sketch:
         self.disc(colour, *b, end_width / 2)
 
     def path(self, colour: Colour, points: Sequence[Point], width: float) -> None:
-        """A bent line."""
         for a, b in pairwise(points):
             self.stroke(colour, a, b, width)
 

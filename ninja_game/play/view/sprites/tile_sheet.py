@@ -35,7 +35,6 @@ class TileSheet:
         self._pictures: TilePictures = {} if pictures is None else pictures
 
     def show(self, level: TileMap) -> None:
-        """Draw all cells."""
         for row in range(GRID_ROWS):
             for column in range(GRID_COLUMNS):
                 self.draw(column, row, level.tiles[(row + 1) * STRIDE + column + 1])
