@@ -41,6 +41,7 @@ from ninja_game.search.nodes import (
     random_below,
 )
 from ninja_game.search.states import Goal, estimate, find_entry, gold_hash, is_new, key_of, switch_state_of
+from ninja_game.search.switches import open_mask
 from ninja_game.sim.memory.declare import entry_point, fast
 from ninja_game.sim.memory.schema import Ninja
 from ninja_game.sim.rules import GOLD_BONUS, LIFETIME
@@ -211,13 +212,13 @@ def keep_along(
     Its ticks to go are those that the known run still has from its row that is most like the scratch world.
     """
     w = start.worlds[1]
-    switch_state = switch_state_of(w, goal, memory.counters[0], memory.nodes[parent].switch_state)
-    if switch_state < 0:
-        return
-    _, to_go = nearest(known, w, goal.masks[switch_state])
+    _, to_go = nearest(known, w, open_mask(w, goal.switch_slots))
     run_ticks = w.tick + to_go
     delay = known.max_delay if w.tick < known.span[1] else -LEAST_GAIN
     if run_ticks > memory.counters[0].best_ticks + delay:
+        return
+    switch_state = switch_state_of(w, goal, memory.counters[0], memory.nodes[parent].switch_state)
+    if switch_state < 0:
         return
     key = key_of(w, goal, switch_state, 0, resolution)
     slot = find_entry(memory.table, key)
