@@ -14,6 +14,7 @@ from ninja_game.generator.naming import PLACES
 from ninja_game.generator.scene import Board, Scene
 from ninja_game.generator.shaping import STYLES, shaped
 from ninja_game.levels.warnings import level_warnings
+from ninja_game.sim.kinds import BOUNCE_BLOCK, LAUNCH_PAD, ONE_WAY
 from ninja_game.sim.level import COLUMNS, ROWS
 from tools.measure.level_figures import figures
 
@@ -46,6 +47,11 @@ def test_a_level_of_every_plan_keeps_to_the_marks(layout: str, difficulty: int) 
 def test_a_level_comes_back_from_its_text(layout: str) -> None:
     level = composed(layout, 5).level
     assert parse_ascii_level(write_ascii_level(level)).level == level
+
+
+def test_scenes_have_fixtures_of_all_sorts() -> None:
+    kinds = {record.kind for layout in LAYOUTS for record in composed(layout, 5).fixtures}
+    assert kinds >= {BOUNCE_BLOCK, LAUNCH_PAD, ONE_WAY}
 
 
 def test_every_plan_has_names() -> None:

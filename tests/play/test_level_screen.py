@@ -245,7 +245,11 @@ def test_the_levels_of_a_file_follow_each_other(
     screen = LevelScreen(app, FileRun(app.player, load_levels(str(file))))
     app.push(screen)
     frames(app)
+    file.write_text(file.read_text().replace("#a#", "#b#"))
     for title in ("two", "one"):
+        press("retry")
+        frames(app)
+        assert screen.context.entry.named.comment == "b"
         play_to_the_end(app, controls, screen, recording)
         press("confirm")
         frames(app)

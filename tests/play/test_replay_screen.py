@@ -117,6 +117,15 @@ def test_others_on_the_same_level_run_along() -> None:
         assert [ghost.simulation.tick for ghost in screen.ghosts] == [20, 20]
 
 
+def test_a_key_shows_and_hides_the_others() -> None:
+    with scripted_app((396, 300)) as (app, _):
+        app.push(ReplayScreen(app, [TAKE]))
+        for shown in (False, True):
+            press("ghost")
+            frames(app)
+            assert app.settings.show_ghost is shown
+
+
 def test_the_mouse_drags_the_bar() -> None:
     with scripted_app((792, 600)) as (app, _):
         screen = ReplayScreen(app, [TAKE])

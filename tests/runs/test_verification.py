@@ -127,6 +127,13 @@ def test_an_empty_folder_is_said(tmp_path: Path) -> None:
     assert list(verify_plainly([tmp_path])) == [Unreadable(f"{tmp_path}: no recordings here")]
 
 
+def test_a_text_of_something_else_in_a_folder_is_named(tmp_path: Path) -> None:
+    (tmp_path / "notes.txt").write_text("just some notes\n")
+    (result,) = verify_plainly([tmp_path])
+    assert isinstance(result, Unreadable)
+    assert "notes.txt:1: no recording" in result.message
+
+
 def test_a_report_holds_all_results_and_their_sums(archive: Path) -> None:
     out = BytesIO()
     results = list(write_report(verify_plainly([archive]), out))

@@ -159,6 +159,9 @@ def test_gallery_is_searched_and_sorted_by_keyboard(open_page: Callable[..., Any
         "Array.from(document.querySelectorAll('.card'), (each) => Number(each.dataset.difficulty ?? 99))"
     )
     assert hard == sorted(hard)
+    assert len(set(hard)) > count / 2
+    shown = page.evaluate("Array.from(document.querySelectorAll('.card'), (each) => each.innerText)")
+    assert all(f"difficulty {value:.1f}" in text for value, text in zip(hard, shown, strict=True) if value < 99)
     page.keyboard.press("Tab")
     page.keyboard.press("Enter")
     page.wait_for_url("**/levels/*.html")

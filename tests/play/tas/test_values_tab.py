@@ -44,13 +44,14 @@ def test_values_are_those_of_a_straight_run_also_after_an_edit(at: TasDriver, ta
 def test_a_formula_is_asked_for_and_its_value_shown(at: TasDriver, tab: ValuesTab) -> None:
     at.press("v")
     assert isinstance(at.top(), FormPanel)
-    at.write("x > 100")
+    at.write("x > 200")
     at.press("return")
     assert at.top() is at.screen
     watched = tab.watched[-1]
     x = at.session.timeline.column("x")
     for tick in (0, len(x) - 1):
-        assert shown_value(watched, tick) == ("yes" if x[tick] > 100 else "no")
+        assert shown_value(watched, tick) == ("yes" if x[tick] > 200 else "no")
+    assert {shown_value(watched, tick) for tick in range(len(x))} == {"yes", "no"}
     assert shown_value(watched, 10**6) == "-"
 
 
