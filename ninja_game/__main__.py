@@ -28,6 +28,8 @@ def main() -> None:
         # tools/dev.py starts the program so that one which comes before this line waits for it.
         _signal.pthread_sigmask(_signal.SIG_UNBLOCK, (_signal.SIGINT,))
     open_missing_streams()
+    # Nor does a process that it starts import what lies in the current folder.
+    os.environ["PYTHONSAFEPATH"] = "1"
     from ninja_game.signals import end_on_signals
 
     end_on_signals()

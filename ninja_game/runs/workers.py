@@ -91,8 +91,9 @@ class Local:
     def _start(self) -> Executor:
         if not self._processes:
             return ThreadPoolExecutor(self._count)
-        # Not fork: a child that inherits the locks of our threads may wait for ever.
-        return ProcessPoolExecutor(self._count, get_context("spawn"), _begin_worker)
+        # Not fork: a child that inherits the locks of our threads may wait for ever. Its locks start a process too.
+        with _safe_path():
+            return ProcessPoolExecutor(self._count, get_context("spawn"), _begin_worker)
 
     @property
     def count(self) -> int:

@@ -109,7 +109,7 @@ def test_a_recording_without_its_level_is_shown_on_a_given_one(tmp_path: Path) -
 def test_a_cut_demo_is_told(tmp_path: Path) -> None:
     demo = tmp_path / "demo.txt"
     demo.write_text(f"$Walk###{WALK}#702:{'0|' * 98}0#")
-    assert "cut: 9 ticks of inputs are missing" in info(demo).stdout
+    assert "truncated: 9 ticks of inputs are missing" in info(demo).stdout
 
 
 def test_a_name_cannot_forge_rows_or_move_the_cursor(tmp_path: Path) -> None:

@@ -324,7 +324,7 @@ def test_command_says_what_is_wrong(run: Path) -> None:
     assert "ninja-game: goal, column 4: not a formula; found the end" in wrong.stderr
     number = called(run, "--from", 0, "--to", 9, "--maximise", "x > 3")
     assert "ninja-game: measure: true or false, no number; found 'x > 3'" in number.stderr
-    assert "say what is wanted" in called(run, "--from", 0, "--to", 9).stderr
+    assert "nothing to search for" in called(run, "--from", 0, "--to", 9).stderr
     assert "--every is for" in called(run, "--from", 0, "--to", 9, "--goal", "x > 1", "--every", 2).stderr
     none = called(run, "--from", 0, "--to", 9, "--goal", "x > 700", "--seconds", 0.3)
     assert none.exit_code == 1
