@@ -13,8 +13,10 @@ from threading import Lock
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ninja_game.backend.known_run import check_known_run
-from ninja_game.errors import ArgumentError, NinjaGameError
+from ninja_game.budget import PAGE_TICK_COST, tick_cost
+from ninja_game.errors import ArgumentError, LevelError, NinjaGameError
 from ninja_game.files.user_folder import how_to_install
+from ninja_game.runtime import IN_PAGE
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import MemoryName, Worlds
 from ninja_game.sim.memory.kernels import load_world
@@ -63,9 +65,17 @@ def open_worlds(memory: str, levels: Level | Sequence[Level], count: int = 1, *,
     """``count`` new worlds in one level or several, in the memory of that name (as ``choose_memory`` takes it).
 
     "checked" is the compiled memory where each index is checked: one out of range is an IndexError.
-    Raises LevelError for a level that cannot be played, what ``choose_memory`` and ``compiled`` raise.
+    Raises LevelError for a level that cannot be played or is too large for a page, what ``choose_memory`` and
+    ``compiled`` raise.
     """
     several = [levels] if isinstance(levels, Level | str) else levels
+    if IN_PAGE and (cost := max(map(tick_cost, several), default=0)) > PAGE_TICK_COST:
+        raise LevelError(
+            "too many objects for a page",
+            found=f"work of {cost:,} a tick",
+            expected=f"at most {PAGE_TICK_COST:,}",
+            hint="play it on a desktop",
+        )
     # The first time this imports Numba, which must come before NumPy.
     if _usable_memory(memory) == "plain":
         return PlainWorlds(several, count, box=box)

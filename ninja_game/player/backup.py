@@ -69,8 +69,12 @@ _COUNTS = (
 
 
 def write_backup(player: PlayerData, path: Path) -> list[str]:
-    """Write everything of a player's into a zip; what was left out. Raises FileError, OSError, sqlite3.Error."""
+    """Write everything of a player's into a zip; what was left out, and why it could not be taken in, if that is so.
+
+    Raises FileError, OSError, sqlite3.Error.
+    """
     player.store.flush()
+    messages = []
     with TemporaryDirectory() as scratch:
         copy = Path(scratch) / RECORDS
         with closing(sqlite3.connect(copy)) as target:
@@ -79,10 +83,18 @@ def write_backup(player: PlayerData, path: Path) -> list[str]:
         with ZipFile(packed, "w", ZIP_DEFLATED) as archive:
             archive.writestr(ZipInfo(RECORDS), copy.read_bytes(), ZIP_DEFLATED)
             for name in _own_files(player.folder):
-                if player.folder / name != path and not _problem(name):
-                    archive.writestr(ZipInfo(name), read_bytes(player.folder / name), ZIP_DEFLATED)
+                content = read_bytes(player.folder / name)
+                if problem := _problem(name, len(content)):
+                    messages.append(_left_out(name, problem))
+                elif player.folder / name != path:
+                    archive.writestr(ZipInfo(name), content, ZIP_DEFLATED)
+        try:
+            _unpacked(packed.getvalue())
+            _opened(copy).connection.close()
+        except ValueError as error:
+            messages.append(f"too large to be taken in: {error}; keep a copy of {player.folder} instead")
     write_atomically(path, packed.getvalue())
-    return [_left_out(name, problem) for name in _own_files(player.folder) if (problem := _problem(name))]
+    return messages
 
 
 def _own_files(folder: Path) -> Iterator[str]:

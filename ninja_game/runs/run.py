@@ -12,8 +12,9 @@ from __future__ import annotations
 import hashlib
 import sys
 from array import array
+from collections.abc import Generator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from ninja_game.backend.memories import open_worlds
 from ninja_game.budget import RUN_BUDGET, affordable_ticks, over_budget
@@ -32,6 +33,8 @@ from ninja_game.simulation import Body, is_box
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -119,23 +122,49 @@ def run_level(
     Raises LevelError for a level that cannot be played, DemoError for more than a million inputs or for one that there
     is not, ArgumentError for another body or memory, BudgetError for a run that is not over when its budget is.
     """
+    return drained(run_in_slices(level, inputs, body=body, memory=memory, digest=digest, budget=budget))
+
+
+def run_in_slices(
+    level: Level,
+    inputs: bytes,
+    *,
+    body: Body = "circle",
+    memory: str = "auto",
+    digest: bool = False,
+    budget: int = RUN_BUDGET,
+    slice_work: int = RUN_BUDGET,
+) -> Generator[None, None, RunResult]:
+    """As ``run_level``, but a generator: it pauses after each ``slice_work`` of work, and its value is the result."""
     check_inputs(inputs)
     world = open_worlds(memory, level, box=is_box(body))
     most = min(len(inputs), affordable_ticks(level, budget))
+    slice_ticks = affordable_ticks(level, slice_work)
     records: list[RunRecord] = []
     in_time = True
     while world.tick() < most and not world.outcome():
         # Up to the tick at which the lifetime would run out without more gold; nothing else can be too late.
         deadline = LIFETIME + GOLD_BONUS * world.gold()
         in_time = in_time and world.tick() < deadline
-        records.append(world.run(inputs[world.tick() : min(most, deadline) if in_time else most]))
+        end = min(most, deadline) if in_time else most
+        records.append(world.run(inputs[world.tick() : min(end, world.tick() + slice_ticks)]))
+        yield
     if not world.outcome() and most < len(inputs):
         raise over_budget(level, len(inputs), budget)
     in_time = in_time and world.tick() - bool(world.outcome()) < LIFETIME + GOLD_BONUS * world.gold()
     places = _little_endian(array("d", b"".join(_bytes(each.places) for each in records))).tobytes()
     states = b"".join(_bytes(each.states) for each in records)
-    end = replay_digest(world.world()) if digest else ""
-    return RunResult(OUTCOME_NAMES[world.outcome()], world.gold(), places, states, in_time, end)
+    final_digest = replay_digest(world.world()) if digest else ""
+    return RunResult(OUTCOME_NAMES[world.outcome()], world.gold(), places, states, in_time, final_digest)
+
+
+def drained(slices: Generator[None, None, T]) -> T:
+    """The value of a generator that pauses between slices of work, without a pause."""
+    while True:
+        try:
+            next(slices)
+        except StopIteration as end:
+            return cast(T, end.value)
 
 
 def _little_endian(numbers: array[float]) -> array[float]:

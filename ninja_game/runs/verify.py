@@ -6,7 +6,7 @@ final tick, gold and the digest of the world after that tick. Inputs alone are t
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Container, Generator, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -18,7 +18,7 @@ from ninja_game.formats.recording import Recording
 from ninja_game.formats.replay.text import RULES_VERSION, Replay
 from ninja_game.levels.findings import RunProblem, in_run
 from ninja_game.runs.recording_reader import named_errors
-from ninja_game.runs.run import RunResult, run_level
+from ninja_game.runs.run import RunResult, drained, run_in_slices
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.simulation import Simulation
 
@@ -105,6 +105,17 @@ def verify_recording(
     when its ``budget`` of work is (``ninja_game.budget``), OutOfRangeError for a run that leads out
     of its world, KnownRunError where no run can be judged.
     """
+    return drained(verify_in_slices(recording, memory, counting, budget))
+
+
+def verify_in_slices(
+    recording: Recording,
+    memory: str = "auto",
+    counting: Container[str] | None = None,
+    budget: int = RUN_BUDGET,
+    slice_work: int = RUN_BUDGET,
+) -> Generator[None, None, Verdict]:
+    """As ``verify_recording``, but a generator: it pauses after each ``slice_work``, its value is the verdict."""
     claimed = None if recording.replay.unclaimed else recording.replay
     verdict = Verdict(
         recording.file, recording.record, recording.name, recording.author, level_digest(recording.level),
@@ -119,13 +130,14 @@ def verify_recording(
     with named_errors(recording):
         inputs = recording.inputs
         try:
-            run = run_level(
+            run = yield from run_in_slices(
                 recording.level,
                 inputs,
                 body=recording.body,
                 memory=one_memory,
                 digest=bool(recording.replay.digest),
                 budget=budget,
+                slice_work=slice_work,
             )
         except IndexError as error:
             what = "the run leads out of its world's arrays and is not judged: a fault of this program, worth a report"

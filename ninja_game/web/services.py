@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from ninja_game.budget import PAGE_BUDGET
+from ninja_game.budget import PAGE_BUDGET, TURN_WORK
 from ninja_game.errors import BudgetError, NinjaGameError
 from ninja_game.formats.links.fragment import is_link, watched
 from ninja_game.play.app import App
@@ -94,8 +94,8 @@ class PageServices:
         except (NinjaGameError, OSError, sqlite3.Error) as error:
             raise NinjaGameError(str(error)) from None
 
-    def verdicts(self, name: str, data: bytes) -> Iterator[str]:
-        """A verdict on every recording in a file, one by one: JSON as of ``ninja-game verify --json``.
+    def verdicts(self, name: str, data: bytes) -> Iterator[str | None]:
+        """A verdict on every recording in a file, one by one: JSON as of ``ninja-game verify --json``; None: a pause.
 
         ``{"unreadable": message}`` for what cannot be read, or is more work than a page does.
         """
@@ -105,24 +105,24 @@ class PageServices:
         from ninja_game.formats.load import load_levels
         from ninja_game.formats.n14.level_string import level_digest
         from ninja_game.runs.recording_reader import Unreadable, recordings_in
-        from ninja_game.runs.verify import verify_recording, with_demands
+        from ninja_game.runs.verify import verify_in_slices, with_demands
 
-        names = {level_digest(each.level): each.name for path in bundled_levels() for each in load_levels(path)}
+        names: dict[str, str] = {}
+        for levels in bundled_levels():
+            names |= {level_digest(each.level): each.name for each in load_levels(levels)}
+            yield None
         with TemporaryDirectory() as folder:
             path = Path(folder) / Path(name).name
             path.write_bytes(bytes(data))
             for found in recordings_in([path]):
+                if isinstance(found, Unreadable):
+                    yield json.dumps({"unreadable": found.message})
+                    continue
                 try:
-                    verdict = (
-                        found if isinstance(found, Unreadable) else verify_recording(found, "plain", budget=PAGE_BUDGET)
-                    )
+                    verdict = yield from verify_in_slices(found, "plain", budget=PAGE_BUDGET, slice_work=TURN_WORK)
+                    shown = with_demands(verdict, names, only_these=False, strict=False).as_json() | {"file": name}
                 except BudgetError as error:
-                    verdict = Unreadable(str(replace(error, hint="`ninja-game verify` judges it on a desktop")))
+                    shown = {"unreadable": str(replace(error, hint="`ninja-game verify` judges it on a desktop"))}
                 except NinjaGameError as error:
-                    verdict = Unreadable(str(error))
-                if isinstance(verdict, Unreadable):
-                    yield json.dumps({"unreadable": verdict.message})
-                else:
-                    yield json.dumps(
-                        with_demands(verdict, names, only_these=False, strict=False).as_json() | {"file": name}
-                    )
+                    shown = {"unreadable": str(error)}
+                yield json.dumps(shown)

@@ -20,6 +20,7 @@ from ninja_game.editor.ascii_text import ascii_text
 from ninja_game.editor.files import recovered
 from ninja_game.errors import FileError
 from ninja_game.files.tree import Tree
+from ninja_game.player import backup
 from ninja_game.player.backup import MOST_REPLAYS, MOST_ROWS, _Folder, read_backup, write_backup
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import LevelRun
@@ -136,6 +137,19 @@ def test_an_odd_name_of_ones_own_does_not_go_along_and_is_told(tmp_path: Path) -
         'left out: levels/what?.txt: not one of /\\:*?"<>| may be in it'
     ]
     assert "levels/what?.txt" not in ZipFile(tmp_path / "all.zip").namelist()
+
+
+def test_what_would_not_be_taken_in_is_told_when_it_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    filled(tmp_path)
+    data = player_data(tmp_path)
+    (tmp_path / "editing").mkdir(exist_ok=True)
+    (tmp_path / "editing" / "long.json").write_bytes(bytes(2**20 + 1))
+    assert write_backup(data, tmp_path / "one.zip") == ["left out: editing/long.json: no level under edit"]
+    monkeypatch.setattr(backup, "MOST_REPLAYS", 2)
+    told = write_backup(data, tmp_path / "all.zip")[-1]
+    assert told.startswith("too large to be taken in: 6 rows in the table replay, of which at most 2 are accepted")
+    with pytest.raises(FileError, match="6 rows"):
+        read_backup(player_data(tmp_path / "to"), (tmp_path / "all.zip").read_bytes())
 
 
 def test_names_that_are_one_file_on_some_system_stand_beside_each_other(tmp_path: Path) -> None:

@@ -13,10 +13,11 @@ import pytest
 from click.testing import CliRunner, Result
 
 from ninja_game import run_level
+from ninja_game.backend import memories
 from ninja_game.backend.memories import open_worlds
-from ninja_game.budget import PAGE_BUDGET, RUN_BUDGET, affordable_ticks, tick_cost
+from ninja_game.budget import PAGE_BUDGET, RUN_BUDGET, TURN_WORK, affordable_ticks, tick_cost
 from ninja_game.cli.main import cli
-from ninja_game.errors import BudgetError
+from ninja_game.errors import BudgetError, LevelError
 from ninja_game.files.user_folder import bundled_replays
 from ninja_game.formats.load import load_replays, parse_level
 from ninja_game.formats.n14.demo import parse_demo, write_demo
@@ -33,6 +34,7 @@ from ninja_game.sim.inputs import MAX_DEMO_TICKS, Demo
 from ninja_game.sim.kinds import NO_KIND
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.memory.interface import Worlds
+from ninja_game.simulation import Simulation
 from ninja_game.web.services import PageServices
 from tests.support.heavy import heavy_level
 from tests.support.memories import BOTH
@@ -200,6 +202,28 @@ def test_a_page_judges_no_more_than_its_one_thread_can(tmp_path: Path) -> None:
     ticks = PAGE_BUDGET // tick_cost(crowd) + 1
     file = write_records(tmp_path / "runs.txt", ("one", write_level_string(crowd, exact=True), running(ticks)))
     services = PageServices.__new__(PageServices)
-    (verdict,) = map(json.loads, services.verdicts("runs.txt", file.read_bytes()))
+    (verdict,) = map(json.loads, filter(None, services.verdicts("runs.txt", file.read_bytes())))
     assert "costs too much work" in verdict["unreadable"]
     assert "`ninja-game verify` judges it on a desktop" in verdict["unreadable"]
+
+
+def test_a_page_pauses_between_small_slices_of_a_run(tmp_path: Path, ticks_run: Callable[[], int]) -> None:
+    crowd, ticks = heavy_level(400), 600
+    file = write_records(tmp_path / "runs.txt", ("one", write_level_string(crowd, exact=True), running(ticks)))
+    slices, before = [], ticks_run()
+    for text in PageServices.__new__(PageServices).verdicts("runs.txt", file.read_bytes()):
+        slices.append(ticks_run() - before)
+        before += slices[-1]
+        verdict = text
+    assert verdict is not None
+    assert json.loads(verdict)["ticks"] == ticks + 1
+    assert sum(slices) >= ticks
+    assert max(slices) * tick_cost(crowd) <= TURN_WORK
+
+
+def test_a_level_whose_pictures_would_hold_a_page_is_opened_on_a_desktop_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    Simulation(heavy_level(3000), memory="plain")
+    monkeypatch.setattr(memories, "IN_PAGE", True)
+    Simulation(heavy_level(400), memory="plain")
+    with pytest.raises(LevelError, match=r"too many objects for a page.*play it on a desktop"):
+        Simulation(heavy_level(3000), memory="plain")

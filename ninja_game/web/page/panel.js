@@ -132,7 +132,7 @@ export class Panel {
       const results = this.results;
       results.replaceChildren();
       for (const text of verdicts) {
-        results.append(...verdictParts(JSON.parse(text), text));
+        if (text) results.append(...verdictParts(JSON.parse(text), text));
         await new Promise((done) => setTimeout(done));
         if (this.results !== results || !dialog.open) break;
       }
