@@ -219,6 +219,9 @@ def main() -> NoReturn:
     """The program `ninja-game`."""
     guard_terminal()
     end_on_signals()
+    if sys.argv[1:]:
+        # A shell that completes words gives none to the program itself.
+        os.environ.pop("_NINJA_GAME_COMPLETE", None)
     try:
         cli.main(prog_name="ninja-game")
     finally:
