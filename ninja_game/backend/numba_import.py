@@ -24,7 +24,7 @@ FIXED = {"NUMBA_DEBUGINFO": "0", "NUMBA_ENABLE_PROFILING": "0"}
 """Settings that would follow from variables of other programs (VS_PROFILER)."""
 
 _CONFIG, _CONFIG_FILE = "numba.core.config", ".numba_config.yaml"
-_FOREIGN = ("NUMBA_", "NPY_", "NUMPY_", "LLVMLITE_")
+_FOREIGN = ("NUMBA_", "NPY_", "LLVMLITE_")
 
 
 class _ConfigLoader(SourceFileLoader):
