@@ -14,7 +14,7 @@ from ninja_game.cli.run_options import level_given, level_option, memory_option,
 
 @click.command(name="demonstrations")
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
-@click.option("--output", "-o", type=click.Path(dir_okay=False, path_type=Path), help="Write arrays to this .npz file.")
+@click.option("-o", "--output", type=click.Path(dir_okay=False, path_type=Path), help="Write arrays to this .npz file.")
 @click.option("--minari", "dataset", metavar="NAME", help="Write a Minari data set of this name, such as ninja/set-v0.")
 @click.option(
     "--observation", "parts", metavar="PART", multiple=True, default=("state",), show_default=True,

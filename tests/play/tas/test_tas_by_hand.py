@@ -110,7 +110,7 @@ def test_a_speedrun_is_made_shorter_by_hand(tmp_path: Path, root: Path) -> None:
     with virtual_screen() as display:
         home = tmp_path / "home"
         home.mkdir()
-        runner = Runner(display, home, root, "tas", str(file), "--beside", str(other))
+        runner = Runner(display, home, root, "tas", str(file), "--against", str(other))
         try:
             # Take over, with a key that the run has not: ticks change, and undo brings all of them back at once.
             key = "Left" if sum(each & KEY_LEFT for each in mine[:40]) < 20 else "Right"
