@@ -6,9 +6,14 @@ A break changes one node of a syntax tree: a comparison, an operator, `and` and 
 function returns, a call or `+=` that is left out. The first call at a HEAD runs all tests once under coverage.py, which
 tells which tests execute a line. Each break is tried in a scratch worktree of HEAD on the tests that execute its line,
 or lines that name what it defines, fastest first; where none does, on the test files that import its module, or share
-its folder or name. Breaks of the rules are drawn only with `--part sim`; `change_rules` has a list of them. What came
-of each is a line of JSON in the log, where the next call with that HEAD goes on. A survivor is an untested line, or a
-break that changes nothing; read it before you write a test.
+its folder or name. Breaks of the rules are drawn only with `--part sim`. What came of each is a line of JSON in the
+log, where the next call with that HEAD goes on. A survivor is an untested line, or a break that changes nothing; read
+it before you write a test.
+
+    python3 tools/dev.py change-rules [NAME ...]
+
+tries the breaks of the rules that `rule_changes` lists, without ../shared, on the plain memory; docs/testing.md says
+which are left and why.
 """
 
 from __future__ import annotations
@@ -25,7 +30,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache, partial
 from itertools import accumulate
@@ -36,6 +41,7 @@ from typing import Any, NamedTuple
 from coverage import Coverage, CoverageData
 
 from tools import ROOT
+from tools.rule_changes import CHANGES
 
 LEFT_OUT = ("ninja_game/sim/", "ninja_game/web/shim/", "ninja_game/web/page/")
 LOG = ROOT / "build" / "breaks.jsonl"
@@ -47,6 +53,16 @@ OTHER = {getattr(ast, name): getattr(ast, PAIRS[place ^ 1]) for place, name in e
 ALL = ("--ignore=tests/sim",)
 """Of a run of all tests: those of the rules execute little else, for long."""
 NOT_RUN = {"annotation", "returns", "decorator_list", "type_params"}
+
+
+RULE_TESTS = [
+    *("-k", "not compiled and not memories"),
+    *(f"tests/sim/test_{name}.py" for name in ("golden", "check_values", "edges")),
+    *(f"tests/sim/test_{name}.py" for name in ("objects_harmless", "objects_deadly", "properties")),
+]
+"""What the listed breaks of the rules are tried on."""
+ALLOWED = 5
+"""How many of them may survive."""
 
 
 class Break(NamedTuple):
@@ -165,7 +181,8 @@ class Executed:
         found = {test for line in range(first, last + 1) for test in seen.get(line, ())}
         if named := re.match(r"\s*(\w+(?:, \w+)*)(?:: .+?)? = ", text.decode().splitlines()[first - 1]):
             found |= {test for name in named[1].split(", ") for test in self._naming(name)}
-        tests, total = [], 0.0
+        tests: list[str] = []
+        total = 0.0
         for test in sorted(found & self.seconds.keys(), key=self.seconds.__getitem__):
             total += self.seconds[test]
             if tests and total > BUDGET:
@@ -187,15 +204,27 @@ class Executed:
         }
 
 
+def rule_breaks() -> dict[str, Break]:
+    """The listed breaks of the rules by name; ends the program for one whose text does not stand there exactly once."""
+    found = {}
+    for name, file, old, new in CHANGES:
+        source = (ROOT / "ninja_game" / "sim" / file).read_bytes()
+        if source.count(old.encode()) != 1:
+            sys.exit(f"{name}: {old!r} stands {source.count(old.encode())} times in ninja_game/sim/{file}")
+        start = source.index(old.encode())
+        found[name] = Break(f"ninja_game/sim/{file}", start, start + len(old.encode()), new)
+    return found
+
+
 def try_out(
-    broken: Break, executed: Executed, trees: Queue[Path], sound: dict[str, bool]
+    broken: Break, tests_of: Callable[[Break], list[str]], trees: Queue[Path], sound: dict[str, bool]
 ) -> tuple[str, list[str], float]:
     """What came of a break, the tests that failed or ran, seconds; a test that fails without a break does not count."""
     tree, began = trees.get(), time.monotonic()
     path = tree / broken.file
     before = path.read_bytes()
     while True:
-        tests = [test for test in executed.tests_of(broken) if sound.get(test, True)]
+        tests = [test for test in tests_of(broken) if sound.get(test, True)]
         path.write_bytes(before[: broken.start] + broken.new.encode() + before[broken.end :])
         result, failed = run_tests(tree, ["-x", *tests])
         path.write_bytes(before)
@@ -238,15 +267,21 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=100, help="how many breaks to draw (100)")
     parser.add_argument("--seed", type=int, default=1, help="which ones (1)")
     parser.add_argument("--part", default="", help="only of this folder of ninja_game; also sim")
+    parser.add_argument("--rules", nargs="*", metavar="NAME", help="instead these of rule_changes, or all of them")
     parser.add_argument("--jobs", type=int, default=1, help="how many at a time (1)")
     parser.add_argument("--log", type=Path, default=LOG, help="where the results are (build/breaks.jsonl)")
     options = parser.parse_args()
     if git("status", "--porcelain", "ninja_game", "tests"):
         sys.exit("breaks: ninja_game or tests differ from HEAD, whose copy is tried; commit first")
-    files = [path.relative_to(ROOT).as_posix() for path in sorted((ROOT / "ninja_game" / options.part).rglob("*.py"))]
-    left_out = LEFT_OUT if not options.part else ()
-    every = [broken for file in files if not file.startswith(left_out) for broken in breaks_of(file)]
-    drawn = random.Random(options.seed).sample(every, min(options.count, len(every)))
+    if options.rules is not None:
+        listed = rule_breaks()
+        drawn = [listed[name] for name in options.rules or listed]
+    else:
+        paths = sorted((ROOT / "ninja_game" / options.part).rglob("*.py"))
+        files = [path.relative_to(ROOT).as_posix() for path in paths]
+        left_out = LEFT_OUT if not options.part else ()
+        every = [broken for file in files if not file.startswith(left_out) for broken in breaks_of(file)]
+        drawn = random.Random(options.seed).sample(every, min(options.count, len(every)))
     options.log.parent.mkdir(parents=True, exist_ok=True)
     commit, trees = git("rev-parse", "HEAD"), Queue[Path]()
     with (
@@ -260,17 +295,19 @@ def main() -> int:
             git("worktree", "add", "--detach", f"{scratch}/{number}", commit)
             trees.put(Path(scratch, str(number)))
         todo = [broken for broken in drawn if broken not in results]
-        executed = Executed(options.log.parent / f"executed-{commit[:12]}", Path(scratch, "0"), options.jobs)
-        tried = pool.map(partial(try_out, executed=executed, trees=trees, sound={}), todo)
-        for broken, (result, tests, seconds) in zip(todo, tried, strict=True):
-            row = {"commit": commit, "break": broken, "result": result, "seconds": seconds, "tests": tests}
+        folder = options.log.parent / f"executed-{commit[:12]}"
+        executed = None if options.rules is not None else Executed(folder, Path(scratch, "0"), options.jobs)
+        tests_of = executed.tests_of if executed else lambda _: RULE_TESTS
+        tried = pool.map(partial(try_out, tests_of=tests_of, trees=trees, sound={}), todo)
+        for broken, (result, failed, seconds) in zip(todo, tried, strict=True):
+            row = {"commit": commit, "break": broken, "result": result, "seconds": seconds, "tests": failed}
             print(json.dumps(row), file=log, flush=True)
             results[broken] = result
             print(f"{len(results)} {result}: {told(broken)}", flush=True)
     git("worktree", "prune")
     survivors = [broken for broken in drawn if results[broken] == "survived"]
     print(f"\n{len(survivors)} of {len(drawn)} survived", *map(told, survivors), sep="\n")
-    return 1 if survivors else 0
+    return 1 if len(survivors) > (ALLOWED if options.rules is not None else 0) else 0
 
 
 def told(broken: Break) -> str:
