@@ -219,6 +219,12 @@ def main() -> NoReturn:
     """The program `ninja-game`."""
     guard_terminal()
     end_on_signals()
+    if sys.argv[1:]:
+        # A shell that completes words gives none to the program itself.
+        os.environ.pop("_NINJA_GAME_COMPLETE", None)
+    # NumPy, which some commands import before Numba is set up, reads these and may fail.
+    for name in [name for name in os.environ if name.startswith(("NPY_", "NUMPY_"))]:
+        del os.environ[name]
     try:
         cli.main(prog_name="ninja-game")
     finally:

@@ -119,6 +119,9 @@ def test_the_names_of_our_levels_stand_for_their_files_and_are_completed() -> No
         [sys.executable, "-m", "ninja_game"], env=os.environ | asked, capture_output=True, text=True, check=False
     )
     assert "plain,00-0-first-steps" in completed.stdout
+    words = [sys.executable, "-m", "ninja_game", "info", "no-such-level"]
+    given = subprocess.run(words, env=os.environ | asked, capture_output=True, text=True, check=False)
+    assert given.returncode == 2, "the words of completion stand for those of the command"
 
 
 def test_bad_input_names_the_place(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -49,7 +49,7 @@ NUMBA = {
         "LLVMLITE_ENABLE_IR_LAYER_TYPED_POINTERS": "0",
     },
     "features of NumPy": {"NPY_DISABLE_CPU_FEATURES": "SSE2"},
-    "more of NumPy": {"NPY_ENABLE_CPU_FEATURES": "JUNK", "NPY_PROMOTION_STATE": "junk"},
+    "more of NumPy": {"NPY_ENABLE_CPU_FEATURES": "JUNK", "NUMPY_MADVISE_HUGEPAGE": "junk"},
     "threads of libraries": {"OMP_NUM_THREADS": "0", "MKL_NUM_THREADS": "x", "OPENBLAS_CORETYPE": "Prescott"},
     "features of the C library": {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-AVX"},
     "memory with rubbish in it": {"MALLOC_PERTURB_": "165"},

@@ -428,7 +428,7 @@ def test_a_run_on_a_level_that_does_not_count_is_not_simulated(tmp_path: Path, m
     def simulate(*_: object, **__: object) -> None:
         raise AssertionError("simulated")
 
-    monkeypatch.setattr("ninja_game.runs.verify.run_level", simulate)
+    monkeypatch.setattr("ninja_game.runs.verify.run_in_slices", simulate)
     path = write_records(tmp_path / "a.txt", ("Walk", WALK, running(WALK_END)))
     for options in ({"strict": True}, {"levels": [NamedLevel("", "", "", parse_level(SPIKED), "b.txt")]}):
         (result,) = verify_plainly([path], **options)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import MISSING, fields, is_dataclass
 from enum import Enum
 from pathlib import Path
@@ -24,7 +24,10 @@ from tests.support.samples import WALK
 SHORT = ninja_game.parse_level(WALK)
 RECORDED = Path(__file__).parents[1] / "golden" / "promises.txt"
 
-MADE = {"Simulation": lambda: ninja_game.Simulation(SHORT), "Batch": lambda: ninja_game.Batch(SHORT, 1, memory="plain")}
+MADE: dict[str, Callable[[], object]] = {
+    "Simulation": lambda: ninja_game.Simulation(SHORT),
+    "Batch": lambda: ninja_game.Batch(SHORT, 1, memory="plain"),
+}
 """Classes whose instances have more than the class shows."""
 
 VERSIONS = {
@@ -63,7 +66,7 @@ def _api(name: str) -> Iterator[str]:
     elif isinstance(value, type) and issubclass(value, Enum):
         yield from (f"{name}.{each.name} = {each.value}" for each in value)
     elif issubclass(value, tuple):
-        yield from (f"{name}.{field}: {kind}" for field, kind in value.__annotations__.items())
+        yield from (f"{name}.{field}" for field in value.__annotations__)
     elif not issubclass(value, Exception):
         yield f"{name}{inspect.signature(value)}"
     if name in MADE:
