@@ -18,7 +18,7 @@ PAGE_BUDGET = 3_000_000
 """Work of a run that a page judges, on its one thread: 10,000 ticks of 290 objects."""
 
 PAGE_TICK_COST = 2_000
-"""Of a level that a page opens: a picture of more moving objects would hold its thread; N levels cost 600 at most."""
+"""Of a level that a page opens: a picture of more moving objects would hold its thread; those of N cost 280 at most."""
 
 TURN_WORK = 15_000
 """Work between two pictures, where a window or a page shows a run: some 5 to 10 ms on the plain memory."""

@@ -3,10 +3,17 @@
     python3 tools/dev.py tool breaks --count 400 --seed 1 [--part formats] [--jobs 2]
 
 A break changes one node of a syntax tree: a comparison, an operator, `and` and `or`, a number or truth value, what a
-function returns, a call or `+=` that is left out. Each is tried in a scratch worktree of HEAD, on the tests nearest to
-its module: those that import it, or share its folder or name. Breaks of the rules are drawn only with `--part sim`;
-`change_rules` has a list of them. What came of each is a line of JSON in the log, where the next call with that HEAD
-goes on. A survivor is an untested line, or a break that changes nothing; read it before you write a test.
+function returns, a call or `+=` that is left out. The first call at a HEAD runs all tests once under coverage.py, which
+tells which tests execute a line. Each break is tried in a scratch worktree of HEAD on the tests that execute its line,
+or lines that name what it defines, fastest first; where none does, on the test files that import its module, or share
+its folder or name. Breaks of the rules are drawn only with `--part sim`. What came of each is a line of JSON in the
+log, where the next call with that HEAD goes on. A survivor is an untested line, or a break that changes nothing; read
+it before you write a test.
+
+    python3 tools/dev.py change-rules [NAME ...]
+
+tries the breaks of the rules that `rule_changes` lists, without ../shared, on the plain memory; docs/testing.md says
+which are left and why.
 """
 
 from __future__ import annotations
@@ -22,7 +29,8 @@ import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache, partial
 from itertools import accumulate
@@ -30,18 +38,31 @@ from pathlib import Path
 from queue import Queue
 from typing import Any, NamedTuple
 
+from coverage import Coverage, CoverageData
+
 from tools import ROOT
+from tools.rule_changes import CHANGES
 
 LEFT_OUT = ("ninja_game/sim/", "ninja_game/web/shim/", "ninja_game/web/page/")
 LOG = ROOT / "build" / "breaks.jsonl"
-MOST, SECONDS = 4, 600
-"""How many test files are run for a break, and for how long."""
+MOST, BUDGET, SECONDS = 4, 60.0, 600
+"""For a break: test files that are near, seconds that its tests take without it, seconds after which they are ended."""
 PAIRS = "Lt LtE Gt GtE Eq NotEq Is IsNot In NotIn And Or Add Sub Mult Div BitAnd BitOr LShift RShift".split()  # noqa: SIM905
 OTHER = {getattr(ast, name): getattr(ast, PAIRS[place ^ 1]) for place, name in enumerate(PAIRS)}
 """What an operator becomes."""
-SEE_ALL = {"ninja_game/play/": "tests/play/test_recorded_screens.py"}
-"""A test that sees all of a room, though it imports little of it."""
+ALL = ("--ignore=tests/sim",)
+"""Of a run of all tests: those of the rules execute little else, for long."""
 NOT_RUN = {"annotation", "returns", "decorator_list", "type_params"}
+
+
+RULE_TESTS = [
+    *("-k", "not compiled and not memories"),
+    *(f"tests/sim/test_{name}.py" for name in ("golden", "check_values", "edges")),
+    *(f"tests/sim/test_{name}.py" for name in ("objects_harmless", "objects_deadly", "properties")),
+]
+"""What the listed breaks of the rules are tried on."""
+ALLOWED = 5
+"""How many of them may survive."""
 
 
 class Break(NamedTuple):
@@ -135,45 +156,104 @@ def tests_near(file: str) -> list[str]:
         same_name = Path(test).stem in {f"test_{stem}", f"test_{stem}s"}
         return distance.get(test, 9) - 2 * len(rooms & {*Path(test).parts}) - 4 * same_name
 
-    tests = sorted(test for test in imports() if Path(test).name.startswith("test_"))
-    whole = [test for room, test in SEE_ALL.items() if file.startswith(room)]
-    return [*whole, *sorted(tests, key=far)[:MOST]]
+    return sorted(sorted(test for test in imports() if Path(test).name.startswith("test_")), key=far)[:MOST]
 
 
-def try_out(broken: Break, trees: Queue[Path], sound: dict[str, bool]) -> tuple[str, list[str]]:
-    """What came of a break, and the tests that failed or ran; a test file that fails without a break does not count."""
-    tree = trees.get()
+class Executed:
+    """What tools/executed.py has seen in a run of all tests at a HEAD."""
+
+    def __init__(self, folder: Path, tree: Path, jobs: int) -> None:
+        if not (folder / "seconds.json").exists():
+            folder.mkdir(parents=True, exist_ok=True)
+            print("running all tests, to see what they execute", flush=True)
+            run_tests(tree, ["-p", "tools.executed", "-n", str(jobs), *ALL], seconds=None, EXECUTED=str(folder))
+            Coverage(folder / "lines").combine([str(folder)])
+        self.seconds: dict[str, float] = json.loads((folder / "seconds.json").read_text("utf-8"))
+        self.lines = cache(CoverageData(str(folder / "lines")).contexts_by_lineno)
+
+    def tests_of(self, broken: Break) -> list[str]:
+        """The tests to try a break on, fastest first, as many as fit into BUDGET; or test files near it."""
+        text = (ROOT / broken.file).read_bytes()
+        first, last = (text[:offset].count(b"\n") + 1 for offset in (broken.start, broken.end))
+        seen = self.lines(broken.file)
+        # Of an expression on several lines that is a constant, only the first one may have been seen.
+        first = max((line for line in seen if line <= first), default=first)
+        found = {test for line in range(first, last + 1) for test in seen.get(line, ())}
+        if named := re.match(r"\s*(\w+(?:, \w+)*)(?:: .+?)? = ", text.decode().splitlines()[first - 1]):
+            found |= {test for name in named[1].split(", ") for test in self._naming(name)}
+        tests: list[str] = []
+        total = 0.0
+        for test in sorted(found & self.seconds.keys(), key=self.seconds.__getitem__):
+            total += self.seconds[test]
+            if tests and total > BUDGET:
+                break
+            tests.append(test)
+        return tests or tests_near(broken.file)
+
+    @cache  # noqa: B019 - one object lives as long as the program
+    def _naming(self, name: str) -> set[str]:
+        """The tests that execute a line with this name in it."""
+        word = re.compile(rf"\b{name}\b")
+        return {
+            test
+            for file in imports()
+            if file.startswith("ninja_game/")
+            for number, line in enumerate((ROOT / file).read_text("utf-8").splitlines(), 1)
+            if word.search(line)
+            for test in self.lines(file).get(number, ())
+        }
+
+
+def rule_breaks() -> dict[str, Break]:
+    """The listed breaks of the rules by name; ends the program for one whose text does not stand there exactly once."""
+    found = {}
+    for name, file, old, new in CHANGES:
+        source = (ROOT / "ninja_game" / "sim" / file).read_bytes()
+        if source.count(old.encode()) != 1:
+            sys.exit(f"{name}: {old!r} stands {source.count(old.encode())} times in ninja_game/sim/{file}")
+        start = source.index(old.encode())
+        found[name] = Break(f"ninja_game/sim/{file}", start, start + len(old.encode()), new)
+    return found
+
+
+def try_out(
+    broken: Break, tests_of: Callable[[Break], list[str]], trees: Queue[Path], sound: dict[str, bool]
+) -> tuple[str, list[str], float]:
+    """What came of a break, the tests that failed or ran, seconds; a test that fails without a break does not count."""
+    tree, began = trees.get(), time.monotonic()
     path = tree / broken.file
     before = path.read_bytes()
     while True:
-        tests = [test for test in tests_near(broken.file) if sound.get(test, True)]
+        tests = [test for test in tests_of(broken) if sound.get(test, True)]
         path.write_bytes(before[: broken.start] + broken.new.encode() + before[broken.end :])
-        result, failed = run_tests(tree, tests)
+        result, failed = run_tests(tree, ["-x", *tests])
         path.write_bytes(before)
         for test in failed:
             if test not in sound:
                 sound[test] = run_tests(tree, [test])[0] == "survived"
         if all(sound[test] for test in failed):
             trees.put(tree)
-            return result, failed or tests
+            return result, failed or tests, round(time.monotonic() - began, 1)
 
 
-def run_tests(tree: Path, tests: list[str]) -> tuple[str, list[str]]:
-    """Whether the tests of a worktree survive ("timeout": an endless loop, or slow tests), and the files that fail."""
-    words = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *tests]
-    environment = os.environ | {"PYTHONPATH": str(tree), "PYTHONDONTWRITEBYTECODE": "1"}
+def run_tests(
+    tree: Path, words: Sequence[str], seconds: float | None = SECONDS, **environment: str
+) -> tuple[str, list[str]]:
+    """Whether the tests of a worktree survive ("timeout": an endless loop, or slow tests), and those that fail."""
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *words]
+    environment = os.environ | {"PYTHONPATH": str(tree), "PYTHONDONTWRITEBYTECODE": "1"} | environment
     with (tree / "output.txt").open("w+", encoding="utf-8") as output:
         process = subprocess.Popen(
-            words, cwd=tree, env=environment, stdout=output, stderr=output, start_new_session=True
+            command, cwd=tree, env=environment, stdout=output, stderr=output, start_new_session=True
         )
         try:
-            code = process.wait(SECONDS)
+            code = process.wait(seconds)
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             process.wait()
             return "timeout", []
         output.seek(0)
-        failed = re.findall(r"^(?:FAILED|ERROR) (tests/\S+?\.py)", output.read(), re.MULTILINE)
+        failed = re.findall(r"^(?:FAILED|ERROR) ([^\s\[]+)", output.read(), re.MULTILINE)
     return "noticed" if code else "survived", sorted({*failed})
 
 
@@ -187,15 +267,21 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=100, help="how many breaks to draw (100)")
     parser.add_argument("--seed", type=int, default=1, help="which ones (1)")
     parser.add_argument("--part", default="", help="only of this folder of ninja_game; also sim")
+    parser.add_argument("--rules", nargs="*", metavar="NAME", help="instead these of rule_changes, or all of them")
     parser.add_argument("--jobs", type=int, default=1, help="how many at a time (1)")
     parser.add_argument("--log", type=Path, default=LOG, help="where the results are (build/breaks.jsonl)")
     options = parser.parse_args()
     if git("status", "--porcelain", "ninja_game", "tests"):
         sys.exit("breaks: ninja_game or tests differ from HEAD, whose copy is tried; commit first")
-    files = [path.relative_to(ROOT).as_posix() for path in sorted((ROOT / "ninja_game" / options.part).rglob("*.py"))]
-    left_out = LEFT_OUT if not options.part else ()
-    every = [broken for file in files if not file.startswith(left_out) for broken in breaks_of(file)]
-    drawn = random.Random(options.seed).sample(every, min(options.count, len(every)))
+    if options.rules is not None:
+        listed = rule_breaks()
+        drawn = [listed[name] for name in options.rules or listed]
+    else:
+        paths = sorted((ROOT / "ninja_game" / options.part).rglob("*.py"))
+        files = [path.relative_to(ROOT).as_posix() for path in paths]
+        left_out = LEFT_OUT if not options.part else ()
+        every = [broken for file in files if not file.startswith(left_out) for broken in breaks_of(file)]
+        drawn = random.Random(options.seed).sample(every, min(options.count, len(every)))
     options.log.parent.mkdir(parents=True, exist_ok=True)
     commit, trees = git("rev-parse", "HEAD"), Queue[Path]()
     with (
@@ -209,16 +295,19 @@ def main() -> int:
             git("worktree", "add", "--detach", f"{scratch}/{number}", commit)
             trees.put(Path(scratch, str(number)))
         todo = [broken for broken in drawn if broken not in results]
-        for broken, (result, tests) in zip(todo, pool.map(partial(try_out, trees=trees, sound={}), todo), strict=True):
-            print(
-                json.dumps({"commit": commit, "break": broken, "result": result, "tests": tests}), file=log, flush=True
-            )
+        folder = options.log.parent / f"executed-{commit[:12]}"
+        executed = None if options.rules is not None else Executed(folder, Path(scratch, "0"), options.jobs)
+        tests_of = executed.tests_of if executed else lambda _: RULE_TESTS
+        tried = pool.map(partial(try_out, tests_of=tests_of, trees=trees, sound={}), todo)
+        for broken, (result, failed, seconds) in zip(todo, tried, strict=True):
+            row = {"commit": commit, "break": broken, "result": result, "seconds": seconds, "tests": failed}
+            print(json.dumps(row), file=log, flush=True)
             results[broken] = result
             print(f"{len(results)} {result}: {told(broken)}", flush=True)
     git("worktree", "prune")
     survivors = [broken for broken in drawn if results[broken] == "survived"]
     print(f"\n{len(survivors)} of {len(drawn)} survived", *map(told, survivors), sep="\n")
-    return 1 if survivors else 0
+    return 1 if len(survivors) > (ALLOWED if options.rules is not None else 0) else 0
 
 
 def told(broken: Break) -> str:

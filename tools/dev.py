@@ -5,7 +5,8 @@ usage: python3 tools/dev.py COMMAND ...
 
   play             the game, in a window; words after it go to `ninja-game play`
   run              any `ninja-game` command: `run info levels/00-0-first-steps.txt`
-  test             `lint`, then all tests; with words of your own (a file, `-k NAME`) pytest alone, with them
+  test             `lint`, then the tests; `test --all`: those too that are slow and rarely fail; with words of your own
+                   (a file, `-k NAME`) pytest alone, with them
   lint             style, format, types, import contract; `lint --fix` mends what a program can mend
   benchmark        measure how fast the world is on this machine; `benchmark --help` lists options
   golden           write the golden files of the tests again, after a change of the rules that is meant
@@ -45,7 +46,11 @@ MADE = (".pytest_cache", ".mypy_cache", ".ruff_cache", ".import_linter_cache", "
 DEVELOPMENT = ("cluster", "dev", "fast", "film", "learn", "minari", "plots", "train")
 USES = {"play": (), "film": ("film",), "verify": ("cluster", "fast"), "demonstrations": ("fast", "learn", "minari")}
 """The extras that commands of the game use; those that are not here may use Numba."""
-PROGRAMS = {"benchmark": "benchmarks", "golden": "tools.golden", "change-rules": "tools.change_rules"}
+PROGRAMS = {
+    "benchmark": ("benchmarks",),
+    "golden": ("tools.golden",),
+    "change-rules": ("tools.breaks", "--rules"),
+}
 DRAWINGS = ("draw.how_it_works", "draw.screens", "draw.settings_page")
 PICTURE_TESTS = ("tests/play/test_recorded_screens.py", "tests/play/test_pictures.py", "tests/play/test_sound.py")
 LINT = (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",), ("lint-imports",))
@@ -124,11 +129,12 @@ def pip_install(names: Sequence[str]) -> bool:
 
 
 def test(rest: Sequence[str]) -> int:
-    """`lint`, then the tests on up to four cores; or pytest alone, with ``rest``."""
-    if rest:
+    """`lint`, then the tests on up to four cores, the slow ones only if asked for; or pytest alone, with ``rest``."""
+    if rest and rest != ["--all"]:
         return run("python", "-m", "pytest", *rest)
     unclean = lint(LINT)
-    failed = run("python", "-m", "pytest", "-n", str(min(4, os.cpu_count() or 1)), "--dist", "worksteal")
+    chosen = [] if rest else ["-m", "not slow"]
+    failed = run("python", "-m", "pytest", "-n", str(min(4, os.cpu_count() or 1)), "--dist", "worksteal", *chosen)
     return lint_failed(unclean) or failed
 
 
@@ -184,7 +190,7 @@ def main(words: Sequence[str]) -> int:
         case "tool", script, *rest:
             return tool(script, *rest)
         case _ if name in PROGRAMS:
-            return become("-m", PROGRAMS[name], *rest)
+            return become("-m", *PROGRAMS[name], *rest)
     asked = {name, *rest} & {"-h", "--help", "help"}
     print(__doc__, file=sys.stdout if asked else sys.stderr, end="")
     if not asked:

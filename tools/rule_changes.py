@@ -1,4 +1,4 @@
-"""The rules that ``change_rules.py`` breaks, one at a time: constants, strictness, order, omitted quirks.
+"""The breaks of rules that ``breaks.py --rules`` tries, one at a time: constants, strictness, order, omitted quirks.
 
 Name, file of ninja_game/sim, what stands there, what it becomes.
 """

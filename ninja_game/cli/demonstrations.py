@@ -14,7 +14,7 @@ from ninja_game.cli.run_options import level_given, level_option, memory_option,
 
 @click.command(name="demonstrations")
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
-@click.option("--output", "-o", type=click.Path(dir_okay=False, path_type=Path), help="Write arrays to this .npz file.")
+@click.option("-o", "--output", type=click.Path(dir_okay=False, path_type=Path), help="Write arrays to this .npz file.")
 @click.option("--minari", "dataset", metavar="NAME", help="Write a Minari data set of this name, such as ninja/set-v0.")
 @click.option(
     "--observation", "parts", metavar="PART", multiple=True, default=("state",), show_default=True,
@@ -25,6 +25,10 @@ from ninja_game.cli.run_options import level_given, level_option, memory_option,
     "--actions", type=click.Choice(["discrete", "buttons"]), default="discrete", show_default=True,
     help="An action as a number from 0 to 5, or as three keys, each up or down.",
 )  # fmt: skip
+@click.option(
+    "--megabytes", type=click.IntRange(1, 10**6), default=100, show_default=True,
+    help="The most that all observations may take; making arrays of them takes four times as much memory.",
+)  # fmt: skip
 @level_option
 @memory_option
 def demonstrations(
@@ -34,6 +38,7 @@ def demonstrations(
     parts: Sequence[str],
     flat: bool,
     actions: str,
+    megabytes: int,
     level_path: Path | None,
     memory: str,
 ) -> None:
@@ -58,6 +63,7 @@ def demonstrations(
     from ninja_game.formats.load import load_replays
     from ninja_game.learn.demonstrations import (
         UnplayableRecordingError,
+        bytes_of,
         demonstration,
         require_minari,
         write_minari,
@@ -72,10 +78,11 @@ def demonstrations(
     recordings = [recording for file in files for recording in load_replays(file, level=level)]
     observation = parts[0] if len(parts) == 1 else list(parts)
     settings: dict[str, Any] = {"observation": observation, "flat": flat, "actions": actions}
-    made = []
+    made, left_bytes = [], megabytes * 2**20
     for recording in with_progress(recordings, "recording"):
         try:
-            made.append(demonstration(recording, memory=memory, **settings))
+            made.append(demonstration(recording, memory=memory, most_bytes=left_bytes, **settings))
+            left_bytes -= bytes_of(made[-1].observations)
         except UnplayableRecordingError as error:
             complain(f"left out: {error}")
     if not made:

@@ -19,7 +19,7 @@ from ninja_game.formats.links.fragment import is_link
 @click.command()
 @click.argument("replay", type=InputPath(dir_okay=False))
 @click.option(
-    "-o", "--out", type=click.Path(path_type=Path),
+    "-o", "--output", type=click.Path(path_type=Path),
     help="The film: NAME.gif, NAME.webm, or a folder for one PNG picture per tick. [default: a new file with the "
     "replay's name and .gif]",
 )  # fmt: skip
@@ -42,7 +42,7 @@ from ninja_game.formats.links.fragment import is_link
 @click.option("--keys", is_flag=True, help="Show the keys that are down.")
 @level_option
 def film(
-    replay: Path, out: Path | None, record: int, size: str, speed: float, first: int, last: int | None,
+    replay: Path, output: Path | None, record: int, size: str, speed: float, first: int, last: int | None,
     ghosts: Sequence[Path], keys: bool, level_path: Path | None,
 ) -> None:  # fmt: skip
     """Write a film of a recording: a GIF, a WebM, or a folder of pictures.
@@ -63,7 +63,7 @@ def film(
     recordings = load_replays(replay, level=level)
     if record >= len(recordings):
         raise NinjaGameError(f"{replay}: there is no record {record}; the last one is {len(recordings) - 1}")
-    path = out or free_path(Path(), "replay" if is_link(replay) else replay.name.partition(".")[0], ".gif")
+    path = output or free_path(Path(), "replay" if is_link(replay) else replay.name.partition(".")[0], ".gif")
     if path.exists() and any(not is_link(each) and path.samefile(each) for each in (replay, *ghosts)):
         raise click.UsageError("the film would replace the replay")
     others = [run for file in ghosts for run in load_replays(file, level=level)]

@@ -16,7 +16,7 @@ from ninja_game.sim.rules import TICKS_PER_SECOND
 @click.command()
 @click.argument("inputs", metavar="FILE", type=click.Path(exists=True, dir_okay=False, path_type=Path))
 @click.option(
-    "--output", "-o", type=click.Path(dir_okay=False, path_type=Path),
+    "-o", "--output", type=click.Path(dir_okay=False, path_type=Path),
     help="The replay. [default: FILE's name and .replay.txt, in the current folder]",
 )  # fmt: skip
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")

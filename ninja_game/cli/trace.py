@@ -51,7 +51,7 @@ SECTION = re.compile(r"(world|objects|ninja|game) [0-9.]+")
 @click.option("--against-record", type=click.IntRange(min=0), help="Compare every run with this record of --against.")
 @level_option
 @click.option(
-    "--output", "-o", type=click.Path(dir_okay=False, path_type=Path), help="Write to this .csv or .npz file."
+    "-o", "--output", type=click.Path(dir_okay=False, path_type=Path), help="Write to this .csv or .npz file."
 )
 @memory_option
 @jobs_option

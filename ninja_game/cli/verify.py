@@ -51,7 +51,7 @@ FAILED = 1
     help="Write all results and their sums to this file: JSON if it ends in .json, else a table.",
 )  # fmt: skip
 @click.option("--json", "as_json", is_flag=True, help="One JSON object per recording, for programs.")
-@click.option("--quiet", "-q", is_flag=True, help="Only recordings that fail, and the summary.")
+@click.option("-q", "--quiet", is_flag=True, help="Only recordings that fail, and the summary.")
 @click.pass_context
 def verify(
     ctx: click.Context,
@@ -91,7 +91,8 @@ def verify(
     with ExitStack() as stack:
         results = verify_all(files, processes=processes, levels=load_levels(level) if level else (), **options)
         if report:
-            results = _reported(results, report, files, stack)
+            own = [options["resume"]] if options["resume"] else []
+            results = _reported(results, report, [*files, *own], stack)
         for result in with_progress(results, "run"):
             totals.add(result)
             if isinstance(result, Unreadable):

@@ -118,11 +118,11 @@ def edit(
       ninja-game edit userlevels.txt --record 17
     """
     from ninja_game.editor.files import Source, open_source
-    from ninja_game.files.user_folder import data_folder
+    from ninja_game.files.user_folder import is_bundled
 
     window = pixels(size) if size else None
     source = open_source(level, record) if level is not None else None
-    if source is not None and level is not None and level.is_relative_to(data_folder("levels")):
+    if source is not None and source.path is not None and is_bundled(source.path):
         source = Source(source.draft)
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from ninja_game.play.editor.screen import EditorScreen
@@ -136,14 +136,14 @@ def edit(
 @click.option("--record", type=click.IntRange(min=0), help="Which recording of the file, counted from 0.")
 @other_level_option
 @click.option(
-    "--beside", multiple=True, type=click.Path(exists=True, dir_okay=False, path_type=Path),
-    help="Another file with runs of the same level, to be shown beside; may be given several times.",
+    "--against", multiple=True, type=click.Path(exists=True, dir_okay=False, path_type=Path),
+    help="Compare with the runs of the same level in this file; may be given several times.",
 )  # fmt: skip
 @click.option("--tick", type=click.IntRange(0, 10**6), default=0, help="Put the cursor on this tick.")
 @window_options
 @click.pass_context
 def tas(
-    ctx: click.Context, file: Path, record: int | None, level_path: Path | None, beside: tuple[Path, ...],
+    ctx: click.Context, file: Path, record: int | None, level_path: Path | None, against: tuple[Path, ...],
     tick: int, size: str | None, frames: int | None, screenshot: str | None,
 ) -> None:  # fmt: skip
     """Edit a run tick by tick, in a window.
@@ -157,14 +157,14 @@ def tas(
     Examples:
       ninja-game tas best.replay.txt
       ninja-game tas demos.txt --record 3
-      ninja-game tas best.replay.txt --beside theirs.replay.txt
+      ninja-game tas best.replay.txt --against theirs.replay.txt
       ninja-game tas old.replay.txt --level changed.txt
     """
     from ninja_game.tas.files import open_run, runs_of_level
 
     window = pixels(size) if size else None
     opened = open_run(file, record=record, level=level_given(level_path))
-    others = [run for path in beside for run in runs_of_level(path, opened.recording)]
+    others = [run for path in against for run in runs_of_level(path, opened.recording)]
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from ninja_game.play.main import run_app
     from ninja_game.play.tas.opening import OpeningScreen

@@ -19,7 +19,7 @@ import gymnasium
 import numpy as np
 from numpy.typing import NDArray
 
-from ninja_game.errors import ArgumentError, MissingExtraError, NinjaGameError
+from ninja_game.errors import ArgumentError, BudgetError, MissingExtraError, NinjaGameError
 from ninja_game.files.user_folder import how_to_install
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.recording import Recording
@@ -28,6 +28,9 @@ from ninja_game.learn.observations.observation import Observed
 from ninja_game.learn.single import NinjaEnv
 from ninja_game.runs.run import run_level
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT, KEYS_DOWN
+
+MOST_MEGABYTES = 100
+"""Of observations: the arrays that are made of them take four times as much memory."""
 
 _BOTH = KEY_LEFT + KEY_RIGHT
 _ACTION_OF_KEYS = np.array(
@@ -59,11 +62,12 @@ class Demonstration:
     gold: int
 
 
-def demonstration(recording: Recording, **settings: Any) -> Demonstration:
+def demonstration(recording: Recording, *, most_bytes: int = MOST_MEGABYTES * 2**20, **settings: Any) -> Demonstration:
     """What an environment makes of a recording. ``settings``: of ``NinjaEnv``, but level, body, frame skip, time limit.
 
     An environment presses jump when its key goes down; N also has recordings that press it again while it is down. If
-    that makes another run of a recording, it is an UnplayableRecordingError.
+    that makes another run of a recording, it is an UnplayableRecordingError. Raises BudgetError for more than
+    ``most_bytes`` of observations.
     """
     keys = recording.inputs
     made = NinjaEnv(recording.level, body=recording.body, frame_skip=1, time_limit=len(keys), **settings)
@@ -71,12 +75,16 @@ def demonstration(recording: Recording, **settings: Any) -> Demonstration:
     down = np.frombuffer(keys, np.uint8) & KEYS_DOWN
     actions = ((down[:, np.newaxis] & BUTTON_KEYS) > 0).astype(np.int8) if buttons else _ACTION_OF_KEYS[down]
     seen = [made.reset()[0]]
+    size = bytes_of(seen[0])
     rewards: list[float] = []
     info: dict[str, Any] = {}
     terminated = False
     for action in actions:
         observation, reward, terminated, truncated, info = made.step(action)
         seen.append(observation)
+        if size * len(seen) > most_bytes:
+            found = f"{len(keys):,} ticks of {size:,} bytes each"
+            raise BudgetError("too many observations", recording.file, found=found, hint="--megabytes raises the limit")
         rewards.append(reward)
         if terminated or truncated:
             break
@@ -97,6 +105,11 @@ def _same_run(recording: Recording, inputs: bytes) -> bool:
     """Whether other inputs make the run that was recorded."""
     recorded = run_level(recording.level, recording.inputs, body=recording.body)
     return recorded == run_level(recording.level, inputs, body=recording.body)
+
+
+def bytes_of(observations: Observed) -> int:
+    """The memory that observations take."""
+    return sum(part.nbytes for part in (observations.values() if isinstance(observations, dict) else [observations]))
 
 
 def _stacked(seen: Sequence[Any]) -> Observed:

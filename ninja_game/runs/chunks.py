@@ -14,16 +14,14 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
-from ninja_game.backend.known_run import KnownRunError
-from ninja_game.backend.memories import MemoryUnavailableError
 from ninja_game.budget import RUN_BUDGET
-from ninja_game.errors import DAMAGED, NinjaGameError
+from ninja_game.errors import DAMAGED, BudgetError, DemoError, LevelError, ReplayError
 from ninja_game.files.beside import Beside, known_files
 from ninja_game.formats.n14.level_file import LevelRecord
 from ninja_game.formats.recording import Recording
 from ninja_game.levels.findings import RUN_RULES, RunProblem
 from ninja_game.runs.recording_reader import Unreadable, recording_of_text, recordings_of, records_of, texts_in
-from ninja_game.runs.verify import NOT_RUN, Verdict, verify_recording
+from ninja_game.runs.verify import NOT_RUN, OutOfRangeError, Verdict, verify_recording
 from ninja_game.runs.workers import ClusterError
 from ninja_game.sim.level import Level
 from ninja_game.sim.states import OUTCOME_NAMES
@@ -98,7 +96,7 @@ def verify_chunk(
     """A verdict on every recording of a chunk, in order; what cannot be read is said and stops nothing.
 
     ``level``: what recordings that do not hold theirs are played on; the rest as for ``verify_recording``.
-    Raises KnownRunError, MemoryUnavailableError where nothing can be judged.
+    Raises NinjaGameError where nothing can be judged.
     """
     if chunk.problem:
         return [Unreadable(chunk.problem)]
@@ -115,9 +113,8 @@ def _result(recording: Recording | Unreadable, memory: str, counting: Container[
         return recording
     try:
         return verify_recording(recording, memory, counting, budget)
-    except (KnownRunError, MemoryUnavailableError):
-        raise
-    except NinjaGameError as error:
+    except (BudgetError, DemoError, LevelError, OutOfRangeError, ReplayError) as error:
+        # What is wrong with the run; anything else is wrong here, where then nothing can be judged.
         return Unreadable(str(error))
 
 

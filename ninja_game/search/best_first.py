@@ -23,6 +23,7 @@ from ninja_game.search.nodes import (
     clear,
     new_memory,
     new_table,
+    ticks_at_once,
     zeroed,
 )
 from ninja_game.search.states import MAX_SWITCH_STATES, NOT_MADE, WANTED, Goal
@@ -124,7 +125,7 @@ class Search:
 
     def run(self, budget: int) -> int:
         """Search on for about ``budget`` ticks; MORE, EXHAUSTED or NO_ROOM."""
-        end = self.ticks + budget
+        end = self.ticks + min(budget, ticks_at_once(self.start))
         while self.ticks < end:
             ended = compiled(expand)(
                 self.start, self.memory, self.goal, self._known, self.backed_up, self.resolution, end - self.ticks

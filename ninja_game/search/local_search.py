@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ninja_game.backend.memories import compiled
 from ninja_game.search.macros import Keys
-from ninja_game.search.nodes import RandomState, Start, copy_words, random_below, zeroed
+from ninja_game.search.nodes import RandomState, Start, copy_words, random_below, ticks_at_once, zeroed
 from ninja_game.sim.inputs import JUMP_HELD, KEYS_DOWN, pressed, with_press_bits
 from ninja_game.sim.kinds import EXIT
 from ninja_game.sim.memory.declare import entry_point, f8, fast, i8, struct
@@ -299,6 +299,7 @@ class LocalSearch:
 
     def run(self, budget: int, *, temperature: float) -> None:
         """Try mutations for about ``budget`` ticks; ``temperature``: how many ticks longer a kept run may be."""
+        budget = min(budget, ticks_at_once(self.start))
         compiled(local_search)(self.start, self.runs, self.gold, temperature, budget)
 
     def best(self) -> bytes:

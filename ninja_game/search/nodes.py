@@ -27,6 +27,8 @@ Indices = NDArray[np.int32]
 CHUNK = 32
 """Words in a chunk."""
 BUCKETS = 1 << 14
+LARGE_STATE = 10_000
+"""Words; the states of all levels of N are smaller."""
 MAX_ENDS = 96
 """Ends of a leg that are kept, with room for those of a last expansion."""
 
@@ -164,6 +166,11 @@ class BackedUpHeuristic(NamedTuple):
 
     table: Sequence[TableEntry]
     resolution: Resolution
+
+
+def ticks_at_once(start: Start) -> int:
+    """The most ticks between two looks at the clock: a million on levels of N, far fewer where states are larger."""
+    return max(1, int(1_000_000 * min(1.0, LARGE_STATE / len(start.initial)) ** 2))
 
 
 def open_start(level: Level, *, box: bool) -> Start:

@@ -26,6 +26,7 @@ from ninja_game.sim.memory.kernels import run_world
 from ninja_game.simulation import Simulation
 from ninja_game.tas.timeline import Timeline
 from tests.support.own_pack import PACK
+from tests.support.slow import the_rest_is_slow
 
 pytestmark = pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")
 
@@ -54,7 +55,7 @@ def compiler(monkeypatch: pytest.MonkeyPatch) -> Compiler:
     return Compiler(monkeypatch)
 
 
-@pytest.mark.parametrize("number", range(RUNS))
+@pytest.mark.parametrize("number", the_rest_is_slow(range(RUNS), 1))
 def test_a_world_with_every_kind_of_object_goes_on_alike_from_every_tick(number: int) -> None:
     keys = _keys(number)
     plain, end = (open_worlds("plain", ALL_KINDS, box=number == RUNS - 1) for _ in range(2))
@@ -70,7 +71,7 @@ def test_a_world_with_every_kind_of_object_goes_on_alike_from_every_tick(number:
         plain.step(keys[plain.tick()])
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", the_rest_is_slow(NAMES, 1))
 def test_a_run_that_goes_over_between_any_two_ticks_ends_alike(name: str, compiler: Compiler) -> None:
     run = load_replays(PACK / "certificates" / f"{name}.exit.replay.txt")[0]
     inputs = run.inputs
@@ -267,6 +268,7 @@ def test_a_kernel_that_another_process_compiles_is_waited_for(tmp_path: Path) ->
     assert [path.name for path in tmp_path.iterdir()] == [code.name]
 
 
+@pytest.mark.slow
 def test_the_command_leaves_nothing_to_compile_for_others(tmp_path: Path) -> None:
     """In the cache of whoever runs the tests, so that this compiles only what the other tests need too."""
     folder = cache_folder()

@@ -11,6 +11,8 @@ from ninja_game.backend import known_run, memories
 from ninja_game.backend.known_run import DIGEST, KnownRunError, known_digest
 from ninja_game.backend.memories import compiled_available, open_worlds, proven_memory
 from ninja_game.cli.main import cli
+from ninja_game.errors import FileError
+from ninja_game.runs import verify
 from ninja_game.sim.kinds import VALUE_COUNTS
 from ninja_game.sim.level import Level, ObjectSpec
 from ninja_game.sim.ninja import tick
@@ -56,6 +58,22 @@ def test_a_command_that_cannot_be_sure_says_so_and_ends(
     assert result.exit_code == 2
     assert f"the {memory} memory does not compute the world of N here" in result.stderr
     assert "exit" not in result.stdout
+
+
+def test_what_is_wrong_here_is_no_result_of_a_run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path, log = write_records(tmp_path / "walk.txt", ("Walk", WALK, running(WALK_END))), tmp_path / "log"
+    words = ["verify", str(path), "--memory", "plain", "--jobs", "1", "--resume", str(log)]
+
+    def unusable(memory: str) -> str:
+        raise FileError("the cache of compiled code has a relative path", found="rel")
+
+    with monkeypatch.context() as here:
+        here.setattr(verify, "proven_memory", unusable)
+        result = CliRunner().invoke(cli, words)
+    assert result.exit_code == 2
+    assert "the cache of compiled code has a relative path" in result.stderr
+    assert "results" not in log.read_text()
+    assert CliRunner().invoke(cli, words).exit_code == 0
 
 
 @pytest.mark.skipif(not compiled_available(), reason="Numba is not installed")

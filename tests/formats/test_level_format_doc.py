@@ -13,7 +13,6 @@ from ninja_game.formats.ascii.object_forms import DOORS, FORMS, MOVEMENTS, SIDES
 from ninja_game.formats.ascii.object_lines import read_object_line
 from ninja_game.formats.ascii.reader import parse_ascii_level
 from ninja_game.levels.warnings import level_warnings
-from tools.draw import legend
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 DOC = (ROOT / "docs" / "level-format.md").read_text(encoding="utf-8")
@@ -65,7 +64,3 @@ def test_every_character_and_every_word_is_explained() -> None:
     assert [symbol.char for symbol in SYMBOLS if symbol.char not in quoted] == []
     words = [*FORMS, *DOORS, *MOVEMENTS, *SIDES]
     assert [word for word in words if f"`{word}`" not in DOC] == []
-
-
-def test_the_picture_of_the_tiles_is_up_to_date() -> None:
-    assert legend.PICTURE.read_text("utf-8") == legend.picture().svg(), "run `python3 tools/dev.py docs`"

@@ -26,6 +26,7 @@ from ninja_game.learn.demonstrations import (
 from ninja_game.learn.single import NinjaEnv
 from ninja_game.sim.inputs import Demo, with_press_bits
 from tests.support.reference import recordings, require_reference
+from tests.support.samples import running, write_records
 
 FLAT = parse_level_string("0" * 713 + "|5^100,566!0^130,566!11^260,564,230,564")
 
@@ -160,6 +161,15 @@ def test_reference_recordings_are_demonstrations_unless_they_press_jump_anew() -
             assert (made.outcome, made.gold, len(made.rewards)) == (row.outcome, row.gold, row.ticks)
     # Of all 1,108 recordings 10 are.
     assert unplayable == [760, 1000]
+
+
+def test_observations_beyond_the_limit_are_refused_and_the_option_is_named(tmp_path: Path) -> None:
+    path = write_records(tmp_path / "long.txt", ("Long", "0" * 713 + "|5^100,566", running(9_000)))
+    words = ["demonstrations", str(path), "-o", str(tmp_path / "x.npz"), "--megabytes"]
+    refused = CliRunner().invoke(cli, [*words, "1"])
+    assert refused.exit_code == 2
+    assert "too many observations; found 9,001 ticks of 120 bytes each; --megabytes raises the limit" in refused.stderr
+    assert CliRunner().invoke(cli, [*words, "2"]).exit_code == 0
 
 
 def test_without_minari_it_is_said_how_to_install_it(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,8 +13,7 @@ from ninja_game.files.user_folder import data_folder
 from ninja_game.formats.pack.pack import Pack
 from ninja_game.runs.archive import Totals, verify_all
 from tests.support.memories import BOTH
-from tools.measure.level_figures import alike, common_motifs
-from tools.measure.level_reference import ROWS
+from tools.measure.level_figures import KNOWN, alike, common_motifs
 from tools.measure.level_statistics import MOST_SHARED, MOST_WITH_MOTIF, figures_of_set, missing, motif_text
 
 OURS = Pack(data_folder("levels"))
@@ -41,9 +40,9 @@ def test_every_level_is_certified_and_most_with_all_gold() -> None:
     assert not COMPLETE or sum(OURS.certificate(file, "gold") is not None for file in LEVELS) >= RICH
 
 
-@pytest.mark.parametrize("key", ROWS)
+@pytest.mark.parametrize("key", KNOWN)
 def test_median_is_within_the_quartiles_of_the_reference(key: str) -> None:
-    row = ROWS[key]
+    row = KNOWN[key]
     values = [figures[key] for figures in FIGURES.values() if key in figures]
     assert not COMPLETE or row.first <= median(values) <= row.third
 

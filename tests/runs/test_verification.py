@@ -327,6 +327,7 @@ def test_ctrl_c_in_a_terminal_is_nothing_to_a_worker_that_starts() -> None:
     pool.close()
 
 
+@pytest.mark.slow
 def test_a_job_that_kills_every_process_is_named(tmp_path: Path) -> None:
     pool = Local(2, processes=True)
     results = dict(in_order(pool, die, range(6)))
@@ -428,7 +429,7 @@ def test_a_run_on_a_level_that_does_not_count_is_not_simulated(tmp_path: Path, m
     def simulate(*_: object, **__: object) -> None:
         raise AssertionError("simulated")
 
-    monkeypatch.setattr("ninja_game.runs.verify.run_level", simulate)
+    monkeypatch.setattr("ninja_game.runs.verify.run_in_slices", simulate)
     path = write_records(tmp_path / "a.txt", ("Walk", WALK, running(WALK_END)))
     for options in ({"strict": True}, {"levels": [NamedLevel("", "", "", parse_level(SPIKED), "b.txt")]}):
         (result,) = verify_plainly([path], **options)

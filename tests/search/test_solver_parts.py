@@ -26,12 +26,13 @@ from ninja_game.search.local_search import (
     stretch,
 )
 from ninja_game.search.macros import PRESSED, PRESSED_AGAIN, RELEASED, action_code, action_inputs
-from ninja_game.search.nodes import Link, Resolution, TableEntry, back_up_values, open_start, zeroed
+from ninja_game.search.nodes import Link, Resolution, TableEntry, back_up_values, open_start, ticks_at_once, zeroed
 from ninja_game.search.states import key_of, switch_state_of
 from ninja_game.search.switches import open_mask
 from ninja_game.search.tour import short_tour
 from ninja_game.sim.inputs import KEY_RIGHT, with_press_bits
 from ninja_game.sim.memory.plain import PlainWorlds
+from tests.support.heavy import heavy_level
 from tests.support.own_fields import own_fields_only
 
 OPEN = "0" * 713 + "|"
@@ -155,6 +156,16 @@ def test_random_mutations_leave_what_lies_before_and_make_keys_only() -> None:
         assert abs(shift) <= 3
         first = max(first, 0)
         assert keys[: min(first, tick)].tolist() == before[: min(first, tick)].tolist()
+
+
+def test_a_search_looks_at_the_clock_often_where_states_are_large() -> None:
+    start = open_start(heavy_level(1_500), box=False)
+    assert ticks_at_once(start) < 60_000
+    assert ticks_at_once(open_start(heavy_level(300), box=False)) == 1_000_000
+    search = Search(start, Heuristics(start.levels, start.worlds), nodes=40_000)
+    search.begin(Resolution(cell=2.0, speed=0.1, macro=6, weight=1.0), seed=1, bound=0)
+    search.run(1_000_000)
+    assert 0 < search.ticks < 100_000
 
 
 @pytest.mark.parametrize("memory", ["plain", "compiled"])

@@ -45,7 +45,7 @@ def test_dev_runs_nothing_from_the_current_folder(
     assert dev.main(["tool", "measure.solver_table", "--help"]) == 0
     assert "usage: solver_table.py" in capfd.readouterr().out
     assert dev.main(["tool", "golden", "--help"]) == 0  # has no options, and would write files
-    assert capfd.readouterr().out.startswith("Write the golden digests")
+    assert capfd.readouterr().out.startswith("Write golden digests")
     assert not (poisoned / "ran").exists()
 
 

@@ -12,6 +12,8 @@ from tests.support.reference import levels as reference_levels, recordings, requ
 from tools.measure import level_statistics
 from tools.measure.level_figures import (
     ALL_VARIANTS,
+    KINDS_OF_REFERENCE,
+    KNOWN,
     NAMES,
     alike,
     common_motifs,
@@ -21,7 +23,6 @@ from tools.measure.level_figures import (
     shared_share,
     variants,
 )  # fmt: skip
-from tools.measure.level_reference import KINDS_OF_REFERENCE, ROWS
 from tools.measure.level_statistics import missing
 
 OBJECTS = "5^100,566!11^160,564,130,564!0^300,100!0^300,124!12^60,60!6^60,84,5,1,0,2!9^60,60,1,0,2,2,1,0,0!2^60,60,0,-1"
@@ -87,7 +88,7 @@ def test_figures_of_the_reference_are_its_quartiles(reference: dict[str, Level])
     values = {key: [row[key] for row in rows] for key in rows[0]}
     values["exit_s"] = [tick / TICKS_PER_SECOND for tick in exits.values()]
     values["gold_s"] = [tick / TICKS_PER_SECOND for tick in rich.values()]
-    for key, row in ROWS.items():
+    for key, row in KNOWN.items():
         assert quartiles(values[key]) == pytest.approx(row[1:], abs=0.0006), key
     for kind, share in KINDS_OF_REFERENCE.items():
         with_kind = sum(any(NAMES.get(record.kind) == kind for record in each.objects) for each in reference.values())

@@ -1,22 +1,61 @@
-"""Draw the pictures of docs/how-it-works.md from the rules and from the lab's figures: `python3 tools/dev.py docs`."""
+"""Draw the pictures of docs/ that explain, from the rules and the figures of the lab: `python3 tools/dev.py docs`."""
 
 from __future__ import annotations
 
 import os
+from pathlib import Path
+from xml.sax.saxutils import escape
 
 os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
+from ninja_game.formats.ascii.legend import TILE_FAMILIES, TILE_OF_CHAR
 from ninja_game.play.lab.screen import export_figure
 from ninja_game.play.view.sprites.tile_sheet import outline
 from tools import ROOT
-from tools.draw.legend import picture as draw_legend
-from tools.draw.svg import BLUE, FAINT, INK, SOLID, Picture, Point
 
 PICTURES = ROOT / "docs" / "pictures"
 CLASSES = ("45°", "concave", "convex", "22° thin", "22° thick", "67° thin", "67° thick", "half")
 
 FIGURES = ("cells.png", "edges.png", "nine-cells.png", "rays.png", "drones.png", "pairs.gif", "tick.gif")
 """Figures of the lab, and films of them."""
+
+Point = tuple[float, float]
+INK, PAPER, SOLID, FAINT, BLUE = "#333333", "#f4f4f6", "#797988", "#c4c4ce", "#2266aa"
+SANS = "Verdana, DejaVu Sans, sans-serif"
+
+
+class Picture:
+    """An SVG picture that grows shape by shape; px, y downwards."""
+
+    def __init__(self, width: float, height: float) -> None:
+        self.size = (width, height)
+        self.parts: list[str] = []
+        self.box(0, 0, width, height, PAPER)
+
+    def box(self, x: float, y: float, width: float, height: float, fill: str, stroke: str = "none") -> None:
+        self.parts.append(
+            f'<rect x="{x:g}" y="{y:g}" width="{width:g}" height="{height:g}" fill="{fill}" stroke="{stroke}"/>'
+        )
+
+    def polygon(self, points: list[Point], fill: str) -> None:
+        """A filled polygon."""
+        corners = " ".join(f"{x:.2f},{y:.2f}" for x, y in points)
+        self.parts.append(f'<polygon points="{corners}" fill="{fill}"/>')
+
+    def text(
+        self, words: str, at: Point, size: float = 12, colour: str = INK, anchor: str = "middle", font: str = SANS
+    ) -> None:
+        """A line of text, ``at`` its baseline."""
+        self.parts.append(
+            f'<text x="{at[0]:.2f}" y="{at[1]:.2f}" font-size="{size:g}" fill="{colour}" text-anchor="{anchor}" '
+            f'font-family="{font}">{escape(words)}</text>'
+        )
+
+    def save(self, path: Path) -> None:
+        width, height = self.size
+        box = f'viewBox="0 0 {width:g} {height:g}" width="{width:g}" height="{height:g}"'
+        head = f'<svg xmlns="http://www.w3.org/2000/svg" {box}>'
+        path.write_text("\n".join([head, *self.parts, "</svg>"]) + "\n", encoding="utf-8")
 
 
 def draw_tile(picture: Picture, tile: int, centre: Point, zoom: float) -> None:
@@ -64,7 +103,22 @@ def draw_tick() -> Picture:
         picture.text(what, (230, y + 20), 12, INK, "start")
         picture.text(calls, (480, y + 20), 11, SOLID, "start")
         if number + 1 < len(TICK):
-            picture.arrow((115, y + 31), (115, y + 43), SOLID)
+            picture.box(114.25, y + 31, 1.5, 6, SOLID)
+            picture.polygon([(115, y + 43), (111.5, y + 36), (118.5, y + 36)], SOLID)
+    return picture
+
+
+def draw_legend() -> Picture:
+    """The 34 tile shapes, each over its character, a family a row."""
+    rows = [("empty, full", ".#"), ("half tiles", '_"[]'), *TILE_FAMILIES]
+    picture = Picture(456, 20 + 66 * len(rows))
+    for row, (name, characters) in enumerate(rows):
+        picture.text(name, (12, 36 + 66 * row), 14, anchor="start")
+        for column, character in enumerate(characters):
+            x, y = 208 + 64 * column, 32 + 66 * row
+            draw_tile(picture, TILE_OF_CHAR[character], (x, y), 1.5)
+            picture.box(x - 18, y - 18, 36, 36, "none", FAINT)
+            picture.text(character, (x, y + 36), 16, font="monospace")
     return picture
 
 

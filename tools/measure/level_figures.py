@@ -1,4 +1,4 @@
-"""What levels are made of, in figures: counts, shares, symmetry, kinds and their variants, motifs, shared cells."""
+"""What levels are made of, in figures: counts, symmetry, variants, motifs, shared cells; and those of the reference."""
 
 from __future__ import annotations
 
@@ -6,27 +6,14 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from itertools import combinations
 from statistics import quantiles
+from typing import NamedTuple
 
 from ninja_game.formats.ascii.legend import DIRECTION_WORDS, PAD_NORMALS
 from ninja_game.formats.ascii.object_forms import DOORS, MOVEMENTS, WEAPONS
-from ninja_game.sim.kinds import (
-    DOOR,
-    DRONE,
-    EXIT,
-    FLOOR_GUARD,
-    GOLD,
-    KINDS,
-    LAUNCH_PAD,
-    LAUNCHER,
-    MINE,
-    NINJA,
-    ONE_WAY,
-    THWUMP,
-    TURRET,
-)  # fmt: skip
+from ninja_game.sim import kinds
 from ninja_game.sim.level import COLUMNS, ROWS, TILES, Level, ObjectSpec, well_formed
 
-ENEMIES = (DRONE, FLOOR_GUARD, THWUMP, TURRET, LAUNCHER)
+ENEMIES = (kinds.DRONE, kinds.FLOOR_GUARD, kinds.THWUMP, kinds.TURRET, kinds.LAUNCHER)
 SHAPES = range(2, 34)
 """Ids of the tiles that are neither empty nor full."""
 
@@ -37,7 +24,7 @@ MOTIF_SHAPES = 3
 STRAIGHT = {2: "45°", 14: "22°", 18: "22°", 22: "67°", 26: "67°"}
 """First ids of the families of slopes, each with three more that are turned; both ends make one slope."""
 
-NAMES = {kind.number: kind.name for kind in KINDS if kind.number >= 0}
+NAMES = {kind.number: kind.name for kind in kinds.KINDS if kind.number >= 0}
 BY_WEAPON = {number: name for name, number in WEAPONS.items()}
 BY_MOVEMENT = {number: name for name, number in MOVEMENTS.items()}
 BY_DIRECTION = {number: name for name, number in DIRECTION_WORDS.items()}
@@ -45,8 +32,12 @@ BY_NORMAL = {normal: name for name, normal in PAD_NORMALS.items()}
 BY_FLAGS = {flags: name for name, flags in DOORS.items()}
 
 ALL_VARIANTS = frozenset(
-    [NAMES[kind] for kind in NAMES if kind not in {DRONE, DOOR, ONE_WAY, THWUMP, LAUNCH_PAD}]
-    + [f"{NAMES[kind]} {word}" for kind in (ONE_WAY, THWUMP) for word in DIRECTION_WORDS]
+    [
+        NAMES[kind]
+        for kind in NAMES
+        if kind not in {kinds.DRONE, kinds.DOOR, kinds.ONE_WAY, kinds.THWUMP, kinds.LAUNCH_PAD}
+    ]
+    + [f"{NAMES[kind]} {word}" for kind in (kinds.ONE_WAY, kinds.THWUMP) for word in DIRECTION_WORDS]
     + [f"launch pad {word}" for word in PAD_NORMALS]
     + [f"{sort} {way}" for sort in DOORS for way in ("upright", "flat")]
     + [*WEAPONS, "zap drone seeker"]
@@ -55,8 +46,45 @@ ALL_VARIANTS = frozenset(
 """Every kind with every variant."""
 
 
+class Row(NamedTuple):
+    """A figure: what it is called, and the reference's first quartile, median and third quartile."""
+
+    title: str
+    first: float
+    median: float
+    third: float
+
+    def mark(self, value: float) -> str:
+        """Whether a value is below or above the reference's quartiles."""
+        return "-" if value < self.first else "+" if value > self.third else " "
+
+
+KNOWN = {
+    "objects": Row("objects", 50, 66, 88),
+    "gold": Row("gold", 24, 36, 49),
+    "enemies": Row("enemies other than mines", 3, 5, 7),
+    "mines": Row("mines", 0, 7, 21),
+    "kinds": Row("kinds besides ninja and exit", 3, 4, 6),
+    "solid": Row("solid share of the cells", 0.13, 0.224, 0.373),
+    "shapes": Row("tiles with a shape", 20, 40, 72.25),
+    "mirror": Row("cells equal to their left-right mirror", 0.736, 0.893, 0.997),
+    "exit_s": Row("best run to the exit, s", 7.156, 11.363, 17.619),
+    "gold_s": Row("best run with (nearly) all gold, s", 16.8, 22.913, 28.694),
+}
+"""Of 500 levels, and the best recorded runs on them. "Solid" is what is not empty."""
+
+DIFFICULTY = Row("difficulty", 2.71, 5.58, 9.9)
+"""Of the best recorded runs on 334 levels of the reference; ``--reference`` measures it again, in a minute."""
+
+KINDS_OF_REFERENCE = {
+    "bounce block": 41, "launch pad": 30, "gauss turret": 36, "floor guard": 28, "drone": 64, "one-way platform": 12,
+    "thwump": 21, "door": 52, "homing launcher": 20, "mine": 61,
+}  # fmt: skip
+"""In how many of a hundred levels of the reference a kind occurs."""
+
+
 def figures(level: Level) -> dict[str, float]:
-    """The figures of a level that are compared, by the names of ``ROWS`` in level_reference."""
+    """The figures of a level that are compared, by the names of ``KNOWN``."""
     count = Counter(record.kind for record in level.objects)
     tiles = level.tiles
     mirrored = sum(
@@ -66,10 +94,10 @@ def figures(level: Level) -> dict[str, float]:
     )
     return {
         "objects": len(level.objects),
-        "gold": count[GOLD],
+        "gold": count[kinds.GOLD],
         "enemies": sum(count[kind] for kind in ENEMIES),
-        "mines": count[MINE],
-        "kinds": len(count.keys() - {NINJA, EXIT}),
+        "mines": count[kinds.MINE],
+        "kinds": len(count.keys() - {kinds.NINJA, kinds.EXIT}),
         "solid": len(solid_cells(level)) / TILES,
         "shapes": sum(tile in SHAPES for tile in tiles),
         "mirror": mirrored / TILES,
@@ -136,13 +164,13 @@ def variants(record: ObjectSpec) -> set[str]:
     if not well_formed(record):
         return set()
     kind, values = record.kind, record.values
-    if kind in {ONE_WAY, THWUMP}:
+    if kind in {kinds.ONE_WAY, kinds.THWUMP}:
         return {f"{NAMES[kind]} {BY_DIRECTION.get(values[2], '?')}"}
-    if kind == LAUNCH_PAD:
+    if kind == kinds.LAUNCH_PAD:
         return {f"launch pad {BY_NORMAL.get((values[2], values[3]), 'oblique')}"}
-    if kind == DOOR:
+    if kind == kinds.DOOR:
         return {f"{BY_FLAGS.get((values[3], values[6]), 'door')} {'flat' if values[2] else 'upright'}"}
-    if kind == DRONE:
+    if kind == kinds.DRONE:
         weapon = BY_WEAPON.get(values[4], "drone")
         seeking = {"zap drone seeker"} if values[3] and weapon == "zap drone" else set()
         return {weapon, f"drone {BY_MOVEMENT.get(values[2], '?')}"} | seeking

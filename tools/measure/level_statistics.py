@@ -27,6 +27,9 @@ from tools import ROOT
 from tools.draw.level_plots import draw_difficulty, draw_figures
 from tools.measure.level_figures import (
     ALL_VARIANTS,
+    DIFFICULTY,
+    KINDS_OF_REFERENCE,
+    KNOWN,
     NAMES,
     SHAPES,
     alike,
@@ -37,7 +40,6 @@ from tools.measure.level_figures import (
     solid_cells,
     variants,
 )  # fmt: skip
-from tools.measure.level_reference import DIFFICULTY, KINDS_OF_REFERENCE, ROWS
 
 HEADING = "## The figures"
 """Of the page docs/level-set.md, below which the tables stand."""
@@ -88,12 +90,12 @@ def number(value: float) -> str:
 
 def table_of_levels(rows: Mapping[str, Mapping[str, float]]) -> str:
     wide = max([len(name) for name in rows] + [20])
-    lines = [" " * wide + "".join(f"{key:>9}" for key in ROWS)]
+    lines = [" " * wide + "".join(f"{key:>9}" for key in KNOWN)]
     for place, end in enumerate(("25 %", "median", "75 %")):
-        cells = (f"{number((row.first, row.median, row.third)[place]):>8} " for row in ROWS.values())
+        cells = (f"{number((row.first, row.median, row.third)[place]):>8} " for row in KNOWN.values())
         lines.append(f"{'reference, ' + end:<{wide}}" + "".join(cells))
     for name, row in rows.items():
-        cells = (f"{number(row[key]):>8}{ROWS[key].mark(row[key])}" if key in row else " " * 9 for key in ROWS)
+        cells = (f"{number(row[key]):>8}{KNOWN[key].mark(row[key])}" if key in row else " " * 9 for key in KNOWN)
         lines.append(f"{name:<{wide}}" + "".join(cells))
     return "\n".join(lines)
 
@@ -101,7 +103,7 @@ def table_of_levels(rows: Mapping[str, Mapping[str, float]]) -> str:
 def table_of_set(rows: Sequence[Mapping[str, float]]) -> str:
     """The quartiles of the set beside the reference's, in Markdown."""
     lines = ["| per level | reference | ours | median within |", "|---|---|---|---|"]
-    for key, row in (*ROWS.items(), ("difficulty", DIFFICULTY)):
+    for key, row in (*KNOWN.items(), ("difficulty", DIFFICULTY)):
         values = [each[key] for each in rows if key in each]
         ours = quartiles(values)
         inside = "-" if not values else "yes" if row.first <= ours[1] <= row.third else "no"

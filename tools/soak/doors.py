@@ -24,12 +24,15 @@ import traceback
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import nullcontext
+from functools import partial
 from hashlib import sha256
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from types import FrameType, ModuleType
+from types import ModuleType
 from typing import Any, NoReturn
+
+from coverage import Coverage
 
 from tools import ROOT
 from tools.soak.mutators import mutated
@@ -137,55 +140,33 @@ def _line_of(error: BaseException) -> str:
     return f"{ours[-1].filename.removeprefix(PACKAGE)}:{ours[-1].lineno}" if ours else ""
 
 
-# --- which code an input reaches ---
+_COVERAGE = Coverage(data_file=None, include=[f"{PACKAGE}/*"], omit=[f"{PACKAGE}/sim/*"], config_file=False)
 
 
-class Lines:
-    """Which steps from line to line of the package were taken since ``seen`` was cleared."""
-
-    def __init__(self) -> None:
-        self.seen: set[tuple[object, int, int]] = set()
-
-    def _call(self, frame: FrameType, _event: str, _argument: object) -> Any:
-        if not frame.f_code.co_filename.startswith(PACKAGE):
-            return None
-        before = 0
-
-        def line(frame: FrameType, event: str, _: object) -> Any:
-            nonlocal before
-            if event == "line":
-                self.seen.add((frame.f_code, before, frame.f_lineno))
-                before = frame.f_lineno
-            return line
-
-        return line
-
-    @contextmanager
-    def watching(self) -> Iterator[None]:
-        """Note the steps of a block."""
-        self.seen.clear()
-        sys.settrace(self._call)
-        try:
-            yield
-        finally:
-            sys.settrace(None)
+def lines_of(read: Callable[[], None]) -> set[tuple[str, int]]:
+    """Which lines of the package something executes."""
+    _COVERAGE.erase()
+    with _COVERAGE.collect():
+        read()
+    seen = _COVERAGE.get_data()
+    return {(file, line) for file in seen.measured_files() for line in seen.lines(file) or ()}
 
 
 Pool = dict[str, list[bytes]]
 
 
-def loop(trial: Trial, pool: Pool, rng: random.Random, lines: Lines | None) -> Iterator[None]:
-    """Read one odd input after another; with ``lines`` those that take new steps join the pool."""
+def loop(trial: Trial, pool: Pool, rng: random.Random, *, grow: bool) -> Iterator[None]:
+    """Read one odd input after another; where the pool grows, those that reach new lines join it."""
     names = [name for name in pool for _ in range(trial.doors[name].share)]
     known: dict[str, set[Any]] = {name: set() for name in pool}
     while True:
         name = rng.choice(names)
         other = rng.choice(pool[name if rng.random() < 0.8 else rng.choice(names)])
         data = mutated(rng.choice(pool[name]), other, rng)
-        with lines.watching() if lines else nullcontext():
+        if not grow:
             trial.read(name, data)
-        if lines and not lines.seen <= known[name]:
-            known[name] |= lines.seen
+        elif not (reached := lines_of(partial(trial.read, name, data))) <= known[name]:
+            known[name] |= reached
             pool[name].append(data)
         yield
 
@@ -255,7 +236,6 @@ def sound_inputs(names: list[str], kept: Path | None, *, reference: bool) -> Poo
 
 def write_smallest(trial: Trial, pool: Pool, folder: Path, longest: int) -> None:
     """Write few short inputs that reach all the lines of a pool, and a sound one, one folder per door."""
-    steps = Lines()
     for name, inputs in pool.items():
         known: set[Any] = set()
         sound = False
@@ -263,9 +243,7 @@ def write_smallest(trial: Trial, pool: Pool, folder: Path, longest: int) -> None
             if sound and len(data) > longest:
                 break
             before = trial.outcomes[f"{name}: read"], len(trial.wrong)
-            with steps.watching():
-                trial.read(name, data)
-            reached = {(code, line) for code, _, line in steps.seen}
+            reached = lines_of(partial(trial.read, name, data))
             was_read = trial.outcomes[f"{name}: read"] > before[0]
             wanted = not reached <= known if len(data) <= longest else was_read
             if (wanted or (was_read and not sound)) and len(trial.wrong) == before[1]:
@@ -338,7 +316,7 @@ def main() -> int:
         for name, inputs in pool.items():
             for data in inputs:
                 trial.read(name, data)
-        for _ in loop(trial, pool, random.Random(options.seed), Lines() if options.coverage else None):
+        for _ in loop(trial, pool, random.Random(options.seed), grow=options.coverage):
             trial.tell_progress()
             if over():
                 break

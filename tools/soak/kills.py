@@ -1,23 +1,38 @@
-"""Kill the game at random moments of playing and saving, and look whether anything that was called saved is lost.
+"""Kill the game, the editor or the TAS editor at random moments: nothing that was called saved may be lost.
 
     python3 tools/dev.py tool soak.kills --kills 200
     python3 tools/dev.py tool soak.kills --kills 500 --what window
     SDL_VIDEODRIVER=x11 DISPLAY=:73 python3 tools/dev.py tool soak.kills --kills 100 --what settings
 
-A child process opens the player's folder and plays: passes levels, keeps replays, changes settings, and says after
-each save what it has saved. It is killed (SIGKILL) after a random time, also while the files are being made. Then
-the folder is opened as the game would open it: everything that was said must be there, and nothing half written.
+A child process opens the player's folder, goes on where the last one ended, and says after each save or edit what
+there must be now. It is killed (SIGKILL) after a random time, also while the files are being made. Then the folder is
+opened as the program would open it. ``--what``: records, window and settings of the game lose nothing that was said;
+the editor loses at most two seconds of drawing; the TAS editor (tas without its window, or tas-window) at most its last
+edit; and no file is half written.
 """
 
 from __future__ import annotations
 
+import argparse
+import multiprocessing
+import os
 import sys
-from dataclasses import dataclass, field
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from hashlib import sha256
+from itertools import groupby
 from multiprocessing.connection import Connection
 from pathlib import Path
 from random import Random
+from typing import Any, NamedTuple, NoReturn
 
+from ninja_game.editor.files import recovered
+from ninja_game.errors import NinjaGameError
 from ninja_game.files import writing
+from ninja_game.files.locking import hold
+from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest, parse_level_string
 from ninja_game.formats.named_level import NamedLevel
 from ninja_game.player.attempt import Attempt
@@ -25,10 +40,22 @@ from ninja_game.player.catalogue import Entry
 from ninja_game.player.player_data import PlayerData
 from ninja_game.player.playthrough import LevelRun
 from ninja_game.sim.level import Level
-from tools.soak.killing import Fact, life, run_kills
+from ninja_game.tas import journal
+from ninja_game.tas.files import open_run
+from ninja_game.tas.input_track import InputTrack
+from ninja_game.tas.session import Session
+from tests.support.samples import replay_of_walk
 
-LONGEST_LIFE = 0.25
-"""Seconds after which a child is killed at the latest."""
+PATIENCE = 120.0
+"""Seconds to wait for a word of a child."""
+
+Fact = tuple[str, str, int]
+"""What a child says: the kind of fact, such as "saved", what it is about, a number."""
+
+RUN = "walk.replay.txt"
+"""The file that the TAS editor edits."""
+
+# --- the children: each works for ever, saying each time what is saved ---
 
 
 def level_of(number: int) -> Level:
@@ -49,13 +76,9 @@ def passed_attempt(level: Level, wait: int) -> Attempt:
     return attempt
 
 
-# --- the children: each plays and saves for ever, saying each time what is saved ---
-
-
-def play_records(folder: str, seed: int, pipe: Connection) -> None:
+def play_records(folder: Path, rng: Random, pipe: Connection) -> NoReturn:
     """What the game saves, without its window: far more saves a second."""
-    rng = Random(seed)
-    data = PlayerData(Path(folder))
+    data = PlayerData(folder)
     while True:
         level = level_of(rng.randrange(40))
         attempt = passed_attempt(level, rng.randrange(30))
@@ -71,13 +94,12 @@ def play_records(folder: str, seed: int, pipe: Connection) -> None:
         pipe.send(("progress", "0", episode * 5 + place))
 
 
-def play_in_window(folder: str, seed: int, pipe: Connection) -> None:
+def play_in_window(folder: Path, rng: Random, pipe: Connection) -> NoReturn:
     """The whole program: levels played by keys, replays kept, settings changed on the way."""
     from ninja_game.play.level.screen import LevelScreen
     from tests.support.menu_driver import MenuDriver
 
-    rng = Random(seed)
-    driver = MenuDriver(Path(folder))
+    driver = MenuDriver(folder)
     while True:
         level = level_of(rng.randrange(40))
         screen = LevelScreen(driver.app, LevelRun(driver.player, entry_of(level)))
@@ -99,15 +121,15 @@ def play_in_window(folder: str, seed: int, pipe: Connection) -> None:
         screen.quit()
 
 
-def play_settings(folder: str, seed: int, pipe: Connection) -> None:
+def play_settings(folder: Path, rng: Random, pipe: Connection) -> NoReturn:
     """The settings screen: its volume moved by keys, up and down."""
     from tests.support.menu_driver import MenuDriver
 
-    driver = MenuDriver(Path(folder))
+    driver = MenuDriver(folder)
     driver.open("Settings")
     screen = driver.settings_page("Sound")
     screen.focus = screen.widgets[1]
-    step = 3 if seed % 2 else -3
+    step = rng.choice((3, -3))
     while True:
         if not 0 <= driver.player.settings.volume + step <= 99:
             step = -step
@@ -116,20 +138,89 @@ def play_settings(folder: str, seed: int, pipe: Connection) -> None:
         pipe.send(("volume", "", driver.player.settings.volume))
 
 
-PLAYERS = {"records": play_records, "window": play_in_window, "settings": play_settings}
+def draw_level(folder: Path, rng: Random, pipe: Connection) -> NoReturn:
+    """The editor, by its own mouse events; says the digest of every state and when it was reached."""
+    from tests.support.level_maker import Maker
 
-# --- killing them ---
+    maker = Maker(folder)
+    maker.open("Editor")
+    if maker.top() is not maker.editor:
+        maker.choose("Recover")
+    session = maker.editor.session
+    while True:
+        maker.press(rng.choice(("e", "d", "1", "grave", "3", "m")))
+        maker.drag(*((rng.uniform(30, 760), rng.uniform(30, 570)) for _ in range(rng.randrange(1, 4))))
+        session.tools.finish()
+        digest = level_digest(session.draft.level)
+        pipe.send(("edited", digest, time.monotonic_ns()))
+        if rng.random() < 0.04:
+            pipe.send(("about", digest, 0))
+            session.save(folder / "levels" / "kept.txt", replacing=True)
+            if session.is_saved:
+                pipe.send(("saved", digest, 0))
+        time.sleep(0.01)
 
 
-@dataclass
-class Said:
+def edit_run(folder: Path, rng: Random, pipe: Connection) -> NoReturn:
+    """The TAS editor without its window: far more edits a second."""
+    from tests.support.tas_edits import edit_at_random
+
+    session = opened_run(folder)
+    while True:
+        edit_at_random(session, rng)
+        say_and_save(session, rng, pipe)
+
+
+def edit_run_in_window(folder: Path, rng: Random, pipe: Connection) -> NoReturn:
+    """The TAS editor with its own keys and mouse."""
+    from tests.support.tas_driver import TasDriver
+    from tests.support.tas_edits import use_at_random
+
+    at = TasDriver(folder, folder / RUN)
+    if at.top() is not at.screen:
+        at.choose("Recover")
+        at.adopt()
+    while True:
+        use_at_random(at, rng)
+        say_and_save(at.session, rng, pipe)
+
+
+def opened_run(folder: Path) -> Session:
+    """The run, or what was not saved of it."""
+    found = next(journal.recovered(folder), None)
+    session = Session(found.opened if found else open_run(folder / RUN), folder, memory="plain")
+    if found:
+        session.recover(found)
+    return session
+
+
+def digest_of_track(track: InputTrack) -> str:
+    """Of keys and names; ticks without a key at the end do not count: a saved file may leave them out."""
+    return sha256(track.inputs.rstrip(b"\0") + repr(track.markers).encode()).hexdigest()
+
+
+def say_and_save(session: Session, rng: Random, pipe: Connection) -> None:
+    """Say what the run is; now and then save it."""
+    digest = digest_of_track(session.track)
+    pipe.send(("edited", digest, 0))
+    if rng.random() < 0.05:
+        pipe.send(("about", digest, 0))
+        session.save(session.file.path or Path(), replacing=True)
+        pipe.send(("saved", digest, 0))
+
+
+# --- what must be there after a kill ---
+
+
+class Game:
     """What the children of a folder said was saved: the best number by kind and key, and the volumes."""
 
-    numbers: dict[tuple[str, str], int] = field(default_factory=dict)
-    volumes: set[int] = field(default_factory=set)
+    def __init__(self, _: Path) -> None:
+        self.numbers: dict[tuple[str, str], int] = {}
+        self.volumes: set[int] = set()
 
-    def note(self, facts: list[Fact]) -> None:
-        """Take in what a child said."""
+    def losses(self, folder: Path, facts: list[Fact]) -> Iterator[str]:
+        """Facts that are lost, files half written, or that the folder cannot be opened as it was."""
         for kind, key, number in facts:
             if kind == "volume":
                 self.volumes = {number}
@@ -138,58 +229,185 @@ class Said:
             else:
                 place = kind, key if kind != "replay" else str(number)
                 self.numbers[place] = max(number, self.numbers.get(place, 0))
+        writing._tidied.clear()  # noqa: SLF001 - as a new process
+        data = PlayerData(folder)
+        bests = data.records.level_bests()
+        yield from (f"not opened: {message}" for message in data.messages)
+        for (kind, key), number in self.numbers.items():
+            if kind == "best" and (key not in bests or bests[key].score < number):
+                yield f"best of {key[:8]}: {number} was saved, {bests.get(key)} is there"
+            elif kind == "replay" and data.records.replay(number) is None:
+                yield f"replay {number} is gone"
+            elif kind == "progress":
+                episode, level = data.progress.columns[0].beaten
+                if episode * 5 + level < number:
+                    yield f"progress: {number} was saved, {(episode, level)} is there"
+        if self.volumes and data.settings.volume not in self.volumes:
+            yield f"volume: {self.volumes} was saved, {data.settings.volume} is there"
+        data.close()
+        known = {"settings.toml", "records.sqlite", ".settings.toml.lock", ".records.sqlite.lock"}
+        known |= {"levels", "replays", "exports"}
+        yield from (f"left over: {name}" for name in sorted({each.name for each in folder.iterdir()} - known))
 
 
-def losses(folder: Path, said: Said) -> list[str]:
-    """What is wrong with the folder: facts that are lost, files half written, or that it cannot be opened as it was."""
-    writing._tidied.clear()  # noqa: SLF001 - as a new process
-    data = PlayerData(folder)
-    bests = data.records.level_bests()
-    wrong = [f"not opened: {message}" for message in data.messages]
-    for (kind, key), number in said.numbers.items():
-        if kind == "best" and (key not in bests or bests[key].score < number):
-            wrong.append(f"best of {key[:8]}: {number} was saved, {bests.get(key)} is there")
-        elif kind == "replay" and data.records.replay(number) is None:
-            wrong.append(f"replay {number} is gone")
-        elif kind == "progress":
-            episode, level = data.progress.columns[0].beaten
-            if episode * 5 + level < number:
-                wrong.append(f"progress: {number} was saved, {(episode, level)} is there")
-        elif kind == "no start":
-            wrong.append("the game did not start")
-    if said.volumes and data.settings.volume not in said.volumes:
-        wrong.append(f"volume: {said.volumes} was saved, {data.settings.volume} is there")
-    data.close()
-    known = {"settings.toml", "records.sqlite", "levels", "replays", "exports"}
-    known |= {".settings.toml.lock", ".records.sqlite.lock"}
-    return wrong + [
-        f"left over: {name}" for name in sorted(each.name for each in folder.iterdir()) if name not in known
-    ]
+class Drawing:
+    """What the file of an editor may hold, and whether there is one for certain. ``most``: seconds that may be lost."""
+
+    most = 2.0
+
+    def __init__(self, _: Path) -> None:
+        self.saved: set[str] = set()
+        self.made = False
+
+    def losses(self, folder: Path, facts: list[Fact], killed_at: int | None = None) -> Iterator[str]:
+        """Work that is neither offered nor in the file, older than ``most``; or a file that is not as it was saved."""
+        killed_at = killed_at or time.monotonic_ns()
+        for kind, digest, _ in facts:
+            self.saved = {digest} if kind == "saved" else self.saved | {digest} if kind == "about" else self.saved
+            self.made |= kind == "saved"
+        there = {level_digest(found.draft.level) for found in recovered(folder)}
+        file = folder / "levels" / "kept.txt"
+        if self.made or file.exists():
+            in_file = level_digest(load_levels(file)[0].level)
+            there.add(in_file)
+            if in_file not in self.saved:
+                yield "the file is not as it was saved"
+        drawn = [(digest, at) for kind, digest, at in facts if kind == "edited"]
+        last = max((number for number, (digest, _) in enumerate(drawn) if digest in there), default=-1)
+        lost = (killed_at - drawn[last + 1][1]) / 1e9 if last + 1 < len(drawn) else 0.0
+        if lost > self.most:
+            yield f"{lost:.2f} s lost"
+
+
+class Track:
+    """The run as it was last, and what its file may hold."""
+
+    def __init__(self, folder: Path) -> None:
+        folder.mkdir(parents=True)
+        (folder / RUN).write_text(replay_of_walk(), "utf-8")
+        self.last = digest_of_track(open_run(folder / RUN).track)
+        self.saved = {self.last}
+
+    def losses(self, folder: Path, facts: list[Fact]) -> Iterator[str]:
+        """More edits than one that are lost, or a file that is not as it was saved."""
+        # What changes nothing, such as undo without an edit, is not an edit that could be lost.
+        said = [each for each, _ in groupby([self.last, *(each for kind, each, _ in facts if kind == "edited")])]
+        for kind, each, _ in facts:
+            self.saved = {each} if kind == "saved" else self.saved | {each} if kind == "about" else self.saved
+        await_locks(folder)
+        session = opened_run(folder)
+        self.last = digest_of_track(session.track)
+        session.close(keep=True)
+        if (lost := said[::-1].index(self.last) if self.last in said else 0) > 1:
+            yield f"{lost} edits lost"
+        if digest_of_track(open_run(folder / RUN).track) not in self.saved:
+            yield "the file is not as it was saved"
+
+
+def await_locks(folder: Path) -> None:
+    """Wait until the system has freed the locks of a process that has died: on some systems that takes a moment."""
+    end = time.monotonic() + PATIENCE
+    for file in (folder / journal.FOLDER).glob("*.jsonl"):
+        while (handle := hold(file.with_suffix(".lock"))) is None and time.monotonic() < end:
+            time.sleep(0.01)
+        if handle is not None:
+            os.close(handle)
+
+
+# --- killing ---
+
+
+class Trial(NamedTuple):
+    """``words``: how many a child says at least; ``seconds``: after these, at which it is killed at the latest."""
+
+    child: Callable[[Path, Random, Connection], NoReturn]
+    state: type[Game | Drawing | Track]
+    words: Callable[[Random], int]
+    seconds: float
+
+
+TRIALS = {
+    # Without a word: from its birth, so that opening the files is interrupted too.
+    "records": Trial(play_records, Game, lambda rng: rng.choice((0, 1, 1, 1)), 0.25),
+    "window": Trial(play_in_window, Game, lambda rng: rng.choice((0, 1, 1, 1)), 0.25),
+    "settings": Trial(play_settings, Game, lambda rng: rng.choice((0, 1, 1, 1)), 0.25),
+    "editor": Trial(draw_level, Drawing, lambda _: 1, 2.5),
+    "tas": Trial(edit_run, Track, lambda rng: rng.randrange(1, 21), 0.05),
+    "tas-window": Trial(edit_run_in_window, Track, lambda rng: rng.randrange(1, 21), 0.05),
+}
+
+
+def live(what: str, folder: Path, seed: int, pipe: Connection) -> NoReturn:
+    """What a child does until it is killed."""
+    TRIALS[what].child(folder, Random(seed), pipe)
+
+
+def life(what: str, folder: Path, seed: int, words: int, seconds: float) -> list[Fact]:
+    """Let a child live until it has said so many words and for some seconds more, kill it; all that it said."""
+    methods = multiprocessing.get_all_start_methods()
+    context: Any = multiprocessing.get_context("fork" if "fork" in methods else "spawn")
+    ours, theirs = context.Pipe(duplex=False)
+    child = context.Process(target=live, args=(what, folder, seed, theirs), daemon=True)
+    child.start()
+    theirs.close()
+    facts: list[Fact] = []
+    # The last word may be cut off; what it was about counts as not said.
+    with suppress(EOFError, OSError):
+        while len(facts) < words and ours.poll(PATIENCE):
+            facts.append(ours.recv())
+    time.sleep(seconds)
+    child.kill()
+    child.join()
+    with suppress(EOFError, OSError):
+        while ours.poll():
+            facts.append(ours.recv())
+    ours.close()
+    return facts
 
 
 def kill_test(
     kills: int, seed: int, folder: Path, *, what: str = "records", report: bool = False
 ) -> tuple[int, list[str]]:
-    """Kill so many children; how many saves they had told of, and everything that was lost."""
-    rng = Random(seed)
-    said = Said()
+    """Kill so many children; how many saves and edits they had told of, and everything that is wrong."""
+    rng, trial = Random(seed), TRIALS[what]
     told = 0
     wrong: list[str] = []
     for number in range(kills):
         # Every tenth folder is a new one, so that making the files is interrupted too.
         home = folder / str(number // 10)
         if number % 10 == 0:
-            said = Said()
-        seconds = rng.random() * LONGEST_LIFE
-        facts = life(PLAYERS[what], home, rng.randrange(2**31), seconds, words=min(number % 4, 1))
-        told += sum(kind not in {"about", "no start"} for kind, _, _ in facts)
-        said.note(facts)
-        lost = losses(home, said)
+            state = trial.state(home)
+        words = trial.words(rng)
+        facts = life(what, home, rng.randrange(2**31), words, rng.random() * trial.seconds)
+        told += sum(kind != "about" for kind, _, _ in facts)
+        try:
+            lost = [*state.losses(home, facts), *(["it did not start"] if words and not facts else [])]
+        except (NinjaGameError, OSError) as error:
+            lost = [str(error)]
         wrong += [f"kill {number + 1}: {text}" for text in lost]
-        if report and (lost or (number + 1) % 50 == 0):
-            print(f"{number + 1} kills, {told} saves, {len(wrong)} losses", flush=True)
+        if report and (lost or (number + 1) % 10 == 0):
+            print(f"{number + 1} kills, {told} saves and edits, {len(wrong)} things wrong", flush=True)
     return told, wrong
 
 
+def main() -> int:
+    """Kill as the command line says and print what is wrong; exit code 1 if anything is."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", maxsplit=1)[0])
+    parser.add_argument("--kills", type=int, default=100)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--what", choices=TRIALS, default="records")
+    options = parser.parse_args()
+    for name, value in (
+        ("PYGAME_HIDE_SUPPORT_PROMPT", "1"),
+        ("SDL_VIDEODRIVER", "dummy"),
+        ("SDL_AUDIODRIVER", "dummy"),
+    ):
+        os.environ.setdefault(name, value)
+    with tempfile.TemporaryDirectory() as folder:
+        told, wrong = kill_test(folder=Path(folder), report=True, **vars(options))
+    print(*wrong, f"{options.kills} kills, {told} saves and edits, {len(wrong)} things wrong", sep="\n")
+    return 1 if wrong else 0
+
+
 if __name__ == "__main__":
-    sys.exit(run_kills(__doc__, kill_test, "{} saves told of", kills=200, players=PLAYERS))
+    sys.exit(main())

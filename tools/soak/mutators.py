@@ -98,25 +98,44 @@ def _kind(token: str) -> str:
 
 
 def _tokens(text: str, other: str, rng: random.Random) -> str:
-    """Some tokens doubled many times, taken out, exchanged, moved, or replaced by tokens of another text."""
-    tokens = _TOKEN.findall(text) or [""]
-    place = rng.randrange(len(tokens))
+    """Tokens taken out, moved, exchanged, or doubled many times."""
+    return "".join(_rearranged(_TOKEN.findall(text) or [""], _TOKEN.findall(other) or [""], rng))
+
+
+def _blocks(text: str, other: str, rng: random.Random) -> str:
+    """Lines or fields, the same; or put into brackets."""
+    divider = rng.choice(("\n", "\n", "\n", "#", "!", ",", "|", " ", ":", "&", "\n\n"))
+    parts = text.split(divider)
+    if rng.random() < 0.2:
+        place = rng.randrange(len(parts))
+        opened, closed = rng.choice(("()", "[]", "{}", '""', ("Repeat 2\n", "\nEndRepeat"), ("not ", ""), ("(", ")*2")))
+        deep = rng.choice((1, 2, 39, 41, 200, 5000))
+        parts[place] = opened * deep + parts[place] + closed * deep
+    return divider.join(_rearranged(parts, other.split(divider), rng))
+
+
+def _rearranged(parts: list[str], theirs: list[str], rng: random.Random) -> list[str]:
+    """Some parts in a row doubled many times, taken out, moved, indented, or replaced by those of another text."""
+    place = rng.randrange(len(parts))
     end = place + rng.choice((1, 1, 2, 5, 30))
-    piece = tokens[place:end]
-    what = rng.randrange(5)
+    piece = parts[place:end]
+    what = rng.randrange(7)
     if what == 0:
-        piece *= rng.choice((2, 3, 100, 1 + min(20_000, MOST // (1 + len("".join(piece))))))
+        piece *= rng.choice((2, 3, 100, 1 + min(30_000, MOST // (1 + sum(map(len, piece))))))
     elif what == 1:
         piece = []
     elif what == 2:
         rng.shuffle(piece)
     elif what == 3:
         piece = [rng.choice(WORDS)]
-    else:
-        theirs = _TOKEN.findall(other) or [""]
+    elif what == 4:
         start = rng.randrange(len(theirs))
         piece = theirs[start : start + len(piece)]
-    return "".join([*tokens[:place], *piece, *tokens[end:]])
+    elif what == 5:
+        piece.insert(0, rng.choice(parts))
+    else:
+        piece = [" " * rng.choice((1, 2, 9)) + each.strip() for each in piece]
+    return [*parts[:place], *piece, *parts[end:]]
 
 
 def _numbers(text: str, _: str, rng: random.Random) -> str:
@@ -166,31 +185,6 @@ def _cut(text: str, other: str, rng: random.Random) -> str:
     return rng.choice((text[:place], text[place:], text[:place] + rng.choice(WORDS), text + other))
 
 
-def _blocks(text: str, other: str, rng: random.Random) -> str:
-    """Lines or fields repeated, taken out, moved, exchanged with those of another text."""
-    divider = rng.choice(("\n", "\n", "\n", "#", "!", ",", "|", " ", ":", "&", "\n\n"))
-    parts, theirs = text.split(divider), other.split(divider)
-    place = rng.randrange(len(parts))
-    end = place + rng.choice((1, 1, 2, 10))
-    block = parts[place:end]
-    what = rng.randrange(6)
-    if what == 0:
-        block *= rng.choice((2, 2, 5, 1 + min(30_000, MOST // (1 + sum(map(len, block))))))
-    elif what == 1:
-        block = []
-    elif what == 2:
-        block = rng.choices(theirs, k=len(block))
-    elif what == 3:
-        block.insert(0, rng.choice(parts))
-    elif what == 4:
-        block = [" " * rng.choice((1, 2, 9)) + each.strip() for each in block]
-    else:
-        opened, closed = rng.choice(("()", "[]", "{}", '""', ("Repeat 2\n", "\nEndRepeat"), ("not ", ""), ("(", ")*2")))
-        deep = rng.choice((1, 2, 39, 41, 200, 5000))
-        block = [opened * deep + divider.join(block) + closed * deep]
-    return divider.join([*parts[:place], *block, *parts[end:]])
-
-
 def _key(text: str, other: str, rng: random.Random) -> str:
     """A line ``key: value`` or ``key = value`` with another value, or with another line's key."""
     pairs = [*re.finditer(r"(?m)^([ \t]*[\w.-]+[ \t]*[:=][ \t]*)(.*)$", text)]
@@ -230,10 +224,8 @@ def _json(text: str, other: bytes, rng: random.Random) -> str:
         lines = text.split("\n")
         place = rng.randrange(len(lines))
         whole = json.loads(lines[place])
-        before, after = (
-            "".join(f"{line}\n" for line in lines[:place]),
-            "".join(f"\n{line}" for line in lines[place + 1 :]),
-        )
+        before = "".join(f"{line}\n" for line in lines[:place])
+        after = "".join(f"\n{line}" for line in lines[place + 1 :])
     places: list[tuple[Any, Any]] = []
     waiting = [whole]
     while waiting:

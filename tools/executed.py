@@ -1,0 +1,38 @@
+"""Which tests execute which lines of the program, and how long each takes: a plugin of pytest, loaded by breaks.py."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+from coverage import Coverage
+
+FOLDER = Path(os.environ["EXECUTED"])
+seconds: Counter[str] = Counter()
+recording = Coverage(FOLDER / "lines", data_suffix=True, source=["ninja_game"], omit=["ninja_game/sim/*"])
+recording.set_option("run:relative_files", value=True)
+if "PYTEST_XDIST_WORKER" in os.environ:
+    recording.start()
+
+
+def pytest_runtest_logstart(nodeid: str) -> None:
+    """What runs from here on belongs to this test, whatever its parameters."""
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        recording.switch_context(nodeid.partition("[")[0])
+
+
+def pytest_runtest_logreport(report: Any) -> None:
+    """Add up the time of all phases and parameters."""
+    seconds[report.nodeid.partition("[")[0]] += report.duration
+
+
+def pytest_sessionfinish() -> None:
+    """Keep what was seen; the process that hands out the tests has heard of all times."""
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        recording.stop()
+        recording.save()
+    else:
+        (FOLDER / "seconds.json").write_text(json.dumps(seconds), "utf-8")
