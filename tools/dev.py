@@ -53,6 +53,9 @@ PROGRAMS = {
 DRAWINGS = ("draw.how_it_works", "draw.screens", "draw.settings_page")
 PICTURE_TESTS = ("tests/play/test_recorded_screens.py", "tests/play/test_pictures.py", "tests/play/test_sound.py")
 LINT = (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",), ("lint-imports",))
+FIX = (("ruff", "check", "--fix"), ("ruff", "format"), *LINT[2:])
+GOOD = "lint: all good"
+CORES = str(min(4, os.cpu_count() or 1))
 
 
 def program(name: str) -> str:
@@ -127,24 +130,10 @@ def pip_install(names: Sequence[str]) -> bool:
     return run("python", "-m", "pip", "install", "--quiet", "-c", str(constraints), "--editable", project, *tools) == 0
 
 
-def test(rest: Sequence[str]) -> int:
-    """`lint`, then the tests on up to four cores; or pytest alone, with ``rest``."""
-    if rest:
-        return run("python", "-m", "pytest", *rest)
-    unclean = lint(LINT)
-    failed = run("python", "-m", "pytest", "-n", str(min(4, os.cpu_count() or 1)), "--dist", "worksteal")
-    return lint_failed(unclean) or failed
-
-
-def lint(steps: Sequence[Sequence[str]]) -> list[str]:
-    """Style, format, types and the import contract: those that fail."""
-    return [" ".join(words) for words in steps if run(*words)]
-
-
-def lint_failed(failed: Sequence[str]) -> int:
-    """Say it below everything else."""
-    print(f"lint: {', '.join(failed)} failed" if failed else "lint: all good", flush=True)
-    return 1 if failed else 0
+def lint(steps: Sequence[Sequence[str]]) -> str:
+    """Style, format, types and the import contract: what is to be said of them below everything else."""
+    failed = [" ".join(words) for words in steps if run(*words)]
+    return f"lint: {', '.join(failed)} failed" if failed else GOOD
 
 
 def tool(name: str, *rest: str) -> int:
@@ -174,15 +163,16 @@ def main(words: Sequence[str]) -> int:
     if name in {"test", "lint", "accept-pictures", "docs", *PROGRAMS} or (name == "tool" and rest):
         install(DEVELOPMENT)
     match name, *rest:
+        case ("test",) | ("lint",) | ("lint", "--fix"):
+            told = lint(FIX if rest else LINT)
+            failed = name == "test" and run("python", "-m", "pytest", "-n", CORES, "--dist", "worksteal")
+            print(told, flush=True)
+            return int(failed or told != GOOD)
         case "test", *rest:
-            return test(rest)
-        case "lint", "--fix":
-            return lint_failed(lint((("ruff", "check", "--fix"), ("ruff", "format"), *LINT[2:])))
-        case ("lint",):
-            return lint_failed(lint(LINT))
+            return run("python", "-m", "pytest", *rest)
         case "accept-pictures", *_:
             os.environ["ACCEPT_PICTURES"] = "1"
-            return test(["-q", *PICTURE_TESTS])
+            return run("python", "-m", "pytest", "-q", *PICTURE_TESTS)
         case "docs", *_:
             return max(run("python", "-m", f"tools.{drawing}") for drawing in DRAWINGS)
         case "tool", script, *rest:
