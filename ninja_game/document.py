@@ -81,8 +81,8 @@ class RecoveryFile:
         if self._lock is not None:
             os.close(self._lock)
             self._lock = None
-        if not keep:
-            forget(self.file)
+            if not keep:
+                forget(self.file)
 
 
 def recovered_from(folder: Path, suffix: str, read: Callable[[Path], Found]) -> Iterator[Found]:

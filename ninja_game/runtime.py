@@ -11,7 +11,6 @@ from typing import TypeVar
 
 from ninja_game.errors import NinjaGameError, reason
 
-Key = TypeVar("Key")
 Value = TypeVar("Value")
 
 IN_PAGE = sys.platform == "emscripten"
@@ -23,9 +22,9 @@ FOLDER_HANDLES = os.open in os.supports_dir_fd and not IN_PAGE
 ONLY_ON_A_DESKTOP = "only the program for the desktop can make that, not a page"
 
 
-def only_in_a_page(table: dict[Key, Value]) -> dict[Key, Value]:
-    """A table that counts in a page; an empty one elsewhere."""
-    return table if IN_PAGE else {}
+def in_page_or_not(page: Value, desktop: Value) -> Value:
+    """One of two values: that for a page, or that for a desktop."""
+    return page if IN_PAGE else desktop
 
 
 def require_desktop() -> None:

@@ -5,7 +5,8 @@ usage: python3 tools/dev.py COMMAND ...
 
   play             the game, in a window; words after it go to `ninja-game play`
   run              any `ninja-game` command: `run info levels/00-0-first-steps.txt`
-  test             `lint`, then all tests; with words of your own (a file, `-k NAME`) pytest alone, with them
+  test             `lint`, then the tests; `test --all`: those too that are slow and rarely fail; with words of your own
+                   (a file, `-k NAME`) pytest alone, with them
   lint             style, format, types, import contract; `lint --fix` mends what a program can mend
   benchmark        measure how fast the world is on this machine; `benchmark --help` lists options
   golden           write the golden files of the tests again, after a change of the rules that is meant
@@ -163,9 +164,10 @@ def main(words: Sequence[str]) -> int:
     if name in {"test", "lint", "accept-pictures", "docs", *PROGRAMS} or (name == "tool" and rest):
         install(DEVELOPMENT)
     match name, *rest:
-        case ("test",) | ("lint",) | ("lint", "--fix"):
-            told = lint(FIX if rest else LINT)
-            failed = name == "test" and run("python", "-m", "pytest", "-n", CORES, "--dist", "worksteal")
+        case ("test",) | ("test", "--all") | ("lint",) | ("lint", "--fix"):
+            told = lint(FIX if "--fix" in rest else LINT)
+            chosen = [] if rest else ["-m", "not slow"]
+            failed = name == "test" and run("python", "-m", "pytest", "-n", CORES, "--dist", "worksteal", *chosen)
             print(told, flush=True)
             return int(failed or told != GOOD)
         case "test", *rest:

@@ -13,10 +13,10 @@ from threading import Lock
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ninja_game.backend.known_run import check_known_run
-from ninja_game.budget import PAGE_TICK_COST, tick_cost
+from ninja_game.budget import NO_LIMIT, PAGE_TICK_COST, tick_cost
 from ninja_game.errors import ArgumentError, LevelError, NinjaGameError
 from ninja_game.files.user_folder import how_to_install
-from ninja_game.runtime import IN_PAGE
+from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.level import Level
 from ninja_game.sim.memory.interface import MemoryName, Worlds
 from ninja_game.sim.memory.kernels import load_world
@@ -32,6 +32,7 @@ _LOCK = Lock()
 _KERNELS: dict[tuple[Callable[..., Any], bool], Any] = {}
 _FAILURES: list[str] = []
 """Why the compiled memory cannot be used in this process, once that has been tried."""
+_MOST_TICK_COST = in_page_or_not(PAGE_TICK_COST, NO_LIMIT)
 _ALL_CHECKED = os.environ.get("NINJA_GAME_CHECKED") == "1"
 
 
@@ -69,13 +70,10 @@ def open_worlds(memory: str, levels: Level | Sequence[Level], count: int = 1, *,
     ``compiled`` raise.
     """
     several = [levels] if isinstance(levels, Level | str) else levels
-    if IN_PAGE and (cost := max(map(tick_cost, several), default=0)) > PAGE_TICK_COST:
-        raise LevelError(
-            "too many objects for a page",
-            found=f"work of {cost:,} a tick",
-            expected=f"at most {PAGE_TICK_COST:,}",
-            hint="play it on a desktop",
-        )
+    cost = max(map(tick_cost, several), default=0)
+    if cost > _MOST_TICK_COST:
+        found, expected = f"work of {cost:,} a tick", f"at most {_MOST_TICK_COST:,}"
+        raise LevelError("too many objects for a page", found=found, expected=expected, hint="play it on a desktop")
     # The first time this imports Numba, which must come before NumPy.
     if _usable_memory(memory) == "plain":
         return PlainWorlds(several, count, box=box)

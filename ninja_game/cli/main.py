@@ -19,6 +19,7 @@ import click
 from ninja_game import __version__
 from ninja_game.cli.terminal import guard_terminal
 from ninja_game.errors import NinjaGameError
+from ninja_game.files.reading import keep_inputs
 from ninja_game.files.shown_text import shown_text
 from ninja_game.signals import Terminated, announced, end_on_signals, leave_signals, raising, received
 
@@ -71,6 +72,9 @@ COMPILING = (
 )  # fmt: skip
 """Those that may have to compile the rules first."""
 
+IN_PLACE = {"play", "edit", "tas", "lab", "player", "check", "levels", "board", "site"}
+"""Those that may replace a file that they have read."""
+
 BAD_INPUT = 2
 """Exit code for input that cannot be read and for wrong usage."""
 
@@ -111,7 +115,9 @@ class Commands(click.Group):
         near = get_close_matches(args[0], COMMANDS, 1) if args and args[0] not in COMMANDS else []
         if near:
             ctx.fail(f"No such command {args[0]!r}; did you mean '{near[0]}'?")
-        return super().resolve_command(ctx, args)
+        found = super().resolve_command(ctx, args)
+        keep_inputs(found[0] not in IN_PLACE)
+        return found
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """The table of commands, without importing them."""
@@ -135,6 +141,8 @@ class Commands(click.Group):
         except KeyboardInterrupt as error:
             # click would write an empty line for one.
             raise click.Abort from error
+        finally:
+            keep_inputs(False)
         return code
 
     def main(self, args: Sequence[str] | None = None, *more: Any, **named: Any) -> NoReturn:
@@ -180,6 +188,8 @@ def _failed(error: BaseException) -> int:
                 _say(f"Try '{error.ctx.command_path} --help'.")
         case NinjaGameError():
             complain(str(error))
+        case MemoryError():
+            complain("not enough memory for that")
         case OSError():
             complain(f"{error.filename}: {error.strerror}" if error.filename else str(error))
         case _:
@@ -222,6 +232,8 @@ def main() -> NoReturn:
     if sys.argv[1:]:
         # A shell that completes words gives none to the program itself.
         os.environ.pop("_NINJA_GAME_COMPLETE", None)
+    # Nothing here multiplies matrices; where memory is short, the threads of that library would wait for ever.
+    os.environ["OPENBLAS_NUM_THREADS"] = "1"
     # NumPy, which some commands import before Numba is set up, reads these and may fail.
     for name in [name for name in os.environ if name.startswith(("NPY_", "NUMPY_"))]:
         del os.environ[name]

@@ -98,10 +98,22 @@ budget_option = click.option(
 )  # fmt: skip
 
 
+def _png_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+    """A name that cannot be that of a level or run; usage error for another."""
+    if value and not value.lower().endswith(".png"):
+        raise click.BadParameter("expected a name that ends in .png", ctx, param)
+    return value
+
+
 def window_options(command: Callable[..., T]) -> Callable[..., T]:
     """The options of commands that open a window: its size in px, how many pictures, where the last one goes."""
     for option in (
-        click.option("--screenshot", type=click.Path(dir_okay=False), help="Write the last picture to this PNG file."),
+        click.option(
+            "--screenshot",
+            type=click.Path(dir_okay=False),
+            callback=_png_name,
+            help="Write the last picture to this PNG file.",
+        ),
         click.option("--frames", type=click.IntRange(1, 10**9), help="Exit after this many pictures."),
         click.option("--size", metavar="WIDTHxHEIGHT", help="Size of the window in px, e.g. 1584x1200."),
     ):

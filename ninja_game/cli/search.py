@@ -181,6 +181,7 @@ def search(
       ninja-game search run.replay.txt --from 60 --to 100 --goal 'distance(300, 200) < 12' --rest
       ninja-game search run.replay.txt --from 90 --to 102 --maximise speed --method exhaustive --every 2
     """
+    from ninja_game.files.writing import check_output
     from ninja_game.formats.load import load_replays
     from ninja_game.search.formula.methods import search_span
     from ninja_game.search.formula.task import SpanTask, score_in_words
@@ -192,6 +193,8 @@ def search(
     if every > 1 and method != "exhaustive":
         raise click.UsageError("--every is for --method exhaustive")
     recording = choose(load_replays(replay, level=level_given(level_path)), "recordings", replay, record)
+    if output:
+        check_output(output, keep=[Path(recording.file)])
     task = SpanTask(
         recording.level, recording.inputs, first, last, goal=goal, measure=maximise or minimise,
         least=bool(minimise), rest=rest, body=recording.body,

@@ -91,7 +91,8 @@ def verify(
     with ExitStack() as stack:
         results = verify_all(files, processes=processes, levels=load_levels(level) if level else (), **options)
         if report:
-            results = _reported(results, report, files, stack)
+            own = [options["resume"]] if options["resume"] else []
+            results = _reported(results, report, [*files, *own], stack)
         for result in with_progress(results, "run"):
             totals.add(result)
             if isinstance(result, Unreadable):

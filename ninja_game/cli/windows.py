@@ -118,11 +118,11 @@ def edit(
       ninja-game edit userlevels.txt --record 17
     """
     from ninja_game.editor.files import Source, open_source
-    from ninja_game.files.user_folder import data_folder
+    from ninja_game.files.user_folder import is_bundled
 
     window = pixels(size) if size else None
     source = open_source(level, record) if level is not None else None
-    if source is not None and level is not None and level.is_relative_to(data_folder("levels")):
+    if source is not None and source.path is not None and is_bundled(source.path):
         source = Source(source.draft)
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
     from ninja_game.play.editor.screen import EditorScreen

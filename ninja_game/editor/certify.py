@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
+from dataclasses import dataclass, field
 from struct import iter_unpack
 from time import monotonic
 from typing import TYPE_CHECKING
@@ -19,8 +21,8 @@ if TYPE_CHECKING:
     from ninja_game.formats.replay.text import Replay
     from ninja_game.search.task import Progress
 
-SECONDS = 20.0
-"""How long the solver looks for better runs."""
+SECONDS, CLOSING_SECONDS = 20.0, 0.5
+"""How long the solver looks for better runs, and how long it is waited for when the editor is left."""
 
 
 Route = tuple[tuple[float, float], ...]
@@ -39,75 +41,89 @@ class _StoppedError(Exception):
     """Ends the solver from within its report."""
 
 
+@dataclass(eq=False)
+class Search:
+    """The solver's work on a level: ``run``, the best one found, and its ``route``; ``share`` of the time that is over.
+
+    ``worlds``: how many moments it has tried, None until it is ready. ``end``: why it is over, "" as long as it is not.
+    """
+
+    level: Level | None = None
+    run: Replay | None = None
+    route: Route = ()
+    share: float = 0.0
+    worlds: int | None = None
+    began: float = field(default_factory=monotonic)
+    end: str = ""
+
+
 class Certifier:
-    """The solver at work: ``run``, the best one found for ``level``, and its ``route``; ``share`` of the work done."""
+    """The solver in its own thread. ``search``: the newest one; one before it can change nothing any more."""
 
     def __init__(self, seconds: float = SECONDS) -> None:
         self.seconds = seconds
-        self.level: Level | None = None
-        self.run: Replay | None = None
-        self.route: Route = ()
-        self.share = 0.0
-        self._said = ""
-        self._began = 0.0
-        self._job: NewestJob[Level, None] = NewestJob(self._work)
-        self._stop = False
+        self.search = Search()
+        self._job: NewestJob[Search, None] = NewestJob(self._work)
 
     @property
     def text(self) -> str:
         """How it stands, in a line, "" before the first start; while the solver is made ready, for how long."""
-        if self.level is None or self._said or self._job.problem:
-            return self._job.problem or self._said
-        return f"Getting ready, {monotonic() - self._began:.0f} s: minutes the first time. Go on editing"
+        search = self.search
+        if self._job.problem:
+            return self._job.problem
+        if search.run is not None:
+            gold = f", {search.run.gold} gold" if search.run.gold else ""
+            shortening = ", shortening" * self.busy
+            return f"Certified: {search.run.end_tick / TICKS_PER_SECOND:.2f} s{gold}{shortening}"
+        if search.end or search.level is None:
+            return search.end
+        if search.worlds is None:
+            return f"Getting ready, {monotonic() - search.began:.0f} s: minutes the first time. Go on editing"
+        return f"Looking for a run: {search.worlds // 1000} thousand moments tried"
 
     @property
     def busy(self) -> bool:
-        """Whether the solver is at work."""
-        return not self._job.idle
+        """Whether the solver is at work on the newest search."""
+        return not (self.search.end or self._job.idle)
 
     def is_stale(self, level: Level) -> bool:
         """Whether there is a result, but of another level than this one."""
-        return self.level is not None and level != self.level
+        return self.search.level is not None and level != self.search.level
 
     def start(self, level: Level) -> None:
         """Begin with a level; what was found for another one is forgotten."""
         self.stop()
         if not compiled_available():
-            self._said = f"Certifying needs Numba: {how_to_install('fast')}"
+            self.search = Search(end=f"Certifying needs Numba: {how_to_install('fast')}")
             return
-        self.level, self.run, self.route, self.share = level, None, (), 0.0
-        self._said, self._began = "", monotonic()
-        self._stop = False
-        self._job.ask(level)
+        self.search, self._job.problem = Search(level), ""
+        self._job.ask(self.search)
 
     def stop(self) -> None:
-        """End the search; what was found stays."""
-        self._stop = True
-        self._job.finish(5.0)
+        """End the search; what was found stays. Nobody waits: a solver that is being compiled ends when it is ready."""
+        if self.busy:
+            self.search.end = "Stopped"
 
-    def _work(self, level: Level) -> None:
+    def close(self) -> None:
+        """The same, and give the thread a moment to end."""
+        self.stop()
+        self._job.finish(CLOSING_SECONDS)
+
+    def _work(self, search: Search) -> None:
         def report(progress: Progress) -> None:
-            if self._stop or level is not self.level:
+            if search.end:
                 raise _StoppedError
-            self.share = min(1.0, progress.seconds / self.seconds)
-            if self.run is None:
-                self._said = f"Looking for a run: {progress.worlds // 1000} thousand moments tried"
-            else:
-                self._said = f"{self._found()}, shortening"
+            search.share, search.worlds = min(1.0, progress.seconds / self.seconds), progress.worlds
 
         def better(run: Replay) -> None:
-            self.run, self.route = run, route_of(level, run.inputs)
+            if search.end or search.level is None:
+                raise _StoppedError
+            search.run, search.route = run, route_of(search.level, run.inputs)
 
-        try:
+        if search.end or search.level is None:
+            return
+        with suppress(_StoppedError):
             from ninja_game.search.solve import Task, solve
 
-            solve(Task(level, seconds=self.seconds), report=report, on_better=better)
-        except _StoppedError:
-            pass
-        self.share = 1.0
-        self._said = self._found() if self.run else "No run found in the time; that proves nothing"
-
-    def _found(self) -> str:
-        assert self.run is not None  # noqa: S101 - asked only then
-        gold = f", {self.run.gold} gold" if self.run.gold else ""
-        return f"Certified: {self.run.end_tick / TICKS_PER_SECOND:.2f} s{gold}"
+            solve(Task(search.level, seconds=self.seconds), report=report, on_better=better)
+        search.end = search.end or "No run found in the time; that proves nothing"

@@ -154,8 +154,9 @@ class RecoveredDraft:
     source: Source
     file: Path
 
-    def forget(self) -> None:
-        forget(self.file)
+    def forget(self) -> bool:
+        """Remove it; whether no other program goes on with it."""
+        return forget(self.file)
 
 
 def recovered(folder: Path) -> Iterator[RecoveredDraft]:

@@ -167,7 +167,10 @@ def pasted(draft: Draft, stamp: Stamp) -> tuple[Draft, Selection]:
 
 
 def middle_of(draft: Draft, selection: Selection, *, quarter: bool) -> tuple[float, float]:
-    """The point about which a selection turns, px, so that cells come onto cells; ``quarter``: by a quarter turn."""
+    """The point about which a selection turns, px, so that cells come onto cells; ``quarter``: by a quarter turn.
+
+    Where its middle is no such point, one beside it, to the right and to the left in turn: four turns are none.
+    """
     if selection.area:
         column, row, columns, rows = selection.area
         x, y = 24.0 * column + 12.0 * columns, 24.0 * row + 12.0 * rows
@@ -175,7 +178,8 @@ def middle_of(draft: Draft, selection: Selection, *, quarter: bool) -> tuple[flo
         places = [points(draft.objects[number])[part] for number, part in selection.parts]
         xs, ys = zip(*places, strict=True)
         x, y = (12.0 * round((min(along) + max(along)) / 24.0) for along in (xs, ys))
-    return x + (x + y) % 24.0 * quarter, y
+    aside = (x + y) % 24.0 * quarter
+    return x + (aside if x % 24.0 == 0.0 else -aside), y
 
 
 def nearest(draft: Draft, x: float, y: float, reach: float) -> ObjectPart | None:

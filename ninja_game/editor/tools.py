@@ -239,10 +239,8 @@ class EditorTools:
     def delete_nearest(self) -> None:
         """Delete the object nearest to the pointer, and its images in the symmetry."""
         places = [self.pointer, *(motion.point(*self.pointer) for motion in SYMMETRIES[self.symmetry])]
-        for place in places:
-            found = nearest(self.draft, *place, REACH)
-            if found:
-                self.history.change(removed(self.draft, Selection(parts=frozenset({found}))))
+        found = [nearest(self.draft, *place, REACH) for place in places]
+        self.history.change(removed(self.draft, Selection(parts=frozenset(filter(None, found)))))
 
     # --- choosing ---
 

@@ -41,34 +41,25 @@ def locked(path: Path, seconds: float) -> Iterator[None]:
         yield
         return
     try:
-        _lock(handle, seconds)
+        end = time.monotonic() + seconds
+        while time.monotonic() < end and not lock(handle):
+            time.sleep(0.005)
         yield
     finally:
         # Closing frees it.
         os.close(handle)
 
 
-def _lock(handle: int, seconds: float) -> None:
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        try:
-            _try_to_lock(handle)
-            return
-        except (BlockingIOError, PermissionError):
-            time.sleep(0.005)
-        except OSError:
-            # This disk has no locks.
-            return
-
-
 def lock(handle: int) -> bool:
-    """Lock an open file for as long as it stays open; False where another program holds it."""
+    """Lock an open file for as long as it stays open; False where another program holds it.
+
+    A disk without locks is no reason to do nothing: there every program may have the file.
+    """
     try:
         _try_to_lock(handle)
     except (BlockingIOError, PermissionError):
         return False
     except OSError:
-        # This disk has no locks.
         pass
     return True
 
@@ -79,12 +70,10 @@ def hold(path: Path) -> int | None:
     The system frees it when a process dies, however it dies. Raises OSError for a place without files.
     """
     handle = os.open(path, os.O_CREAT | os.O_RDWR, 0o666)
-    try:
-        _try_to_lock(handle)
-    except (BlockingIOError, PermissionError):
-        os.close(handle)
-        return None
-    return handle
+    if lock(handle):
+        return handle
+    os.close(handle)
+    return None
 
 
 def left_behind(
@@ -92,24 +81,32 @@ def left_behind(
 ) -> Iterator[Found]:
     """What files hold whose programs have died, the newest first; those of running programs are left out.
 
-    ``damaged``: what ``read`` raises for a file that is left out too.
+    ``damaged``: what ``read`` raises, besides OSError, for a file that is left out too.
     """
+    dated: list[tuple[float, Path]] = []
     with suppress(OSError):
-        for file in sorted(folder.glob(pattern), key=lambda path: -path.stat().st_mtime):
+        for file in folder.glob(pattern):
+            with suppress(OSError):
+                dated.append((file.stat().st_mtime, file))
+    for _, file in sorted(dated, reverse=True):
+        with suppress(OSError, *damaged):
             handle = hold(file.with_suffix(LOCK_SUFFIX))
             if handle is None:
                 continue
             try:
                 found = read(file)
-            except damaged:
-                continue
             finally:
                 os.close(handle)
             yield found
 
 
-def forget(file: Path) -> None:
-    """Remove a file that was held, and its lock."""
-    for each in (file, file.with_suffix(LOCK_SUFFIX)):
-        with suppress(OSError):
+def forget(file: Path) -> bool:
+    """Remove a file whose program has died or let it go, and its lock; False where another program goes on with it."""
+    with suppress(OSError):
+        handle = hold(file.with_suffix(LOCK_SUFFIX))
+        if handle is None:
+            return False
+        os.close(handle)
+        for each in (file, file.with_suffix(LOCK_SUFFIX)):
             each.unlink(missing_ok=True)
+    return True

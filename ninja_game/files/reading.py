@@ -20,6 +20,9 @@ SUFFIXES = (".txt", ".nlevel", ".level", ".replay", ".demo", ".tas")
 MAX_BYTES = 64 * 2**20
 """No file of levels or replays comes near this size; a larger one is something else."""
 
+_inputs: set[tuple[int, int]] | None = None
+"""Device and number of each file that was read, while inputs are kept."""
+
 
 @dataclass(frozen=True)
 class LeftOut:
@@ -96,6 +99,17 @@ def path_below(folder: Path, name: str) -> Path | None:
         return None
 
 
+def keep_inputs(on: bool) -> None:
+    """From now on ``files.writing`` replaces no file that is read; or any, with a new beginning."""
+    global _inputs  # noqa: PLW0603 - of the process, as its files are
+    _inputs = set() if on else None
+
+
+def is_input(about: os.stat_result) -> bool:
+    """Whether a file was read while inputs are kept."""
+    return _inputs is not None and (about.st_dev, about.st_ino) in _inputs
+
+
 def open_regular(path: Path) -> IO[bytes]:
     """A regular file, open for reading. Raises FileError for a folder, device or pipe; OSError as it comes."""
     try:
@@ -103,7 +117,10 @@ def open_regular(path: Path) -> IO[bytes]:
         handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
     except ValueError as error:
         raise FileError("no file has this name", ascii(str(path)), found=str(error)) from None
-    mode = os.fstat(handle).st_mode
+    about = os.fstat(handle)
+    mode = about.st_mode
+    if _inputs is not None:
+        _inputs.add((about.st_dev, about.st_ino))
     if not stat.S_ISREG(mode):
         os.close(handle)
         raise FileError("only a regular file is read", str(path), found=what_it_is(mode))

@@ -106,6 +106,11 @@ def data_folder(name: str) -> Path:
     return inside if inside.is_dir() else CHECKOUT[name]
 
 
+def is_bundled(path: Path) -> bool:
+    """Whether a file is one of the game's own, in its folder of levels, by whatever name."""
+    return path.resolve().is_relative_to(data_folder("levels").resolve())
+
+
 def bundled_levels() -> list[Path]:
     """The files of the game's own levels, in playing order.
 

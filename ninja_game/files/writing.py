@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import IO
 
 from ninja_game.errors import FileError
-from ninja_game.files.reading import SUFFIXES, what_it_is
+from ninja_game.files.reading import SUFFIXES, is_input, what_it_is
 
 PART_PREFIX, PART_SUFFIX = ".ninja-game-", ".part"
 """Name of a temporary file; it lies in the folder of the file that it will become."""
@@ -60,6 +60,7 @@ def open_atomically(path: Path, *, keep: Iterable[Path] = ()) -> Iterator[IO[byt
     target, about = _target(path, keep)
     with replaced(target, about, shown=path) as file:
         yield file
+        _target(path, keep)  # the block may have read it
 
 
 @contextmanager
@@ -149,7 +150,7 @@ def _target(path: Path, keep: Iterable[Path]) -> tuple[Path, os.stat_result | No
         raise OSError(error.errno, error.strerror, str(path)) from None
     if not stat.S_ISREG(about.st_mode):
         raise FileError("only a regular file is written", str(path), found=what_it_is(about.st_mode))
-    if any(_reads(each, target) for each in keep):
+    if is_input(about) or any(_reads(each, target) for each in keep):
         raise FileError("this file is read by the same command", str(path), hint="choose another name for the output")
     if not os.access(target, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))

@@ -301,7 +301,13 @@ class App:
         self.frame_ms = 1000 * (time.perf_counter() - started)
 
     def _handle(self, raw: pygame.Event) -> None:
-        """Deal with what concerns the window; a screen that waits for a press takes it before the keys of the app."""
+        """Deal with what concerns the window; a screen that waits for a press takes it before the keys of the app.
+
+        SDL sends each notch of the wheel as a press of a fourth or fifth button too; those, and buttons at the side of
+        a mouse, mean nothing.
+        """
+        if raw.type in {pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP} and raw.button > pygame.BUTTON_RIGHT:
+            return
         if raw.type == pygame.QUIT:
             self.quit()
         elif raw.type in {pygame.VIDEORESIZE, pygame.WINDOWSIZECHANGED}:

@@ -114,8 +114,6 @@ class Attempt:
         ended = self.outcome != "running"
         del self.inputs[tick:]
         self.lifetime = self.start_lifetime + GOLD_BONUS * self.gold
-        if not self.practice_mode:
-            self.lifetime -= self.ended_tick if ended else tick
         if not ended:
             # After a death by the player's own hand ticks went on without input.
             self.inputs.extend(bytes(tick - len(self.inputs)))

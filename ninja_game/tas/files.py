@@ -12,7 +12,7 @@ from ninja_game.document import check_free, digest_of, digest_of_file
 from ninja_game.errors import DAMAGED, NinjaGameError, ReplayError
 from ninja_game.files.reading import read_bytes, read_utf8
 from ninja_game.files.tree import Tree
-from ninja_game.files.user_folder import data_folder
+from ninja_game.files.user_folder import is_bundled
 from ninja_game.files.writing import write_atomically
 from ninja_game.formats.lines import numbered_lines
 from ninja_game.formats.links.fragment import is_link
@@ -78,7 +78,7 @@ def open_run(path: Path, *, record: int | None = None, level: Level | None = Non
     track = track_of(on)
     if on is not recording:
         return OpenedRun(on, track, RunFile(), Branches(), moved=True)
-    if is_link(path) or recording.form == "file" or path.resolve().is_relative_to(data_folder("levels").resolve()):
+    if is_link(path) or recording.form == "file" or is_bundled(path):
         return OpenedRun(recording, track, RunFile(), Branches())
     if not _written_by_us(data := read_bytes(path)):
         return OpenedRun(recording, track, RunFile(), Branches())

@@ -16,6 +16,7 @@ from ninja_game.backend.memories import MemoryUnavailableError, choose_memory
 from ninja_game.errors import ArgumentError, FileError
 from ninja_game.sim.memory.kernels import step_world
 from ninja_game.sim.ninja import tick
+from tests.support.slow import the_rest_is_slow
 
 needs_numba = pytest.mark.skipif(not memories.compiled_available(), reason="Numba is not installed")
 
@@ -55,7 +56,7 @@ def test_compiled_code_is_kept_until_a_constant_changes(tmp_path: Path) -> None:
 
 
 @needs_numba
-@pytest.mark.parametrize("damage", ["empty", "truncated", "changed", "garbage"])
+@pytest.mark.parametrize("damage", the_rest_is_slow(["changed", "empty", "truncated", "garbage"], 1))
 def test_damaged_code_is_compiled_anew_without_a_word(damage: str, tmp_path: Path) -> None:
     run(tmp_path)
     (file,) = tmp_path.iterdir()

@@ -15,6 +15,7 @@ from ninja_game.cli.main import COMMANDS, cli
 from ninja_game.errors import LevelError, NinjaGameError
 from ninja_game.files.user_folder import bundled_levels, data_folder
 from ninja_game.signals import Terminated
+from tests.support.samples import WALK, replay_of_walk, running, write_records
 
 
 def ninja_game(*words: str | Path) -> subprocess.CompletedProcess[str]:
@@ -154,6 +155,37 @@ def test_reader_that_leaves_early_is_no_error() -> None:
         result = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
         assert result.stderr == ""
         assert result.stdout.strip() in ("0", "141")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "verify run.txt --level level.txt --report level.txt",
+        "verify run.txt --report named.txt --resume log",
+        "verify run.txt --report log --resume log",
+        "improve run.txt --level level.txt --ticks 1 -o level.txt",
+        "search bare.txt --from 0 --to 9 --goal x>110 --level level.txt --seconds 0.5 -o level.txt",
+        "record run.txt -o named.txt --force",
+        "convert bare.txt level.txt --level level.txt --force --to replay",
+        "splits run.txt --picture named.txt",
+        "compare run.txt run.txt --picture named.txt",
+        "play level.txt --frames 1 --screenshot level.txt",
+    ],
+)
+def test_no_command_replaces_a_file_that_it_has_read(
+    words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    write_records(Path("level.txt"), ("Walk", WALK, ""))
+    Path("named.txt").write_bytes(Path("level.txt").read_bytes())
+    Path("run.txt").write_text(replay_of_walk(level=None, level_path="named.txt"))
+    Path("bare.txt").write_text(running(60))
+    Path("log").touch()
+    before = {path: path.read_bytes() for path in tmp_path.glob("*.txt")}
+    result = CliRunner().invoke(cli, words.split())
+    assert result.exit_code == 2, result.output
+    assert "read by the same command" in result.stderr or "expected a name that ends in .png" in result.stderr
+    assert {path: path.read_bytes() for path in tmp_path.glob("*.txt")} == before
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])

@@ -8,7 +8,7 @@ from ninja_game.editor.brush import FAMILIES, OBJECT_TYPES, object_type_of, plac
 from ninja_game.editor.draft import Draft
 from ninja_game.editor.motion import CLOCKWISE, MIRROR
 from ninja_game.editor.records import points, word
-from ninja_game.editor.stamp import Selection
+from ninja_game.editor.stamp import Selection, chosen_in
 from ninja_game.editor.tools import EditorTools
 from ninja_game.formats.ascii.writer import best_form
 from ninja_game.sim import kinds
@@ -150,6 +150,24 @@ def test_what_is_selected_moves_turns_copies_and_goes(tools: EditorTools) -> Non
     assert tools.draft == Draft(Level())
 
 
+@pytest.mark.parametrize("area", [(5, 5, 2, 1), (5, 5, 1, 2), (5, 5, 3, 4), (5, 5, 2, 2), None])
+@pytest.mark.parametrize("name", ["gold", "trap door"])
+def test_four_turns_are_none(area: tuple[int, int, int, int] | None, name: str) -> None:
+    tools = EditorTools(Draft(Level()).with_tiles({(5, 5): 7}))
+    for snap, x, y in (("cell", 132, 132), ("half", 150, 140), ("quarter", 162, 135)):
+        tools.snap = snap
+        tools.pick_up(object_type(name))
+        drag(tools, (x, y), (x + 20, y))
+        tools.finish()
+        tools.selection = Selection(area, chosen_in(tools.draft, (1, 1, 31, 23)).parts)
+        first, chosen, seen = tools.draft, tools.selection, set()
+        for _ in range(4):
+            tools.turn(CLOCKWISE)
+            seen.add(repr(tools.draft.objects))
+        assert (tools.draft, tools.selection) == (first, chosen)
+        assert len(seen) > 1
+
+
 def test_shift_adds_to_a_selection_and_takes_away_again(tools: EditorTools) -> None:
     tools.pick_up(object_type("mine"))
     for x in (100, 200, 300):
@@ -200,6 +218,12 @@ def test_a_symmetric_stroke_is_erased_symmetrically(tools: EditorTools) -> None:
     assert len(tools.draft.objects) == 4
     drag(tools, (100, 100), erase=True)
     assert forms(tools) == []
+    drag(tools, (100, 100))
+    tools.delete()
+    assert forms(tools) == []
+    tools.undo()
+    assert len(tools.draft.objects) == 4, "one step for all images"
+    tools.delete()
     tools.pick_up(3)
     drag(tools, (100, 100))
     assert len(forms(tools)) + sum(map(bool, tools.draft.level.tiles)) == 4

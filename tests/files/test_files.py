@@ -17,7 +17,7 @@ import pytest
 
 from ninja_game.errors import FileError
 from ninja_game.files import user_folder as folders, writing
-from ninja_game.files.locking import locked
+from ninja_game.files.locking import forget, hold, left_behind, locked
 from ninja_game.files.reading import LeftOut, files_below, read_bytes, read_text, read_utf8, text_files
 from ninja_game.files.user_folder import data_folder, user_folder
 from ninja_game.files.writing import open_atomically, remove_leftovers, write_atomically
@@ -246,6 +246,31 @@ def test_lock_is_for_one_and_a_missing_one_stops_nobody(tmp_path: Path, monkeypa
     start = time.monotonic()
     with locked(tmp_path / "file", 600):
         assert time.monotonic() - start < 300
+    handle = hold(tmp_path / "held")
+    assert handle is not None, "what is edited is kept on such a disk too"
+    os.close(handle)
+
+
+def test_what_dead_programs_left_is_found_newest_first_whatever_lies_beside_it(tmp_path: Path) -> None:
+    for number, name in enumerate("cab"):
+        (tmp_path / f"{name}.json").write_text(name)
+        os.utime(tmp_path / f"{name}.json", (number, number))
+    (tmp_path / "dangling.json").symlink_to("nowhere")
+    (tmp_path / "folder.json").mkdir()
+
+    def found() -> list[str]:
+        return list(left_behind(tmp_path, "*.json", Path.read_text, ()))
+
+    assert found() == ["b", "a", "c"]
+    handle = hold(tmp_path / "a.lock")
+    assert handle is not None
+    assert found() == ["b", "c"]
+    assert not forget(tmp_path / "a.json"), "another program goes on with it"
+    os.close(handle)
+    assert found() == ["b", "a", "c"]
+    assert forget(tmp_path / "a.json")
+    assert found() == ["b", "c"]
+    assert not (tmp_path / "a.lock").exists()
 
 
 # --- places ---

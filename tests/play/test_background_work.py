@@ -5,13 +5,16 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from threading import Event
 
 import pytest
 
 from ninja_game import runtime
 from ninja_game.editor.background import NewestJob
+from ninja_game.editor.certify import Certifier
 from ninja_game.errors import NinjaGameError
 from ninja_game.formats.load import load_replays
+from ninja_game.formats.replay.text import Replay
 from ninja_game.play.editor import session as editor_session
 from ninja_game.play.replay import film
 from ninja_game.play.replay.screen import ReplayScreen
@@ -20,6 +23,8 @@ from ninja_game.play.tas.tabs import lead_tab
 from ninja_game.search.formula import background
 from ninja_game.search.formula.background import SpanSearch
 from ninja_game.search.formula.task import SpanTask
+from ninja_game.search.task import Task
+from ninja_game.sim.level import Level
 from tests.support.level_maker import ROOM, Maker
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK
@@ -157,6 +162,38 @@ def test_a_run_whose_rules_cannot_be_loaded_says_why(
     opening.open_tas_editor(driver.app, load_replays(RUN)[0], [], 0)
     until(driver, lambda: driver.top() is below)
     assert driver.app.notice == f"It cannot be edited: {why}"
+
+
+def test_a_search_that_was_stopped_changes_nothing_and_nobody_waits_for_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    ready = Event()
+    old, new = Level(), Level((1,) * len(Level().tiles))
+
+    def solve(task: Task, *, report: object, on_better: Callable[[Replay], object]) -> None:
+        ready.wait(LONGEST)
+        if task.level is old:
+            on_better(Replay.of_inputs(b"", old))
+
+    monkeypatch.setattr("ninja_game.search.solve.solve", solve)
+    monkeypatch.setattr("ninja_game.editor.certify.compiled_available", lambda: True)
+    certifier = Certifier()
+    with monkeypatch.context() as impatient:
+        impatient.setattr(NewestJob, "finish", lambda *_: pytest.fail("it waits"))
+        certifier.start(old)
+        certifier.stop()
+        assert (certifier.busy, certifier.text) == (False, "Stopped")
+        certifier.start(new)
+    ready.set()
+    certifier._job.finish(LONGEST)
+    assert (certifier.search.level is new, certifier.search.run) == (True, None)
+    assert certifier.text == "No run found in the time; that proves nothing"
+
+
+def test_the_tas_editor_is_left_without_waiting_for_a_comparison(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    at = TasDriver(tmp_path, RUN)
+    monkeypatch.setattr(NewestJob, "finish", lambda *_: pytest.fail("it waits"))
+    at.close()
 
 
 def test_a_newer_job_is_done_after_one_that_fails() -> None:

@@ -15,7 +15,7 @@ from click.testing import CliRunner, Result
 from ninja_game import run_level
 from ninja_game.backend import memories
 from ninja_game.backend.memories import open_worlds
-from ninja_game.budget import PAGE_BUDGET, RUN_BUDGET, TURN_WORK, affordable_ticks, tick_cost
+from ninja_game.budget import PAGE_BUDGET, PAGE_TICK_COST, RUN_BUDGET, TURN_WORK, affordable_ticks, tick_cost
 from ninja_game.cli.main import cli
 from ninja_game.errors import BudgetError, LevelError
 from ninja_game.files.user_folder import bundled_replays
@@ -223,7 +223,7 @@ def test_a_page_pauses_between_small_slices_of_a_run(tmp_path: Path, ticks_run: 
 
 def test_a_level_whose_pictures_would_hold_a_page_is_opened_on_a_desktop_only(monkeypatch: pytest.MonkeyPatch) -> None:
     Simulation(heavy_level(3000), memory="plain")
-    monkeypatch.setattr(memories, "IN_PAGE", True)
+    monkeypatch.setattr(memories, "_MOST_TICK_COST", PAGE_TICK_COST)
     Simulation(heavy_level(400), memory="plain")
     with pytest.raises(LevelError, match=r"too many objects for a page.*play it on a desktop"):
         Simulation(heavy_level(3000), memory="plain")

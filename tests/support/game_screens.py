@@ -5,16 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
+from dataclasses import replace
 from datetime import date
 from pathlib import Path
 from random import Random
 from threading import Thread
-from typing import TYPE_CHECKING, Self, cast
+from typing import Self
 from unittest.mock import Mock, patch
 
 import pygame
 
 from ninja_game import __version__
+from ninja_game.editor.certify import Search
 from ninja_game.editor.files import Source, draft_of
 from ninja_game.editor.stamp import Stamp, put
 from ninja_game.files.user_folder import bundled_replays
@@ -34,9 +36,6 @@ from tests.support.draw_log import DrawLog
 from tests.support.level_maker import ROOM, examine
 from tests.support.menu_driver import MenuDriver
 from tests.support.own_pack import PACK, instead_of_ours
-
-if TYPE_CHECKING:
-    from ninja_game.formats.replay.text import Replay
 
 RANGE = """ninja-game level 1
 name: Target practice
@@ -338,18 +337,16 @@ def _editor_states(driver: MenuDriver) -> Iterator[str]:
     screen.session.tools.symmetry = "off"
     certifier = screen.session.certifier
     yield "editor-not-certified"
-    replay = load_replays(bundled_replays()[0])[0]
-    certifier.level, certifier.route = screen.session.draft.level, ((60.0, 542.0), (120.0, 500.0), (180.0, 540.0))
-    certifier.run, certifier._said = cast("Replay", replay), "Certified: 3.90 s"
+    run = replace(load_replays(bundled_replays()[0])[0].replay, final_tick=156, gold=0)
+    route = ((60.0, 542.0), (120.0, 500.0), (180.0, 540.0))
+    certifier.search = Search(screen.session.draft.level, run, route, end="done")
     yield "editor-certified"
     driver.mouse(300, 300)
     driver.press("escape")
     driver.press("escape")
     driver.frames()
     yield "editor-stale-certificate"
-    certifier.run = None
-    certifier.level = None
-    certifier._said = ""
+    certifier.search = Search(route=route)
     driver.press("f5")
     driver.frames(12)
     yield "editor-test"

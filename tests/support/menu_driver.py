@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from unittest.mock import patch
 
 import pygame
 
@@ -78,6 +79,15 @@ class MenuDriver:
             for kind in (pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP):
                 pygame.event.post(pygame.Event(kind, pos=place, button=1, touch=False))
         self.frames(1)
+
+    def wheel(self, notches: int, x: float, y: float) -> None:
+        """Turn the wheel over a logical point; as SDL has it, each notch is a press of a fourth or fifth button too."""
+        place = self.top().theme.canvas.point(x, y)
+        for kind in (pygame.MOUSEBUTTONDOWN, pygame.MOUSEBUTTONUP) * abs(notches):
+            pygame.event.post(pygame.Event(kind, pos=place, button=4 if notches > 0 else 5, touch=False))
+        pygame.event.post(pygame.Event(pygame.MOUSEWHEEL, x=0, y=notches, flipped=False))
+        with patch.object(pygame.mouse, "get_pos", lambda: place):
+            self.frames(1)
 
     def pad(self, button: int) -> None:
         """Press and release a button of a standard gamepad."""

@@ -212,9 +212,7 @@ def _level(at: TasDriver) -> Iterator[str]:
     part.point_at(118, part.picture.run.objects[0])
     yield "tas-pointing-at-an-object"
     part.mouse_left()
-    with patch.object(pygame.mouse, "get_pos", lambda: at.screen.theme.canvas.point(left + x, top + y)):
-        pygame.event.post(pygame.Event(pygame.MOUSEWHEEL, x=0, y=4, flipped=False))
-        at.frames()
+    at.wheel(4, left + x, top + y)
     yield "tas-zoomed"
     at.press("0", "space")
     at.frames(7)

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from ninja_game.errors import DAMAGED, FileError
+from ninja_game.files.locking import forget
 from ninja_game.formats.load import load_replays
 from ninja_game.sim.inputs import with_press_bits
 from ninja_game.tas.branches import Branch, Branches, branches_of_json
@@ -186,6 +187,18 @@ def test_a_run_goes_on_where_a_killed_session_was(session: Session, tmp_path: Pa
     third.save(tmp_path / "walk.replay.txt")
     assert load_replays(tmp_path / "walk.replay.txt")[0].replay.playback(9)[:5] == with_press_bits([4] * 5)
     assert list((tmp_path / FOLDER).iterdir()) == []
+
+
+def test_nobody_discards_what_another_window_goes_on_with(session: Session, tmp_path: Path) -> None:
+    session.change(session.track.replaced(0, 1, [1]))
+    session.journal.close(keep=True)
+    (found,) = recovered(tmp_path)
+    other = Session(found.opened, tmp_path, memory="plain")
+    other.recover(found)
+    assert not forget(found.file)
+    other.change(other.track.replaced(3, 4, [1]))
+    other.journal.close(keep=True)
+    assert [each.tracks[-1] for each in recovered(tmp_path)] == [other.track]
 
 
 def test_what_cannot_be_written_is_told_and_comes_later(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from ninja_game.editor.brush import SNAPS
@@ -158,7 +158,7 @@ class EditorCommands(DocumentCommands):
         self.session.tools.finish()
         if certifier.busy:
             certifier.stop()
-        elif any(finding.text.startswith("there is no") for finding in self.session.findings):
+        elif any(finding.code in ("no-ninja", "no-exit") for finding in self.session.findings):
             self.app.notify("Place a ninja and an exit with its switch first")
         else:
             certifier.start(self.session.draft.level)
@@ -203,9 +203,8 @@ class EditorCommands(DocumentCommands):
         def on_accept(texts: list[str]) -> None:
             name = texts[0].strip() or NAMELESS
             folder = session.source.path.parent if session.source.path else self._levels
-            session.end()
-            session.tools.history.change(replace(session.draft, name=name))
-            self.save_to(folder / f"{file_stem(name, 'level')}{SUFFIX}", then)
+            save = partial(session.save, name=name)
+            self.save_to(folder / f"{file_stem(name, 'level')}{SUFFIX}", then, save=save)
 
         self.app.push(FormPanel(self.app, "Save as", fields, "Save", on_accept))
 

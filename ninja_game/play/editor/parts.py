@@ -268,7 +268,7 @@ class FilePart(EditorPart):
 
     def render_key(self) -> tuple[object, ...]:
         session, certifier = self.session, self.session.certifier
-        solver = certifier.text, certifier.busy, certifier.share, certifier.run is None
+        solver = certifier.text, certifier.busy, certifier.search.share, certifier.search.run is None
         return session.name, session.source.path, session.is_saved, solver, certifier.is_stale(session.draft.level)
 
     def paint(self, surface: pygame.Surface, theme: Theme) -> None:
@@ -282,18 +282,18 @@ class FilePart(EditorPart):
         state = "saved" if session.is_saved and session.source.path else "not saved" if not session.is_saved else ""
         theme.text(surface, f"{file}  {state}", x, y + 20, size=9, colour=palette.faint, width=w)
         certifier = session.certifier
+        stale, run = certifier.is_stale(session.draft.level), certifier.search.run
         text = certifier.text or "Not certified: F7 looks for a run"
-        stale = certifier.is_stale(session.draft.level)
         if stale and not certifier.busy:
-            text = "Certified before the last change: F7 again"
-        elif certifier.run and not certifier.busy:
+            text = f"{'Certified before' if run else 'Not certified since'} the last change: F7 again"
+        elif run and not certifier.busy:
             text += ". To keep it: File, Keep the solver's run"
         for number, line in enumerate(wrapped(theme, text, w, 9)[:3]):
-            colour = palette.good if certifier.run and not stale else palette.text
+            colour = palette.good if run and not stale else palette.text
             theme.text(surface, line, x, y + 36 + 12 * number, size=9, colour=colour)
         if certifier.busy:
             canvas.fill_rect(surface, palette.panel_edge, x, y + h - 9, w, 5, 2)
-            canvas.fill_rect(surface, palette.accent, x, y + h - 9, max(1.0, w * certifier.share), 5, 2)
+            canvas.fill_rect(surface, palette.accent, x, y + h - 9, max(1.0, w * certifier.search.share), 5, 2)
 
 
 class StatusLine(EditorPart):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from time import monotonic
 
@@ -101,7 +102,7 @@ class EditorSession:
             self._checks.ask(self.draft.level)
 
     def close(self) -> None:
-        self.certifier.stop()
+        self.certifier.close()
         self.autosave.close()
 
     # --- files ---
@@ -110,10 +111,15 @@ class EditorSession:
         """Whatever is half done is done now."""
         self.tools.finish()
 
-    def save(self, path: Path, *, replacing: bool = False) -> None:
-        """Write the level. Raises OccupiedError where that would replace what somebody else wrote, OSError."""
+    def save(self, path: Path, *, replacing: bool = False, name: str | None = None) -> None:
+        """Write the level; it gets another ``name`` only if that succeeds.
+
+        Raises OccupiedError where that would replace what somebody else wrote, OSError.
+        """
         self.tools.finish()
-        self.source = save(self.source, self.draft, path, replacing=replacing)
+        named = self.draft if name is None else replace(self.draft, name=name)
+        self.source = save(self.source, named, path, replacing=replacing)
+        self.tools.history.change(named)
 
     def export_picture(self) -> None:
         """A picture of the level among the player's exports."""
@@ -159,7 +165,7 @@ class EditorSession:
 
     def keep_certificate(self) -> None:
         """Put the solver's run among the player's replays."""
-        run = self.certifier.run
+        run = self.certifier.search.run
         if run is None or self.certifier.is_stale(self.draft.level):
             self.app.notify("Certify the level first (F7)")
             return

@@ -243,14 +243,14 @@ class EditorView(Part):
         certifier = session.certifier
         stale = certifier.is_stale(session.draft.level)
         wanted = (
-            session.draft.objects, self.lines, self.paths, session.last_try, certifier.route, stale,
+            session.draft.objects, self.lines, self.paths, session.last_try, certifier.search.route, stale,
             session.findings, session.tools.symmetry,
         )  # fmt: skip
         if len(wanted) == len(self._marked) and all(a is b for a, b in zip(wanted, self._marked, strict=True)):
             return
         self._marked = wanted
         routes: list[tuple[Route, Colour]] = [(session.last_try, palette.ghost)]
-        routes.append((certifier.route, palette.faint if stale else palette.good))
+        routes.append((certifier.search.route, palette.faint if stale else palette.good))
         marks = level_marks(
             self.sheet.canvas, palette, session.draft, self.sheet.marks, lines=self.lines, signs=self._signs(),
             routes=routes if self.paths else (), axes=_AXES.get(session.tools.symmetry, ()),

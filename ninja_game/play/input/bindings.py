@@ -12,7 +12,7 @@ import pygame
 
 from ninja_game.play.input.gamepad import Gamepads, pad_label
 from ninja_game.play.input.keys import key_label, key_name, learn_label, scancode_named, scancode_of
-from ninja_game.runtime import only_in_a_page
+from ninja_game.runtime import in_page_or_not
 from ninja_game.sim.inputs import JUMP_HELD, KEY_LEFT, KEY_RIGHT
 
 TAP_SECONDS = 0.06
@@ -170,7 +170,7 @@ ACTIONS: dict[str, Action] = {
 PAGE_KEYS = {"slow": ("x",), "screenshot": ("f10",)}
 """Keys in a page instead of those that the browser has its own use for: Ctrl with W, a jump, closes the tab."""
 
-ACTIONS |= {action: ACTIONS[action]._replace(keys=keys) for action, keys in only_in_a_page(PAGE_KEYS).items()}
+ACTIONS |= {action: ACTIONS[action]._replace(keys=keys) for action, keys in in_page_or_not(PAGE_KEYS, {}).items()}
 
 MENU_KEYS: dict[str, str] = {
     "left": "left", "right": "right", "up": "up", "down": "down", "return": "confirm", "kp_enter": "confirm",

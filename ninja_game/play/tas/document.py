@@ -11,7 +11,7 @@ from time import localtime, strftime
 
 from ninja_game.files.locking import forget
 from ninja_game.files.shown_text import file_stem
-from ninja_game.files.user_folder import REPLAYS, data_folder, free_path
+from ninja_game.files.user_folder import REPLAYS, free_path, is_bundled
 from ninja_game.formats.links.making import replay_link
 from ninja_game.play.app import App
 from ninja_game.play.clipboard import copy_link
@@ -79,7 +79,7 @@ class TasDocument(DocumentCommands):
         """Where the run is, or was opened from; else the player's replays, also for runs of the game."""
         opened = self.session.file.path or Path(self.session.about.file)
         with suppress(OSError):
-            if opened.is_file() and not opened.resolve().is_relative_to(data_folder("levels").resolve()):
+            if opened.is_file() and not is_bundled(opened):
                 return opened.parent
         return self.app.player.folder / REPLAYS
 

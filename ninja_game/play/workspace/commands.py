@@ -8,7 +8,7 @@ import pygame
 
 from ninja_game.play.input.bindings import InputEvent
 from ninja_game.play.input.gamepad import Gamepads
-from ninja_game.play.input.keys import Command, HeldKey, chord, key_text
+from ninja_game.play.input.keys import Command, HeldKey, chord, key_text, scancode_of
 
 FIRST_REPEAT_MS = 300
 """A command whose key is held is repeated after so long."""
@@ -57,7 +57,8 @@ class HeldCommand(HeldKey[str]):
         if name in self._repeating:
             kind, button = event.source or ("", "")
             self._button = button if kind == "pad" else ""
-            self.begin(name, getattr(event.raw, "scancode", 0), first=FIRST_REPEAT_MS, every=self._repeating[name])
+            key = 0 if kind == "pad" else scancode_of(event.raw)
+            self.begin(name, key, first=FIRST_REPEAT_MS, every=self._repeating[name])
 
     def follow(self, event: pygame.Event) -> None:
         """It ends when its key or button is released."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Protocol
 
@@ -62,15 +63,17 @@ class DocumentCommands:
         else:
             self.save_to(path, then)
 
-    def save_to(self, path: Path, then: Action = nothing, *, replacing: bool = False) -> None:
-        """Write the document, and do ``then``; ask before anything is replaced."""
+    def save_to(
+        self, path: Path, then: Action = nothing, *, save: Callable[..., object] | None = None, replacing: bool = False
+    ) -> None:
+        """Write the document, and do ``then``; ask before anything is replaced. ``save``: instead of the document's."""
         try:
-            self.document.save(path, replacing=replacing)
+            (save or self.document.save)(path, replacing=replacing)
         except OccupiedError as error:
-            text = str(error)
+            text, replace_it = str(error), partial(self.save_to, path, then, save=save, replacing=True)
             rows: list[Row] = [
                 ("Save under another name", lambda: self.save_as(then), ""),
-                ("Replace it", lambda: self.save_to(path, then, replacing=True), "What it holds now is lost"),
+                ("Replace it", replace_it, "What it holds now is lost"),
                 CANCEL,
             ]
             self.app.push(Menu(self.app, text[0].upper() + text[1:], rows))
@@ -98,11 +101,15 @@ class DocumentCommands:
         self.document.close()
         self.app.pop()
 
-    def ask_about_recovered(self, name: str, recover: Action, forget: Action, *, about: str) -> None:
+    def ask_about_recovered(self, name: str, recover: Action, forget: Callable[[], bool], *, about: str) -> None:
         """Ask what to do with a document that was being edited when the program died. ``about``: how it was left."""
 
         def discard() -> None:
-            sure: list[Row] = [("Keep for later", nothing, "It is offered again"), ("Discard", forget, "It is lost")]
+            if not forget():
+                self.app.notify("It stays: another window continues with it")
+
+        def ask() -> None:
+            sure: list[Row] = [("Keep for later", nothing, "It is offered again"), ("Discard", discard, "It is lost")]
             self.app.push(Menu(self.app, f"Discard {name}?", sure))
 
         def try_to_recover() -> None:
@@ -113,6 +120,6 @@ class DocumentCommands:
 
         rows: list[Row] = [
             ("Recover", try_to_recover, about), ("Keep for later", nothing, "It is offered again"),
-            ("Discard...", discard, ""),
+            ("Discard...", ask, ""),
         ]  # fmt: skip
         self.app.push(Menu(self.app, f"Not saved last time: {name}", rows))

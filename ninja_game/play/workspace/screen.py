@@ -132,9 +132,9 @@ class WorkspaceScreen(MenuScreen):
         if self._pointed is not part and self._pointed is not None:
             self._pointed.mouse_left()
         self._pointed = part
-        if raw.type == pygame.MOUSEBUTTONDOWN and raw.button <= pygame.BUTTON_RIGHT:
+        if raw.type == pygame.MOUSEBUTTONDOWN:
             self._grabbed = part
-        elif raw.type == pygame.MOUSEBUTTONUP and raw.button <= pygame.BUTTON_RIGHT:
+        elif raw.type == pygame.MOUSEBUTTONUP:
             self._grabbed = None
         if raw.type != pygame.MOUSEMOTION and self.focus is not None and not (part and self.focus in part.widgets):
             self.focus = None

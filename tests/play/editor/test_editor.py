@@ -26,6 +26,11 @@ def test_from_the_menu_a_level_is_drawn_by_mouse(maker: Maker) -> None:
     assert sum(maker.draft.level.tiles) == 12
     maker.drag((60, 300), (84, 300), button=3)
     assert sum(maker.draft.level.tiles) == 10
+    drawn, tile = maker.draft, maker.editor.session.tools.tile
+    maker.wheel(1, *maker.at(500, 100))
+    maker.wheel(-2, *maker.at(500, 100))
+    maker.drag((500, 100), button=6)
+    assert (maker.draft == drawn, maker.editor.session.tools.tile != tile) == (True, True), "only the palette moves"
     maker.drag((36, 300), button=2)
     gold = next(area for what, area in maker.editor.palette.places() if getattr(what, "name", "") == "gold")
     maker.mouse(gold[0] + 5, gold[1] + 5)
@@ -255,10 +260,10 @@ def test_a_certificate_is_shown_and_gets_stale(room: Maker) -> None:
     room.press("f7")
     # A machine that has never compiled the solver needs minutes.
     room.wait(lambda: not certifier.busy, "end of the solver")
-    if certifier.run is None:
+    if certifier.search.run is None:
         pytest.skip(certifier.text)
     assert certifier.text.startswith("Certified: 0.")
-    assert certifier.route[0] == (60.0, 542.0)
+    assert certifier.search.route[0] == (60.0, 542.0)
     assert not certifier.is_stale(room.draft.level)
     room.drag((300, 300))
     assert certifier.is_stale(room.draft.level)

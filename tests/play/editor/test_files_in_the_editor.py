@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
@@ -14,8 +15,10 @@ import pytest
 from ninja_game.cli.main import cli
 from ninja_game.editor.ascii_text import ascii_text
 from ninja_game.editor.files import FOLDER, Autosave, Source, new_source, open_source, recovered
+from ninja_game.files.user_folder import bundled_levels
 from ninja_game.formats.load import load_levels
 from ninja_game.formats.n14.level_string import level_digest
+from ninja_game.play.app import App
 from ninja_game.play.editor.commands import LevelChoice
 from ninja_game.play.editor.screen import EditorScreen
 from ninja_game.play.menus.browser import Browser
@@ -70,6 +73,15 @@ def test_a_name_is_asked_for_where_there_is_none(maker: Maker, tmp_path: Path) -
     assert isinstance(maker.top(), EditorScreen)
     assert (maker.draft.name, maker.editor.session.source.path) == ("bd", tmp_path / "levels" / "bd.txt")
     assert sum(maker.draft.level.tiles) == 1
+    (tmp_path / "levels" / "other.txt").write_text("somebody's")
+    maker.editor.commands.save_as()
+    form = maker.top()
+    assert isinstance(form, FormPanel)
+    form.texts[0] = "other"
+    maker.choose("Save")
+    assert "already exists" in maker.top().title  # type: ignore[attr-defined]
+    maker.choose("Cancel")
+    assert maker.draft.name == "bd", "what was not saved is not renamed"
 
 
 def test_a_file_that_changed_meanwhile_is_not_replaced_unasked(room: Maker, tmp_path: Path) -> None:
@@ -275,11 +287,19 @@ def test_the_command_edit_opens_a_level(tmp_path: Path, monkeypatch: pytest.Monk
     file = tmp_path / "a.txt"
     file.write_bytes(Path("levels/00-0-first-steps.txt").read_bytes())
     picture = tmp_path / "a.png"
-    for level in (["00-0-first-steps"], [str(file)], []):
+    opened = []
+
+    def editor(app: App, source: Source | None = None) -> EditorScreen:
+        opened.append(source.path if source else None)
+        return EditorScreen(app, source)
+
+    monkeypatch.setattr("ninja_game.play.editor.screen.EditorScreen", editor)
+    for level in (["00-0-first-steps"], [os.path.relpath(bundled_levels()[0])], [str(file)], []):
         with pytest.raises(SystemExit) as ended:
             cli.main(["edit", *level, "--frames", "3", "--screenshot", str(picture)])
         assert ended.value.code == 0
         assert picture.stat().st_size > 1000
+    assert opened == [None, None, file, None], "the game's own levels are not written to"
     with pytest.raises(SystemExit) as ended:
         cli.main(["edit", str(file), "--record", "3"])
     assert ended.value.code == 2

@@ -75,6 +75,15 @@ def test_a_pad_takes_over_plays_stands_still_and_ends(at: TasDriver) -> None:
     assert at.editor.track == before, "all of it is one edit"
 
 
+def test_a_key_without_a_scancode_repeats_until_it_is_released(at: TasDriver) -> None:
+    for kind, frames in ((pygame.KEYDOWN, 20), (pygame.KEYUP, 1)):
+        pygame.event.post(pygame.Event(kind, key=pygame.K_PERIOD, mod=0, unicode=""))
+        at.frames(frames)
+    stepped = at.editor.cursor
+    at.frames(20)
+    assert (stepped > 2, at.editor.cursor) == (True, stepped)
+
+
 def test_a_stick_that_is_held_already_does_not_begin(at: TasDriver) -> None:
     stick(at, 1.0)
     press(at, "start")

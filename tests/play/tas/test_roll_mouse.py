@@ -14,11 +14,6 @@ from tests.support.tas_driver import TasDriver
 CTRL, SHIFT = pygame.KMOD_LCTRL, pygame.KMOD_LSHIFT
 
 
-def wheel(at: TasDriver, notches: int) -> None:
-    pygame.event.post(pygame.Event(pygame.MOUSEWHEEL, x=0, y=notches, flipped=False))
-    at.frames()
-
-
 def test_a_drag_paints_a_key_and_is_undone_as_one(at: TasDriver) -> None:
     before = at.editor.track
     at.editor.edit(lambda track: track.replaced(10, 30, bytes(20)))
@@ -96,12 +91,11 @@ def test_a_double_click_on_the_number_names_the_tick(at: TasDriver, monkeypatch:
 
 
 def test_the_wheel_scrolls_and_with_ctrl_moves_the_cursor(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
-    middle = at.screen.theme.canvas.point(*at.cell(20, "x"))
-    monkeypatch.setattr(pygame.mouse, "get_pos", lambda: middle)
-    wheel(at, -5)
+    middle = at.cell(20, "x")
+    at.wheel(-5, *middle)
     assert (at.screen.roll.top, at.editor.cursor) == (20, 0)
     monkeypatch.setattr(pygame.key, "get_mods", lambda: CTRL)
-    wheel(at, -2)
+    at.wheel(-2, *middle)
     assert at.editor.cursor == 2
     assert at.screen.roll.top == 0, "the cursor is in sight again"
 

@@ -19,60 +19,49 @@ def on_screen(at: TasDriver, place: Point) -> Point:
     return canvas.logical((x + left, y + top))
 
 
-def wheel(at: TasDriver, notches: int, where: Point, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Turn the wheel over a logical point."""
-    monkeypatch.setattr(pygame.mouse, "get_pos", lambda: at.screen.theme.canvas.point(*where))
-    pygame.event.post(pygame.Event(pygame.MOUSEWHEEL, x=0, y=notches, flipped=False))
-    at.frames()
-
-
 def ninja_place(at: TasDriver) -> Point:
     x, y = at.session.timeline.positions[at.editor.cursor]
     return float(x), float(y)
 
 
-def test_the_wheel_zooms_at_the_pointer_and_all_can_be_shown_again(
-    at: TasDriver, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_wheel_zooms_at_the_pointer_and_all_can_be_shown_again(at: TasDriver) -> None:
     level = at.screen.level
     whole = level.picture.canvas.scale
     under = (300.0, 330.0)
     pointer = on_screen(at, under)
     cursor = at.editor.cursor
     for _ in range(4):
-        wheel(at, 1, pointer, monkeypatch)
+        at.wheel(1, *pointer)
         assert on_screen(at, under) == pytest.approx(pointer, abs=1.6)
     assert level.picture.canvas.scale == pytest.approx(whole * 1.25**4)
     assert at.editor.cursor == cursor
-    wheel(at, 40, pointer, monkeypatch)
+    at.wheel(40, *pointer)
     assert level.picture.canvas.scale == pytest.approx(LARGEST_ZOOM)
     at.press("0")
     assert level.picture.canvas.scale == whole
-    wheel(at, 3, pointer, monkeypatch)
+    at.wheel(3, *pointer)
     at.event(pygame.MOUSEBUTTONDOWN, *pointer, button=2)
     at.event(pygame.MOUSEBUTTONUP, *pointer, button=2)
     assert level.picture.canvas.scale == whole
-    wheel(at, -3, pointer, monkeypatch)
+    at.wheel(-3, *pointer)
     assert level.picture.camera.zoom == 1.0
 
 
-def test_a_click_in_the_larger_level_goes_to_the_tick_that_is_there(
-    at: TasDriver, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_click_in_the_larger_level_goes_to_the_tick_that_is_there(at: TasDriver) -> None:
     positions = at.session.timeline.positions
     tick = 100
-    wheel(at, 5, on_screen(at, tuple(positions[tick])), monkeypatch)
+    at.wheel(5, *on_screen(at, tuple(positions[tick])))
     at.mouse(*on_screen(at, tuple(positions[tick])))
     assert np.hypot(*(positions[at.editor.cursor] - positions[tick])) < 1
 
 
-def test_it_is_drawn_at_its_size_wherever_it_was_moved_to(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_it_is_drawn_at_its_size_wherever_it_was_moved_to(at: TasDriver) -> None:
     """What was moved, played and edited looks as what is drawn at once."""
     level = at.screen.level
     camera, picture = level.picture.camera, level.picture
     at.editor.go(60)
     at.frames()
-    wheel(at, 5, on_screen(at, ninja_place(at)), monkeypatch)
+    at.wheel(5, *on_screen(at, ninja_place(at)))
     x, y = on_screen(at, ninja_place(at))
     before = camera.centre
     at.drag((x, y), (x - 40, y - 30), (x - 41, y - 30), button=3)
@@ -91,11 +80,25 @@ def test_it_is_drawn_at_its_size_wherever_it_was_moved_to(at: TasDriver, monkeyp
     assert pygame.image.tobytes(kept, "RGB") == pygame.image.tobytes(picture.surface, "RGB")
 
 
-def test_it_goes_along_with_the_ninja(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_only_the_button_that_grabbed_the_level_lets_it_go(at: TasDriver) -> None:
+    found = at.screen.level.picture.run.objects[0]
+    x, y = on_screen(at, (found.x, found.y))
+    at.mouse(x, y, click=False)
+    assert at.screen.level.pointed is not None
+    at.event(pygame.MOUSEBUTTONDOWN, x, y, button=3)
+    at.wheel(1, x, y)
+    at.event(pygame.MOUSEBUTTONUP, x, y, button=1)
+    assert at.screen.level._pointer.busy
+    assert at.top() is at.screen, "nothing is asked"
+    at.event(pygame.MOUSEBUTTONUP, x, y, button=3)
+    assert at.top() is not at.screen, "a formula to watch it"
+
+
+def test_it_goes_along_with_the_ninja(at: TasDriver) -> None:
     level = at.screen.level
     at.editor.go(0)
     at.frames()
-    wheel(at, 7, on_screen(at, ninja_place(at)), monkeypatch)
+    at.wheel(7, *on_screen(at, ninja_place(at)))
     seen = pygame.Rect((0, 0), level.picture.surface.get_size())
     at.press("space")
     for _ in range(60):
@@ -111,6 +114,6 @@ def test_it_goes_along_with_the_ninja(at: TasDriver, monkeypatch: pytest.MonkeyP
 def test_ctrl_and_the_wheel_go_tick_by_tick(at: TasDriver, monkeypatch: pytest.MonkeyPatch) -> None:
     at.editor.go(50)
     monkeypatch.setattr(pygame.key, "get_mods", lambda: pygame.KMOD_LCTRL)
-    wheel(at, -2, (100, 100), monkeypatch)
+    at.wheel(-2, 100, 100)
     assert at.editor.cursor == 52
     assert at.screen.level.picture.camera.zoom == 1.0

@@ -272,6 +272,7 @@ class LevelPointer:
         self._editor = part.editor
         self._goes = False
         self._grabbed: Px | None = None
+        self._button = 0
         self._moved = False
 
     @property
@@ -292,13 +293,13 @@ class LevelPointer:
         if event.type == pygame.MOUSEWHEEL:
             self._wheel(event.y, rect.size, at)
         elif event.type == pygame.MOUSEBUTTONDOWN and event.button in (pygame.BUTTON_MIDDLE, pygame.BUTTON_RIGHT):
-            self._grabbed, self._moved = at, False
+            self._grabbed, self._button, self._moved = at, event.button, False
         elif event.type == pygame.MOUSEMOTION and self._grabbed is not None:
             self._drag(rect.size, at)
-        elif event.type == pygame.MOUSEBUTTONUP and self._grabbed is not None:
-            self._click(event.button)
-        elif event.type == pygame.MOUSEBUTTONUP:
+        elif event.type == pygame.MOUSEBUTTONUP and self._grabbed is None:
             self.release()
+        elif event.type == pygame.MOUSEBUTTONUP and event.button == self._button:
+            self._click()
         elif not self._part.take_over.on:
             self._point(event, at)
 
@@ -318,13 +319,13 @@ class LevelPointer:
             self._part.picture.camera.move(size, dx, dy)
             self._grabbed = at
 
-    def _click(self, button: int) -> None:
-        """A button that was down without a drag is up again."""
+    def _click(self) -> None:
+        """The button that was down, perhaps without a drag, is up again."""
         part, moved = self._part, self._moved
         self.release()
         if moved or part.take_over.on:
             return
-        if button == pygame.BUTTON_MIDDLE:
+        if self._button == pygame.BUTTON_MIDDLE:
             part.picture.camera.show_all()
         elif part.pointed is not None:
             part.ask_to_watch(proposal(part.pointed.id, KIND_NAMES.index(part.pointed.kind)))

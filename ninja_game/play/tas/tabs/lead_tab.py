@@ -97,9 +97,6 @@ class LeadTab(Tab):
                 self._job.ask((pair, ours, theirs, pair[0].markers))
         self.list.fill(self.table.rows if self.table else ())
 
-    def close(self) -> None:
-        self._job.finish()
-
     @property
     def table(self) -> LeadTable | None:
         """The table that was made last."""
