@@ -54,6 +54,9 @@ PROGRAMS = {
 DRAWINGS = ("draw.how_it_works", "draw.screens", "draw.settings_page")
 PICTURE_TESTS = ("tests/play/test_recorded_screens.py", "tests/play/test_pictures.py", "tests/play/test_sound.py")
 LINT = (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",), ("lint-imports",))
+FIX = (("ruff", "check", "--fix"), ("ruff", "format"), *LINT[2:])
+GOOD = "lint: all good"
+CORES = str(min(4, os.cpu_count() or 1))
 
 
 def program(name: str) -> str:
@@ -128,25 +131,10 @@ def pip_install(names: Sequence[str]) -> bool:
     return run("python", "-m", "pip", "install", "--quiet", "-c", str(constraints), "--editable", project, *tools) == 0
 
 
-def test(rest: Sequence[str]) -> int:
-    """`lint`, then the tests on up to four cores, the slow ones only if asked for; or pytest alone, with ``rest``."""
-    if rest and rest != ["--all"]:
-        return run("python", "-m", "pytest", *rest)
-    unclean = lint(LINT)
-    chosen = [] if rest else ["-m", "not slow"]
-    failed = run("python", "-m", "pytest", "-n", str(min(4, os.cpu_count() or 1)), "--dist", "worksteal", *chosen)
-    return lint_failed(unclean) or failed
-
-
-def lint(steps: Sequence[Sequence[str]]) -> list[str]:
-    """Style, format, types and the import contract: those that fail."""
-    return [" ".join(words) for words in steps if run(*words)]
-
-
-def lint_failed(failed: Sequence[str]) -> int:
-    """Say it below everything else."""
-    print(f"lint: {', '.join(failed)} failed" if failed else "lint: all good", flush=True)
-    return 1 if failed else 0
+def lint(steps: Sequence[Sequence[str]]) -> str:
+    """Style, format, types and the import contract: what is to be said of them below everything else."""
+    failed = [" ".join(words) for words in steps if run(*words)]
+    return f"lint: {', '.join(failed)} failed" if failed else GOOD
 
 
 def tool(name: str, *rest: str) -> int:
@@ -176,15 +164,17 @@ def main(words: Sequence[str]) -> int:
     if name in {"test", "lint", "accept-pictures", "docs", *PROGRAMS} or (name == "tool" and rest):
         install(DEVELOPMENT)
     match name, *rest:
+        case ("test",) | ("test", "--all") | ("lint",) | ("lint", "--fix"):
+            told = lint(FIX if "--fix" in rest else LINT)
+            chosen = [] if rest else ["-m", "not slow"]
+            failed = name == "test" and run("python", "-m", "pytest", "-n", CORES, "--dist", "worksteal", *chosen)
+            print(told, flush=True)
+            return int(failed or told != GOOD)
         case "test", *rest:
-            return test(rest)
-        case "lint", "--fix":
-            return lint_failed(lint((("ruff", "check", "--fix"), ("ruff", "format"), *LINT[2:])))
-        case ("lint",):
-            return lint_failed(lint(LINT))
+            return run("python", "-m", "pytest", *rest)
         case "accept-pictures", *_:
             os.environ["ACCEPT_PICTURES"] = "1"
-            return test(["-q", *PICTURE_TESTS])
+            return run("python", "-m", "pytest", "-q", *PICTURE_TESTS)
         case "docs", *_:
             return max(run("python", "-m", f"tools.{drawing}") for drawing in DRAWINGS)
         case "tool", script, *rest:
